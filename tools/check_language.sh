@@ -5,6 +5,12 @@
 # Without arguments it checks every tracked document, and the decks, studies, scripts and sources outside tests/. In Fortran it
 # checks comments and strings only, not identifiers. It does not see wording that is split over two lines. A line may
 # contain the phrases of `allowed` below; each has a reason.
+#
+# Without arguments it also checks
+#   - the pages in `pages`: lines up to 120 characters, sentences up to 35 words and with at most one colon or semicolon,
+#   - the docstrings of subroutines in src: the first word is a verb of the list `verbs`,
+#   - the names of tests: none contains told or tells.
+# A page that has been revised is added to `pages`, so that it stays revised.
 set -uo pipefail
 top=$(cd "$(dirname "$0")/.." && pwd) || exit 1
 export LC_ALL=C.UTF-8
@@ -74,6 +80,9 @@ ackermann at most|circle, least|largest steer to the  =>  maximum Ackermann; min
 to the own side|own side  =>  inner wheel, wheel's own …
 can say what is at  =>  are fit for extrapolation
 heads? of (?:a |the |its )?columns?|column heads?  =>  column heading
+goes? on  =>  continues; run the same command again to resume
+an own  =>  a … of its own, a separate …
+(?<!there )are no|(?<!there )is none  =>  negate the verb: are not …, cannot be used as …, there is no …
 END
 }
 
@@ -91,6 +100,38 @@ wheel lift in steer  =>  name of a quantity
 keywords?  =>  not the word list
 MemTotal  =>  a name of Linux
 `relative_rotation`  =>  name of a procedure
+END
+}
+
+pages() {
+  cat <<'END'
+input/README.md
+input/RIG.md
+input/STUDIES.md
+input/QUANTITIES.md
+input/NAMES.md
+CONTRIBUTING.md
+docs/compilers.md
+docs/extending.md
+docs/tour.md
+END
+}
+
+# the first words of docstrings of subroutines; add a verb that is missing
+verbs() {
+  cat <<'END'
+Abandons Accepts Adapts Adds Allocates Appends Applies Assembles Attaches Balances Begins Builds Changes Checks
+Chooses Clears Clips Closes Collects Compares Completes Computes Continues Converts Copies Corrects Counts Creates
+Decides Decodes Decomposes Defines Deletes Describes Determines Diagnoses Differentiates Divides Does Draws Drops
+Duplicates Eliminates Empties Encodes Ends Escapes Estimates Evaluates Examines Exchanges Expands Explains Extracts
+Extrapolates Factorises Fills Finds Finishes Fits Follows Forgets Formats Frees Gathers Gives Handles Hands Hides
+Includes Increases Inserts Interpolates Inverts Iterates Joins Judges Lays Learns Leaves Links Lists Loads Locks Logs
+Looks Makes Maps Marks Measures Merges Mirrors Mounts Moves Multiplies Names Normalises Notes Observes Opens Orders
+Packs Pads Parses Passes Places Plans Predicts Prepares Prints Puts Quotes Reads Realises Recalls Records Reduces
+Reflects Registers Rejects Removes Renames Renews Replaces Reports Reserves Resets Restores Restricts Returns Reverses
+Rotates Rounds Runs Saves Scales Scans Scrambles Searches Selects Sends Sets Settles Shares Shows Skips Solves Sorts
+Splits Starts States Steps Stops Stores Subtracts Sums Swaps Sweeps Takes Times Transforms Tries Trims Truncates Turns
+Unpacks Updates Uses Validates Verifies Waits Walks Warns Watches Works Wraps Writes
 END
 }
 
@@ -154,5 +195,76 @@ STAY=$stay perl -CSDA -Mutf8 -e '
   exit($found ? 1 : 0);
 ' <(wording) "$work/lines"
 status=$?
+
+# Sentences of the pages in FILE...: code and tables of names are skipped, cells of tables may be terse
+sentences() {
+  perl -CSDA -Mutf8 -e '
+    use strict; use warnings;
+    my $found = 0;
+    sub judge {
+      my ($where, $text) = @_;
+      $text =~ s/`+[^`]*`+/X/g;
+      $text =~ s/\]\([^)]*\)/]/g;
+      for my $sentence (split /(?<=[.!?])\s+(?=[\p{Lu}\p{Greek}*`\[(])/, $text) {
+        my $words = () = $sentence =~ /\S+/g;
+        my $colons = () = $sentence =~ /[:;](?=\s|$)/g;
+        if ($words > 35) { print "$where: $words words in a sentence, at most 35: \"", substr($sentence, 0, 60), "\"\n"; $found++; }
+        if ($colons > 1) { print "$where: $colons colons in a sentence, at most 1: \"", substr($sentence, 0, 60), "\"\n"; $found++; }
+      }
+    }
+    for my $file (@ARGV) {
+      open(my $in, "<", $file) or die "$file: $!\n";
+      my ($text, $where, $is_code) = ("", "", 0);
+      my $end = sub { judge($where, $text) if $text ne ""; $text = ""; };
+      while (my $line = <$in>) {
+        chomp $line;
+        if (length($line) > 120) { print "$file:$.: ", length($line), " characters in a line, at most 120\n"; $found++; }
+        if ($line =~ /^```/) { $is_code = !$is_code; $end->(); next; }
+        if ($is_code or $line =~ /^(?:#|\||\s*$)/) { $end->(); next; }
+        my $is_item = $line =~ /^\s*(?:[-*]|\d+\.) /;
+        $end->() if $is_item;
+        next if $text eq "" and $line =~ /^    / and !$is_item;      # an indented block after an empty line
+        $where = "$file:$." if $text eq "";
+        $text .= " $line";
+      }
+      $end->();
+    }
+    exit($found ? 1 : 0);
+  ' "$@"
+}
+
+# The first word of the docstring above every subroutine in FILE...
+docstrings() {
+  VERBS=$(verbs | paste -s -d ' ') perl -CSDA -Mutf8 -e '
+    use strict; use warnings;
+    my %is_verb = map { $_ => 1 } split / /, $ENV{VERBS};
+    my $found = 0;
+    for my $file (@ARGV) {
+      open(my $in, "<", $file) or die "$file: $!\n";
+      my ($first, $where) = ("", 0);
+      while (my $line = <$in>) {
+        if ($line =~ /^\s*!>/) { ($first, $where) = ($line =~ /^\s*!>\s*(\S*)/, $.) if !$where; next; }
+        if ($line =~ /^\s*(?:(?:pure|impure|elemental|recursive|module|non_recursive)\s+)*subroutine\s+(\w+)/i and $where) {
+          (my $word = $first) =~ s/[.,:;]+$//;
+          if (!$is_verb{$word}) { print "$file:$where: docstring of subroutine $1 begins with \"$word\": use: a verb (list `verbs`)\n"; $found++; }
+        }
+        ($first, $where) = ("", 0) unless $line =~ /^\s*(?:!\$|!GCC\$)/;
+      }
+    }
+    exit($found ? 1 : 0);
+  ' "$@"
+}
+
+if [ $# -eq 0 ]; then
+  cd "$top" || exit 1
+  mapfile -t page < <(pages)
+  sentences "${page[@]}" || status=1
+  mapfile -t source < <(git ls-files -- 'src/*.f90' 'src/*.F90')
+  docstrings "${source[@]}" || status=1
+  if git grep -nEi 'subroutine +([a-z0-9_]*_)?(told|tells?)(_[a-z0-9_]*)?\(' -- 'tests/*.pf' | grep -v 'end subroutine'; then
+    echo 'the names of tests: use: is_reported, prints, lists, gives'
+    status=1
+  fi
+fi
 [ $status -eq 0 ] && echo "check_language: $(tr -cd '\0' <"$work/files" | wc -c) files, nothing found"
 exit $status

@@ -65,7 +65,7 @@ contains
       end if
    end function open_handle
 
-   !> As open_handle for a call that returns a code: not ek_ok if there is no deck.
+   !> Finds a handle as open_handle does, for a call that returns a code: not ek_ok if there is no deck.
    subroutine take_handle(model, handle, code)
       type(c_ptr), intent(in) :: model
       type(handle_t), pointer, intent(out) :: handle
@@ -76,7 +76,7 @@ contains
       if (.not. associated(handle)) code = refuse(handle_of(model), '')
    end subroutine take_handle
 
-   !> An array of a caller, which must have `wanted` numbers; otherwise the message says so.
+   !> Opens an array of a caller, which must have `wanted` numbers; otherwise the message reports it.
    subroutine take_array(handle, values, n, wanted, message, place, code)
       type(handle_t), pointer, intent(in) :: handle
       type(c_ptr), intent(in) :: values
@@ -94,7 +94,7 @@ contains
       end if
    end subroutine take_array
 
-   !> A text of a caller that must not be NULL; otherwise the message says so.
+   !> Copies a text of a caller that must not be NULL; otherwise the message reports it.
    subroutine take_text(handle, address, message, text, code)
       type(handle_t), pointer, intent(in) :: handle
       type(c_ptr), intent(in) :: address
@@ -106,7 +106,7 @@ contains
       if (.not. c_associated(address)) code = refuse(handle, message)
    end subroutine take_text
 
-   !> A list of n names of a caller. A name that is NULL or longer than a column can be is refused.
+   !> Copies a list of n names of a caller. A name that is NULL or longer than a column can be is rejected.
    subroutine take_names(handle, names, n, found, code)
       type(handle_t), pointer, intent(in) :: handle
       type(c_ptr), intent(in) :: names                       !! not NULL if n > 0
@@ -185,7 +185,7 @@ contains
       !$omp end critical (ek_words)
    end function is_position
 
-   !> A C text; '' for NULL.
+   !> Copies a C text; '' for NULL.
    subroutine from_c(address, text)
       type(c_ptr), intent(in) :: address
       character(:), allocatable, intent(out) :: text

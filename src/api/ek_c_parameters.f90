@@ -141,7 +141,7 @@ contains
       code = finish(handle, error)
    end function ek_set_all
 
-   !> The array of a caller for all parameters.
+   !> Opens the array of a caller for all parameters.
    subroutine take_all(model, n, values, handle, place, code)
       type(c_ptr), intent(in) :: model, values
       integer(c_int), intent(in) :: n

@@ -48,7 +48,7 @@ contains
       if (associated(handle)) last => result_of(handle%session)
    end function solution_of
 
-   !> The last solution for a call that returns a code: not ek_ok if there is none.
+   !> Finds the last solution for a call that returns a code: not ek_ok if there is no solution.
    subroutine take_solution(model, handle, last, code)
       type(c_ptr), intent(in) :: model
       type(handle_t), pointer, intent(out) :: handle
@@ -147,7 +147,7 @@ contains
       if (code == ek_ok) call put_grid(last%table%values, place)
    end function ek_values
 
-   !> Column after column of a matrix.
+   !> Copies a matrix, column after column.
    pure subroutine put_grid(grid, place)
       real(wp), intent(in) :: grid(:, :)
       real(c_double), intent(inout) :: place(size(grid, 1), size(grid, 2))

@@ -36,7 +36,7 @@ module ek_design_numbers
 
 contains
 
-   !> The numbers of a deck.
+   !> Begins with the numbers of a deck.
    subroutine begin_numbers(design, numbers)
       type(design_t), intent(in) :: design
       type(design_numbers_t), intent(out) :: numbers
@@ -52,7 +52,7 @@ contains
       call reset_numbers(numbers)
    end subroutine begin_numbers
 
-   !> All numbers as in the deck.
+   !> Resets all numbers to those of the deck.
    pure subroutine reset_numbers(numbers)
       type(design_numbers_t), intent(inout) :: numbers
       integer :: k

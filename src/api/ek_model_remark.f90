@@ -44,7 +44,7 @@ contains
       count_remarks = self%faults%count() + self%notes%count() + self%warnings%count() + self%doubts%count()
    end function count_remarks
 
-   !> Remark k: its text, and 'failure', 'note' or 'warning'. Failures come first.
+   !> Reads remark k: its text, and 'failure', 'note' or 'warning'. Failures come first.
    subroutine read_model_remark(remarks, k, text, severity)
       type(model_remarks_t), intent(in) :: remarks
       integer, intent(in) :: k

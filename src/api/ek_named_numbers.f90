@@ -139,8 +139,8 @@ contains
       is_needed = numbers%cases%is_first
    end function needed_tests
 
-   !> The values of a design. A number that needs a state which was not found is not a number: what is left of its states would give
-   !> another number. States beyond its window do not matter.
+   !> Reads the values of a design. A number that needs a state which was not found is not a number: the rest of its states
+   !> would give another number. States beyond its window do not matter.
    subroutine read_numbers(numbers, suspension, cases, values, is_whole, is_solvable)
       type(named_numbers_t), intent(inout) :: numbers
       type(suspension_t), intent(in) :: suspension       !! the design, balanced, on no rig
@@ -193,8 +193,8 @@ contains
       needed%is_solved = .true.
    end subroutine solve
 
-   !> Which numbers the last read_numbers gave no value, and why: the states that were not found, with their cases; a quantity that
-   !> the model does not define. No error if it gave all. Not for several threads at a time.
+   !> Explains which numbers the last read_numbers gave no value, and why: the states that were not found, with their cases; a
+   !> quantity that the model does not define. No error if it gave all. Not for several threads at a time.
    subroutine explain_missing(numbers, names, values, defects, error)
       type(named_numbers_t), intent(inout) :: numbers
       character(*), intent(in) :: names(:)

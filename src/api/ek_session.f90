@@ -57,7 +57,7 @@ module ek_session
 
 contains
 
-   !> One place where gfortran writes out how a session is given back.
+   !> Empties a session: one procedure where gfortran writes out how a session is given back.
    subroutine empty_session(session)
       type(session_t), intent(out) :: session
       session%solved = 0
@@ -103,7 +103,7 @@ contains
       call take_deck(copy, session, error)
    end subroutine open_deck
 
-   !> As open_deck; the deck is handed over.
+   !> Opens a deck as open_deck does; the deck is handed over.
    subroutine take_deck(deck, session, error)
       type(deck_t), intent(inout) :: deck
       type(session_t), intent(inout) :: session
@@ -145,7 +145,7 @@ contains
       call begin_solver(session)
    end subroutine begin
 
-   !> What a session holds of its solver's deck.
+   !> Begins the parts of a session that depend on its solver's deck.
    subroutine begin_solver(session)
       type(session_t), intent(inout) :: session
 
@@ -211,8 +211,8 @@ contains
       if (lines%count() == 0) message = setting//': the number is outside its legal range'
    end function range_message
 
-   !> A path that is used for the first time: checks it as --set does. setting is 0 if the path leads to no number of the design
-   !> space, and the value was set in the text.
+   !> Finds a path that is used for the first time: checks it as --set does. setting is 0 if the path leads to no number of the
+   !> design space, and the value was set in the text.
    subroutine first_number(session, path, value, setting, error)
       type(session_t), intent(inout) :: session
       character(*), intent(in) :: path
@@ -262,7 +262,7 @@ contains
       if (.not. allocated(error)) session%is_text_changed = .true.
    end subroutine take_text
 
-   !> The number to which a path leads; not a number if it leads to several that differ.
+   !> Returns the number to which a path leads; not a number if it leads to several that differ.
    subroutine get_number(session, path, value, error)
       type(session_t), intent(inout) :: session
       character(*), intent(in) :: path
@@ -325,7 +325,7 @@ contains
       end if
    end subroutine set_all
 
-   !> The message about all numbers outside their legal ranges.
+   !> Makes the message about all numbers outside their legal ranges.
    subroutine refuse_all(session, values, before, error)
       type(session_t), intent(in) :: session
       real(wp), intent(in) :: values(:)
@@ -343,7 +343,7 @@ contains
       call fail(error, exit_deck, lines%text())
    end subroutine refuse_all
 
-   !> All numbers and texts as opened.
+   !> Resets all numbers and texts as opened.
    subroutine reset(session, error)
       type(session_t), intent(inout) :: session
       type(error_t), allocatable, intent(out) :: error
@@ -366,7 +366,7 @@ contains
       session%numbers%is_new = .false.
    end subroutine take_new_numbers
 
-   !> The deck with its present numbers as settings. One thread at a time.
+   !> Makes the deck with its present numbers as settings. One thread at a time.
    subroutine changed_deck(session, deck, error)
       type(session_t), intent(in) :: session
       type(deck_t), intent(out) :: deck
@@ -376,13 +376,13 @@ contains
       call apply_settings(session%numbers, session%solver%design, deck, error)
    end subroutine changed_deck
 
-   !> A message on a setting names its path without the option of the command line.
+   !> Removes the option of the command line from a message on a setting, which then names its path alone.
    subroutine without_option(error)
       type(error_t), allocatable, intent(inout) :: error
       if (allocated(error)) call replace(error%message, '--set ', '')
    end subroutine without_option
 
-   !> The checksum of the deck with its present numbers.
+   !> Returns the checksum of the deck with its present numbers.
    subroutine checksum_of(session, digits, error)
       type(session_t), intent(in) :: session
       character(16), intent(out) :: digits

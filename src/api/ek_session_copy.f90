@@ -59,7 +59,8 @@ contains
       !$omp end critical (ek_words)
    end subroutine open_files
 
-   !> The deck with its present numbers as one text: included files, hardpoints, property files, both sides and changes are written out.
+   !> Writes the deck with its present numbers as one text: included files, hardpoints, property files, both sides and changes
+   !> are written out.
    subroutine used_deck(session, text, error)
       type(session_t), intent(in) :: session
       character(:), allocatable, intent(out) :: text

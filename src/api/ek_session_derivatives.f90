@@ -18,9 +18,9 @@ module ek_session_derivatives
 
 contains
 
-   !> The derivatives of columns in one row of the last solution with respect to numbers of the deck, and estimates of their errors
-   !> [unit of the column per unit of the number]. No solution is repeated (ek_derivatives). Not a number: the state did not converge,
-   !> the column has no value there, or the number cannot move.
+   !> Computes the derivatives of columns in one row of the last solution with respect to numbers of the deck, and estimates of
+   !> their errors [unit of the column per unit of the number]. No solution is repeated (ek_derivatives). Not a number: the state
+   !> did not converge, the column has no value there, or the number cannot move.
    subroutine find_slopes(session, row, columns, paths, slopes, errors, error)
       type(session_t), intent(inout), target :: session
       integer, intent(in) :: row                               !! of the table of the last solution
@@ -85,7 +85,7 @@ contains
       end associate
    end function is_prepared
 
-   !> Directions, columns and work space. Makes texts.
+   !> Prepares directions, columns and work space. Makes texts.
    subroutine prepare(session, columns, paths, error)
       type(session_t), intent(inout), target :: session
       character(*), intent(in) :: columns(:), paths(:)
@@ -128,7 +128,7 @@ contains
       session%derived%derivatives%case = 0        ! kept as room; is_prepared knows that it is no answer
    end subroutine prepare
 
-   !> The direction of each path; a path that leads to several is a mistake.
+   !> Finds the direction of each path; a path that leads to several is an error.
    subroutine place_paths(solver, session, paths, directions, place, mistakes)
       class(design_solver_t), intent(in) :: solver
       type(session_t), intent(in) :: session

@@ -14,8 +14,8 @@ module ek_session_numbers
 
 contains
 
-   !> Key numbers of the report by name, at the present numbers: only the tests that they need are solved, as far as needed. The last
-   !> solution stays.
+   !> Reads key numbers of the report by name, at the present numbers: only the tests that they need are solved, as far as
+   !> needed. The last solution stays.
    subroutine read_key_numbers(session, names, values, error)
       type(session_t), intent(inout) :: session
       character(*), intent(in) :: names(:)
@@ -50,7 +50,7 @@ contains
       !$omp end critical (ek_words)
    end subroutine read_key_numbers
 
-   !> Key numbers for the first time, or of a design that may have a defect.
+   !> Reads key numbers for the first time, or of a design that may have a defect.
    subroutine read_with_words(session, names, values, error)
       type(session_t), intent(inout) :: session
       character(*), intent(in) :: names(:)

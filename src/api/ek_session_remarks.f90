@@ -12,8 +12,9 @@ module ek_session_remarks
 
 contains
 
-   !> The remarks on the model at the present numbers, as the command line prints them: no spring, contact points beside the ground,
-   !> implausible values, preloads found by balance; or why it cannot be solved. No case is solved; the last solution stays.
+   !> Finds the remarks on the model at the present numbers, as the command line prints them: no spring, contact points beside the
+   !> ground, implausible values, preloads found by balance; or why it cannot be solved. No case is solved; the last solution
+   !> stays.
    subroutine find_remarks(session, remarks, error)
       type(session_t), intent(inout) :: session
       type(model_remarks_t), intent(out) :: remarks
@@ -35,7 +36,7 @@ contains
       !$omp end critical (ek_words)
    end subroutine find_remarks
 
-   !> The remarks at the numbers of a solver. is_done is .false. if the design must be read from the text.
+   !> Finds the remarks at the numbers of a solver. is_done is .false. if the design must be read from the text.
    subroutine find_of(solver, remarks, is_done)
       type(design_solver_t), intent(inout) :: solver
       type(model_remarks_t), intent(out) :: remarks

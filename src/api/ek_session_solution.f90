@@ -65,7 +65,7 @@ contains
       if (is_ready) is_ready = all(asked == prepared%asked)
    end function is_ready
 
-   !> A first solution, or one that may fail.
+   !> Solves a case for the first time, or one that may fail.
    subroutine solve_with_words(session, name, asked, error)
       type(session_t), intent(inout) :: session
       character(*), intent(in) :: name
@@ -110,7 +110,7 @@ contains
       call fail(error, exit_usage, 'no case '//quoted(name)//' in '//file//did_you_mean(name, names))
    end subroutine find_case
 
-   !> The columns that a case is to have: names with * become those that they fit.
+   !> Prepares the columns that a case is to have: names with * become those that they fit.
    subroutine prepare(solver, k, asked, prepared, error)
       type(design_solver_t), intent(in) :: solver
       integer, intent(in) :: k
@@ -136,7 +136,7 @@ contains
       prepared%options%columns = pack(heads, is_wanted)
    end subroutine prepare
 
-   !> Remarks on the last solution, and its failures as an error.
+   !> Makes remarks on the last solution, and its failures as an error.
    subroutine end_solution(session, error)
       type(session_t), intent(inout), target :: session
       type(error_t), allocatable, intent(inout) :: error
@@ -169,7 +169,7 @@ contains
       end if
    end function result_of
 
-   !> A remark on a solution: its text, and 'note', 'warning' or 'failure'.
+   !> Reads a remark on a solution: its text, and 'note', 'warning' or 'failure'.
    subroutine read_remark(remarks, k, text, severity)
       type(remark_list_t), intent(in) :: remarks
       integer, intent(in) :: k
@@ -190,7 +190,7 @@ contains
       state_of_row = nint(result%table%values(column_index(result%table, 'state'), row)) + 1
    end function state_of_row
 
-   !> Refuses to go on from the last solution where key numbers were read of other numbers since: its model then has those.
+   !> Rejects calls on the last solution where key numbers were read of other numbers since: its model then has those.
    subroutine refuse_other_numbers(session, error)
       type(session_t), intent(in) :: session
       type(error_t), allocatable, intent(out) :: error     !! exit_usage
@@ -206,8 +206,8 @@ contains
          'derivatives are read')
    end subroutine refuse_other_numbers
 
-   !> The compliance matrix at the wheel centres in one row of the last solution, left before right, frame of the deck: displacements
-   !> x y z and rotations [m, rad] by forces and moments [N, N m]; not a number where the state did not converge.
+   !> Computes the compliance matrix at the wheel centres in one row of the last solution, left before right, frame of the deck:
+   !> displacements x y z and rotations [m, rad] by forces and moments [N, N m]; not a number where the state did not converge.
    subroutine compliance_at(session, row, c, error)
       type(session_t), intent(inout), target :: session
       integer, intent(in) :: row

@@ -19,7 +19,7 @@ module ek_buffer
 
 contains
 
-   !> Append characters.
+   !> Appends characters.
    pure subroutine buffer_add(self, text)
       class(buffer_t), intent(inout) :: self
       character(*), intent(in) :: text
@@ -35,7 +35,7 @@ contains
       self%used = self%used + len(text)
    end subroutine buffer_add
 
-   !> Append characters and a line end.
+   !> Appends characters and a line end.
    pure subroutine buffer_line(self, text)
       class(buffer_t), intent(inout) :: self
       character(*), intent(in) :: text
@@ -53,7 +53,7 @@ contains
       if (allocated(self%letters)) text = self%letters(:self%used)
    end function buffer_text
 
-   !> Characters of the text from `first` on fill `part`: pieces of a long text without a copy of all of it.
+   !> Copies the characters of the text from `first` on to `part`: pieces of a long text without a copy of all of it.
    pure subroutine buffer_copy(self, first, part)
       class(buffer_t), intent(in) :: self
       integer, intent(in) :: first
@@ -68,7 +68,7 @@ contains
       length = self%used
    end function buffer_length
 
-   !> Delete the text, or what is behind its first letters; keep the capacity.
+   !> Deletes the text, or the part behind its first letters; the capacity stays.
    pure subroutine buffer_clear(self, behind)
       class(buffer_t), intent(inout) :: self
       integer, intent(in), optional :: behind   !! characters that remain, at most the length

@@ -39,7 +39,7 @@ module ek_decimal
 
 contains
 
-   !> Append x to a buffer: -102.918270651123, 0.25, 3, 1.23456789012345e-09, nan, inf, -inf.
+   !> Appends x to a buffer: -102.918270651123, 0.25, 3, 1.23456789012345e-09, nan, inf, -inf.
    !> Plain for 1e-5 ≤ |x| < 1e15; no trailing zeros; both zeros are `0`.
    pure subroutine put_decimal(x, buffer, used)
       real(wp), intent(in) :: x
@@ -91,7 +91,7 @@ contains
       used = used + len(word)
    end subroutine put
 
-   !> The 15 digits of a positive finite x as a whole number, x ≈ number·10^(decade − 14).
+   !> Finds the 15 digits of a positive finite x as an integer, x ≈ number·10^(decade − 14).
    pure subroutine find_digits(x, number, decade)
       real(wp), intent(in) :: x
       integer(i8), intent(out) :: number        !! 10^14 ≤ number < 10^15
@@ -129,7 +129,7 @@ contains
       end if
    end subroutine find_digits
 
-   !> The same by gfortran's formatted write.
+   !> Finds the digits as find_digits does, by gfortran's formatted write.
    pure subroutine find_digits_slowly(x, number, decade)
       real(wp), intent(in) :: x
       integer(i8), intent(out) :: number
@@ -142,7 +142,7 @@ contains
       number = first*(full/10) + rest
    end subroutine find_digits_slowly
 
-   !> A whole number as 15 digits, four at a time.
+   !> Writes an integer as 15 digits, four at a time.
    pure subroutine spell(number, text)
       integer(i8), intent(in) :: number
       character(kept), intent(out) :: text

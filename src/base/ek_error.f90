@@ -35,7 +35,7 @@ module ek_error
 
 contains
 
-   !> Make an error value.
+   !> Makes an error value.
    pure subroutine fail(error, code, message)
       type(error_t), allocatable, intent(out) :: error
       integer, intent(in) :: code               !! one of exit_*
@@ -46,7 +46,7 @@ contains
       error%message = message
    end subroutine fail
 
-   !> Append one message.
+   !> Appends one message.
    pure subroutine list_add(self, message)
       class(message_list_t), intent(inout) :: self
       character(*), intent(in) :: message

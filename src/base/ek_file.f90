@@ -22,7 +22,7 @@ module ek_file
 
 contains
 
-   !> Write `text` as the content of `path`, atomically for other readers. A device (`/dev/stdout`) is written directly.
+   !> Writes `text` as the content of `path`, atomically for other readers. A device (`/dev/stdout`) is written directly.
    subroutine write_whole(path, text, error, can_be_redrawn)
       character(*), intent(in) :: path
       character(*), intent(in) :: text                       !! bytes, written as they are
@@ -36,7 +36,7 @@ contains
       call writer%finish(error)
    end subroutine write_whole
 
-   !> Write bytes to standard output, after anything Fortran has written there. Unlike a Fortran `write` it reports a full
+   !> Writes bytes to standard output, after anything Fortran has written there. Unlike a Fortran `write` it reports a full
    !> disk. A reader that has closed the pipe (`| head`) causes an error with an empty message.
    subroutine write_standard_output(text, error)
       character(*), intent(in) :: text                       !! bytes, written as they are
@@ -52,7 +52,7 @@ contains
       end if
    end subroutine write_standard_output
 
-   !> Write bytes to standard error. A failure here cannot be reported anywhere and is ignored.
+   !> Writes bytes to standard error. A failure here cannot be reported anywhere and is ignored.
    subroutine write_standard_error(text)
       character(*), intent(in) :: text
       logical :: ignored
@@ -60,7 +60,7 @@ contains
       ignored = write_bytes(2_c_int, text)
    end subroutine write_standard_error
 
-   !> Read the whole content of a file, byte for byte.
+   !> Reads the whole content of a file, byte for byte.
    !>
    !> Only a path given by the user may be a pipe. A device is refused, as it may be endless; /dev/null is empty.
    subroutine read_whole(path, text, error, may_stream)
@@ -97,7 +97,7 @@ contains
       call fail(error, exit_file, "cannot read '"//path//"': "//reason)
    end subroutine read_whole
 
-   !> Read a regular file. The files of /proc have the size 0 and a content.
+   !> Reads a regular file. The files of /proc have the size 0 and a content.
    subroutine read_regular(path, text, reason)
       character(*), intent(in) :: path
       character(:), allocatable, intent(out) :: text
@@ -136,7 +136,7 @@ contains
       if (status /= 0) reason = trim(adjustl(words(index(trim(words), ': ', back=.true.) + 1:)))
    end subroutine read_regular
 
-   !> Create a folder and its parents. In an existing folder, temporary files left by dead runs are removed.
+   !> Creates a folder and its parents. In an existing folder, temporary files left by dead runs are removed.
    subroutine make_folder(path, error)
       character(*), intent(in) :: path
       type(error_t), allocatable, intent(out) :: error       !! exit_file, with path and reason
@@ -160,7 +160,7 @@ contains
       call remove_stale(path)
    end subroutine make_folder
 
-   !> Remove a file; a missing file is not an error.
+   !> Removes a file; a missing file is not an error.
    subroutine remove_file(path)
       character(*), intent(in) :: path
       integer :: ignored

@@ -14,7 +14,7 @@ module ek_interrupt
 
 contains
 
-   !> From now on these signals no longer end the process. A second one does.
+   !> Watches for signals: from now on these no longer end the process. A second one does.
    subroutine watch_for_stop()
       type(c_funptr) :: ignored, before
       integer :: k
@@ -33,7 +33,7 @@ contains
       is_stop_asked = is_asked
    end function is_stop_asked
 
-   !> The handler.
+   !> Handles a signal: notes the stop.
    subroutine note_stop(number) bind(c, name='elastokin_note_stop')
       integer(c_int), value :: number
       type(c_funptr) :: ignored

@@ -7,7 +7,7 @@ module ek_largest
 
 contains
 
-   !> The places of the numbers with the largest magnitudes, the largest first; those that are 0 are left out.
+   !> Finds the indices of the numbers with the largest magnitudes, the largest first; zeros are omitted.
    pure subroutine largest(values, most, places)
       real(wp), intent(in) :: values(:)
       integer, intent(in) :: most                      !! how many at most

@@ -136,7 +136,7 @@ contains
       end do
    end function line_count
 
-   !> The character at byte k: its number and its length in bytes; length 0 where the bytes are not valid UTF-8.
+   !> Decodes the character at byte k: its number and its length in bytes; length 0 where the bytes are not valid UTF-8.
    pure subroutine decode(text, k, code, length)
       character(*), intent(in) :: text
       integer, intent(in) :: k

@@ -66,7 +66,7 @@ contains
       if (c_associated(nothing)) ignored = c_fclose(nothing)
    end subroutine run_program
 
-   !> This process goes on as another program, with the same arguments, environment and open files. Returns only if that cannot be.
+   !> Replaces this process by another program, with the same arguments, environment and open files. Returns only if that cannot be.
    subroutine go_on_as(path)
       character(*), intent(in) :: path                        !! of the program
       type(message_list_t) :: words
@@ -125,7 +125,7 @@ contains
       if (iand(int(word), 127) /= 0) status = 128 + iand(int(word), 127)
    end subroutine wait_for
 
-   !> The arguments as C strings.
+   !> Converts the arguments to C strings.
    subroutine argument_list(words, letters, pointers)
       type(message_list_t), intent(in) :: words
       character(kind=c_char), allocatable, target, intent(out) :: letters(:)

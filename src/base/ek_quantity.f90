@@ -320,8 +320,8 @@ contains
       if (k > 0) size_of = units(k)%size
    end function unit_size
 
-   !> Unit of a slope as the end of a column name, 'deg_per_m', and the factor on the slope in the units of its two columns:
-   !> deg/m over wheel travel, per kN over a force, per 100 N m over a moment, otherwise those of the columns.
+   !> Finds the unit of a slope as the end of a column name, 'deg_per_m', and the factor on the slope in the units of its two
+   !> columns: deg/m over wheel travel, per kN over a force, per 100 N m over a moment, otherwise those of the columns.
    pure subroutine slope_unit(column, over, factor_unit, unit, factor)
       character(*), intent(in) :: column, over
       character(*), intent(in) :: factor_unit             !! of the column `factor`: 'mm', 'deg', 'N', 'N m', '-'

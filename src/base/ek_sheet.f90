@@ -90,7 +90,7 @@ contains
       call judge_heads(sheet, rows, is_unnamed)
    end subroutine read_sheet
 
-   !> All errors, heads first.
+   !> Lists all errors, those of the headings first.
    subroutine mistakes_of(sheet, mistakes)
       type(sheet_t), intent(in) :: sheet
       type(message_list_t), intent(inout) :: mistakes
@@ -151,7 +151,7 @@ contains
       end do
    end subroutine take_heads
 
-   !> Commas that separate no columns may be decimal commas, unless there are decimal points too.
+   !> Finds decimal commas: commas that separate no columns may be these, unless there are decimal points too.
    pure subroutine find_decimal_marks(text, sheet)
       character(*), intent(in) :: text
       type(sheet_t), intent(inout) :: sheet
@@ -218,7 +218,7 @@ contains
       sheet%values(:, rows) = row
    end subroutine take_row
 
-   !> The number in a cell, or the error in it.
+   !> Reads the number in a cell, or the error in it.
    subroutine read_number(cell, sheet, value, fault)
       character(*), intent(in) :: cell
       type(sheet_t), intent(in) :: sheet
@@ -289,7 +289,7 @@ contains
          call sheet%row_mistakes%add(sheet%file//': the table has no rows')
    end subroutine judge_heads
 
-   !> Keeps an error in a row; of very many errors the first.
+   !> Adds an error in a row; of very many errors the first are stored.
    subroutine complain(sheet, what)
       type(sheet_t), intent(inout) :: sheet
       character(*), intent(in) :: what
@@ -301,7 +301,7 @@ contains
       end if
    end subroutine complain
 
-   !> The cells of one record, which may span several lines. A quoted cell that is not closed ends with the text.
+   !> Reads the cells of one record, which may span several lines. A quoted cell that is not closed ends with the text.
    subroutine take_record(text, separator, at, line, fields, is_closed)
       character(*), intent(in) :: text
       character, intent(in) :: separator

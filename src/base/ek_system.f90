@@ -99,7 +99,7 @@ contains
 
    end function facts_of
 
-   !> The names in a folder, in system order, without '.' and '..'; none if it cannot be read.
+   !> Lists the names in a folder, in system order, without '.' and '..'; none if it cannot be read.
    subroutine folder_names(path, names)
       character(*), intent(in) :: path
       type(message_list_t), intent(out) :: names
@@ -317,7 +317,7 @@ contains
       reason = text_of(letters)
    end function system_reason
 
-   !> Fails if a block of this many bytes cannot be allocated: asked before hours of work begin, so that a shortage gives a message
+   !> Checks that a block of this many bytes can be allocated: asked before hours of work begin, so that a shortage gives a message
    !> and an exit status instead of a crash at the allocation that fails. The block is released at once; only address space is used.
    subroutine ask_memory(bytes, purpose, error)
       integer(i8), intent(in) :: bytes

@@ -59,7 +59,7 @@ module ek_writer
 
 contains
 
-   !> Begin the file `path`. Until it is finished, the name refers to the older file or to none.
+   !> Begins the file `path`. Until it is finished, the name refers to the older file or to none.
    subroutine begin_file(writer, path, error, can_be_redrawn, is_part)
       type(writer_t), intent(out) :: writer
       character(*), intent(in) :: path
@@ -128,7 +128,7 @@ contains
       if (is_ours) is_ours = c_access(path//c_null_char, may_exist) == 0
    end function is_ours
 
-   !> Add bytes unchanged.
+   !> Adds bytes unchanged.
    subroutine writer_add(self, text)
       class(writer_t), intent(inout) :: self
       character(*), intent(in) :: text
@@ -326,7 +326,7 @@ contains
       call remove_tagged(folder_of(folder//'/'), front, tail)
    end subroutine remove_stale
 
-   !> Whether a run that lives has a temporary file or folder in this folder; is_here: a run on this machine.
+   !> Finds whether a run that lives has a temporary file or folder in this folder; is_here: a run on this machine.
    subroutine find_users(folder, is_in_use, is_here)
       character(*), intent(in) :: folder
       logical, intent(out) :: is_in_use, is_here

@@ -113,7 +113,7 @@ contains
       end if
    end subroutine bench
 
-   !> The first chosen case of a deck on the rig, examined and balanced.
+   !> Loads the first chosen case of a deck on the rig, examined and balanced.
    subroutine load_case(settings, suspension, case, error)
       type(deck_settings_t), intent(in) :: settings
       type(suspension_t), intent(out) :: suspension

@@ -113,8 +113,8 @@ contains
       end if
    end subroutine time_uses
 
-   !> Motions of the states with all coordinates of points; all columns of the state; the compliance matrix; one response with all
-   !> numbers; all motions.
+   !> Lists motions of the states with all coordinates of points; all columns of the state; the compliance matrix; one response
+   !> with all numbers; all motions.
    subroutine list_uses(solver, k, uses)
       type(design_solver_t), intent(in) :: solver
       integer, intent(in) :: k
@@ -148,7 +148,7 @@ contains
       end associate
    end subroutine list_uses
 
-   !> The sweep of the case by LAPACK.
+   !> Times the sweep of the case by LAPACK.
    subroutine time_sweep(solver, k, time)
       type(design_solver_t), intent(in) :: solver
       integer, intent(in) :: k
@@ -169,7 +169,7 @@ contains
       end associate
    end subroutine time_sweep
 
-   !> Columns at all states.
+   !> Times columns at all states.
    subroutine time_columns(solver, k, columns, time)
       type(design_solver_t), intent(inout) :: solver
       integer, intent(in) :: k

@@ -35,7 +35,7 @@ module ek_bench_times
 
 contains
 
-   !> The scaled matrices of some states of a sweep.
+   !> Collects the scaled matrices of some states of a sweep.
    subroutine collect_matrices(suspension, case, path, kkt, matrices)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
@@ -63,7 +63,7 @@ contains
       end do
    end subroutine collect_matrices
 
-   !> Time of dsysv on one of the matrices including a copy of it, and time of the copy alone: the minimum so far of each, so
+   !> Times dsysv on one of the matrices including a copy of it, and the copy alone: the minimum so far of each, so
    !> that a disturbed round affects neither.
    subroutine time_lapack(n, matrices, together, copying, error)
       integer, intent(in) :: n

@@ -27,7 +27,7 @@ contains
       bodies_of = max(nint((n - 1)/9.0_wp), 1)
    end function bodies_of
 
-   !> The chain on the rig of its case.
+   !> Reads the chain on the rig of its case.
    subroutine read_chain(bodies, lift, suspension, case, error)
       integer, intent(in) :: bodies
       integer, intent(in) :: lift         !! mm, of the end, with two increments each

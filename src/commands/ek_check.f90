@@ -125,7 +125,7 @@ contains
       end do
    end subroutine add_lines
 
-   !> The remarks on the model, balanced if balance succeeds. The preloads that balance finds are results, not findings.
+   !> Adds the remarks on the model, balanced if balance succeeds. The preloads that balance finds are results, not findings.
    subroutine add_remarks(base, cases, chosen, is_solvable, has_warnings, findings, messages, error)
       type(suspension_t), intent(in) :: base
       type(case_t), intent(in) :: cases(:), chosen(:)
@@ -155,7 +155,7 @@ contains
       end do
    end subroutine add_remarks
 
-   !> Bodies, unknowns, constraints, degrees of freedom and unused points.
+   !> Adds bodies, unknowns, constraints, degrees of freedom and unused points.
    subroutine add_model(suspension, diagnosis, checksum, findings)
       type(suspension_t), intent(in) :: suspension
       type(diagnosis_t), intent(in) :: diagnosis
@@ -220,7 +220,7 @@ contains
       end associate
    end function axis_text
 
-   !> One case: its test, load or drive, and whether it can be solved.
+   !> Adds one case: its test, load or drive, and whether it can be solved.
    subroutine add_case(case, diagnosis, findings)
       type(case_t), intent(in) :: case
       type(diagnosis_t), intent(in) :: diagnosis
@@ -239,7 +239,7 @@ contains
       end if
    end subroutine add_case
 
-   !> A line 'name: text'; no line for an empty text.
+   !> Adds a line 'name: text'; no line for an empty text.
    subroutine add(findings, name, text)
       type(buffer_t), intent(inout) :: findings
       character(*), intent(in) :: name, text

@@ -100,7 +100,7 @@ contains
 
    end function check_json
 
-   !> One message: where it points to, and its text without the location.
+   !> Adds one message: its location, and its text without the location.
    subroutine add_message(json, message, severity)
       type(json_t), intent(inout) :: json
       character(*), intent(in) :: message, severity
@@ -121,7 +121,7 @@ contains
       call json%close('}')
    end subroutine add_message
 
-   !> 'file:41: text' in three; line 0 if the message has no place.
+   !> Splits 'file:41: text' in three; line 0 if the message has no location.
    pure subroutine split_place(message, file, line, text)
       character(*), intent(in) :: message
       character(:), allocatable, intent(out) :: file, text

@@ -60,7 +60,7 @@ module ek_command
       command_t('study', 'study STUDY.nml [options]', 'study STUDY', 'many designs of a deck, or step-size convergence', &
       'Runs the designs of a study and writes CSV files into DIR; if gnuplot is installed, draws the'//nl// &
       'figures and the page (as plot does) and runs the study''s plot script. A study'//nl// &
-      'that was stopped or killed goes on where it was: DIR/<study>.parts keeps what is done.', &
+      'that was stopped or killed resumes: DIR/<study>.parts stores the finished designs.', &
       'Exit status 4: complete, but a design failed (see the columns status and reason; the others are written; 0 with'//nl// &
       '--accept-failed). 6: stopped before the end; the same command resumes the study.'), &
       command_t('merge', 'merge STUDY.nml', 'merge STUDY', 'the tables of a study that ran in shards', &

@@ -88,7 +88,7 @@ contains
       if (self%has(name)) call read_number(self%value(name), number)
    end function number_of
 
-   !> A whole number of at least 1; 0 if the text is something else.
+   !> Reads an integer of at least 1; 0 if the text is something else.
    pure subroutine read_number(text, number)
       character(*), intent(in) :: text
       integer, intent(out) :: number
@@ -196,7 +196,7 @@ contains
       call line%texts%add(value)
    end subroutine take_option
 
-   !> Refuses --out - for a command that writes several files.
+   !> Rejects --out - for a command that writes several files.
    subroutine refuse_stream(line, error)
       type(command_line_t), intent(in) :: line
       type(error_t), allocatable, intent(out) :: error
@@ -205,7 +205,7 @@ contains
          ' writes several files: it needs an output folder and cannot be used with --out -')
    end subroutine refuse_stream
 
-   !> The half widths of gradient windows: --window travel=15.
+   !> Reads the half widths of gradient windows: --window travel=15.
    subroutine read_windows(line, windows, error)
       type(command_line_t), intent(in) :: line
       type(windows_t), intent(inout) :: windows

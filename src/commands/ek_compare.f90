@@ -202,7 +202,7 @@ contains
       text = out%text()
    end function text_of
 
-   !> 'Deck checksum: 12ab → 34cd', 'point.seat.y: -500 → -520 (-20)'; of many values the first ones.
+   !> Adds 'Deck checksum: 12ab → 34cd', 'point.seat.y: -500 → -520 (-20)'; of many values the first ones.
    subroutine add_changes(out, facts, values)
       type(buffer_t), intent(inout) :: out
       type(deck_difference_t), intent(in) :: facts(:), values(:)
@@ -246,7 +246,7 @@ contains
 
    end subroutine add_changes
 
-   !> The table of gradients.
+   !> Adds the table of gradients.
    subroutine add_gradients(out, this)
       type(buffer_t), intent(inout) :: out
       type(comparison_t), intent(in) :: this

@@ -15,7 +15,7 @@ module ek_console
 
 contains
 
-   !> An informational message; suppressed by --quiet.
+   !> Prints an informational message; suppressed by --quiet.
    subroutine print_note(quiet, text)
       logical, intent(in) :: quiet
       character(*), intent(in) :: text
@@ -23,13 +23,13 @@ contains
       if (quiet) call log_message(printable(text))
    end subroutine print_note
 
-   !> A warning: results may be unreliable.
+   !> Prints a warning: results may be unreliable.
    subroutine print_warning(text)
       character(*), intent(in) :: text
       call print_message('warning: '//text)
    end subroutine print_warning
 
-   !> An error, before the program ends or continues with the next case. An empty message prints nothing.
+   !> Prints an error, before the program ends or continues with the next case. An empty message prints nothing.
    subroutine print_error(text)
       character(*), intent(in) :: text
       if (len(text) > 0) call print_message('error: '//text)
@@ -75,7 +75,7 @@ contains
       if (.not. allocated(error)) call print_path(path, unprinted)
    end subroutine write_table
 
-   !> Progress line, which overwrites itself; on a terminal only.
+   !> Shows a progress line, which overwrites itself; on a terminal only.
    subroutine show_progress(done, total)
       integer, intent(in) :: done, total
       if (is_terminal(2)) call write_standard_error(achar(13)//'  '//str(done)//' of '//str(total)//' states')

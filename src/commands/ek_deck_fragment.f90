@@ -85,7 +85,7 @@ contains
       end do
    end function has_image
 
-   !> The line of the key of a parameter, unless it is there.
+   !> Adds the line of the key of a parameter, unless it is there.
    subroutine add_line(design, x, number, is_half, lines, text)
       type(design_t), intent(in) :: design
       real(wp), intent(in) :: x(:)

@@ -62,7 +62,7 @@ contains
       if (.not. allocated(error)) call move_alloc(unreached, error)
    end subroutine derive
 
-   !> The case of --case, or the first.
+   !> Chooses the case of --case, or the first.
    subroutine choose_case(settings, solver, k, error)
       type(deck_settings_t), intent(in) :: settings
       type(design_solver_t), intent(in) :: solver
@@ -89,7 +89,7 @@ contains
       end if
    end subroutine choose_case
 
-   !> The numbers of --with, or all that the deck gives.
+   !> Chooses the numbers of --with, or all that the deck gives.
    subroutine choose_numbers(line, session, directions, error)
       type(command_line_t), intent(in) :: line
       type(session_t), intent(in) :: session
@@ -124,7 +124,7 @@ contains
       end do
    end subroutine split
 
-   !> The columns of --of, or all quantities of the case.
+   !> Chooses the columns of --of, or all quantities of the case.
    subroutine choose_quantities(line, solver, k, columns, error)
       type(command_line_t), intent(in) :: line
       type(design_solver_t), intent(in) :: solver
@@ -175,7 +175,7 @@ contains
       end associate
    end subroutine solve
 
-   !> The states of --at: the nearest to each swept value, or all; otherwise that nearest to design.
+   !> Chooses the states of --at: the nearest to each swept value, or all; otherwise that nearest to design.
    subroutine choose_states(line, solver, k, states, error)
       type(command_line_t), intent(in) :: line
       type(design_solver_t), intent(in) :: solver
@@ -247,7 +247,7 @@ contains
       call print_text(list%text(), error)
    end subroutine write_results
 
-   !> One row per state, column and number.
+   !> Adds one row per state, column and number.
    subroutine add_csv(found, csv)
       type(derivatives_t), intent(in) :: found
       type(buffer_t), intent(inout) :: csv
@@ -280,7 +280,8 @@ contains
       end do
    end subroutine add_csv
 
-   !> The numbers with the largest effect on a column: of 1 mm, of 0.06 deg, of 1 % of a rate or a force (steps of ek_direction).
+   !> Adds the numbers with the largest effect on a column: of 1 mm, of 0.06 deg, of 1 % of a rate or a force (steps of
+   !> ek_direction).
    subroutine add_list(found, c, s, case, list)
       type(derivatives_t), intent(in) :: found
       integer, intent(in) :: c, s
@@ -307,7 +308,7 @@ contains
       end do
    end subroutine add_list
 
-   !> What has no derivative, and why.
+   !> Warns of columns and numbers without a derivative, with the reason.
    subroutine warn(settings, solver, found)
       type(deck_settings_t), intent(in) :: settings
       type(design_solver_t), intent(in) :: solver

@@ -103,7 +103,7 @@ contains
       if (.not. settings%has_place) call fail(error, exit_usage, '--at: expected a swept value, found '//quoted(place))
    end subroutine read_settings
 
-   !> One case: solve, split, write, print.
+   !> Explains one case: solve, split, write, print.
    subroutine explain_case(settings, base, wanted, fault, checksum, files, unprinted, error)
       type(settings_t), intent(in) :: settings
       type(suspension_t), intent(in) :: base
@@ -181,7 +181,7 @@ contains
       end if
    end subroutine take_columns
 
-   !> Refuses a swept value outside the range of a case.
+   !> Rejects a swept value outside the range of a case.
    subroutine refuse_outside(place, case, error)
       real(wp), intent(in) :: place
       type(case_t), intent(in) :: case
@@ -224,7 +224,7 @@ contains
       call print_text(text%text(), error)
    end subroutine print_state
 
-   !> The laws of an element, or the one of `element.part`.
+   !> Finds the laws of an element, or the one of `element.part`.
    subroutine find_laws(name, table, laws, error)
       character(*), intent(in) :: name
       type(contribution_table_t), intent(in) :: table

@@ -84,7 +84,7 @@ contains
       if (self%has_json) call add_json_state(state, factor, table, self%json)
    end subroutine add_explain_state
 
-   !> The lines of the load paths of a state.
+   !> Adds the lines of the load paths of a state.
    subroutine add_paths(suspension, place, table, lines)
       type(suspension_t), intent(in) :: suspension
       character(*), intent(in) :: place
@@ -187,7 +187,7 @@ contains
       call json%close('}')
    end subroutine end_explain_json
 
-   !> One state: of every column its value, and that of every row.
+   !> Adds one state: of every column its value, and that of every row.
    subroutine add_json_state(state, factor, table, json)
       integer, intent(in) :: state
       real(wp), intent(in) :: factor

@@ -23,7 +23,7 @@ module ek_explain_text
 
 contains
 
-   !> The largest contributions to each asked column, and the rest.
+   !> Adds the largest contributions to each asked column, and the rest.
    subroutine add_largest(table, text)
       type(contribution_table_t), intent(in) :: table
       type(buffer_t), intent(inout) :: text
@@ -46,7 +46,7 @@ contains
       end do
    end subroutine add_largest
 
-   !> A line: name, value, share, bar.
+   !> Adds a line: name, value, share, bar.
    subroutine add_bar(name, value, whole, most, text)
       character(*), intent(in) :: name
       real(wp), intent(in) :: value, whole, most
@@ -62,7 +62,7 @@ contains
          repeat(merge('+', '-', value > 0.0_wp), letters))
    end subroutine add_bar
 
-   !> Each asked column with some laws rigid, or 1 kN/mm more in one of them.
+   !> Adds each asked column with some laws rigid, or 1 kN/mm more in one of them.
    subroutine add_rigid(suspension, name, laws, kkt, table, text)
       type(suspension_t), intent(in) :: suspension
       character(*), intent(in) :: name                 !! what is rigid
@@ -85,7 +85,7 @@ contains
       end do
    end subroutine add_rigid
 
-   !> Where an added spring of 1 kN/mm changes a column most: along the axes of bushings and beside springs.
+   !> Adds the locations at which a spring of 1 kN/mm more changes a column most: along the axes of bushings and beside springs.
    subroutine add_scan(suspension, kkt, table, text)
       type(suspension_t), intent(in) :: suspension
       type(kkt_t), intent(inout) :: kkt                !! with the factors of the state

@@ -146,7 +146,7 @@ contains
       call carsim_panels(axle%map, sources, axle%map%model//'_carsim.par', text, panels)
    end subroutine write_carsim
 
-   !> Both files of the axle, and of the other axle if there is a deck of it.
+   !> Writes both files of the axle, and of the other axle if there is a deck of it.
    subroutine write_mathworks(settings, axle, sources, panels, unprinted, error)
       type(export_settings_t), intent(in) :: settings
       type(axle_map_t), intent(in) :: axle
@@ -209,7 +209,7 @@ contains
       p%checksums(place) = other%checksum
    end subroutine add_other
 
-   !> Three tables and the JSON of all of them.
+   !> Writes three tables and the JSON of all of them.
    subroutine write_tables(settings, axle, sources, panels, unprinted, error)
       type(export_settings_t), intent(in) :: settings
       type(axle_map_t), intent(in) :: axle

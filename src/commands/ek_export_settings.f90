@@ -123,7 +123,7 @@ contains
       end do
    end function list
 
-   !> What is to be solved for a model: ranges as in the command line, else those of its tests of travel and steering.
+   !> Makes the request for a model: ranges as in the command line, else those of its tests of travel and steering.
    subroutine make_request(settings, suspension, cases, request, error)
       type(export_settings_t), intent(in) :: settings
       type(suspension_t), intent(in) :: suspension
@@ -167,7 +167,7 @@ contains
       call choose_lengths(suspension, settings%lengths, request%choices, error)
    end subroutine make_request
 
-   !> Whether the map is over steer, and by which driver.
+   !> Chooses whether the map is over steer, and by which driver.
    subroutine choose_kind(settings, suspension, request, error)
       type(export_settings_t), intent(in) :: settings
       type(suspension_t), intent(in) :: suspension
@@ -202,7 +202,7 @@ contains
          '--steer: this export has no steer; the deck has no &steering: name the driver joint with --driver NAME')
    end subroutine choose_kind
 
-   !> The grid of a range: of the command line, else of a test.
+   !> Reads the grid of a range: of the command line, else of a test.
    subroutine take(option, range, from, to, points, values, error)
       character(*), intent(in) :: option
       type(range_t), intent(in) :: range                      !! mm
@@ -220,7 +220,7 @@ contains
       end if
    end subroutine take
 
-   !> Whether the axle is the front axle.
+   !> Finds whether the axle is the front axle.
    subroutine front_of(settings, suspension, is_front, error)
       type(export_settings_t), intent(in) :: settings
       type(suspension_t), intent(in) :: suspension

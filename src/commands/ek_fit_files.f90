@@ -94,7 +94,7 @@ contains
       text = csv%text()
    end function factors_csv
 
-   !> A cell; nan for a bound that is not given and for what is unknown.
+   !> Adds a cell; nan for a bound that is not given and for an unknown value.
    subroutine add_number(value, csv)
       real(wp), intent(in) :: value
       type(buffer_t), intent(inout) :: csv
@@ -139,7 +139,7 @@ contains
       text = csv%text()
    end function points_csv
 
-   !> All numbers that the factors change.
+   !> Lists all numbers that the factors change.
    subroutine changed_numbers(problem, changed)
       type(fit_problem_t), intent(in) :: problem
       type(choice_t), allocatable, intent(out) :: changed(:)

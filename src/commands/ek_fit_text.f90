@@ -47,7 +47,7 @@ contains
       call text%line(records_with(solver%design, solver%x, changed))
    end subroutine add_fit_findings
 
-   !> How it ended, and how well it fits.
+   !> Adds how the fit ended, and its quality.
    subroutine add_ending(problem, found, statistics, text)
       type(fit_problem_t), intent(in) :: problem
       type(fit_result_t), intent(in) :: found
@@ -72,7 +72,7 @@ contains
          str(maxval([0.0_wp, statistics%singular]), 4)//' to '//str(minval([huge(1.0_wp), statistics%singular]), 4))
    end subroutine add_ending
 
-   !> Root mean squares of the differences, and limits that are exceeded.
+   !> Adds root mean squares of the differences, and limits that are exceeded.
    subroutine add_targets(fit, problem, found, text)
       type(fit_t), intent(in) :: fit
       type(fit_problem_t), intent(in) :: problem
@@ -107,7 +107,7 @@ contains
       end do
    end subroutine add_targets
 
-   !> Start, result and 95 % interval of every factor.
+   !> Adds start, result and 95 % interval of every factor.
    subroutine add_factors(problem, found, statistics, text)
       type(fit_problem_t), intent(in) :: problem
       type(fit_result_t), intent(in) :: found
@@ -132,7 +132,7 @@ contains
       end do
    end subroutine add_factors
 
-   !> What cannot be learned, combinations that are not seen, and strong correlations.
+   !> Adds factors that cannot be learned, combinations that are not seen, and strong correlations.
    subroutine add_doubts(problem, found, statistics, text)
       type(fit_problem_t), intent(in) :: problem
       type(fit_result_t), intent(in) :: found
@@ -179,7 +179,7 @@ contains
       if (is_given(problem%variables(f)%deviation)) words = words//'; the result is that of its prior'
    end function remains
 
-   !> Factors of which only combinations are seen.
+   !> Adds factors of which only combinations are seen.
    subroutine add_group(problem, found, direction, members, text)
       type(fit_problem_t), intent(in) :: problem
       type(fit_result_t), intent(in) :: found

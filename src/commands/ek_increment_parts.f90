@@ -39,7 +39,7 @@ contains
       parts%increment = min(parts%increment, (seconds() - start)/(path%states - 1))
    end subroutine time_walk
 
-   !> The parts: the times of one assembly, factorisation and solution at states of the path, as often as an increment has them.
+   !> Times the parts: one assembly, factorisation and solution at states of the path, as often as an increment has them.
    subroutine time_parts(suspension, case, path, kkt, parts)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case

@@ -76,7 +76,7 @@ contains
       if (present(used_deck)) used_deck = deck
    end subroutine load_deck
 
-   !> As load_deck, for what the session of a program does too.
+   !> Loads the session of a program as load_deck does the model, for commands that use one.
    subroutine load_session(settings, session, error)
       class(deck_settings_t), intent(in) :: settings
       type(session_t), intent(out) :: session
@@ -91,7 +91,7 @@ contains
       call add_unset(files, unset, error)
    end subroutine load_session
 
-   !> The deck with --set-file and --set applied.
+   !> Reads the deck and applies --set-file and --set.
    subroutine read_set_deck(settings, deck, files, unset, error)
       class(deck_settings_t), intent(in) :: settings
       type(deck_t), intent(out) :: deck
@@ -109,7 +109,7 @@ contains
       if (size(files) > 0 .and. error%code == exit_deck .and. deck%deck_errors%count() == 0) call move_alloc(error, unset)
    end subroutine read_set_deck
 
-   !> The mistakes of settings together with those of the deck, each with the line of its file of settings.
+   !> Adds the errors of settings to those of the deck, each with the line of its file of settings.
    subroutine add_unset(files, unset, error)
       type(set_file_t), intent(in) :: files(:)
       type(error_t), allocatable, intent(inout) :: unset, error
@@ -168,7 +168,7 @@ contains
       end do
    end subroutine add_asked_test
 
-   !> The cases to run, with --case, --method, --solver and --increments applied.
+   !> Lists the cases to run, with --case, --method, --solver and --increments applied.
    subroutine chosen_cases(settings, cases, chosen, error)
       class(deck_settings_t), intent(in) :: settings
       type(case_t), intent(in) :: cases(:)

@@ -74,7 +74,7 @@ contains
       text = page%text()
    end function command_page
 
-   !> Title, name and the heading of the synopsis.
+   !> Begins a page with title, name and the heading of the synopsis.
    subroutine begin_page(page, name, summary)
       type(buffer_t), intent(inout) :: page
       character(*), intent(in) :: name, summary
@@ -86,7 +86,7 @@ contains
       call page%line('.SH NAME'//nl//roff(name)//' '//backslash//'- '//roff(summary)//nl//'.SH SYNOPSIS')
    end subroutine begin_page
 
-   !> A line of the synopsis: 'run DECK [options]'.
+   !> Adds a line of the synopsis: 'run DECK [options]'.
    subroutine add_usage(page, usage)
       type(buffer_t), intent(inout) :: page
       character(*), intent(in) :: usage
@@ -96,7 +96,7 @@ contains
       if (index(usage, '[options]') == 0) call page%line('[options]')
    end subroutine add_usage
 
-   !> The options of a command, those of every command last.
+   !> Adds the options of a command, those of every command last.
    subroutine add_options(page, command, options)
       type(buffer_t), intent(inout) :: page
       character(*), intent(in) :: command

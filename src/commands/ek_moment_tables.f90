@@ -29,7 +29,7 @@ module ek_moment_tables
 
 contains
 
-   !> What the derivatives say of the responses and of the curves.
+   !> Copies the results of the derivatives for the responses and the curves.
    subroutine take_tolerance(found, columns, data)
       type(tolerance_t), intent(in) :: found
       character(*), intent(in) :: columns(:)         !! of the study; those of the data lack the swept value
@@ -86,7 +86,7 @@ contains
 
    end subroutine take_tolerance
 
-   !> What the figures of one factor at a time and of the indices need beside the values at the ends.
+   !> Copies the data that the figures of one factor at a time and of the indices need in addition to the values at the ends.
    pure subroutine take_ranges(data, r)
       type(study_data_t), intent(inout) :: data
       integer, intent(in) :: r
@@ -110,7 +110,7 @@ contains
          normal_yield(mean, deviation, skewness, axis%lower, axis%upper), 0.0_wp)
    end function row_of
 
-   !> What the designs of the study say of its responses.
+   !> Copies the results of the designs of the study for its responses.
    subroutine take_sample(data)
       type(study_data_t), intent(inout) :: data
       real(wp), allocatable :: values(:)
@@ -199,7 +199,7 @@ contains
 
    end subroutine write_moments
 
-   !> The other cells of a row; a limit that is not given is nan.
+   !> Adds the other cells of a row; a limit that is not given is nan.
    subroutine add_numbers(csv, values)
       type(buffer_t), intent(inout) :: csv
       real(wp), intent(in) :: values(:)

@@ -58,7 +58,7 @@ contains
          join_path(this%home, this%study%deck), line%values('--set'), this%texts)
    end subroutine open_study
 
-   !> The design of the deck, against which the study is checked, and the plan.
+   !> Plans the study: the design of the deck, against which the study is checked, and the plan.
    subroutine plan_study(this, error, shards)
       type(opened_study_t), intent(inout) :: this
       type(error_t), allocatable, intent(out) :: error
@@ -83,7 +83,7 @@ contains
       if (this%has_store) name = store_name(this%study)
    end function results_name
 
-   !> --samples: a trial of a large study.
+   !> Sets --samples: a trial of a large study.
    subroutine set_samples(samples, study, error)
       integer, intent(in) :: samples
       type(study_t), intent(inout) :: study

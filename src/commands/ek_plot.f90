@@ -36,7 +36,7 @@ contains
       call draw_study(this%study, this%deck, join_path(this%home, ''), this%out, line%values('--kind'), line%has('--quiet'), error)
    end subroutine run_plot_command
 
-   !> The results alone do not say what is to be drawn.
+   !> Checks that the file is a study: results alone do not define the figures.
    subroutine check_file(path, error)
       character(*), intent(in) :: path
       type(error_t), allocatable, intent(out) :: error
@@ -47,7 +47,7 @@ contains
          ' has results; give the study that they are of, and their folder with --out: elastokin plot STUDY.nml --out DIR')
    end subroutine check_file
 
-   !> Every name after --kind is that of a figure.
+   !> Checks that every name after --kind is that of a figure.
    subroutine check_kinds(kinds, error)
       type(message_list_t), intent(in) :: kinds
       type(error_t), allocatable, intent(out) :: error

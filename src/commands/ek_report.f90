@@ -199,7 +199,7 @@ contains
       if (.not. allocated(error)) call read_windows(line, settings%windows, error)
    end subroutine read_settings
 
-   !> The number of rates of --live.
+   !> Reads the number of rates of --live.
    subroutine read_live(line, settings, error)
       type(command_line_t), intent(in) :: line
       type(settings_t), intent(inout) :: settings
@@ -266,7 +266,7 @@ contains
          trim(merge(' is ', ' are', failed == 1))//' incomplete; see the warnings at the top of the report')
    end subroutine run_tests
 
-   !> Title and facts of the page.
+   !> Sets title and facts of the page.
    subroutine set_head(settings, suspension, checksum, page)
       type(settings_t), intent(in) :: settings
       type(suspension_t), intent(in) :: suspension

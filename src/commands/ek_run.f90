@@ -135,7 +135,7 @@ contains
       end if
    end subroutine read_settings
 
-   !> Refuses options about tables and figures where only key numbers are written.
+   !> Rejects options about tables and figures where only key numbers are written.
    subroutine refuse_with_responses(line, error)
       type(command_line_t), intent(in) :: line
       type(error_t), allocatable, intent(out) :: error
@@ -152,7 +152,7 @@ contains
       end do
    end subroutine refuse_with_responses
 
-   !> Refuses a case whose table would have the file name of another case's compliance matrix.
+   !> Rejects a case whose table would have the file name of another case's compliance matrix.
    subroutine refuse_double_files(cases, error)
       type(case_t), intent(in) :: cases(:)
       type(error_t), allocatable, intent(out) :: error
@@ -167,7 +167,7 @@ contains
       end do
    end subroutine refuse_double_files
 
-   !> One case: solve, report, write, draw.
+   !> Runs one case: solve, report, write, draw.
    subroutine run_case(settings, base, wanted, fault, checksum, json, loads, unprinted, error)
       type(settings_t), intent(in) :: settings
       type(suspension_t), intent(in) :: base
@@ -245,7 +245,7 @@ contains
       end associate
    end subroutine aim
 
-   !> Figures of a case.
+   !> Draws the figures of a case.
    subroutine draw(settings, result, name, error)
       type(settings_t), intent(in) :: settings
       type(case_result_t), intent(in) :: result

@@ -15,8 +15,8 @@ module ek_run_columns
 
 contains
 
-   !> The columns that names, or patterns with *, mean in the results of the cases; also those of targets. All quantities may be
-   !> named, whatever the cases say about them.
+   !> Chooses the columns that names, or patterns with *, mean in the results of the cases; also those of targets. All
+   !> quantities may be named, whatever the cases say about them.
    subroutine choose_columns(list, suspension, cases, columns, error, option, others)
       character(*), intent(in) :: list                  !! names with commas between them
       type(suspension_t), intent(in) :: suspension      !! on no rig
@@ -63,7 +63,7 @@ contains
 
    contains
 
-      !> The columns of this case that name k means.
+      !> Adds the columns of this case that name k means.
       subroutine take(k)
          integer, intent(in) :: k
          integer :: j

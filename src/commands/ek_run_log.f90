@@ -53,13 +53,13 @@ contains
       is_logging = file%is_open()
    end function is_logging
 
-   !> A note, warning or error, as printed; notes also if --quiet suppresses them.
+   !> Logs a note, warning or error, as printed; notes also if --quiet suppresses them.
    subroutine log_message(text)
       character(*), intent(in) :: text
       if (file%is_open()) call log%messages%add(text)
    end subroutine log_message
 
-   !> Findings, or the path of a result, as printed on standard output.
+   !> Logs findings, or the path of a result, as printed on standard output.
    subroutine log_output(text)
       character(*), intent(in) :: text
       integer :: length
@@ -69,7 +69,7 @@ contains
       if (file%is_open()) call log%output%add(text(:length))
    end subroutine log_output
 
-   !> A deck that was read.
+   !> Logs a deck that was read.
    subroutine log_deck(name, checksum)
       character(*), intent(in) :: name
       character(*), intent(in) :: checksum                    !! with the changes of --set, as in the heads of tables
@@ -78,7 +78,7 @@ contains
       call log%checksums%add(checksum)
    end subroutine log_deck
 
-   !> No record by this process: of several processes of one study the first writes it.
+   !> Drops the record of this process: of several processes of one study the first writes it.
    subroutine drop_log()
       call file%close()
    end subroutine drop_log

@@ -58,7 +58,7 @@ contains
       if (.not. allocated(error)) call move_alloc(unwritten, error)
    end subroutine run_numbers
 
-   !> The results of a design, whole or not at all.
+   !> Writes the results of a design, whole or not at all.
    subroutine write_results(path, text, error)
       character(*), intent(in) :: path                     !! - is standard output
       character(*), intent(in) :: text
@@ -98,7 +98,7 @@ contains
       if (.not. allocated(unread)) call print_model_remarks(.true., remarks)     ! warnings, no notes
    end subroutine find_values
 
-   !> The names of a list with commas, without blanks around them.
+   !> Splits a list with commas into names, without blanks around them.
    subroutine split_names(list, names)
       character(*), intent(in) :: list
       character(name_length), allocatable, intent(out) :: names(:)

@@ -124,7 +124,7 @@ contains
       text = script%text()
    end function zsh_completion
 
-   !> '--out[output folder]:DIR:_files -/'
+   !> Adds an option: '--out[output folder]:DIR:_files -/'.
    subroutine add_zsh_option(script, options, k)
       type(buffer_t), intent(inout) :: script
       type(option_t), intent(in) :: options(:)

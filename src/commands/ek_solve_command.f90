@@ -61,7 +61,7 @@ contains
          ' of '//plural(size(targets), 'condition', 'conditions')//'; the numbers that come closest were written')
    end subroutine solve_for
 
-   !> The numbers of --vary with their bounds; reports all mistakes.
+   !> Reads the numbers of --vary with their bounds; reports all errors.
    subroutine read_unknowns(given, session, unknowns, error)
       type(message_list_t), intent(in) :: given
       type(session_t), intent(in) :: session
@@ -132,7 +132,7 @@ contains
       end do
    end function shares_number
 
-   !> The conditions of --for, each [case:]quantity[@swept value]=value; reports all mistakes.
+   !> Reads the conditions of --for, each [case:]quantity[@swept value]=value; reports all errors.
    subroutine read_conditions(line, settings, solver, wanted, targets, error)
       type(command_line_t), intent(in) :: line
       type(deck_settings_t), intent(in) :: settings

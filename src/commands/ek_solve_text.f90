@@ -77,7 +77,7 @@ contains
       if (unit /= '') text = text//' '//unit
    end function quantity
 
-   !> Which unknowns were not needed, where all conditions are met.
+   !> Adds the unknowns that were not needed, where all conditions are met.
    subroutine add_freedom(unknowns, found, text)
       type(unknown_t), intent(in) :: unknowns(:)
       type(findings_t), intent(in) :: found
@@ -92,7 +92,7 @@ contains
          plural(found%rank, 'independent condition', 'independent conditions')//'; this is the smallest change')
    end subroutine add_freedom
 
-   !> Why conditions are not met.
+   !> Adds the reasons for which conditions are not met.
    subroutine add_reasons(unknowns, wanted, targets, found, text)
       type(unknown_t), intent(in) :: unknowns(:)
       type(wanted_number_t), intent(in) :: wanted(:)

@@ -27,9 +27,9 @@ module ek_study_command
 
 contains
 
-   !> Tables are written to DIR (default: out, beside the study) when all designs are done; until then DIR/<study>.parts holds the
-   !> finished chunks, with which the next run goes on. gnuplot then runs the study's plot script; its variable `out` is the
-   !> folder of the tables and figures. Under mpirun all ranks compute; rank 0 prints and writes the tables.
+   !> Runs a study. Tables are written to DIR (default: out, in the folder of the study) when all designs are done; until then
+   !> DIR/<study>.parts holds the finished chunks, with which the next run resumes. gnuplot then runs the study's plot script;
+   !> its variable `out` is the folder of the tables and figures. Under mpirun all ranks compute; rank 0 prints and writes the tables.
    subroutine run_study_command(line, error)
       type(command_line_t), intent(in) :: line
       type(error_t), allocatable, intent(out) :: error
@@ -44,7 +44,7 @@ contains
       if (.not. is_first .and. allocated(error)) deallocate (error)
    end subroutine run_study_command
 
-   !> One rank of a study.
+   !> Runs one rank of a study.
    subroutine run_as_rank(line, ranks, error)
       type(command_line_t), intent(in) :: line
       type(ranks_t), intent(inout) :: ranks
@@ -191,7 +191,7 @@ contains
          plural(state%wanted, 'design was', 'designs were')//' done before')
       if (state%is_stopped) then
          call fail(error, exit_stopped, 'stopped: '//str(state%done)//' of '//plural(state%wanted, 'design is', &
-            'designs are')//' done and kept; the same command goes on from there')
+            'designs are')//' done and kept; run the same command again to resume')
          if (ranks%count == 1) return
          call print_note(is_quiet, error%message)          ! a launcher that was stopped may not let this process end in order
          error%message = 'the study is not complete'

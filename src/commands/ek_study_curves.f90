@@ -21,7 +21,7 @@ contains
       curve_step = max(1, (designs + most_curves - 1)/most_curves)
    end function curve_step
 
-   !> The curves of every n-th design, and their bands.
+   !> Reads the curves of every n-th design, and their bands.
    subroutine read_curves(path, data, error)
       character(*), intent(in) :: path
       type(study_data_t), intent(inout) :: data
@@ -105,7 +105,7 @@ contains
       end do
    end subroutine sort_curves
 
-   !> Percentiles at each state over the designs that have it.
+   !> Finds percentiles at each state over the designs that have it.
    subroutine find_bands(data)
       type(study_data_t), intent(inout) :: data
       real(wp), allocatable :: values(:)
@@ -129,7 +129,7 @@ contains
       end do
    end subroutine find_bands
 
-   !> The label of the swept value. If it is a column of the curves, it is called so, and the column is not drawn over itself.
+   !> Sets the label of the swept value. If it is a column of the curves, it is called so, and the column is not drawn over itself.
    subroutine name_sweep(data)
       type(study_data_t), intent(inout) :: data
       logical :: is_drawn(size(data%columns))

@@ -14,7 +14,7 @@ module ek_study_options
 
 contains
 
-   !> --jobs (usually one thread per processor; of several ranks, one each), --shard and --time-limit.
+   !> Reads --jobs (usually one thread per processor; of several ranks, one each), --shard and --time-limit.
    subroutine read_options(line, ranks, options, error)
       type(command_line_t), intent(in) :: line
       type(ranks_t), intent(in) :: ranks
@@ -77,7 +77,7 @@ contains
       end do
    end function jobs_within
 
-   !> '90' (seconds), '30:00' or '1:30:00'.
+   !> Reads '90' (seconds), '30:00' or '1:30:00'.
    subroutine read_time(text, time, error)
       character(*), intent(in) :: text
       real(wp), intent(out) :: time                  !! s

@@ -18,7 +18,7 @@ module ek_study_progress
 
 contains
 
-   !> On a terminal a line that overwrites itself, else a line a minute.
+   !> Shows on a terminal a line that overwrites itself, else a line a minute.
    subroutine show_state(state)
       type(run_state_t), intent(inout) :: state
 
@@ -75,7 +75,7 @@ contains
       end if
    end function time_text
 
-   !> How far a study is, that another process may be running.
+   !> Prints how far a study is, that another process may be running.
    subroutine print_status(this, error)
       type(opened_study_t), intent(in) :: this
       type(error_t), allocatable, intent(out) :: error

@@ -85,7 +85,7 @@ contains
       if (study%kind == tolerance_kind) call read_moments(out, data)
    end subroutine read_results_of
 
-   !> The folder of the tables: that of the results, or a scratch folder with the tables of the store.
+   !> Finds the folder of the tables: that of the results, or a scratch folder with the tables of the store.
    subroutine find_tables(study, out, designs, scratch, folder, error)
       type(study_t), intent(in) :: study
       character(*), intent(in) :: out
@@ -155,7 +155,7 @@ contains
       if (rig%unit /= '-') data%swept = data%swept//' ['//rig%unit//']'
    end subroutine name_axes
 
-   !> Label and sign of a column: 'Toe, left wheel [deg]'.
+   !> Sets label and sign of a column: 'Toe, left wheel [deg]'.
    subroutine name_column(column, axis)
       character(*), intent(in) :: column
       type(study_axis_t), intent(inout) :: axis
@@ -176,7 +176,7 @@ contains
       if (unit_of(column) /= '' .and. axis%label /= column) axis%label = axis%label//' ['//unit_text(unit_of(column))//']'
    end subroutine name_column
 
-   !> The table of responses.
+   !> Reads the table of responses.
    subroutine read_rows(study, deck_sum, path, data, error)
       type(study_t), intent(in) :: study
       character(*), intent(in) :: deck_sum, path
@@ -230,7 +230,7 @@ contains
 
    end subroutine read_rows
 
-   !> The label of a response: its column heading and its unit.
+   !> Sets the label of a response: its column heading and its unit.
    subroutine name_response(study, number, head, axis)
       type(study_t), intent(in) :: study
       integer, intent(in) :: number
@@ -274,7 +274,7 @@ contains
       reasons = [reasons, new]
    end subroutine count_reason
 
-   !> '12 designs, for instance design 7: case 'sweep': no equilibrium'
+   !> Lists reasons: '12 designs, for instance design 7: case 'sweep': no equilibrium'.
    subroutine list_reasons(reasons, list)
       type(reason_t), intent(in) :: reasons(:)
       type(message_list_t), intent(inout) :: list

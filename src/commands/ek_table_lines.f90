@@ -63,7 +63,7 @@ contains
       allocate (character(28*size(names) + longest_message) :: lines%content)
    end subroutine open_table
 
-   !> The next line that is not empty; status is not 0 at the end.
+   !> Reads the next line that is not empty; status is not 0 at the end.
    subroutine next_line(lines, status)
       type(lines_t), intent(inout) :: lines
       integer, intent(out) :: status
@@ -79,7 +79,7 @@ contains
       end do
    end subroutine next_line
 
-   !> The first numbers of a line; what is no number becomes NaN. `rest` is where the field behind them begins.
+   !> Reads the first numbers of a line; other content becomes NaN. `rest` is where the field behind them begins.
    pure subroutine take_numbers(content, values, rest)
       character(*), intent(in) :: content
       real(wp), intent(out) :: values(:)

@@ -23,7 +23,8 @@ module ek_tolerance_outcome
 
 contains
 
-   !> The derivatives of a tolerance study, before its designs: what has none is then said at once. Other kinds need none.
+   !> Computes the derivatives of a tolerance study before its designs, so that a missing one is reported at once. Other kinds
+   !> need none.
    subroutine expand_study(this, error)
       type(opened_study_t), intent(inout) :: this
       type(error_t), allocatable, intent(out) :: error     !! exit_deck, exit_model
@@ -59,7 +60,7 @@ contains
       if (.not. allocated(error)) call print_text(text%text(), error)
    end subroutine write_tolerance
 
-   !> The moments of a response by each method, and the factors that matter.
+   !> Adds the moments of a response by each method, and the factors that matter.
    subroutine add_response(data, r, text)
       type(study_data_t), intent(in) :: data
       integer, intent(in) :: r

@@ -15,7 +15,7 @@ module ek_attachment
 
 contains
 
-   !> The units of a deck, and whether its axes are x forward, y to the left.
+   !> Finds the units of a deck, and whether its axes are x forward, y to the left.
    pure subroutine units_in_deck(records, units, is_iso)
       type(record_t), intent(in) :: records(:)
       type(units_t), intent(out) :: units

@@ -80,7 +80,7 @@ contains
       lacks_equals = lacks_equals .and. index(':+-.0123456789''"', next) > 0
    end function lacks_equals
 
-   !> The word here, and what comes after it and its subscript; a blank at the end of the text.
+   !> Reads the word here without moving, and what comes after it and its subscript; a blank at the end of the text.
    pure subroutine look_past_key(text, cursor, word, next)
       character(*), intent(in) :: text
       type(cursor_t), intent(in) :: cursor
@@ -99,7 +99,7 @@ contains
       next = next_character(text, ahead)
    end subroutine look_past_key
 
-   !> The text between ( and ), blanks removed; the cursor moves behind the ).
+   !> Reads the text between ( and ), blanks removed; the cursor moves behind the ).
    pure subroutine take_subscript(text, cursor, content)
       character(*), intent(in) :: text
       type(cursor_t), intent(inout) :: cursor
@@ -118,7 +118,7 @@ contains
       cursor%at = cursor%at + 1
    end subroutine take_subscript
 
-   !> The letters, digits, _ and % from here on.
+   !> Reads the letters, digits, _ and % from here on.
    pure subroutine take_word(text, cursor, word)
       character(*), intent(in) :: text
       type(cursor_t), intent(inout) :: cursor
@@ -126,7 +126,7 @@ contains
       call take(text, cursor, verify(text(cursor%at:), letters//digits//'%') - 1, word)
    end subroutine take_word
 
-   !> The text up to a separator, at least one character.
+   !> Reads the text up to a separator, at least one character.
    pure subroutine take_anything(text, cursor, word)
       character(*), intent(in) :: text
       type(cursor_t), intent(inout) :: cursor
@@ -137,7 +137,7 @@ contains
       call take(text, cursor, merge(more, -1, more > 0), word)
    end subroutine take_anything
 
-   !> The rest of a line outside any group, up to the next & or comment; its beginning is enough to identify it.
+   !> Reads the rest of a line outside any group, up to the next & or comment; its beginning is enough to identify it.
    pure subroutine take_line(text, cursor, content)
       character(*), intent(in) :: text
       type(cursor_t), intent(inout) :: cursor
@@ -147,7 +147,7 @@ contains
       content = trim(content(:min(len(content), 41)))
    end subroutine take_line
 
-   !> The next characters; −1: all that is left.
+   !> Reads the next characters; −1: all that is left.
    pure subroutine take(text, cursor, count, taken)
       character(*), intent(in) :: text
       type(cursor_t), intent(inout) :: cursor
@@ -223,7 +223,7 @@ contains
          '; write the number alone (&model sets the units)'
    end function unit_message
 
-   !> Letters, the degree sign or % from here on.
+   !> Reads letters, the degree sign or % from here on.
    pure subroutine take_unit_word(text, cursor, word)
       character(*), intent(in) :: text
       type(cursor_t), intent(inout) :: cursor
@@ -242,7 +242,7 @@ contains
       end if
    end subroutine take_unit_word
 
-   !> /mm, *mm, ^2, /(…) following a unit. A / not followed by a letter ends the group.
+   !> Reads /mm, *mm, ^2, /(…) following a unit. A / not followed by a letter ends the group.
    pure subroutine take_quotient(text, cursor, unit)
       character(*), intent(in) :: text
       type(cursor_t), intent(inout) :: cursor

@@ -111,7 +111,7 @@ contains
          call fail(error, exit_deck, deck%file//': the deck is empty')
    end subroutine parse_deck
 
-   !> Keeps the property files and the load tables that records name.
+   !> Stores the property files and the load tables that records name.
    subroutine keep_named(deck)
       type(deck_t), intent(inout) :: deck
       character(:), allocatable :: name
@@ -178,7 +178,7 @@ contains
       call fail(error, exit_usage, visible(message))
    end subroutine set_value
 
-   !> The deck with its property files read, both sides written out, and the settings of what these created applied. Mistakes are
+   !> Finishes the deck: property files read, both sides written out, and the settings of what these created applied. Errors are
    !> added to its list.
    subroutine finish_deck(deck, whole)
       type(deck_t), intent(in) :: deck
@@ -296,7 +296,7 @@ contains
       text = buffer%text()
    end subroutine read_standard_input
 
-   !> The text of the innermost open file. An &include without a quoted name is left to the check of its keys.
+   !> Reads the text of the innermost open file. An &include without a quoted name is left to the check of its keys.
    recursive subroutine take_text(text, depth, files, deck)
       character(*), intent(in) :: text
       integer, intent(in) :: depth

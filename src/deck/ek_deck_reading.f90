@@ -222,7 +222,8 @@ contains
       end associate
    end function value_count
 
-   !> The index of a keyword among the choices; 0 if it is not given and has no default, or, with a message, if it is none of them.
+   !> Finds the index of a keyword among the choices; 0 if it is not given and has no default, or, with a message, if it is not
+   !> one of them.
    subroutine choice(reading, key, choices, number, default)
       type(deck_reading_t), intent(inout) :: reading
       character(*), intent(in) :: key, choices(:)
@@ -233,7 +234,7 @@ contains
       if (text_of(reading, key) == '' .and. present(default)) number = default
    end subroutine choice
 
-   !> The index of a word, element of a key, among the choices.
+   !> Finds the index of a word, element of a key, among the choices.
    subroutine choose(reading, key, word, choices, number)
       type(deck_reading_t), intent(inout) :: reading
       character(*), intent(in) :: key, word, choices(:)

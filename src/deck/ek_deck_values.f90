@@ -13,7 +13,7 @@ module ek_deck_values
 
 contains
 
-   !> The values that the model was built from, in the order of the deck: settings made, property files read, both sides of a
+   !> Lists the values that the model was built from, in the order of the deck: settings made, property files read, both sides of a
    !> mirrored deck. A path is that of --set.
    subroutine list_values(deck, paths, texts)
       type(deck_t), intent(in) :: deck

@@ -49,7 +49,7 @@ contains
       end do
    end subroutine write_deck_as_used
 
-   !> Refuses to write over a file from which the deck was read.
+   !> Rejects writing over a file from which the deck was read.
    subroutine refuse_own_files(deck, path, error)
       type(deck_t), intent(in) :: deck
       character(*), intent(in) :: path
@@ -72,7 +72,7 @@ contains
       end do
    end subroutine refuse_own_files
 
-   !> The text of a deck as it was used. Load tables stay where they are, with their whole paths.
+   !> Writes the text of a deck as it was used. Load tables stay where they are, with their whole paths.
    subroutine deck_as_used(deck, text, error)
       type(deck_t), intent(in) :: deck
       character(:), allocatable, intent(out) :: text
@@ -105,7 +105,7 @@ contains
       text = lines%text()
    end subroutine make_text
 
-   !> One record: its file and line, a line for each key, and the numbers that it does not give.
+   !> Adds one record: its file and line, a line for each key, and the numbers that it does not give.
    subroutine add_record(record, number, parameters, kept, prefix, tables, lines)
       type(record_t), intent(in) :: record
       integer, intent(in) :: number

@@ -330,7 +330,7 @@ contains
       is_single = group == model_group .or. .not. any(keys%group == group .and. keys%name == 'name' .and. keys%is_required)
    end function is_single
 
-   !> The row of a key; is_known is .false. if the group has no such key.
+   !> Finds the row of a key; is_known is .false. if the group has no such key.
    pure subroutine find_key(group, name, key, is_known)
       integer, intent(in) :: group
       character(*), intent(in) :: name

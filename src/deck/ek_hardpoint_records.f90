@@ -92,7 +92,7 @@ contains
       end do
    end subroutine attach_hardpoints
 
-   !> In a deck with &mirror a right point must be the image of a left one.
+   !> Checks that in a deck with &mirror a right point is the image of a left one.
    subroutine check_images(sheet, path, source, deck_errors)
       type(hardpoints_t), intent(in) :: sheet
       character(*), intent(in) :: path

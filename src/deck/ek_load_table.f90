@@ -95,7 +95,7 @@ contains
       table%columns = columns(pack([(k, k=1, size(columns))], is_kept))
    end subroutine read_table
 
-   !> What the column of a head acts on, and the SI value of its unit; 0: the head has no meaning.
+   !> Finds the action of a column by its heading, and the SI value of its unit; 0: the heading has no meaning.
    pure subroutine find_meaning(head, suspension, wheels, column, unit)
       character(*), intent(in) :: head
       type(suspension_t), intent(in) :: suspension

@@ -33,7 +33,7 @@ module ek_mirror
 
 contains
 
-   !> The records of both sides, each left one followed by its right one.
+   !> Writes the records of both sides, each left one followed by its right one.
    subroutine mirror_records(records, used, whole, whole_used, deck_errors)
       type(record_t), intent(in) :: records(:)
       integer, intent(in) :: used
@@ -118,7 +118,7 @@ contains
       end do
    end subroutine survey
 
-   !> The names in `shared`; each must exist. 'none' alone, if no record has that name, stands for an empty list.
+   !> Finds the names in `shared`; each must exist. 'none' alone, if no record has that name, stands for an empty list.
    subroutine find_shared(mirror, half, deck_errors)
       type(record_t), intent(in) :: mirror
       type(half_t), intent(inout) :: half
@@ -242,7 +242,7 @@ contains
       end if
    end function name_on_side
 
-   !> A record that exists once: duplicated loads of a case act on both sides; any other reference must be unique.
+   !> Copies a record that exists once: duplicated loads of a case act on both sides; any other reference must be unique.
    subroutine keep_single(half, is_refused, record, deck_errors)
       type(half_t), intent(in) :: half
       logical, intent(in) :: is_refused        !! a wheel of the right side, already reported
@@ -325,7 +325,7 @@ contains
       end do
    end subroutine reflect
 
-   !> '5' ↔ '-5'; zero has no sign.
+   !> Changes the sign of a number: '5' ↔ '-5'; zero has no sign.
    subroutine turn_number(text)
       character(:), allocatable, intent(inout) :: text
 
@@ -340,7 +340,7 @@ contains
       end select
    end subroutine turn_number
 
-   !> 'fy=c' ↔ 'fy=-c', for the components whose sign changes in marker axes.
+   !> Reflects a curve: 'fy=c' ↔ 'fy=-c', for the components whose sign changes in marker axes.
    subroutine turn_curve(text)
       character(:), allocatable, intent(inout) :: text
       character(:), allocatable :: name, component

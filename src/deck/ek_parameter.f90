@@ -60,7 +60,7 @@ module ek_parameter
 
 contains
 
-   !> 'bushing.top_mount.kt(1)' → group, name, key and subscript; 'model.length', 'axle.wheelbase' have no name.
+   !> Splits a path: 'bushing.top_mount.kt(1)' → group, name, key and subscript; 'model.length', 'axle.wheelbase' have no name.
    subroutine split_path(text, path, message)
       character(*), intent(in) :: text
       type(path_t), intent(out) :: path
@@ -164,7 +164,7 @@ contains
       end do
    end subroutine add_parameter
 
-   !> The parameters with a path, which may have * in place of names; none if it is the path of a text, or of nothing that the
+   !> Finds the parameters with a path, which may have * in place of names; none if it is the path of a text, or of nothing that the
    !> deck gives. The path of a half deck leads to both sides of the axle.
    subroutine find_parameters(parameters, records, path_text, found)
       type(parameters_t), intent(in) :: parameters

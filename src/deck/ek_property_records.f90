@@ -44,7 +44,7 @@ contains
       end do
    end subroutine attach_properties
 
-   !> The property file of one element.
+   !> Attaches the property file of one element.
    subroutine attach_property(k, units, source, files, seen, records, used, deck_errors)
       integer, intent(in) :: k                     !! its record
       type(units_t), intent(in) :: units
@@ -125,7 +125,7 @@ contains
 
    contains
 
-      !> A &curve from the line in the file at which its law begins.
+      !> Adds a &curve from the line in the file at which its law begins.
       subroutine add_curve(name, law, offset, scale, x_unit, y_unit)
          character(*), intent(in) :: name
          type(law_points_t), intent(in) :: law

@@ -45,7 +45,7 @@ module ek_reader
 
 contains
 
-   !> The model and the cases of a deck, or all its mistakes, in the order of files and lines.
+   !> Builds the model and the cases of a deck, or lists all its errors, in the order of files and lines.
    subroutine build_model(deck, suspension, cases, error, is_whole)
       type(deck_t), intent(in) :: deck
       type(suspension_t), intent(out) :: suspension
@@ -66,8 +66,8 @@ contains
       if (present(is_whole)) is_whole = is_complete
    end subroutine build_model
 
-   !> The suspension with the numbers of the deck. The reader has found no mistake in them; should it have missed one, nobody gets
-   !> the unfinished model.
+   !> Computes the suspension with the numbers of the deck. The reader has found no error in them; should it have missed one,
+   !> nobody gets the unfinished model.
    subroutine realise_deck(file, design, suspension, error)
       character(*), intent(in) :: file                       !! of the deck
       type(design_t), intent(in) :: design                   !! complete
@@ -81,7 +81,7 @@ contains
          'the wrong side, or a number outside its range); please report this deck, as a message should name the line')
    end subroutine realise_deck
 
-   !> The design space of a deck, or all mistakes of the deck.
+   !> Reads the design space of a deck, or all errors of the deck.
    subroutine read_design(deck, design, error, is_whole)
       type(deck_t), intent(in) :: deck
       type(design_t), intent(out) :: design
@@ -106,7 +106,7 @@ contains
       if (present(is_whole)) is_whole = is_complete
    end subroutine read_design
 
-   !> All records, group by group.
+   !> Reads all records, group by group.
    subroutine read_records(reading, cases, is_whole, error)
       type(deck_reading_t), intent(inout) :: reading
       type(case_t), allocatable, intent(inout) :: cases(:)
@@ -168,7 +168,7 @@ contains
       if (reading%deck_errors%count() > 0) call fail(error, exit_deck, reading%deck_errors%text())
    end subroutine read_records
 
-   !> The targets of key numbers. Their mistakes come behind those of the records.
+   !> Reads the targets of key numbers. Their errors come after those of the records.
    subroutine read_targets(reading, targets, error)
       type(deck_reading_t), intent(inout) :: reading
       type(target_band_t), allocatable, intent(out) :: targets(:)
@@ -189,7 +189,7 @@ contains
       call fail(error, exit_deck, reading%deck_errors%text())
    end subroutine read_targets
 
-   !> The record being read.
+   !> Reads the record being read.
    subroutine read_record(reading)
       type(deck_reading_t), intent(inout) :: reading
 
@@ -221,7 +221,7 @@ contains
       end select
    end subroutine read_record
 
-   !> The lists of the prototype that follow from the whole deck: points and weights.
+   !> Completes the lists of the prototype that follow from the whole deck: points and weights.
    subroutine complete_prototype(reading)
       type(deck_reading_t), intent(inout) :: reading
       type(point_t) :: point
@@ -311,7 +311,8 @@ contains
 
    end subroutine check_new
 
-   !> A second &model of the same name: the deck stands twice in its file. Only this is reported, not every name that is there twice.
+   !> Rejects a second &model of the same name: the deck stands twice in its file. Only this is reported, not every name that is
+   !> there twice.
    subroutine refuse_doubled_deck(reading, error)
       type(deck_reading_t), intent(in) :: reading
       type(error_t), allocatable, intent(out) :: error
@@ -339,7 +340,7 @@ contains
       if (record%file /= from%file) words = record%file//':'//str(record%line)
    end function line_of_record
 
-   !> &model: names, units, axes.
+   !> Reads &model: names, units, axes.
    subroutine read_model(reading)
       type(deck_reading_t), intent(inout) :: reading
       character(*), parameter :: balances(3) = [character(6) :: 'none', 'spring', 'all']

@@ -19,7 +19,7 @@ module ek_reader_bodies
 
 contains
 
-   !> &point: a design position.
+   !> Reads &point: a design position.
    subroutine read_point(reading)
       type(deck_reading_t), intent(inout) :: reading
       type(vector_t) :: vector
@@ -38,7 +38,7 @@ contains
       end associate
    end subroutine read_point
 
-   !> &body.
+   !> Reads &body.
    subroutine read_body(reading)
       type(deck_reading_t), intent(inout) :: reading
       type(body_plan_t) :: plan
@@ -59,7 +59,7 @@ contains
       reading%cards(reading%k)%index = size(reading%plan%bodies)
    end subroutine read_body
 
-   !> &mass: a further mass of a body, in addition to that of &body.
+   !> Reads &mass: a further mass of a body, in addition to that of &body.
    subroutine read_mass(reading)
       type(deck_reading_t), intent(inout) :: reading
       type(mass_plan_t) :: plan
@@ -75,7 +75,7 @@ contains
       reading%plan%masses = [reading%plan%masses, plan]
    end subroutine read_mass
 
-   !> &load: force and moment in global axes.
+   !> Reads &load: force and moment in global axes.
    subroutine read_load(reading)
       type(deck_reading_t), intent(inout) :: reading
       type(load_plan_t) :: plan
@@ -102,7 +102,7 @@ contains
       reading%plan%loads = [reading%plan%loads, plan]
    end subroutine read_load
 
-   !> &wheel.
+   !> Reads &wheel.
    subroutine read_wheel(reading)
       type(deck_reading_t), intent(inout) :: reading
       type(wheel_plan_t) :: plan
@@ -142,7 +142,7 @@ contains
       reading%plan%wheels = [reading%plan%wheels, plan]
    end subroutine read_wheel
 
-   !> The spin axis, from spin_vector or from toe and camber.
+   !> Finds the spin axis, from spin_vector or from toe and camber.
    subroutine find_spin(reading, plan, this)
       type(deck_reading_t), intent(inout) :: reading
       type(wheel_plan_t), intent(inout) :: plan
@@ -170,7 +170,7 @@ contains
          text_of(reading, 'side')//' (y points '//trim(merge('left ', 'right', reading%plan%is_iso))//')')
    end subroutine find_spin
 
-   !> &axle: front or rear, and its shares of braking and driving force.
+   !> Reads &axle: front or rear, and its shares of braking and driving force.
    subroutine read_axle(reading)
       type(deck_reading_t), intent(inout) :: reading
       integer :: c, number(7)
@@ -199,7 +199,7 @@ contains
       end associate
    end subroutine read_axle
 
-   !> &steering: the driver of the rack, and the ratio to the steering wheel.
+   !> Reads &steering: the driver of the rack, and the ratio to the steering wheel.
    subroutine read_steering(reading)
       type(deck_reading_t), intent(inout) :: reading
       character(:), allocatable :: driver
@@ -220,7 +220,7 @@ contains
 
    contains
 
-      !> The joint must be a driver of a length, as ratio and travel are lengths.
+      !> Checks that the joint is a driver of a length, as ratio and travel are lengths.
       subroutine check_driver()
          integer :: measure
 

@@ -26,7 +26,7 @@ module ek_reader_cases
 
 contains
 
-   !> One case; also one with a mistake, which is reported.
+   !> Reads one case; also one with an error, which is reported.
    subroutine read_case(reading, this)
       type(deck_reading_t), intent(inout) :: reading
       type(case_t), intent(out) :: this
@@ -91,7 +91,7 @@ contains
 
    contains
 
-      !> The range of the driver in a grid; by default the travel of the rack, which the design gives.
+      !> Reads the range of the driver in a grid; by default the travel of the rack, which the design gives.
       subroutine read_grid()
          character(*), parameter :: keys(2) = [character(10) :: 'steer_from', 'steer_to']
          integer :: k, j
@@ -122,7 +122,7 @@ contains
             str(number_of(reading, 'steer_to', 0.0_wp))//' twice')
       end subroutine read_grid
 
-      !> target = 'column=value', the value in the unit of the column.
+      !> Reads target = 'column=value', the value in the unit of the column.
       subroutine read_target()
          type(value_t) :: value
          character(:), allocatable :: hint, words
@@ -145,7 +145,7 @@ contains
          end if
       end subroutine read_target
 
-      !> follow = 'arc': needs method 'equilibrium'; tables and targets, which need a unique factor, are not allowed.
+      !> Reads follow = 'arc': needs method 'equilibrium'; tables and targets, which need a unique factor, are not allowed.
       subroutine read_follow()
          integer :: c
 
@@ -165,7 +165,7 @@ contains
 
    end subroutine read_case
 
-   !> The target of a case has its own file, <case>_target: no other case may have this name.
+   !> Rejects two cases with one file: the target of a case has its own file, <case>_target, so no other case may have this name.
    subroutine refuse_one_file_for_two(reading, cases)
       type(deck_reading_t), intent(inout) :: reading
       type(case_t), intent(in) :: cases(:)
@@ -183,7 +183,7 @@ contains
       end do
    end subroutine refuse_one_file_for_two
 
-   !> A case that scales loads or drives a joint directly.
+   !> Reads a case that scales loads or drives a joint directly.
    subroutine read_drive(reading, this, unit)
       type(deck_reading_t), intent(inout) :: reading
       type(case_t), intent(inout) :: this
@@ -322,7 +322,7 @@ contains
             quoted(this%test)//': '//why)
       end subroutine refuse_in_test
 
-      !> At most one wheel per side, and at least one wheel.
+      !> Counts wheels: at most one wheel per side, and at least one wheel.
       subroutine count_wheels()
          integer :: j, side
 
@@ -337,7 +337,7 @@ contains
          if (all(wheels == 0)) call complain(reading, 'test', 'the rig needs a &wheel')
       end subroutine count_wheels
 
-      !> With vertical = 'road', each wheel needs a tyre rate.
+      !> Checks that with vertical = 'road', each wheel has a tyre rate.
       subroutine check_tyres()
          integer :: j
 
@@ -351,7 +351,7 @@ contains
 
    end subroutine read_test
 
-   !> The steered joint: `drive` of the case, or else the driver of &steering, or else the only driver.
+   !> Finds the steered joint: `drive` of the case, or else the driver of &steering, or else the only driver.
    subroutine find_steering(reading, drive, unit)
       type(deck_reading_t), intent(inout) :: reading
       character(:), allocatable, intent(out) :: drive

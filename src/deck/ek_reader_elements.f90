@@ -26,7 +26,7 @@ module ek_reader_elements
 
 contains
 
-   !> &curve: points and interpolation.
+   !> Reads &curve: points and interpolation.
    subroutine read_curve(reading)
       type(deck_reading_t), intent(inout) :: reading
       type(curve_plan_t) :: plan
@@ -57,7 +57,7 @@ contains
       reading%plan%curves(size(reading%plan%curves)) = plan
    end subroutine read_curve
 
-   !> The record of an elastic element.
+   !> Reads the record of an elastic element.
    subroutine read_element(reading)
       type(deck_reading_t), intent(inout) :: reading
 
@@ -75,7 +75,7 @@ contains
       end select
    end subroutine read_element
 
-   !> &spring: between two points, or on a measure.
+   !> Reads &spring: between two points, or on a measure.
    subroutine read_spring(reading)
       type(deck_reading_t), intent(inout) :: reading
       type(element_plan_t) :: plan
@@ -101,7 +101,7 @@ contains
 
    contains
 
-      !> The measure of the spring, and the units of its value and force.
+      !> Finds the measure of the spring, and the units of its value and force.
       subroutine find_measure()
          integer :: found
 
@@ -122,7 +122,7 @@ contains
 
    end subroutine read_spring
 
-   !> &damper: only the gas force acts in statics.
+   !> Reads &damper: only the gas force acts in statics.
    subroutine read_damper(reading)
       type(deck_reading_t), intent(inout) :: reading
       type(element_plan_t) :: plan
@@ -135,7 +135,7 @@ contains
       call add(reading, plan, damper, measure)
    end subroutine read_damper
 
-   !> &stop.
+   !> Reads &stop.
    subroutine read_stop(reading)
       type(deck_reading_t), intent(inout) :: reading
       type(element_plan_t) :: plan
@@ -165,7 +165,7 @@ contains
       if (c == 2) reading%plan%prototype%elements(reading%plan%prototype%scalars)%law%sign = 1.0_wp
    end subroutine read_stop
 
-   !> &torsion: moment/angle about an axis fixed in the first body.
+   !> Reads &torsion: moment/angle about an axis fixed in the first body.
    subroutine read_torsion(reading)
       type(deck_reading_t), intent(inout) :: reading
       type(element_plan_t) :: plan
@@ -183,7 +183,7 @@ contains
       call add(reading, plan, torsion_spring, measure_t(kind=rotation, body_i=bodies(1), body_j=bodies(2)))
    end subroutine read_torsion
 
-   !> The distance of two distinct points of two different bodies.
+   !> Finds the distance of two distinct points of two different bodies.
    subroutine find_link(reading, plan, measure)
       type(deck_reading_t), intent(inout) :: reading
       type(element_plan_t), intent(inout) :: plan
@@ -195,7 +195,7 @@ contains
       measure = measure_t(kind=distance, body_i=bodies(1), body_j=bodies(2))
    end subroutine find_link
 
-   !> Exactly one of rate and curve.
+   !> Finds the law: exactly one of rate and curve.
    subroutine find_law(reading, plan)
       type(deck_reading_t), intent(inout) :: reading
       type(element_plan_t), intent(inout) :: plan
@@ -229,7 +229,7 @@ contains
       reading%plan%elements = [reading%plan%elements, plan]
    end subroutine add
 
-   !> &bushing. Rates: force/length and moment/angle, the moment being force × length.
+   !> Reads &bushing. Rates: force/length and moment/angle, the moment being force × length.
    subroutine read_bushing(reading)
       type(deck_reading_t), intent(inout) :: reading
       type(bushing_plan_t) :: plan
@@ -258,7 +258,7 @@ contains
       reading%plan%bushings = [reading%plan%bushings, plan]
    end subroutine read_bushing
 
-   !> Curves of a bushing: texts 'fx=c' or 'mz=-c', the minus sign for the curve reflected through the origin.
+   !> Finds the curves of a bushing: texts 'fx=c' or 'mz=-c', the minus sign for the curve reflected through the origin.
    subroutine find_laws(reading, plan, element)
       type(deck_reading_t), intent(inout) :: reading
       type(bushing_plan_t), intent(inout) :: plan
@@ -302,7 +302,7 @@ contains
       end do
    end subroutine find_laws
 
-   !> The marker axes. If only one is given, the other is chosen perpendicular to it; on the right side of a mirrored axle the
+   !> Finds the marker axes. If only one is given, the other is chosen perpendicular to it; on the right side of a mirrored axle the
    !> choice is the mirror image of that on the left.
    subroutine find_axes(reading, plan)
       type(deck_reading_t), intent(inout) :: reading

@@ -22,7 +22,7 @@ module ek_reader_joints
 
 contains
 
-   !> &measure: a named scalar between two bodies.
+   !> Reads &measure: a named scalar between two bodies.
    subroutine read_measure(reading)
       type(deck_reading_t), intent(inout) :: reading
       type(readout_t) :: readout
@@ -72,7 +72,7 @@ contains
       reading%plan%prototype%readouts = [reading%plan%prototype%readouts, readout]
    end subroutine read_measure
 
-   !> &joint.
+   !> Reads &joint.
    subroutine read_joint(reading)
       type(deck_reading_t), intent(inout) :: reading
       integer :: number, bodies(2)
@@ -94,7 +94,7 @@ contains
       end select
    end subroutine read_joint
 
-   !> A joint that is defined by points and axes.
+   !> Makes a joint that is defined by points and axes.
    subroutine make_joint(reading, kind)
       type(deck_reading_t), intent(inout) :: reading
       type(joint_kind_t), intent(in) :: kind
@@ -153,7 +153,7 @@ contains
       end select
    end subroutine check_axes
 
-   !> Stiffness: force/length, or moment/angle where the measure is an angle.
+   !> Makes a driver. Stiffness: force/length, or moment/angle where the measure is an angle.
    subroutine make_driver(reading)
       type(deck_reading_t), intent(inout) :: reading
       type(joint_plan_t) :: plan
@@ -180,7 +180,7 @@ contains
       reading%plan%joints = [reading%plan%joints, plan]
    end subroutine make_driver
 
-   !> Σ ratio × value is constrained in deck units; the row is scaled so that the first ratio is unchanged.
+   !> Makes a coupler: Σ ratio × value is constrained in deck units; the row is scaled so that the first ratio is unchanged.
    subroutine make_coupler(reading)
       type(deck_reading_t), intent(inout) :: reading
       type(joint_plan_t) :: plan

@@ -71,7 +71,7 @@ module ek_record
 
 contains
 
-   !> Append one value to an entry; one that is not a string and has no text is empty.
+   !> Appends one value to an entry; one that is not a string and has no text is empty.
    pure subroutine add_value(entry, text, is_string)
       type(entry_t), intent(inout) :: entry
       character(*), intent(in) :: text
@@ -85,7 +85,7 @@ contains
       entry%values(entry%used)%is_empty = .not. is_string .and. text == ''
    end subroutine add_value
 
-   !> Append an entry to a record.
+   !> Appends an entry to a record.
    pure subroutine add_entry(record, entry)
       type(record_t), intent(inout) :: record
       type(entry_t), intent(inout) :: entry         !! handed over: without its texts afterwards
@@ -105,7 +105,7 @@ contains
       entry%used = 0
    end subroutine add_entry
 
-   !> Append a record to a list whose first `used` elements are filled.
+   !> Appends a record to a list whose first `used` elements are filled.
    pure subroutine add_record(records, used, record)
       type(record_t), allocatable, intent(inout) :: records(:)
       integer, intent(inout) :: used
@@ -259,7 +259,7 @@ contains
       has_side = index(lower(name), 'left_') == 1 .or. index(lower(name), 'right_') == 1
    end function has_side
 
-   !> Record a mistake. Invisible characters in the message are shown as <U+00A0>.
+   !> Records a mistake. Invisible characters in the message are shown as <U+00A0>.
    pure subroutine complaints_add(self, place, what)
       class(deck_errors_t), intent(inout) :: self
       type(place_t), intent(in) :: place

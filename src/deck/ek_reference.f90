@@ -53,7 +53,7 @@ contains
       if (group == body_group) names = [names, [character(word_length) :: 'chassis']]
    end function names_of
 
-   !> The record to which a key refers; 0, with a message, if there is none.
+   !> Finds the record to which a key refers; 0, with a message, if it does not exist.
    subroutine look_up(reading, key, group, name, found)
       type(deck_reading_t), intent(inout) :: reading
       integer, intent(in) :: group
@@ -113,7 +113,7 @@ contains
       call find_vectors(reading%plan, reading%parameters%x, reading%vectors, is_good, number)
    end subroutine new_vector
 
-   !> The vector of a named point; is_found is .false. if the point is unknown or was rejected.
+   !> Finds the vector of a named point; is_found is .false. if the point is unknown or was rejected.
    subroutine find_point(reading, key, name, vector, is_found)
       type(deck_reading_t), intent(inout) :: reading
       character(*), intent(in) :: key, name
@@ -130,7 +130,7 @@ contains
       is_found = reading%cards(found)%is_good
    end subroutine find_point
 
-   !> The number of a named body, 0 for the chassis.
+   !> Finds the number of a named body, 0 for the chassis.
    subroutine find_body(reading, key, name, body, is_found)
       type(deck_reading_t), intent(inout) :: reading
       character(*), intent(in) :: key, name
@@ -146,7 +146,7 @@ contains
       if (is_found) body = reading%cards(found)%index
    end subroutine find_body
 
-   !> The body named by the key `body`, which must move.
+   !> Finds the body named by the key `body`, which must move.
    subroutine find_moving_body(reading, body, is_found)
       type(deck_reading_t), intent(inout) :: reading
       integer, intent(out) :: body
@@ -157,7 +157,7 @@ contains
          call complain(reading, 'body', 'body must be one that moves, found '//quoted(text_of(reading, 'body')))
    end subroutine find_moving_body
 
-   !> Both bodies of an element (key `bodies`); they must differ. Marks them as attached.
+   !> Finds both bodies of an element (key `bodies`); they must differ. Marks them as attached.
    subroutine find_bodies(reading, bodies, is_found)
       type(deck_reading_t), intent(inout) :: reading
       integer, intent(out) :: bodies(2)
@@ -179,7 +179,7 @@ contains
       if (present(is_found)) is_found = all(is_there)
    end subroutine find_bodies
 
-   !> Two distinct points (key `at`); with one point allowed, the second equals the first.
+   !> Finds two distinct points (key `at`); with one point allowed, the second equals the first.
    subroutine find_ends(reading, may_be_one, ends, is_found)
       type(deck_reading_t), intent(inout) :: reading
       logical, intent(in) :: may_be_one
@@ -199,7 +199,7 @@ contains
       if (is_there .and. .not. may_be_one) call check_apart(reading, 'at', ends, '', is_there)
    end subroutine find_ends
 
-   !> Both points of a key.
+   !> Finds both points of a key.
    subroutine find_points(reading, key, ends, is_found)
       type(deck_reading_t), intent(inout) :: reading
       character(*), intent(in) :: key
@@ -231,7 +231,7 @@ contains
       call complain(reading, key, key//': the points '//quoted(names(1))//' and '//quoted(names(2))//' coincide'//consequence)
    end subroutine check_apart
 
-   !> A direction given by two points or by a vector.
+   !> Finds a direction given by two points or by a vector.
    subroutine find_direction(reading, points_key, vector_key, direction, is_given, is_good)
       type(deck_reading_t), intent(inout) :: reading
       character(*), intent(in) :: points_key, vector_key
@@ -273,7 +273,7 @@ contains
       is_good = .true.
    end subroutine find_direction
 
-   !> The curve named by a key; 0 if there is none or it was rejected.
+   !> Finds the curve named by a key; 0 if there is none or it was rejected.
    subroutine find_curve(reading, key, name, curve)
       type(deck_reading_t), intent(inout) :: reading
       character(*), intent(in) :: key, name
@@ -293,7 +293,7 @@ contains
       is_driver = reading%cards(k)%group == joint_group .and. lower(element(reading%records(k), 'type', 1)) == 'driver'
    end function is_driver
 
-   !> The driver joint named by a case; reports a mistake if there is none.
+   !> Finds the driver joint named by a case; reports a mistake if there is none.
    subroutine find_driver(reading, name, others, unit)
       type(deck_reading_t), intent(inout) :: reading
       character(*), intent(in) :: name, others(:)     !! others: other names that may be driven, for suggestions
@@ -311,7 +311,7 @@ contains
          line_of(reading, found)//' is not a driver')
    end subroutine find_driver
 
-   !> The wheel named by a case, if it names one; reports a mistake if there is none, or if the case takes no wheel.
+   !> Finds the wheel named by a case, if it names one; reports a mistake if there is none, or if the case takes no wheel.
    subroutine find_wheel(reading, may_have_one, which, wheel)
       type(deck_reading_t), intent(inout) :: reading
       logical, intent(in) :: may_have_one

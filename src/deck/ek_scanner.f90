@@ -21,7 +21,8 @@ module ek_scanner
 
 contains
 
-   !> All records of a text. Mistakes are added to the list of messages as `file:line: what`. Line ends of any system are accepted.
+   !> Scans all records of a text. Errors are added to the list of messages as `file:line: what`. Line ends of any system are
+   !> accepted.
    subroutine scan_text(written, file, records, used, deck_errors, source)
       character(*), intent(in) :: written
       character(*), intent(in) :: file                        !! name for messages
@@ -77,7 +78,7 @@ contains
       end do
    end subroutine scan_text
 
-   !> The values of one key, as written after the = sign (for --set).
+   !> Scans the values of one key, as written after the = sign (for --set).
    subroutine scan_values(text, entry, message)
       character(*), intent(in) :: text
       type(entry_t), intent(inout) :: entry               !! values are appended
@@ -233,7 +234,7 @@ contains
       end if
    end subroutine close_entry
 
-   !> One value or comma. Two commas in a row, or n* alone, leave values empty.
+   !> Scans one value or comma. Two commas in a row, or n* alone, leave values empty.
    subroutine scan_value(text, cursor, record, entry, after_comma, deck_errors)
       character(*), intent(in) :: text
       type(cursor_t), intent(inout) :: cursor

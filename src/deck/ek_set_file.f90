@@ -31,7 +31,7 @@ module ek_set_file
       private
       type(line_t), allocatable :: lines(:)
       integer :: used = 0
-      type(message_list_t) :: mistakes             !! lines that are no settings
+      type(message_list_t) :: mistakes             !! lines that are not settings
    end type set_file_t
 
    character(*), parameter :: line_end = new_line('a'), blanks = ' '//achar(9)
@@ -39,7 +39,7 @@ module ek_set_file
 
 contains
 
-   !> Reads a file. Nothing is compared with a deck yet; lines that are no settings are reported with those that do not fit.
+   !> Reads a file. Nothing is compared with a deck yet; lines that are not settings are reported with those that do not fit.
    subroutine read_set_file(path, file, error)
       character(*), intent(in) :: path
       type(set_file_t), intent(out) :: file
@@ -95,7 +95,7 @@ contains
       ends_with_variables = at > 1 .and. (content(at + 1:) == 'variables' .or. content(at + 1:) == 'variable')
    end function ends_with_variables
 
-   !> The number of variables in the first line of Dakota's parameters file; of any other line −1.
+   !> Reads the number of variables in the first line of Dakota's parameters file; of any other line −1.
    subroutine read_head(content, left)
       character(*), intent(in) :: content
       integer, intent(inout) :: left
@@ -106,7 +106,7 @@ contains
       if (status == 0 .and. number >= 0) left = number
    end subroutine read_head
 
-   !> One setting.
+   !> Reads one setting.
    subroutine take_line(content, where, is_variable, file)
       character(*), intent(in) :: content, where
       logical, intent(in) :: is_variable           !! of Dakota: a number before its path

@@ -83,7 +83,7 @@ contains
       if (message /= '') message = '--set '//setting//': '//message
    end subroutine apply_setting
 
-   !> The message if a path leads to no record.
+   !> Returns the message if a path leads to no record.
    subroutine check_target(records, path, is_found, message)
       type(record_t), intent(in) :: records(:)
       type(path_t), intent(in) :: path
@@ -106,7 +106,7 @@ contains
          message = 'there is no '//trim(group_names(path%group))//' '//quoted(path%name)//did_you_mean(path%name, names)
    end subroutine check_target
 
-   !> '*1.1' or '+2'; anything else is not relative.
+   !> Reads '*1.1' or '+2'; anything else is not relative.
    subroutine read_change(text, change)
       character(*), intent(in) :: text
       type(change_t), intent(out) :: change
@@ -149,7 +149,7 @@ contains
       end do
    end subroutine change_numbers
 
-   !> The values of a setting; `message` if they do not fit the key.
+   !> Reads the values of a setting; `message` if they do not fit the key.
    subroutine read_values(text, path, given, message)
       character(*), intent(in) :: text
       type(path_t), intent(in) :: path
@@ -185,7 +185,7 @@ contains
 
    contains
 
-      !> Texts without quotes, as passed by a shell, split at commas.
+      !> Reads texts without quotes, as passed by a shell, split at commas.
       subroutine take_bare_words()
          integer :: begin, comma
 
@@ -201,7 +201,7 @@ contains
 
    end subroutine read_values
 
-   !> The values replace elements of the record or are added to it.
+   !> Puts the values in the place of elements of the record, or adds them to it.
    subroutine put_values(record, given, setting)
       type(record_t), intent(inout) :: record
       type(entry_t), intent(in) :: given

@@ -15,7 +15,7 @@ module ek_target_band
 
 contains
 
-   !> The record being read. Names are compared with the key numbers when the report has them.
+   !> Reads the present record. Names are compared with the key numbers when the report has them.
    subroutine read_target_band(reading, target)
       type(deck_reading_t), intent(inout) :: reading
       type(target_band_t), intent(out) :: target

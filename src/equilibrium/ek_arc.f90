@@ -121,7 +121,7 @@ contains
       self%tangent_0 = self%tangent
    end subroutine begin
 
-   !> Goes to the next segment.
+   !> Moves on to the next segment.
    subroutine advance(self, suspension, kkt, is_found)
       type(arc_t), intent(inout) :: self
       type(suspension_t), intent(in) :: suspension
@@ -171,7 +171,7 @@ contains
 
    end subroutine advance
 
-   !> The equilibrium at a length beyond a, in self%state and self%place.
+   !> Finds the equilibrium at a length beyond a, in self%state and self%place.
    !> Equation (K.18) of docs/theory/kkt.md.
    subroutine probe(self, suspension, width, kkt, is_found)
       type(arc_t), intent(inout) :: self
@@ -208,7 +208,7 @@ contains
       end do
    end subroutine probe
 
-   !> The unit tangent at self%state, in self%tangent; its sense is that of the tangent at a. N is factorised for its inertia.
+   !> Finds the unit tangent at self%state, in self%tangent; its sense is that of the tangent at a. N is factorised for its inertia.
    !>
    !> If N is only the symmetric part of the true matrix, the derivative of the residual along the tangent corrects it.
    subroutine find_tangent(self, suspension, kkt, is_found)
@@ -245,7 +245,7 @@ contains
 
    contains
 
-      !> The residual at a small distance along the tangent.
+      !> Computes the residual at a small distance along the tangent.
       subroutine shifted_residual(by)
          real(wp), intent(in) :: by
          type(inputs_t) :: there
@@ -337,7 +337,7 @@ contains
       end do
    end function inner
 
-   !> The step from a state and its swept value to the last probe, in self%motion, and the largest motion of any body.
+   !> Finds the step from a state and its swept value to the last probe, in self%motion, and the largest motion of any body.
    subroutine find_motion(self, kkt, packed, place, largest)
       type(arc_t), intent(inout) :: self
       type(kkt_t), intent(in) :: kkt

@@ -153,7 +153,7 @@ contains
       end do
    end subroutine print_limits
 
-   !> The limit point on the current segment: the root of ds/dl.
+   !> Finds the limit point on the current segment: the root of ds/dl.
    !> Equation (K.20) of docs/theory/kkt.md.
    subroutine find_limit(arc, suspension, kkt, width, place)
       type(arc_t), intent(inout) :: arc
@@ -191,7 +191,7 @@ contains
       if (abs(slope)*(high - low) > abs(f)) place = place - 0.5_wp*arc%range*f**2/slope
    end subroutine find_limit
 
-   !> The swept value on the current segment at which the inertia changes, by bisection.
+   !> Finds the swept value on the current segment at which the inertia changes, by bisection.
    subroutine find_crossing(arc, suspension, kkt, place)
       type(arc_t), intent(inout) :: arc
       type(suspension_t), intent(in) :: suspension
@@ -254,7 +254,7 @@ contains
       end do
    end subroutine find_place
 
-   !> One step of root finding between two values of different sign: false position; an end that is kept counts half (Illinois).
+   !> Makes one step of root finding between two values of different sign: false position; an end that stays counts half (Illinois).
    pure subroutine narrow(x, f, low, f_low, high, f_high, side)
       real(wp), intent(in) :: x, f
       real(wp), intent(inout) :: low, f_low, high, f_high
@@ -273,7 +273,7 @@ contains
       end if
    end subroutine narrow
 
-   !> Goes to the state at a length from design, in arc%state and arc%place; its factors are in kkt.
+   !> Moves to the state at a length from design, in arc%state and arc%place; its factors are in kkt.
    !>
    !> Call `begin` first; lengths must increase from call to call.
    subroutine go_to(arc, suspension, length, kkt, is_found)

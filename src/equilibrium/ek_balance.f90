@@ -55,7 +55,7 @@ contains
       end select
    end subroutine balance
 
-   !> Remarks about a balance: excluded drivers, preloads that are not unique.
+   !> Lists remarks about a balance: excluded drivers, preloads that are not unique.
    subroutine balance_remarks(suspension, words)
       type(suspension_t), intent(in) :: suspension
       type(message_list_t), intent(inout) :: words
@@ -93,7 +93,7 @@ contains
       end do
    end function kept_out
 
-   !> Newton's method on the wheel heights in equilibrium; with more springs than wheels, the change of minimum norm.
+   !> Applies Newton's method to the wheel heights in equilibrium; with more springs than wheels, the change of minimum norm.
    !>
    !> The first change is the solution of the linear problem at design, close to the final one. A wheel with too little preload
    !> would settle on its stop, where the slope would give a change many times too large.

@@ -114,7 +114,8 @@ contains
       self%shifted = self%before
    end function new_branch
 
-   !> The same in place, for other numbers of the model for which it was made; an empty one, or one of another size, is made anew.
+   !> Renews a branch in place, for other numbers of the model for which it was made; an empty one, or one of another size, is
+   !> made anew.
    subroutine renew_branch(suspension, self)
       type(suspension_t), intent(in) :: suspension
       type(branch_t), intent(inout) :: self
@@ -224,7 +225,7 @@ contains
       self%knows_end = self%missed <= fresh*largest_motion(self%motion, kkt%length)
    end subroutine compare
 
-   !> The same with what a first look lacks: the tangent at a, the chords of laws that bend, new factors at b.
+   !> Evaluates a step with the parts that the first evaluation lacks: tangent at a, chords of laws that bend, new factors at b.
    subroutine evaluate_closer(self, step, suspension, state_b, kkt)
       type(branch_t), intent(inout) :: self
       type(step_t), intent(inout) :: step
@@ -264,7 +265,7 @@ contains
       call decide(self, step, kkt%length)
    end subroutine evaluate_closer
 
-   !> The tangent at a; if it does not explain the step, that with the chords of bent laws.
+   !> Evaluates the tangent at a; if it does not explain the step, that with the chords of bent laws.
    subroutine evaluate_beginning(self, step, suspension, is_anew, kkt)
       type(branch_t), intent(inout) :: self
       type(step_t), intent(inout) :: step
@@ -287,7 +288,7 @@ contains
          self%before, step%inputs_a, step%rate, kkt, self%chord_a, step%is_regular(at_a))
    end subroutine evaluate_beginning
 
-   !> Whether the tangents agree with the motion, or those along the chords of bent laws do and N stays regular.
+   !> Decides whether the tangents agree with the motion, or those along the chords of bent laws do and N stays regular.
    pure subroutine decide(self, step, length)
       type(branch_t), intent(in) :: self
       type(step_t), intent(inout) :: step

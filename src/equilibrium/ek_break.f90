@@ -57,7 +57,7 @@ contains
       end if
    end subroutine why_it_ends
 
-   !> The smallest singular value of Φq with its left vector, and the eigenvalue of Zᵀ T Z closest to zero with its motion.
+   !> Finds the smallest singular value of Φq with its left vector, and the eigenvalue of Zᵀ T Z closest to zero with its motion.
    subroutine examine(suspension, state, inputs, kkt, closing, stiffness, left_vector, motion)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state

@@ -66,7 +66,7 @@ contains
       if (laws > 0) self%dyads = new_dyads(suspension%unknowns() + suspension%constraints(), laws)
    end function new_chord
 
-   !> The same for other numbers of the model.
+   !> Renews the chords in place, for other numbers of the model.
    subroutine renew_chord(suspension, self)
       type(suspension_t), intent(in) :: suspension
       type(chord_t), intent(inout) :: self        !! of new_chord, for the same model
@@ -99,7 +99,7 @@ contains
       end do
    end function count_laws
 
-   !> The laws of elements of one measure and of components of bushings; a component of a bushing acts along an axis of its
+   !> Lists the laws of elements of one measure and of components of bushings; a component of a bushing acts along an axis of its
    !> marker, or about it.
    pure subroutine find_places(suspension, place)
       type(suspension_t), intent(in) :: suspension
@@ -154,7 +154,7 @@ contains
       is_bent = self%bends > 0
    end subroutine straighten
 
-   !> Forces and slopes of a law at both ends and between them.
+   !> Computes forces and slopes of a law at both ends and between them.
    pure subroutine draw(self, number, element, component)
       type(chord_t), intent(inout) :: self
       integer, intent(in) :: number                !! of the law; its values are set
@@ -184,7 +184,7 @@ contains
       self%slope(mean, number) = min(max(slope, self%slope(least, number)), self%slope(most, number))
    end subroutine draw
 
-   !> The tangent of the changed model at one end, with the factors of N there, and whether N stays regular for all slopes.
+   !> Computes the tangent of the changed model at one end, with the factors of N there, and whether N stays regular for all slopes.
    !> Equation (K.16) of docs/theory/kkt.md.
    subroutine evaluate_along_chord(self, suspension, work, end, state, inputs, rate, kkt, tangent, is_regular)
       type(chord_t), intent(inout) :: self

@@ -112,7 +112,7 @@ contains
       call name_preload_held(suspension, state, tangent, material, parts%right(:, parts%rank + 1:), kkt, diagnosis)
    end subroutine diagnose
 
-   !> The rigid rows (those without compliance), their scaled Φq, and the full scaled stiffness, of the last assembled system.
+   !> Finds the rigid rows (without compliance), their scaled Φq, and the full scaled stiffness, of the last assembled system.
    subroutine scaled_parts(suspension, kkt, rows, jacobian, stiffness)
       type(suspension_t), intent(in) :: suspension
       type(kkt_t), intent(in) :: kkt
@@ -275,7 +275,7 @@ contains
       end do
    end subroutine name_preload_held
 
-   !> Eigenvectors of a stiffness within a space of motions, softest first, and for each the limit below which its stiffness
+   !> Finds eigenvectors of a stiffness within a space of motions, softest first, and for each the limit below which its stiffness
    !> counts as zero.
    subroutine modes(stiffness, basis, least, motions, eigenvalue, noise, is_found)
       real(wp), intent(in) :: stiffness(:, :), basis(:, :)
@@ -357,7 +357,7 @@ contains
       end associate
    end function softer_than
 
-   !> Gauss–Jordan elimination with column pivoting: the same space, spanned by vectors with few nonzero parts, so
+   !> Eliminates by Gauss–Jordan with column pivoting: the same space, spanned by vectors with few nonzero parts, so
    !> that two independent defects are reported separately.
    pure subroutine make_sparse(vectors)
       real(wp), intent(inout) :: vectors(:, :)

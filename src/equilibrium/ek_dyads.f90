@@ -59,7 +59,7 @@ contains
       self%gradient(:, self%number) = gradient
    end subroutine add_dyad
 
-   !> N⁻¹ g of all dyads, with the current factors of N.
+   !> Computes N⁻¹ g of all dyads, with the current factors of N.
    pure subroutine solve_columns(self, kkt)
       type(dyads_t), intent(inout) :: self
       type(kkt_t), intent(inout) :: kkt
@@ -100,7 +100,7 @@ contains
       if (n > 0 .and. (info /= 0 .or. .not. ratio > 0.0_wp)) self%negative = -1
    end subroutine set_changes
 
-   !> N⁻¹ x → N'⁻¹ x; N' must not be singular.
+   !> Corrects N⁻¹ x → N'⁻¹ x; N' must not be singular.
    !> Equation (K.16) of docs/theory/kkt.md.
    pure subroutine correct(self, x)
       type(dyads_t), intent(inout) :: self

@@ -41,7 +41,7 @@ module ek_elimination_order
 
 contains
 
-   !> The order for a pattern of n unknowns, whose entries (row ≥ column or not, each once) have these values in the samples.
+   !> Finds the order for a pattern of n unknowns, whose entries (row ≥ column or not, each once) have these values in the samples.
    subroutine find_order(n, row, column, values, order)
       integer, intent(in) :: n
       integer, intent(in) :: row(:), column(:)   !! of each entry
@@ -89,7 +89,7 @@ contains
       order%first = order%first(:order%blocks + 1)
    end subroutine find_order
 
-   !> The unknowns one by one from first to last, with the fill of that order: for a matrix that is positive definite.
+   !> Lists the unknowns one by one from first to last, with the fill of that order: for a matrix that is positive definite.
    subroutine natural_order(n, row, column, order)
       integer, intent(in) :: n
       integer, intent(in) :: row(:), column(:)   !! of each entry, as in find_order
@@ -169,7 +169,7 @@ contains
       end if
    end function is_better
 
-   !> The graph of the whole matrix.
+   !> Creates the graph of the whole matrix.
    pure subroutine new_graph(n, row, column, values, graph)
       integer, intent(in) :: n, row(:), column(:)
       real(wp), intent(in) :: values(:, :)
@@ -237,7 +237,7 @@ contains
       end associate
    end subroutine remove
 
-   !> The cheapest stable pivot that contains an unknown; if none is stable, the most stable.
+   !> Finds the cheapest stable pivot that contains an unknown; if none is stable, the most stable.
    pure subroutine find_candidate(graph, at, best)
       type(graph_t), intent(inout) :: graph      !! its mark is used and cleared
       integer, intent(in) :: at
@@ -359,7 +359,7 @@ contains
 
    contains
 
-      !> The neighbours of an unknown of the pivot, and its column.
+      !> Collects the neighbours of an unknown of the pivot, and its column.
       subroutine collect(from, part)
          integer, intent(in) :: from, part
          integer :: i, next, place

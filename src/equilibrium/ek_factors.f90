@@ -27,7 +27,7 @@ contains
       self%serial = -1
    end function new_factors
 
-   !> The state has changed: its factors have this number, and are still in kkt_t.
+   !> Marks that the state has changed: its factors have this number, and are still in kkt_t.
    pure subroutine mark(self, serial)
       type(factors_t), intent(inout) :: self
       integer, intent(in) :: serial         !! kkt%factorisations after them; −1: they are not known
@@ -36,7 +36,7 @@ contains
       self%is_kept = .false.
    end subroutine mark
 
-   !> Keeps the factors of the state, if they are those in kkt_t.
+   !> Stores the factors of the state, if they are those in kkt_t.
    pure subroutine keep(self, kkt)
       type(factors_t), intent(inout) :: self
       type(kkt_t), intent(inout) :: kkt

@@ -50,7 +50,8 @@ contains
       end if
    end function new_kkt
 
-   !> Work space for the next design of a model: what depends on the connections stays, the plans included, and nothing is allocated.
+   !> Renews the work space for the next design of a model: the parts that depend on the connections stay, the plans included, and
+   !> nothing is allocated.
    !> A model with other connections, or an empty kkt, gets a new one.
    subroutine renew_kkt(suspension, wants_plan, kkt)
       type(suspension_t), intent(in) :: suspension
@@ -78,7 +79,7 @@ contains
       kkt%is_at_design = .false.
    end subroutine renew_kkt
 
-   !> Length, stiffness and the scale of every entry.
+   !> Sets length, stiffness and the scale of every entry.
    subroutine set_scales(suspension, kkt)
       type(suspension_t), intent(in) :: suspension
       type(kkt_t), intent(inout) :: kkt
@@ -91,7 +92,7 @@ contains
       end do
    end subroutine set_scales
 
-   !> Reciprocal condition number of the scaled matrix at a state (as LAPACK's dsycon). Factorises, by plan or by LAPACK:
+   !> Finds the reciprocal condition number of the scaled matrix at a state (as LAPACK's dsycon). Factorises, by plan or by LAPACK:
    !> by plan only if the factors are so small that the estimate is that of the matrix.
    pure subroutine condition(suspension, state, inputs, kkt, rcond)
       type(suspension_t), intent(in) :: suspension

@@ -24,7 +24,7 @@ module ek_kkt_factors
 
 contains
 
-   !> Work space for LAPACK.
+   !> Allocates work space for LAPACK.
    pure subroutine allocate_dense(kkt)
       type(kkt_t), intent(inout) :: kkt
 
@@ -42,7 +42,7 @@ contains
       call factorise_within(max_growth, kkt)
    end subroutine factorise
 
-   !> The same, by plan as long as the factors do not grow beyond a limit.
+   !> Factorises by plan as long as the factors do not grow beyond a limit, else by LAPACK.
    pure subroutine factorise_within(limit, kkt)
       real(wp), intent(in) :: limit
       type(kkt_t), intent(inout) :: kkt
@@ -84,7 +84,7 @@ contains
       kkt%is_singular = info /= 0 .or. .not. kkt%pivot_ratio > 0.0_wp
    end subroutine factorise_by_lapack
 
-   !> The lower triangle of the scaled matrix, D S D.
+   !> Fills the lower triangle of the scaled matrix, D S D.
    pure subroutine spread_lower(n, pattern, store, scaling, matrix)
       integer, intent(in) :: n
       type(pattern_t), intent(in) :: pattern
@@ -100,7 +100,7 @@ contains
       end do
    end subroutine spread_lower
 
-   !> Number of negative eigenvalues, smallest over largest |eigenvalue| of the block-diagonal factor, and its determinant.
+   !> Counts negative eigenvalues, and finds smallest over largest |eigenvalue| of the block-diagonal factor, and its determinant.
    !>
    !> By Sylvester's law the matrix has as many negative eigenvalues as its factor D. A stable equilibrium has
    !> exactly one per constraint row.

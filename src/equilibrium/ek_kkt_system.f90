@@ -63,7 +63,7 @@ module ek_kkt_system
 
 contains
 
-   !> Matrix (by `mode`) and right-hand side at a state. λ enters T and the residual.
+   !> Assembles matrix (by `mode`) and right-hand side at a state. λ enters T and the residual.
    !>
    !> The residual is complete for material_only too; the recursion replaces it.
    !> Equation (K.1) of docs/theory/kkt.md.
@@ -104,7 +104,7 @@ contains
       if (inputs%homotopy > 0.0_wp) call add_multiple(kkt%nq, -inputs%homotopy, kkt%imbalance, kkt%rhs)
    end subroutine assemble
 
-   !> The rows of Φ alone at a state: their gradients and violations, as `assemble` finds them.
+   !> Assembles the rows of Φ alone at a state: their gradients and violations, as `assemble` finds them.
    pure subroutine assemble_rows(suspension, state, inputs, kkt)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
@@ -118,7 +118,7 @@ contains
          kkt%store(kkt%pattern%jacobian + 1), kkt%rhs)
    end subroutine assemble_rows
 
-   !> The change of the value of each row [m, -, rad].
+   !> Sets the change of the value of each row [m, -, rad].
    pure subroutine set_change(inputs, change)
       type(inputs_t), intent(in) :: inputs
       real(wp), intent(out) :: change(:)
@@ -130,8 +130,8 @@ contains
       end do
    end subroutine set_change
 
-   !> Right-hand side for a unit of the path coordinate: the derivative of the inputs, at a state. The solution with the
-   !> factors of T is the tangent of the path, [Δq; Δλ] per unit of the path coordinate.
+   !> Assembles the right-hand side for a unit of the path coordinate: the derivative of the inputs, at a state. The solution
+   !> with the factors of T is the tangent of the path, [Δq; Δλ] per unit of the path coordinate.
    !> Equation (K.13) of docs/theory/kkt.md.
    pure subroutine assemble_rate(suspension, state, rate, kkt)
       type(suspension_t), intent(in) :: suspension

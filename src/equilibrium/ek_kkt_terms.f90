@@ -17,8 +17,8 @@ module ek_kkt_terms
 
 contains
 
-   !> Blocks of T, gradients of the rows, and right-hand side at a state (see assemble of ek_kkt). With explicit shapes, which the
-   !> compiler turns into tight code.
+   !> Assembles blocks of T, gradients of the rows, and right-hand side at a state (see assemble of ek_kkt). With explicit
+   !> shapes, which the compiler turns into tight code.
    !> Equations (K.3), (K.4) of docs/theory/kkt.md.
    !> Equation (M.19) of docs/theory/measures.md.
    !> Equation (R.13) of docs/theory/rotations.md.
@@ -107,14 +107,14 @@ contains
       end if
    end subroutine assemble_terms
 
-   !> Zeros, at one go: of an array with more dimensions gfortran clears every column by itself.
+   !> Sets zeros, at one go: of an array with more dimensions gfortran clears every column by itself.
    pure subroutine clear(length, numbers)
       integer, intent(in) :: length
       real(num), intent(inout) :: numbers(length)
       numbers = 0.0_wp
    end subroutine clear
 
-   !> Right-hand side for a unit of the path coordinate.
+   !> Assembles the right-hand side for a unit of the path coordinate.
    !> Equation (K.13) of docs/theory/kkt.md.
    pure subroutine assemble_rate_terms(nq, loads, poses, factor, change, rhs)
       integer, intent(in) :: nq                  !! unknowns of the bodies

@@ -14,7 +14,7 @@ module ek_motion
 
 contains
 
-   !> The motion of a body between two poses: Δr of its reference point, and its rotation vector, global axes.
+   !> Finds the motion of a body between two poses: Δr of its reference point, and its rotation vector, global axes.
    !> Equation (R.6) of docs/theory/rotations.md.
    pure subroutine find_motion(r_a, q_a, r_b, q_b, motion)
       real(num), intent(in) :: r_a(3), q_a(4), r_b(3), q_b(4)
@@ -57,7 +57,7 @@ contains
       largest = merge(sqrt(largest), unlimited, is_finite)
    end function largest_motion
 
-   !> Every body makes a screw motion: the exponential of the twist (Δr at its reference point, Δπ).
+   !> Moves every body by a screw motion: the exponential of the twist (Δr at its reference point, Δπ).
    !>
    !>     r ← r + V(Δπ) Δr,   V = I + (1 − cos θ)/θ² Δπ̃ + (θ − sin θ)/θ³ Δπ̃²,   A ← exp(Δπ̃) A
    !>
@@ -75,7 +75,7 @@ contains
       end do
    end subroutine move_all
 
-   !> The screw motion of one body.
+   !> Moves one body by a screw motion.
    pure subroutine move_body(v, w, pose)
       real(num), intent(in) :: v(3), w(3)               !! Δr, Δπ [m, rad]
       type(pose_t), intent(inout) :: pose
@@ -120,7 +120,7 @@ contains
       end do
    end subroutine take_step
 
-   !> Poses and reactions of a packed state: [r, q] of each body, then λ; the quaternions are normalised.
+   !> Unpacks poses and reactions of a packed state: [r, q] of each body, then λ; the quaternions are normalised.
    pure subroutine unpack_poses(bodies, rows, packed, poses, reaction)
       integer, intent(in) :: bodies, rows
       real(num), intent(in) :: packed(7*bodies + rows)
@@ -138,7 +138,7 @@ contains
       reaction = packed(7*bodies + 1:)
    end subroutine unpack_poses
 
-   !> The packed state of poses and reactions.
+   !> Packs poses and reactions into one state.
    pure subroutine pack_poses(bodies, rows, poses, reaction, packed)
       integer, intent(in) :: bodies, rows
       type(pose_t), intent(in) :: poses(0:bodies)
@@ -203,7 +203,7 @@ contains
       rest = merge(whole, none, rest > least*smooth)
    end function trapezoidal_rest
 
-   !> guess ← Σ weight(j) × packed(:, slot(j))
+   !> Computes guess ← Σ weight(j) × packed(:, slot(j)).
    !> Equation (K.12) of docs/theory/kkt.md.
    pure subroutine extrapolate(length, states, weight, slot, packed, guess)
       integer, intent(in) :: length, states

@@ -37,7 +37,7 @@ module ek_newton
 
 contains
 
-   !> Newton's method to `tolerance`: the last correction of any body [m, rad × characteristic length].
+   !> Iterates by Newton's method to `tolerance`: the last correction of any body [m, rad × characteristic length].
    !> Equation (K.10) of docs/theory/kkt.md.
    pure subroutine find_equilibrium(suspension, inputs, tolerance, state, kkt, outcome)
       type(suspension_t), intent(in) :: suspension

@@ -61,7 +61,7 @@ contains
       if (size(self%held) <= usual) call allocate_dense(self)
    end function new_orientation
 
-   !> The same for other numbers of the model, in place unless a row has become rigid or elastic.
+   !> Renews the orientation for other numbers of the model, in place unless a row has become rigid or elastic.
    subroutine renew_orientation(suspension, self)
       type(suspension_t), intent(in) :: suspension
       type(orientation_t), intent(inout) :: self      !! of new_orientation, for the same model
@@ -87,7 +87,7 @@ contains
       self%min_b = 0.0_wp
    end subroutine renew_orientation
 
-   !> The slots of the rigid rows: one per body that a row holds.
+   !> Finds the slots of the rigid rows: one per body that a row holds.
    subroutine find_slots(self, suspension)
       type(orientation_t), intent(inout) :: self
       type(suspension_t), intent(in) :: suspension
@@ -126,7 +126,7 @@ contains
 
    end subroutine find_slots
 
-   !> The products of rows that share a body, column by column.
+   !> Finds the products of rows that share a body, column by column.
    pure subroutine find_products(self, bodies)
       type(orientation_t), intent(inout) :: self
       integer, intent(in) :: bodies
@@ -232,7 +232,7 @@ contains
       are_same = .true.
    end function are_same
 
-   !> The products of all rows of a state.
+   !> Computes the products of all rows of a state.
    pure subroutine square(self, rows)
       type(orientation_t), intent(inout) :: self
       real(wp), intent(in) :: rows(6, *)
@@ -246,7 +246,7 @@ contains
       end do
    end subroutine square
 
-   !> The products a·b of all rows of two states.
+   !> Computes the products a·b of all rows of two states.
    pure subroutine multiply_out(self, rows_a, rows_b)
       type(orientation_t), intent(inout) :: self
       real(wp), intent(in) :: rows_a(6, *), rows_b(6, *)
@@ -262,7 +262,7 @@ contains
       end do
    end subroutine multiply_out
 
-   !> Gauss's elimination of a symmetric matrix of products, or of the sum of two.
+   !> Eliminates a symmetric matrix of products, or the sum of two, by Gauss's method.
    pure subroutine eliminate(self, products, least, others)
       type(orientation_t), intent(inout) :: self
       real(wp), intent(in) :: products(:)
@@ -299,7 +299,7 @@ contains
       least = max(least, 0.0_wp)/max(most, tiny(most))
    end subroutine eliminate
 
-   !> Memory for LU factors.
+   !> Allocates memory for LU factors.
    pure subroutine allocate_dense(self)
       type(orientation_t), intent(inout) :: self
 
@@ -308,7 +308,7 @@ contains
       end associate
    end subroutine allocate_dense
 
-   !> det(Φq(a) Φq(b)ᵀ) < 0, by LU factors of the whole matrix of products.
+   !> Finds whether det(Φq(a) Φq(b)ᵀ) < 0, by LU factors of the whole matrix of products.
    pure subroutine find_sign(self, is_negative)
       type(orientation_t), intent(inout) :: self
       logical, intent(out) :: is_negative
@@ -330,7 +330,7 @@ contains
       end do
    end subroutine find_sign
 
-   !> Scaled Φq of the rigid rows.
+   !> Gathers scaled Φq of the rigid rows.
    pure subroutine gather_rows(self, suspension, poses, scale, rows)
       type(orientation_t), intent(in) :: self
       type(suspension_t), intent(in) :: suspension

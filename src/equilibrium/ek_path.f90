@@ -29,7 +29,7 @@ module ek_path
    real(wp), parameter :: suspect = 1.0e-12_wp         !! pivot ratio below which the condition number is computed
 
    abstract interface
-      !> Called at intervals with the number of states done and the total.
+      !> Reports progress: called at intervals with the number of states done and the total.
       subroutine progress_procedure(done, total)
          integer, intent(in) :: done, total
       end subroutine progress_procedure
@@ -102,7 +102,7 @@ contains
       end if
    end subroutine walk
 
-   !> The same with work space.
+   !> Sweeps a case as `sweep` does, with work space.
    subroutine go(self, suspension, case, path, kkt, progress, reach)
       type(walk_t), intent(inout) :: self
       type(suspension_t), intent(in) :: suspension
@@ -137,7 +137,7 @@ contains
 
    contains
 
-      !> Goes from row to row of a table, and from design again after a row that did not converge.
+      !> Walks from row to row of a table, and from design again after a row that did not converge.
       subroutine walk_rows()
          type(failure_t) :: failure
          integer :: k
@@ -157,7 +157,7 @@ contains
          end do
       end subroutine walk_rows
 
-      !> Goes from state `first` to state `last`, and to the first from design, in increments of the same size, unless it is that.
+      !> Walks from state `first` to state `last`, and to the first from design, in increments of the same size, unless it is that.
       subroutine walk_way(first, last, least, failure)
          integer, intent(in) :: first, last
          integer, intent(in) :: least                 ! states that the way on the other side begins with (seed)
@@ -329,7 +329,7 @@ contains
       end do
    end subroutine seed
 
-   !> One increment to `value`, of state k, with the method of the case.
+   !> Makes one increment to `value`, of state k, with the method of the case.
    subroutine advance(self, suspension, case, value, k, path, kkt, failure)
       type(walk_t), intent(inout) :: self
       type(suspension_t), intent(in) :: suspension

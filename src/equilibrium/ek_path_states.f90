@@ -73,7 +73,7 @@ contains
       if (path%start == 0) path%value(n + 1) = case%to      ! not just nearly, as from + (to − from) is
    end subroutine new_path
 
-   !> Storage for the states of a path, and a path without any.
+   !> Allocates storage for the states of a path, and leaves the path without any.
    pure subroutine clear(numbers, path)
       integer, intent(in) :: numbers              !! of a state
       type(path_t), intent(inout) :: path         !! with the number of its states

@@ -127,7 +127,7 @@ contains
       end do
    end subroutine note_connections
 
-   !> The blocks of two bodies; a new pair gets the next number.
+   !> Finds the blocks of two bodies; a new pair gets the next number.
    pure subroutine find_blocks(i, j, bodies, blocks, pair, at)
       integer, intent(in) :: i, j                !! bodies, 0: chassis
       integer, intent(in) :: bodies
@@ -173,7 +173,7 @@ contains
       end select
    end subroutine use_parts
 
-   !> The number of the gradient of a row at a body; a new body gets the next number.
+   !> Finds the number of the gradient of a row at a body; a new body gets the next number.
    pure subroutine find_slot(body, first, slots, body_of_slot, slot)
       integer, intent(in) :: body, first         !! first: of the row
       integer, intent(inout) :: slots            !! so far
@@ -190,7 +190,7 @@ contains
       body_of_slot(slot) = body
    end subroutine find_slot
 
-   !> All places of the lower triangle, column by column of the blocks, and the whole diagonal.
+   !> Lists all positions of the lower triangle, column by column of the blocks, and the whole diagonal.
    subroutine list_entries(self, is_used, has_force)
       type(pattern_t), intent(inout) :: self
       logical, intent(in) :: is_used(:, :, :), has_force(:)

@@ -25,7 +25,7 @@ module ek_plan
 
 contains
 
-   !> The plan of a pattern of n unknowns, entries as in find_order.
+   !> Creates the plan of a pattern of n unknowns, entries as in find_order.
    subroutine new_plan(n, row, column, values, plan)
       integer, intent(in) :: n
       integer, intent(in) :: row(:), column(:)   !! of each entry
@@ -37,7 +37,7 @@ contains
       call lay_out(n, row, column, order, plan)
    end subroutine new_plan
 
-   !> The plan that eliminates the unknowns one by one from first to last.
+   !> Creates the plan that eliminates the unknowns one by one from first to last.
    subroutine new_natural_plan(n, row, column, plan)
       integer, intent(in) :: n
       integer, intent(in) :: row(:), column(:)   !! of each entry
@@ -48,7 +48,7 @@ contains
       call lay_out(n, row, column, order, plan)
    end subroutine new_natural_plan
 
-   !> The places of all numbers and updates for an order.
+   !> Lays out the positions of all numbers and updates for an order.
    pure subroutine lay_out(n, row, column, order, plan)
       integer, intent(in) :: n
       integer, intent(in) :: row(:), column(:)   !! of each entry
@@ -116,7 +116,7 @@ contains
       end do
    end subroutine sort_rows
 
-   !> The number of each unknown among the rows of a block.
+   !> Finds the number of each unknown among the rows of a block.
    pure subroutine find_places(plan, block, place_in)
       type(plan_t), intent(in) :: plan
       integer, intent(in) :: block

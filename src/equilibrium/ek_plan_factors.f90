@@ -27,7 +27,7 @@ module ek_plan_factors
 
 contains
 
-   !> The scaled numbers at their places, and their factors; with explicit shapes.
+   !> Gathers the scaled numbers at their positions, and factorises them; with explicit shapes.
    pure subroutine gather_and_factorise(entries, from, plan, store, scaling, x, soundness)
       integer, intent(in) :: entries, from(entries)
       type(plan_t), intent(in) :: plan
@@ -44,7 +44,7 @@ contains
       call factorise_by(plan, x, soundness)
    end subroutine gather_and_factorise
 
-   !> y ← A⁻¹ y with the factors of the scaled matrix D A D.
+   !> Solves y ← A⁻¹ y with the factors of the scaled matrix D A D.
    pure subroutine solve_by(plan, x, scale, y)
       type(plan_t), intent(in) :: plan
       real(num), intent(in) :: x(plan%length)
@@ -61,7 +61,7 @@ contains
       end do
    end subroutine solve_by
 
-   !> x ← the factors of the matrix in x: D⁻¹ at the places of D, and L. A pivot that is zero, or too small to divide by, is left
+   !> Factorises the matrix in x: D⁻¹ at the positions of D, and L. A pivot that is zero, or too small to divide by, is left
    !> out, and growth is huge.
    !> Equation (K.23) of docs/theory/kkt.md.
    pure subroutine factorise_by(plan, x, soundness)
@@ -151,7 +151,7 @@ contains
       soundness%growth = merge(growth, unlimited, is_sound)
    end subroutine factorise_by
 
-   !> The updates of a column: x(places) ← x(places) − l a. No place is one of a.
+   !> Subtracts the updates of a column: x(places) ← x(places) − l a. No entry of `places` is one of a.
    pure subroutine subtract_one(length, places, l, a, x)
       integer, intent(in) :: length, places(length)
       real(num), intent(in) :: l, a(length)
@@ -163,7 +163,7 @@ contains
       end do
    end subroutine subtract_one
 
-   !> The same for a pivot of two: x(places) ← x(places) − (l a + m b).
+   !> Subtracts the updates of a pivot of two: x(places) ← x(places) − (l a + m b).
    pure subroutine subtract_two(length, places, l, m, a, b, x)
       integer, intent(in) :: length, places(length)
       real(num), intent(in) :: l, m, a(length), b(length)
@@ -175,7 +175,7 @@ contains
       end do
    end subroutine subtract_two
 
-   !> y ← A⁻¹ y for one right-hand side, with the factors of A.
+   !> Solves y ← A⁻¹ y for one right-hand side, with the factors of A.
    pure subroutine substitute_by(plan, x, y)
       type(plan_t), intent(in) :: plan
       real(num), intent(in) :: x(plan%length)
@@ -233,7 +233,7 @@ contains
       end do
    end subroutine substitute_by
 
-   !> The same for several right-hand sides at a time. Most are loads on one body: a block where all are zero is passed over.
+   !> Solves for several right-hand sides at a time. Most are loads on one body: a block where all are zero is passed over.
    pure subroutine substitute_several_by(plan, x, y)
       type(plan_t), intent(in) :: plan
       real(num), intent(in) :: x(plan%length)

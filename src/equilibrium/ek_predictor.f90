@@ -33,7 +33,7 @@ contains
       allocate (self%packed(length, depth), self%guess(length), source=0.0_wp)
    end function new_predictor
 
-   !> Forget all states.
+   !> Forgets all states.
    pure subroutine forget(self)
       type(predictor_t), intent(inout) :: self
       self%newest = 0
@@ -41,7 +41,7 @@ contains
       self%trusted = depth
    end subroutine forget
 
-   !> Add a state at a value of the path coordinate.
+   !> Adds a state at a value of the path coordinate.
    pure subroutine remember(self, abscissa, packed)
       type(predictor_t), intent(inout) :: self
       real(wp), intent(in) :: abscissa
@@ -122,7 +122,7 @@ contains
       end do
    end function usable
 
-   !> Lagrange weights of the newest n states at a value of the path coordinate, and their storage slots.
+   !> Finds the Lagrange weights of the newest n states at a value of the path coordinate, and their storage slots.
    !> Equation (K.12) of docs/theory/kkt.md.
    pure subroutine find_weights(self, abscissa, n, slot, weight)
       type(predictor_t), intent(in) :: self

@@ -96,7 +96,7 @@ contains
       end do
    end subroutine clear_preloads
 
-   !> The problem of a suspension at design; memory of the design before is used again.
+   !> Sets the problem of a suspension at design; memory of the design before is used again.
    !> Equation (K.21) of docs/theory/kkt.md.
    subroutine set_problem(suspension, problem)
       type(suspension_t), intent(in) :: suspension    !! with zero for the preloads that are sought: `clear_preloads`
@@ -149,7 +149,7 @@ contains
       end associate
    end subroutine set_problem
 
-   !> The lists of a problem, as long as the suspension requires.
+   !> Allocates the lists of a problem, as long as the suspension requires.
    pure subroutine allocate_problem(suspension, used, problem)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: used                     !! columns of F that may carry a force
@@ -186,7 +186,7 @@ contains
       end associate
    end subroutine add_piece
 
-   !> The generalised force of a unit preload component k of a bushing on its bodies at design.
+   !> Computes the generalised force of a unit preload component k of a bushing on its bodies at design.
    pure subroutine bushing_column(bushing, measure, k, gradient)
       type(bushing_t), intent(in) :: bushing
       type(measure_t), intent(in) :: measure
@@ -225,7 +225,7 @@ contains
       end if
    end subroutine scale_gradient
 
-   !> The solution by elimination, corrected until it is that of W and F themselves. is_sure is .false., and x and y have no
+   !> Solves by elimination, corrected until the solution is that of W and F themselves. is_sure is .false., and x and y have no
    !> meaning, where the problem may have no unique solution, or the corrections do not become small as they should.
    !> Equation (K.21) of docs/theory/kkt.md.
    pure subroutine hold_by_elimination(problem, x, y, is_sure)
@@ -321,7 +321,7 @@ contains
       end do
    end subroutine add_columns
 
-   !> x = Wᵀ v
+   !> Computes x = Wᵀ v.
    pure subroutine bushing_forces(problem, v, x)
       type(preload_problem_t), intent(in) :: problem
       real(wp), intent(in) :: v(:)
@@ -339,7 +339,7 @@ contains
       end do
    end subroutine bushing_forces
 
-   !> c ← c − W x
+   !> Computes c ← c − W x.
    pure subroutine subtract_bushings(problem, x, c)
       type(preload_problem_t), intent(in) :: problem
       real(wp), intent(in) :: x(:)
@@ -353,7 +353,7 @@ contains
       end do
    end subroutine subtract_bushings
 
-   !> c ← c − F y, y of the columns in `used`
+   !> Computes c ← c − F y, y of the columns in `used`.
    pure subroutine subtract_free(problem, y, c)
       type(preload_problem_t), intent(in) :: problem
       real(wp), intent(in) :: y(:)
@@ -365,7 +365,7 @@ contains
       end do
    end subroutine subtract_free
 
-   !> The solution by singular values: the smallest x of those that leave the least remainder, and the smallest y with it.
+   !> Solves by singular values: the smallest x of those that leave the least remainder, and the smallest y with it.
    pure subroutine hold_by_singular_values(problem, x, y, remainder, is_found)
       type(preload_problem_t), intent(in) :: problem
       real(wp), intent(out) :: x(:), y(:)             !! as in hold_by_elimination

@@ -50,7 +50,7 @@ module ek_reach
 
 contains
 
-   !> Goes from design to equilibrium under the constant loads and preloads only.
+   !> Moves from design to equilibrium under the constant loads and preloads only.
    !>
    !> In one step if possible; otherwise the imbalance of the design position is applied gradually (homotopy): its share
    !> is the swept value on the path.
@@ -82,7 +82,7 @@ contains
       call reach(suspension, schedule, 1.0_wp, tolerance, branch, state, kkt, iterations, failure)
    end subroutine settle
 
-   !> Goes from the newest stored state to equilibrium at the swept value `goal` of a path, in one step if the path allows it.
+   !> Moves from the newest stored state to equilibrium at the swept value `goal` of a path, in one step if the path allows it.
    !>
    !> A step is halved if no equilibrium is found, or one that is not on the path (ek_branch); it is doubled again after an
    !> accepted step. A step shorter than branch%least means the end of the path: `state` is then the last equilibrium.
@@ -192,7 +192,7 @@ contains
       step%iterations = step%iterations + step%outcome%factorisations
    end subroutine find_end
 
-   !> Whether the end of a step is on the path: the prediction was close, or a comparison with the beginning says so.
+   !> Judges whether the end of a step is on the path: the prediction was close, or a comparison with the beginning confirms it.
    subroutine judge_end(suspension, tolerance, branch, state, kkt, step)
       type(suspension_t), intent(in) :: suspension
       real(wp), intent(in) :: tolerance
@@ -220,8 +220,8 @@ contains
       end associate
    end subroutine judge_end
 
-   !> The goal itself is a bifurcation: N is singular there. The path is taken up again just behind it, and the state is what
-   !> lies between; the width is so small that the path is straight.
+   !> Steps over a goal that is a bifurcation itself: N is singular there. The path is taken up again just behind it, and the
+   !> state is what lies between; the width is so small that the path is straight.
    subroutine step_over(suspension, schedule, goal, tolerance, branch, state, kkt, step, is_there)
       type(suspension_t), intent(in) :: suspension
       type(schedule_t), intent(in) :: schedule

@@ -13,7 +13,7 @@ module ek_recursion
 
 contains
 
-   !> Before the first increment: λ⁻¹ is the reaction in the design state (zero without preload).
+   !> Starts the recursion before the first increment: λ⁻¹ is the reaction in the design state (zero without preload).
    !>
    !> It is the λ of [K Φqᵀ; Φq 0][Δq; λ] = [f_ext − f_el; 0] at design; Δq vanishes if the preloads
    !> balance the constant loads.
@@ -30,7 +30,7 @@ contains
       call solve_and_hold(suspension, state, kkt, held)
    end subroutine start_recursion
 
-   !> One increment of Kang (2005), eqs. (25)–(29), literally:
+   !> Computes one increment of Kang (2005), eqs. (25)–(29), literally:
    !>
    !>     [K(qⁿ) Φqᵀ; Φq −C][Δqⁿ; λⁿ] = [Δf; Δc] + [Φq(qⁿ⁻¹)ᵀ λⁿ⁻¹; −Cλⁿ⁻¹],  K = −(19)
    !>
@@ -55,7 +55,7 @@ contains
       if (.not. kkt%is_singular) call move(state, kkt%rhs(:kkt%nq))
    end subroutine recursive_increment
 
-   !> One full Newton step towards the next inputs, once per increment: same matrix size, one solution.
+   !> Makes one full Newton step towards the next inputs, once per increment: same matrix size, one solution.
    !>
    !>     [T Φqᵀ; Φq 0][Δq; Δλ] = [f_ext(Fₙ₊₁, qⁿ) − f_el(qⁿ) − Φqᵀλⁿ; cₙ₊₁ − Φ(qⁿ)]
    !>
@@ -96,7 +96,7 @@ contains
       end do
    end subroutine solve_and_hold
 
-   !> An increment of the linear methods has failed if the matrix was singular or a body moved too far.
+   !> Checks an increment of the linear methods, which has failed if the matrix was singular or a body moved too far.
    subroutine check_increment(kkt, state_number, before, value, failure)
       type(kkt_t), intent(in) :: kkt
       integer, intent(in) :: state_number

@@ -17,7 +17,7 @@ module ek_scale
 
 contains
 
-   !> The size of the mechanism (mean distance of its attachment points from the reference points)
+   !> Computes the size of the mechanism (mean distance of its attachment points from the reference points)
    !> and the geometric mean of its stiffnesses at design.
    subroutine characteristic(suspension, length, stiffness)
       type(suspension_t), intent(in) :: suspension
@@ -82,7 +82,7 @@ contains
 
    end subroutine characteristic
 
-   !> D of a model: six numbers per body, then one per row of Φ.
+   !> Computes D of a model: six numbers per body, then one per row of Φ.
    !> Equation (K.5) of docs/theory/kkt.md.
    pure subroutine scale_factors(suspension, length, stiffness, scale)
       type(suspension_t), intent(in) :: suspension

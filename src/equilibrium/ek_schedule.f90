@@ -37,7 +37,7 @@ contains
       call make_schedule(suspension, case, schedule)
    end function new_schedule
 
-   !> The same for one design after the other: memory is used again.
+   !> Makes the schedule for one design after the other: memory is used again.
    subroutine make_schedule(suspension, case, schedule)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
@@ -124,7 +124,7 @@ contains
 
    end function same_schedule
 
-   !> The inputs at a value of the path coordinate.
+   !> Computes the inputs at a value of the path coordinate.
    pure subroutine inputs_at(schedule, place, inputs)
       type(schedule_t), intent(in) :: schedule
       real(wp), intent(in) :: place

@@ -44,7 +44,7 @@ contains
       rate%homotopy = (b%homotopy - a%homotopy)/width
    end function inputs_rate
 
-   !> The motion of every body between two states: Δr of its reference point, and its rotation vector, global axes.
+   !> Finds the motion of every body between two states: Δr of its reference point, and its rotation vector, global axes.
    pure subroutine motion_between(a, b, motion)
       type(state_t), intent(in) :: a, b
       real(wp), contiguous, intent(out) :: motion(:)   !! [Δr Δπ] of each body [m, rad]
@@ -64,7 +64,7 @@ contains
       allocate (state%reaction(suspension%constraints()), source=0.0_wp)
    end function design_state
 
-   !> The same in a state of this model.
+   !> Resets a state of this model to design, in place.
    pure subroutine return_to_design(suspension, state)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(inout) :: state
@@ -134,7 +134,7 @@ contains
       state%reaction(:) = packed(at + 1:)
    end subroutine unpack_state
 
-   !> r ← r + Δr, A ← exp(Δπ̃) A (Kang 2005, eq. 4) for every body.
+   !> Moves every body: r ← r + Δr, A ← exp(Δπ̃) A (Kang 2005, eq. 4).
    !> Equation (R.5) of docs/theory/rotations.md.
    pure subroutine move(state, step)
       type(state_t), intent(inout) :: state
@@ -152,7 +152,7 @@ contains
       end do
    end subroutine move
 
-   !> Every body makes a screw motion (see ek_motion).
+   !> Moves every body by a screw motion (see ek_motion).
    pure subroutine move_as_screw(state, step)
       type(state_t), intent(inout) :: state
       real(wp), contiguous, intent(in) :: step(:)   !! [Δr Δπ] of each body [m, rad]

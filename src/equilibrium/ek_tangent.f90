@@ -36,7 +36,7 @@ contains
       self%is_symmetric = has_symmetric_loads(suspension)
    end function new_tangent
 
-   !> The same for other numbers of the model.
+   !> Renews the work space for other numbers of the model.
    pure subroutine renew_tangent(suspension, self)
       type(suspension_t), intent(in) :: suspension
       type(tangent_t), intent(inout) :: self      !! of new_tangent, for the same model
@@ -76,7 +76,7 @@ contains
       is_bend = rest <= bent*largest
    end function is_bend
 
-   !> dz/ds = N⁻¹ dF/ds at a state, with the current factors; the part for the bodies.
+   !> Computes dz/ds = N⁻¹ dF/ds at a state, with the current factors; the part for the bodies.
    !>
    !> With a constant moment, a load that rotates with its body, or the imbalance at design, the true matrix is not
    !> symmetric and N is its symmetric part. The derivative of the residual along the tangent then corrects it.
@@ -123,7 +123,7 @@ contains
 
    contains
 
-      !> The residual at a small distance along the tangent, with the same inputs.
+      !> Computes the residual at a small distance along the tangent, with the same inputs.
       subroutine shifted_residual(distance)
          real(wp), intent(in) :: distance     !! place
 

@@ -26,7 +26,7 @@ module ek_carmaker
 
 contains
 
-   !> The file as text.
+   !> Writes the file as text.
    subroutine carmaker_text(map, is_front, checksum, text, error)
       type(kandc_map_t), intent(in) :: map
       logical, intent(in) :: is_front
@@ -91,7 +91,7 @@ contains
       lines = line_count(text(:last))
    end function skc_table_lines
 
-   !> The values of the second argument: at least two, also if nothing depends on it.
+   !> Finds the values of the second argument: at least two, also if nothing depends on it.
    pure subroutine second_argument(map, second)
       type(kandc_map_t), intent(in) :: map
       real(wp), allocatable, intent(out) :: second(:)
@@ -177,7 +177,7 @@ contains
       end do
    end subroutine add_compliance
 
-   !> A line of numbers, nine digits each.
+   !> Adds a line of numbers, nine digits each.
    subroutine add_numbers(file, key, values)
       type(buffer_t), intent(inout) :: file
       character(*), intent(in) :: key

@@ -40,7 +40,7 @@ module ek_carsim
 
 contains
 
-   !> The file as text.
+   !> Writes the file as text.
    subroutine carsim_text(map, checksum, text, error)
       type(kandc_map_t), intent(in) :: map
       character(*), intent(in) :: checksum                  !! of the deck
@@ -105,7 +105,7 @@ contains
       call file%line('ENDTABLE')
    end subroutine add_table
 
-   !> Ratios of the lengths to jounce at design, positive: shortens in bump.
+   !> Adds ratios of the lengths to jounce at design, positive: shortens in bump.
    subroutine add_ratios(map, side, file)
       type(kandc_map_t), intent(in) :: map
       integer, intent(in) :: side
@@ -124,7 +124,7 @@ contains
       end do
    end subroutine add_ratios
 
-   !> Coefficients of compliance under loads on the wheel itself, ISO directions.
+   !> Adds coefficients of compliance under loads on the wheel itself, ISO directions.
    subroutine add_compliance(map, side, file)
       type(kandc_map_t), intent(in) :: map
       integer, intent(in) :: side

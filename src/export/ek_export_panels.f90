@@ -24,7 +24,7 @@ module ek_export_panels
 
 contains
 
-   !> Kinematics of one side over travel and steer, and the five diagonal compliances.
+   !> Adds panels of the kinematics of one side over travel and steer, and of the five diagonal compliances.
    subroutine carmaker_panels(map, sources, file, text, list)
       type(kandc_map_t), intent(in) :: map
       type(sources_t), intent(in) :: sources
@@ -157,7 +157,7 @@ contains
       end if
    end function load_changes
 
-   !> The loads are stored one after the other, the left wheel first.
+   !> Finds the rows of a load. The loads are stored one after the other, the left wheel first.
    pure subroutine rows_of_load(sources, part, first, count)
       type(sources_t), intent(in) :: sources
       integer, intent(in) :: part
@@ -182,7 +182,7 @@ contains
       if (at > 0) read (text(at + len(key):), *, iostat=status) values
    end function numbers_behind
 
-   !> The tables over jounce, and two of the coefficients.
+   !> Adds panels of the tables over jounce, and of two of the coefficients.
    subroutine carsim_panels(map, sources, file, text, list)
       type(kandc_map_t), intent(in) :: map
       type(sources_t), intent(in) :: sources
@@ -223,7 +223,7 @@ contains
          decimal(slope(1))//'*x'//line_style, x, -(y - y(minloc(abs(x), dim=1))))
    end subroutine carsim_panels
 
-   !> The tables of the script, with the gradients as lines through design.
+   !> Adds panels of the tables of the script, with the gradients as lines through design.
    subroutine mathworks_panels(sources, file, text, corner, points, list)
       type(sources_t), intent(in) :: sources
       character(*), intent(in) :: file, text
@@ -263,7 +263,7 @@ contains
          str(points - 1)//':0 using 1:2'//point_style, x, y)
    end subroutine mathworks_panels
 
-   !> The kinematics of the left (or only) wheel.
+   !> Adds panels of the kinematics of the left (or only) wheel.
    subroutine csv_panels(map, sources, file, is_sae, list)
       type(kandc_map_t), intent(in) :: map
       type(sources_t), intent(in) :: sources

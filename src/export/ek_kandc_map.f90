@@ -104,7 +104,7 @@ contains
       allocate (map%value(quantities, size(map%second), size(map%travel), 2), source=0.0_wp)
    end subroutine describe
 
-   !> The sign of the driver that turns the wheels to the left.
+   !> Finds the sign of the driver that turns the wheels to the left.
    subroutine find_sign(suspension, request, map, error)
       type(suspension_t), intent(in) :: suspension
       type(map_request_t), intent(in) :: request
@@ -129,8 +129,8 @@ contains
       map%driver_sign = sign(1.0_wp, motion(at_rz, 2) - motion(at_rz, 1))
    end subroutine find_sign
 
-   !> The states to solve, the design state first, then the grid there and back, so that neighbouring rows are neighbours of the
-   !> grid.
+   !> Lists the states to solve, the design state first, then the grid there and back, so that neighbouring rows are neighbours
+   !> of the grid.
    pure subroutine order_rows(map, wheels, heights, steer, at)
       type(kandc_map_t), intent(in) :: map
       integer, intent(in) :: wheels(2)
@@ -183,7 +183,7 @@ contains
       call solve_table(suspension, table, vertical, result, error)
    end subroutine solve_rows
 
-   !> The solved rows at their places of the grid.
+   !> Copies the solved rows to their positions in the grid.
    subroutine take_values(suspension, request, result, wheels, at, map)
       type(suspension_t), intent(in) :: suspension
       type(map_request_t), intent(in) :: request
@@ -207,7 +207,7 @@ contains
       if (size(suspension%wheels) == 0) map%value = 0.0_wp
    end subroutine take_values
 
-   !> Compliance at design, the first row.
+   !> Copies the compliance at design, the first row.
    subroutine take_compliance(result, wheels, map, error)
       type(case_result_t), intent(inout) :: result
       integer, intent(in) :: wheels(2)
@@ -262,7 +262,7 @@ contains
       end do
    end subroutine take_compliance
 
-   !> The side that the deck does not have, as the mirror image of the other.
+   !> Mirrors the side that the deck has to the side that it does not have.
    subroutine mirror_map(map, to, error)
       type(kandc_map_t), intent(inout) :: map
       integer, intent(in) :: to                            !! 1 left, 2 right

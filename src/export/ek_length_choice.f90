@@ -55,7 +55,7 @@ contains
       if (mistakes%count() > 0) call fail(error, exit_usage, mistakes%text())
    end subroutine choose_lengths
 
-   !> The only element of the kind, or what stands for it.
+   !> Chooses the only element of the kind, or its replacement.
    subroutine choose_itself(suspension, wheel, side, j, choice, mistakes)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: wheel, side, j
@@ -98,7 +98,7 @@ contains
       end select
    end subroutine choose_itself
 
-   !> An element or a measure of this name: left_NAME or right_NAME on an axle; of LEFT,RIGHT the one of this side.
+   !> Chooses an element or a measure of this name: left_NAME or right_NAME on an axle; of LEFT,RIGHT the one of this side.
    subroutine take_named(suspension, wheel, side, j, name, choice, mistakes)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: wheel, side, j

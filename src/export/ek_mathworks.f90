@@ -217,7 +217,7 @@ contains
       value = slope_at_zero(x, y)
    end function slope
 
-   !> The two columns of a table, in its units; change from design where the block adds the static value.
+   !> Extracts the two columns of a table, in its units; change from design where the block adds the static value.
    subroutine curve_of(map, side, table, x, y)
       type(kandc_map_t), intent(in) :: map
       integer, intent(in) :: side

@@ -92,7 +92,7 @@ contains
          '. Use a shorter range (--travel, --steer, --loads), or more points'//new_line('a')//result%remarks%failures())
    end subroutine solve_table
 
-   !> The motions of one wheel in all rows: (quantity, row).
+   !> Reads the motions of one wheel in all rows: (quantity, row).
    subroutine motions(result, wheel, choices, values)
       type(case_result_t), intent(in) :: result
       integer, intent(in) :: wheel

@@ -24,7 +24,7 @@ module ek_deck_text
 
 contains
 
-   !> A line of comment; characters that could end it are shown as their numbers.
+   !> Writes a line of comment; characters that could end it are shown as their numbers.
    subroutine text_comment(self, words)
       class(deck_text_t), intent(inout) :: self
       character(*), intent(in) :: words
@@ -34,7 +34,7 @@ contains
       call self%buffer%line('')
    end subroutine text_comment
 
-   !> A comment above a section.
+   !> Writes a comment above a section.
    subroutine text_heading(self, words)
       class(deck_text_t), intent(inout) :: self
       character(*), intent(in) :: words
@@ -58,7 +58,7 @@ contains
       self%is_first = .true.
    end subroutine text_begin
 
-   !> key = 'word'
+   !> Writes key = 'word'.
    subroutine text_word(self, key, word)
       class(deck_text_t), intent(inout) :: self
       character(*), intent(in) :: key, word
@@ -67,7 +67,7 @@ contains
       call put_quoted(self, word)
    end subroutine text_word
 
-   !> key = 'first', 'second'
+   !> Writes key = 'first', 'second'.
    subroutine text_words(self, key, first, second)
       class(deck_text_t), intent(inout) :: self
       character(*), intent(in) :: key, first, second
@@ -78,7 +78,7 @@ contains
       call put_quoted(self, second)
    end subroutine text_words
 
-   !> One word of a list, whose key is written with the first.
+   !> Writes one string of a list, whose key is written with the first.
    subroutine text_add_word(self, key, word, is_first)
       class(deck_text_t), intent(inout) :: self
       character(*), intent(in) :: key, word
@@ -102,7 +102,7 @@ contains
       call put_number(self, value)
    end subroutine text_number
 
-   !> key = 1, 2.5, 3
+   !> Writes key = 1, 2.5, 3.
    subroutine text_numbers(self, key, values)
       class(deck_text_t), intent(inout) :: self
       character(*), intent(in) :: key
@@ -175,7 +175,8 @@ contains
       self%column = self%column + self%buffer%length() - before
    end subroutine put_quoted
 
-   !> Text without line ends and other invisible characters; an apostrophe becomes that of typography, as a deck cannot hold it.
+   !> Adds text without line ends and other invisible characters; an apostrophe becomes that of typography, as a deck cannot
+   !> hold it.
    subroutine add_safe(self, text)
       class(deck_text_t), intent(inout) :: self
       character(*), intent(in) :: text

@@ -30,7 +30,7 @@ module ek_fields
 
 contains
 
-   !> The lines of a file with the line ends of any system. Reports a file that is not text.
+   !> Splits a file into lines, with the line ends of any system. Reports a file that is not text.
    subroutine split_lines(text, lines, flaws)
       character(*), intent(in) :: text
       type(lines_t), intent(out) :: lines
@@ -72,7 +72,7 @@ contains
       text = self%text(self%first(k):self%last(k))
    end function lines_line
 
-   !> The fields of a line. A quote that is not closed is reported, and its text ends with the line.
+   !> Splits a line into fields. A quote that is not closed is reported, and its text ends with the line.
    subroutine split_fields(text, line, fields, used, flaws, commas_separate)
       character(*), intent(in) :: text
       integer, intent(in) :: line
@@ -117,11 +117,11 @@ contains
       end do
    end subroutine split_fields
 
-   !> The number in a text; reports a text that is none, and a number that is not finite or too large.
+   !> Reads the number in a text; reports a text that is not a number, and a number that is not finite or too large.
    subroutine take_number(text, line, what, value, flaws, is_good)
       character(*), intent(in) :: text, what      !! what: 'x of hardpoint', for the message
       integer, intent(in) :: line
-      real(wp), intent(out) :: value              !! 0 if it is none
+      real(wp), intent(out) :: value              !! 0 if it is not a number
       type(flaws_t), intent(inout) :: flaws
       logical, intent(out) :: is_good
 

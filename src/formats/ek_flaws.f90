@@ -26,7 +26,7 @@ contains
       flaws%file = file
    end function new_flaws
 
-   !> Keeps a mistake; of very many the first.
+   !> Adds an error; of very many the first are stored.
    pure subroutine flaws_add(self, line, what)
       class(flaws_t), intent(inout) :: self
       integer, intent(in) :: line              !! 0: the file as a whole

@@ -66,7 +66,7 @@ contains
       if (flaws%count() > 0) call fail(error, exit_deck, flaws%text())
    end subroutine import_file
 
-   !> The same for a text; mistakes are in `flaws`, and with them `text` is ''.
+   !> Converts a text as import_file does a file; errors are in `flaws`, and with them `text` is ''.
    subroutine import_text(content, path, text, kind, flaws)
       character(*), intent(in) :: content, path
       character(:), allocatable, intent(out) :: text
@@ -107,7 +107,7 @@ contains
       text = deck%text()
    end function put_model
 
-   !> &point of each hardpoint; of a pair the left and the right one.
+   !> Writes &point for each hardpoint; of a pair the left and the right one.
    subroutine import_points(content, path, text, flaws)
       character(*), intent(in) :: content, path
       character(:), allocatable, intent(inout) :: text
@@ -151,7 +151,7 @@ contains
 
    end subroutine import_points
 
-   !> &curve of each law, and in comments the element that uses them.
+   !> Writes &curve for each law, and in comments the element that uses them.
    subroutine import_law(content, path, text, flaws)
       character(*), intent(in) :: content, path
       character(:), allocatable, intent(inout) :: text
@@ -200,7 +200,7 @@ contains
       end do
    end function commented
 
-   !> An axle with its bushings, which are in files of their own.
+   !> Writes an axle with its bushings, which are in files of their own.
    subroutine import_axle(content, path, text, flaws)
       character(*), intent(in) :: content, path
       character(:), allocatable, intent(inout) :: text
@@ -219,7 +219,7 @@ contains
       call kin_deck(kin, mounts, path, text, flaws)
    end subroutine import_axle
 
-   !> The law of a bushing: from its file, beside the axle or below it as the axle names it. IPGKinematics has files
+   !> Finds the law of a bushing: from its file, in the folder of the axle or below it as the axle names it. IPGKinematics has files
    !> lin01000.gum for 1000 N/mm in all directions and so on: these need not be there.
    subroutine find_mount(path, named, line, mount, flaws)
       character(*), intent(in) :: path, named

@@ -38,7 +38,7 @@ contains
       end do
    end function is_gum
 
-   !> The laws of a bushing, [m, N] and [rad, N m].
+   !> Reads the laws of a bushing, [m, N] and [rad, N m].
    subroutine parse_gum(lines, laws, flaws)
       type(lines_t), intent(in) :: lines
       type(law_points_t), intent(inout) :: laws(6)
@@ -77,7 +77,7 @@ contains
       end do
    end subroutine parse_gum
 
-   !> A list of displacements: one side of an axis.
+   !> Reads a list of displacements: one side of an axis.
    subroutine take_displacements(gum, label, line, fields, flaws)
       type(gum_t), intent(inout) :: gum
       character(*), intent(in) :: label
@@ -105,7 +105,7 @@ contains
       end associate
    end subroutine take_displacements
 
-   !> The forces at the displacements of a list.
+   !> Reads the forces at the displacements of a list.
    subroutine take_forces(gum, label, line, fields, flaws)
       type(gum_t), intent(inout) :: gum
       character(*), intent(in) :: label
@@ -133,7 +133,7 @@ contains
       end associate
    end subroutine take_forces
 
-   !> The rotational stiffness of the axis whose lists came last.
+   !> Reads the rotational stiffness of the axis whose lists came last.
    subroutine take_stiffness(gum, label, line, fields, flaws)
       type(gum_t), intent(inout) :: gum
       character(*), intent(in) :: label
@@ -156,7 +156,7 @@ contains
       end associate
    end subroutine take_stiffness
 
-   !> Whether the negative side has numbers of its own.
+   !> Reads whether the negative side has numbers of its own.
    subroutine take_symmetry(gum, line, field, flaws)
       type(gum_t), intent(inout) :: gum
       integer, intent(in) :: line
@@ -172,7 +172,7 @@ contains
       if (gum%flag < 0) call flaws%add(line, 'expected 0 (symmetric) or 1 (asymmetric), found '//str(value))
    end subroutine take_symmetry
 
-   !> The law of the rotation about an axis.
+   !> Makes the law of the rotation about an axis.
    subroutine put_stiffness(gum, axis, line, law, flaws)
       type(gum_t), intent(in) :: gum
       integer, intent(in) :: axis, line
@@ -187,7 +187,7 @@ contains
       call add_point(law, 1.0_wp, gum%stiffness(axis), line)
    end subroutine put_stiffness
 
-   !> One law of both sides, with the origin between them.
+   !> Makes one law of both sides, with the origin between them.
    subroutine join_halves(gum, axis, law, flaws)
       type(gum_t), intent(inout) :: gum
       integer, intent(in) :: axis
@@ -222,7 +222,7 @@ contains
       call finish_law(law, 'the list of '//axes(axis:axis), flaws)
    end subroutine join_halves
 
-   !> The points of one side lie on it and lead away from 0; a point at 0 is dropped.
+   !> Checks that the points of one side lie on it and lead away from 0; a point at 0 is dropped.
    subroutine finish_half(half, side, flaws)
       type(law_points_t), intent(inout) :: half
       integer, intent(in) :: side
@@ -247,7 +247,7 @@ contains
       half%used = kept
    end subroutine finish_half
 
-   !> The axis and the side of a label: 'displacement +X [mm]'.
+   !> Finds the axis and the side of a label: 'displacement +X [mm]'.
    subroutine find_axis(label, line, axis, side, flaws)
       character(*), intent(in) :: label
       integer, intent(in) :: line

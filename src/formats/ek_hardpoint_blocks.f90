@@ -14,7 +14,7 @@ module ek_hardpoint_blocks
 
 contains
 
-   !> All [HARDPOINT] blocks.
+   !> Reads all [HARDPOINT] blocks.
    subroutine take_blocks(file, sheet, flaws)
       type(teimorbit_t), intent(in) :: file
       type(hardpoints_t), intent(inout) :: sheet
@@ -58,7 +58,7 @@ contains
       if (words /= '') words = '; read its subsystems instead:'//words
    end function advice
 
-   !> The rows of one block.
+   !> Reads the rows of one block.
    subroutine take_rows(file, block, unit, order, sheet, flaws)
       type(teimorbit_t), intent(in) :: file
       integer, intent(in) :: block
@@ -104,7 +104,7 @@ contains
       end do
    end subroutine take_rows
 
-   !> A block with one hardpoint as entries.
+   !> Reads a block with one hardpoint as entries.
    subroutine take_entries(file, block, unit, sheet, flaws)
       type(teimorbit_t), intent(in) :: file
       integer, intent(in) :: block

@@ -19,7 +19,7 @@ module ek_hardpoint_table
 
 contains
 
-   !> A table: heads, then a hardpoint a line.
+   !> Reads a table: headings, then one hardpoint per line.
    subroutine take_table(lines, length, sheet, flaws)
       type(lines_t), intent(in) :: lines
       real(wp), intent(in) :: length
@@ -112,7 +112,7 @@ contains
       end do
    end function is_row
 
-   !> The columns of name, symmetry, x, y, z (0: none), and the units of the last three.
+   !> Finds the columns of name, symmetry, x, y, z (0: none), and the units of the last three.
    subroutine find_columns(cells, length, columns, units)
       type(message_list_t), intent(in) :: cells
       real(wp), intent(in) :: length
@@ -142,14 +142,14 @@ contains
          if (c > 2) units(c - 2) = unit
       end do
       if (columns(1) > 0 .or. any(columns(3:) == 0)) return
-      do k = 1, cells%count()             ! the name is the first column that is none of the others
+      do k = 1, cells%count()             ! the name is the first column that is not one of the others
          if (any(columns == k)) cycle
          columns(1) = k
          return
       end do
    end subroutine find_columns
 
-   !> The letters of a column heading that give its meaning, and its unit: 'x', 1e-3 for 'X-Coordinate [mm]', 'loc_x_mm'.
+   !> Splits a column heading into the letters that give its meaning, and its unit: 'x', 1e-3 for 'X-Coordinate [mm]', 'loc_x_mm'.
    subroutine split_head(text, length, head, unit)
       character(*), intent(in) :: text
       real(wp), intent(in) :: length

@@ -20,7 +20,7 @@ module ek_kin_cursor
 
 contains
 
-   !> Goes to the next line with a label of this form and at least `least` values; the values are `fields(2:used)`.
+   !> Moves to the next line with a label of this form and at least `least` values; the values are `fields(2:used)`.
    subroutine go_to(cursor, pattern, least, fields, used, flaws)
       type(kin_cursor_t), intent(inout) :: cursor
       character(*), intent(in) :: pattern
@@ -91,7 +91,7 @@ contains
       if (value < 0.0_wp) call flaws%add(cursor%line, 'expected a mass of 0 or more, found '//str(value))
    end subroutine take_mass
 
-   !> A whole number from 0 to `most`.
+   !> Reads an integer from 0 to `most`.
    subroutine take_choice(cursor, pattern, most, choice, flaws)
       type(kin_cursor_t), intent(inout) :: cursor
       character(*), intent(in) :: pattern
@@ -123,7 +123,7 @@ contains
       flag = choice == 1
    end subroutine take_flag
 
-   !> 1 or 2.
+   !> Reads a choice of 1 or 2.
    subroutine take_choice_of_two(cursor, pattern, is_second, flaws)
       type(kin_cursor_t), intent(inout) :: cursor
       character(*), intent(in) :: pattern

@@ -19,7 +19,7 @@ module ek_kin_deck
 
 contains
 
-   !> The deck.
+   !> Writes the deck.
    subroutine kin_deck(kin, mounts, source, text, flaws)
       type(kin_t), intent(in) :: kin
       type(mount_law_t), intent(in) :: mounts(:)

@@ -36,7 +36,8 @@ contains
       end if
    end subroutine put_mounts
 
-   !> A bushing of the file, at a point of the axle: the position that the file gives in the list of bushings sets the axis only.
+   !> Writes a bushing of the file, at a point of the axle: the position that the file gives in the list of bushings sets the
+   !> axis only.
    subroutine put_mount(deck, kin, mounts, name, k, first, second, at)
       type(deck_text_t), intent(inout) :: deck
       type(kin_t), intent(in) :: kin

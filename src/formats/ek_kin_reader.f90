@@ -101,7 +101,7 @@ contains
 
    end subroutine parse_kin
 
-   !> A choice of rate or points, the rate, and the points with their factor.
+   !> Reads a choice of rate or points, the rate, and the points with their factor.
    subroutine take_law(cursor, rate_pattern, pair_pattern, law, flaws)
       type(kin_cursor_t), intent(inout) :: cursor
       character(*), intent(in) :: rate_pattern, pair_pattern

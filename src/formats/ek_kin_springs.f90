@@ -58,7 +58,7 @@ contains
       call deck%end()
    end subroutine put_spring
 
-   !> The curve of a law with points, named <name>_law.
+   !> Writes the curve of a law with points, named <name>_law.
    subroutine put_curve_of(deck, name, law, x_unit, component, flaws)
       type(deck_text_t), intent(inout) :: deck
       character(*), intent(in) :: name

@@ -87,7 +87,7 @@ contains
       end if
    end subroutine finish_law
 
-   !> Whether all points lie on one straight line through the origin (to 1e-9 of the largest force), and its slope.
+   !> Finds whether all points lie on one straight line through the origin (to 1e-9 of the largest force), and its slope.
    pure subroutine constant_rate(law, rate, is_constant)
       type(law_points_t), intent(in) :: law
       real(wp), intent(out) :: rate

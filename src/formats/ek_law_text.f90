@@ -10,7 +10,7 @@ module ek_law_text
 
 contains
 
-   !> The units of a law in SI: displacement and force of a component of a bushing.
+   !> Returns the units of a law in SI: displacement and force of a component of a bushing.
    pure subroutine units_of_law(component, length, force, angle, x_unit, y_unit)
       integer, intent(in) :: component
       real(wp), intent(in) :: length, force, angle      !! of the deck
@@ -20,7 +20,7 @@ contains
       y_unit = merge(force*length, force, is_of_rotation(component))
    end subroutine units_of_law
 
-   !> &curve of a law.
+   !> Writes &curve of a law.
    subroutine put_curve(deck, name, law, component, kind)
       type(deck_text_t), intent(inout) :: deck
       character(*), intent(in) :: name, kind
@@ -37,7 +37,7 @@ contains
       call deck%end()
    end subroutine put_curve
 
-   !> &curve of each component that is no rate, named <name>_fx ….
+   !> Writes &curve of each component that is not a rate, named <name>_fx ….
    subroutine put_curves(deck, name, laws, kind)
       type(deck_text_t), intent(inout) :: deck
       character(*), intent(in) :: name, kind
@@ -53,7 +53,7 @@ contains
       end do
    end subroutine put_curves
 
-   !> Keys kt, kr and curve of a bushing; `put_curves` writes its curves.
+   !> Writes keys kt, kr and curve of a bushing; `put_curves` writes its curves.
    subroutine put_bushing_law(deck, name, laws)
       type(deck_text_t), intent(inout) :: deck
       character(*), intent(in) :: name

@@ -97,7 +97,7 @@ contains
 
    contains
 
-      !> One of two choices of [MODE]; without the entry the first.
+      !> Reads one of two choices of [MODE]; without the entry the first.
       subroutine take_mode(key, usual, other, is_other)
          character(*), intent(in) :: key, usual, other
          logical, intent(out) :: is_other

@@ -29,7 +29,7 @@ module ek_property
 
    !> The content of a property file.
    type :: property_t
-      integer :: kind = 0                      !! 0: the file is none
+      integer :: kind = 0                      !! 0: not a property file
       type(law_points_t) :: laws(6)            !! [m, N], [rad, N m]; of a spring or a stop the first
       real(wp) :: free_length = 0.0_wp         !! m; 0: not given
       integer :: free_length_line = 0
@@ -121,7 +121,7 @@ contains
       is_same = lower(trim(adjustl(a))) == b
    end function is_same
 
-   !> The six curves of a bushing.
+   !> Reads the six curves of a bushing.
    subroutine take_bushing(file, property, flaws)
       type(teimorbit_t), intent(in) :: file
       type(property_t), intent(inout) :: property
@@ -143,7 +143,7 @@ contains
       end do
    end subroutine take_bushing
 
-   !> The curve of a spring or a stop, and the free length of a spring.
+   !> Reads the curve of a spring or a stop, and the free length of a spring.
    subroutine take_curve(file, property, flaws)
       type(teimorbit_t), intent(in) :: file
       type(property_t), intent(inout) :: property
@@ -181,7 +181,7 @@ contains
          shown(file%items(item)%fields(1)%text))
    end subroutine take_curve
 
-   !> The points of a curve: rows of two numbers in all parts of the blocks of this name.
+   !> Reads the points of a curve: rows of two numbers in all parts of the blocks of this name.
    subroutine take_points(file, block, x_unit, y_unit, law, flaws)
       type(teimorbit_t), intent(in) :: file
       integer, intent(in) :: block                  !! the first of its name
@@ -215,7 +215,7 @@ contains
       call finish_law(law, upper(trim(file%names(block))), flaws)
    end subroutine take_points
 
-   !> A stop whose penetration and force are counted negative becomes one with positive numbers.
+   !> Turns a stop whose penetration and force are counted negative into one with positive numbers.
    pure subroutine turn_rebound(law)
       type(law_points_t), intent(inout) :: law
 

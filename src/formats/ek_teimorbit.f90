@@ -214,7 +214,7 @@ contains
       entry_of = 0
    end function entry_of
 
-   !> The units of the file in SI, in the order of ek_unit_word; 0 for one that it does not name.
+   !> Reads the units of the file in SI, in the order of ek_unit_word; 0 for one that it does not name.
    subroutine units_in(file, units, flaws)
       type(teimorbit_t), intent(in) :: file
       real(wp), intent(out) :: units(size(quantity_names))

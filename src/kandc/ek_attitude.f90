@@ -78,7 +78,7 @@ contains
       call find_attitude(wheel, origin, now, attitude)
    end function attitude_of
 
-   !> The same in place.
+   !> Finds the attitude that attitude_of returns, in place.
    pure subroutine find_attitude(wheel, origin, now, attitude)
       type(wheel_t), intent(in) :: wheel
       real(wp), intent(in) :: origin(3)

@@ -17,7 +17,7 @@ module ek_axle_characteristics
 
 contains
 
-   !> Axle quantities: roll rates and roll centres.
+   !> Computes axle quantities: roll rates and roll centres.
    !>
    !> The roll moment is ½ t (F left − F right), so the pair of unit forces makes the moment t, and its slope over axle roll is
    !> t²/(cos²φ Δ), Δ as in in_roll.

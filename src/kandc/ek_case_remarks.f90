@@ -31,7 +31,7 @@ module ek_case_remarks
 
 contains
 
-   !> One note per wheel that the constant loads have displaced by more than `least`.
+   !> Adds one note per wheel that the constant loads have displaced by more than `least`.
    subroutine settling_remarks(suspension, case, path, least, remarks)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
@@ -270,7 +270,7 @@ contains
       is_further(2) = other%most > own%most + slack .or. (is_before .and. other%most > own%most - slack)
    end function further
 
-   !> The messages on one curve.
+   !> Adds the messages on one curve.
    subroutine report(case, path, curve, reach, thing, is_angle, is_reported, remarks)
       type(case_t), intent(in) :: case
       type(path_t), intent(in) :: path

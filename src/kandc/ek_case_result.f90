@@ -138,7 +138,7 @@ contains
       if (size(result%suspension%wheels) > 0) call find_wheels(test, result%suspension%wheels(1)%side)
    end function test_of
 
-   !> Says why a case was not run.
+   !> Records why a case was not run.
    subroutine give_up(result, outcome, case, words)
       type(case_result_t), intent(inout) :: result
       integer, intent(in) :: outcome
@@ -160,7 +160,7 @@ contains
       if (result%remarks%has_failed()) result%outcome = partly_solved
    end subroutine add_remarks
 
-   !> Remarks on the states of a path.
+   !> Adds remarks on the states of a path.
    subroutine remark_on_path(options, result)
       type(solve_options_t), intent(in) :: options
       type(case_result_t), intent(inout) :: result
@@ -180,7 +180,7 @@ contains
       end associate
    end subroutine remark_on_path
 
-   !> The failures of a result as an error; none if all states converged.
+   !> Returns the failures of a result as an error; none if all states converged.
    subroutine failure_of(result, error)
       type(case_result_t), intent(in) :: result
       type(error_t), allocatable, intent(out) :: error      !! exit_convergence, exit_model or exit_file
@@ -189,7 +189,7 @@ contains
       if (result%outcome /= solved) call fail(error, codes(result%outcome), result%remarks%failures())
    end subroutine failure_of
 
-   !> The header lines above a table of a case.
+   !> Adds the header lines of the table of a case.
    subroutine add_header(table, suspension, case, checksum)
       type(table_t), intent(inout) :: table
       type(suspension_t), intent(in) :: suspension

@@ -84,7 +84,7 @@ contains
       if (stand%axes(place)%has_steer_axis) reader%caster = caster_gradient(stand%axes(place)%steer_axis)
    end function reader_of
 
-   !> The response of a wheel whose carrier moves by a twist (displacement of the wheel centre, rotation).
+   !> Computes the response of a wheel whose carrier moves by a twist (displacement of the wheel centre, rotation).
    pure subroutine respond(reader, twist, is)
       type(reader_t), intent(in) :: reader
       real(wp), intent(in) :: twist(6)
@@ -101,7 +101,7 @@ contains
       is%caster = reader%caster(1)*twist(4) + reader%caster(2)*twist(5) + reader%caster(3)*twist(6)
    end subroutine respond
 
-   !> The response per unit of a quotient's denominator; not a number where it vanishes.
+   !> Computes the response per unit of a quotient's denominator; not a number where it vanishes.
    pure subroutine respond_per(reader, twist, divisor, least, is)
       type(reader_t), intent(in) :: reader
       real(wp), intent(in) :: twist(6), divisor, least
@@ -113,8 +113,8 @@ contains
       call respond(reader, slope, is)
    end subroutine respond_per
 
-   !> The groups of quantities of one wheel that are asked. Ride and hop rate and the roll with tyres are defined only with tyre
-   !> rates, roll only with two wheels, anti-dive, anti-lift and anti-squat only with data of the axle.
+   !> Computes the groups of quantities of one wheel that are asked. Ride and hop rate and the roll with tyres are defined only
+   !> with tyre rates, roll only with two wheels, anti-dive, anti-lift and anti-squat only with data of the axle.
    !> Equation (C.12) of docs/theory/compliance.md.
    pure subroutine wheel_characteristics(loaded, stand, place, axle, is_asked, is)
       type(loaded_t), intent(in) :: loaded
@@ -159,7 +159,7 @@ contains
       if (is_asked(of_anti_features)) call anti_features(loaded, place, axle, is)
    end subroutine wheel_characteristics
 
-   !> Responses to forces at the patch and at the centre, and to moments.
+   !> Computes responses to forces at the contact point and at the centre, and to moments.
    pure subroutine under_forces(wheels, m, c, reader, place, axle, held, is)
       integer, intent(in) :: wheels
       real(wp), intent(in) :: m(12, 12), c(12, 12)   !! loads at the patch and at the centre, displacements at the centre
@@ -187,7 +187,7 @@ contains
       call respond(reader, twist, is%traction(held))
    end subroutine under_forces
 
-   !> Stiffness of one wheel, load and height of the other held.
+   !> Computes the stiffness of one wheel, load and height of the other held.
    pure subroutine single_rates(c, at, rate)
       real(wp), intent(in) :: c(12, 12)
       integer, intent(in) :: at              !! rows before those of the wheel
@@ -202,7 +202,7 @@ contains
          quotient(1.0_wp, c(own, own) - c(own, other)*c(other, own)/c(other, other), min_compliance)
    end subroutine single_rates
 
-   !> The responses to roll.
+   !> Computes the responses to roll.
    !>
    !>     axle roll φ = atan(Δz/t), Δz the difference in height of the contact points: dφ = cos²φ dΔz/t
    !>
@@ -226,7 +226,7 @@ contains
       call respond_per(reader, twist, height*per_height, min_compliance*per_height, is%roll)
    end subroutine in_roll
 
-   !> Vertical force of a wheel per lateral force on it, parallel and opposed.
+   !> Computes the vertical force of a wheel per lateral force on it, parallel and opposed.
    pure subroutine jacking(patch, place, is)
       real(wp), intent(in) :: patch(2:3, 2, 2:3, 2)
       integer, intent(in) :: place
@@ -239,7 +239,7 @@ contains
       is(anti_phase) = lift(place)*merge(1.0_wp, -1.0_wp, place == 1)      ! per force on the wheel itself
    end subroutine jacking
 
-   !> Length √(dh² + dz²)/|dθ| and angle atan(−dh/dz) of the arm about whose end a wheel centre swings.
+   !> Computes length √(dh² + dz²)/|dθ| and angle atan(−dh/dz) of the arm about whose end a wheel centre swings.
    !> Equation (S.2) of docs/theory/suspension.md.
    pure subroutine swing_arm(dh, dz, turn, length, angle)
       real(wp), intent(in) :: dh, dz       !! horizontal and vertical displacement [m/N]
@@ -271,7 +271,7 @@ contains
       end if
    end function arm_centre
 
-   !> −Zf/Zw of brakes and of drive, per unit of the whole force on the vehicle, and the wheel travel per g.
+   !> Computes −Zf/Zw of brakes and of drive, per unit of the whole force on the vehicle, and the wheel travel per g.
    !>
    !> Braking with a force 1 rearward: this axle's wheels carry half its share each, at the patch, and the load
    !> transfer h/2L more (front) or less (rear). Driving with a force 1 forward: with opposite signs, at the

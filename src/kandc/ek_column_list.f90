@@ -30,7 +30,7 @@ module ek_column_list
 
 contains
 
-   !> An empty list with room for n columns at first.
+   !> Begins an empty list with room for n columns at first.
    pure subroutine begin_list(list, n)
       class(column_list_t), intent(inout) :: list
       integer, intent(in) :: n
@@ -144,7 +144,7 @@ contains
       list%blocks = pack([(k, k=1, size(list%last))], has_columns)
    end subroutine choose
 
-   !> The conditions of ek_quantity that a model meets.
+   !> Finds the conditions of ek_quantity that a model meets.
    subroutine conditions_of(suspension, order, has_rack, has)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: order(:)      !! of the wheels in the compliance matrix

@@ -128,7 +128,7 @@ contains
       call respond(suspension, state, inputs, steer_row, kkt, self)
    end subroutine wheel_compliance
 
-   !> The motions of all bodies under the loads at the wheel centres, all asked, at the last state: for wheel_compliance_nearby.
+   !> Stores, for wheel_compliance_nearby, the motions of all bodies under the loads at the wheel centres at the last state.
    pure subroutine keep_responses(self, kept)
       type(compliance_t), intent(in) :: self
       real(wp), intent(out) :: kept(:, :)         !! (load, unknown)
@@ -136,7 +136,7 @@ contains
       if (self%is_known) kept(:, :) = transpose(self%columns(:, :size(kept, 1)))
    end subroutine keep_responses
 
-   !> The compliance of the wheels alone close to the state and the design of which the responses X are kept, without a factorisation:
+   !> Computes the compliance of the wheels alone, without factorising, close to the state and design of the kept responses X:
    !> C ≈ PᵀX + XᵀP − XᵀKX, with K and P of this state. The error is of second order in the distance, and even. For symmetric matrices.
    !> Equation (E.8) of docs/theory/derivatives.md.
    subroutine wheel_compliance_nearby(suspension, state, inputs, kept, kkt, self)
@@ -164,7 +164,7 @@ contains
       self%is_known = .true.
    end subroutine wheel_compliance_nearby
 
-   !> The same where the whole tangent of this state is assembled already.
+   !> Computes the responses where the whole tangent of this state is assembled already.
    !> Equations (C.1), (C.3) of docs/theory/compliance.md.
    subroutine respond(suspension, state, inputs, steer_row, kkt, self)
       type(suspension_t), intent(in) :: suspension
@@ -212,8 +212,8 @@ contains
       if (kkt%stage == lapack_factors) call gather(self)
    end subroutine solve_symmetric
 
-   !> Every load to the column of its own number, zeros between: the last digits of LAPACK's column depend on its number and on the
-   !> number of columns, by the kernels of the processor. A quantity is the same whatever else is asked.
+   !> Moves every load to the column of its own number, zeros between: the last digits of LAPACK's column depend on its number
+   !> and on the number of columns, by the kernels of the processor. A quantity is the same whatever else is asked.
    pure subroutine spread(self)
       type(compliance_t), intent(inout) :: self
       integer :: j, k
@@ -227,7 +227,7 @@ contains
       end do
    end subroutine spread
 
-   !> The solved loads to the first columns again.
+   !> Moves the solved loads to the first columns again.
    pure subroutine gather(self)
       type(compliance_t), intent(inout) :: self
       integer :: j
@@ -237,7 +237,7 @@ contains
       end do
    end subroutine gather
 
-   !> Where the ports are at a state: arms of the wheel centres, gradients of the lengths of springs.
+   !> Sets the ports at a state: arms of the wheel centres, gradients of the lengths of springs.
    !> Equation (C.2) of docs/theory/compliance.md.
    pure subroutine set_ports(suspension, state, self)
       type(suspension_t), intent(in) :: suspension
@@ -260,7 +260,7 @@ contains
       end do
    end subroutine set_ports
 
-   !> The loads as columns of generalised forces: a unit load at a point is [e; s×e] on its body, a moment [0; e].
+   !> Sets the loads as columns of generalised forces: a unit load at a point is [e; s×e] on its body, a moment [0; e].
    !> Equation (C.2) of docs/theory/compliance.md.
    pure subroutine set_loads(driven, self)
       integer, intent(in) :: driven               !! equation of the steering driver
@@ -296,7 +296,7 @@ contains
       end do
    end subroutine set_loads
 
-   !> The displacements of the ports under a solved load, from those of the bodies.
+   !> Reads the displacements of the ports under a solved load, from those of the bodies.
    !> Equation (C.3) of docs/theory/compliance.md.
    pure subroutine read_ports(column, self)
       integer, intent(in) :: column
@@ -343,9 +343,9 @@ contains
       if (at_j >= 0) change = change + dot_product(gradient(7:12), moves(at_j + 1:at_j + 6))
    end function along
 
-   !> The motions of all bodies and the changes of all reactions [u; μ] under the unit loads at the wheel centres, all of them
-   !> asked, and those from the left (of the transpose; the same where the matrix is symmetric). After `respond`, whose responses
-   !> to these loads are refined.
+   !> Returns the motions of all bodies and the changes of all reactions [u; μ] under the unit loads at the wheel centres, all of
+   !> them asked, and those from the left (of the transpose; the same where the matrix is symmetric). After `respond`, whose
+   !> responses to these loads are refined.
    !> Equation (C.14) of docs/theory/compliance.md.
    subroutine unit_responses(kkt, self, right, left)
       type(kkt_t), intent(inout) :: kkt                     !! with the factors of `respond`

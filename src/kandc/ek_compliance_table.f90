@@ -22,7 +22,7 @@ module ek_compliance_table
 
 contains
 
-   !> The compliance matrix at every converged state of a sweep as a table: one row per state, one column per entry.
+   !> Makes a table of the compliance matrix at every converged state of a sweep: one row per state, one column per entry.
    !>
    !> A column is called <place>_<displacement>_by_<load>_<unit>: displacement and load begin with the wheel (`left_`, `right_`),
    !> then x, y, z (displacements), rx, ry, rz (rotations), fx, fy, fz (forces), mx, my, mz (moments), in the frame of the deck.
@@ -58,7 +58,7 @@ contains
       end do
    end subroutine compliance_table
 
-   !> The compliance matrix at one converged state of a sweep, at the wheel centres: x rearward, y right, z up
+   !> Computes the compliance matrix at one converged state of a sweep, at the wheel centres: x rearward, y right, z up
    !> [m/N, rad/N, m/(N m), rad/(N m)]; not a number where the matrix is singular.
    subroutine state_compliance(suspension, schedule, path, k, kkt, compliance, c, arm)
       type(suspension_t), intent(in) :: suspension      !! on the rig
@@ -79,7 +79,7 @@ contains
       call read_compliance(suspension, state, compliance, c, arm)
    end subroutine state_compliance
 
-   !> The values of compliance_columns at an equilibrium; or, with responses that were kept at one, at a state near by.
+   !> Computes the values of compliance_columns at an equilibrium; or, with responses that were kept at one, at a state near by.
    subroutine observe_compliance(suspension, state, inputs, kkt, compliance, values, kept)
       type(suspension_t), intent(in) :: suspension      !! on the rig
       type(state_t), intent(in) :: state
@@ -103,7 +103,7 @@ contains
       call put_compliance(read_at_patch(load_at_patch(c, arm), arm), scale, values(n*n + 1:2*n*n))
    end subroutine observe_compliance
 
-   !> The compliance matrix at the wheel centres, and the arms to the contact points.
+   !> Reads the compliance matrix at the wheel centres, and the arms to the contact points.
    pure subroutine read_compliance(suspension, state, compliance, c, arm)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
@@ -119,7 +119,7 @@ contains
       c = compliance%response(:size(c, 1), :size(c, 2))
    end subroutine read_compliance
 
-   !> The entries of a matrix, row by row, in the units of the columns and the frame of the deck.
+   !> Writes the entries of a matrix, row by row, in the units of the columns and the frame of the deck.
    pure subroutine put_compliance(c, frame, values)
       real(wp), intent(in) :: c(:, :)            !! SI
       real(wp), intent(in) :: frame(:)           !! sign of every direction
@@ -136,7 +136,7 @@ contains
       end do
    end subroutine put_compliance
 
-   !> The names of every entry of both matrices, row by row.
+   !> Lists the names of every entry of both matrices, row by row.
    subroutine compliance_columns(suspension, names)
       type(suspension_t), intent(in) :: suspension
       character(name_length), allocatable, intent(out) :: names(:)

@@ -131,7 +131,7 @@ contains
       end do
    end subroutine split_compliance
 
-   !> The shares of all laws of an element: c (gᵀv)(gᵀu)ᵀ.
+   !> Adds the shares of all laws of an element: c (gᵀv)(gᵀu)ᵀ.
    subroutine add_laws(suspension, state, element, first, law, self)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
@@ -165,7 +165,7 @@ contains
       end associate
    end subroutine add_laws
 
-   !> The share of the force × Hessian of an element.
+   !> Adds the share of the force × Hessian of an element.
    subroutine add_element(suspension, state, element, left, right, matrix)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
@@ -182,7 +182,7 @@ contains
       end associate
    end subroutine add_element
 
-   !> The share of λ Hess of all rows of a joint.
+   !> Adds the share of λ Hess of all rows of a joint.
    subroutine add_joint(suspension, state, joint, left, right, matrix)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
@@ -206,7 +206,7 @@ contains
       end do
    end subroutine add_joint
 
-   !> The share of a driver with a stiffness k: ν μ/k.
+   !> Adds the share of a driver with a stiffness k: ν μ/k.
    subroutine add_driver(suspension, joint, nq, left, right, matrix)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: joint, nq
@@ -221,7 +221,7 @@ contains
       end do
    end subroutine add_driver
 
-   !> The share of the stiffness of a load, and of its skew part.
+   !> Adds the share of the stiffness of a load, and of its skew part.
    subroutine add_load(suspension, state, factor, load, left, right, matrix)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
@@ -244,7 +244,7 @@ contains
       end associate
    end subroutine add_load
 
-   !> The share of the unbalanced forces, as they stand in the tangent of screw motions.
+   !> Adds the share of the unbalanced forces, as they stand in the tangent of screw motions.
    subroutine add_unbalanced(bodies, rhs, left, right, matrix)
       integer, intent(in) :: bodies
       real(wp), intent(in) :: rhs(:)
@@ -267,7 +267,7 @@ contains
       at = [merge(1, 0, body_i > 0), merge(2, 0, body_j > 0), merge(3, 0, body_i > 0 .and. body_j > 0)]
    end function local_places
 
-   !> matrix ← matrix + vᵀ T u, T in the blocks of two bodies (see `local_places`).
+   !> Computes matrix ← matrix + vᵀ T u, T in the blocks of two bodies (see `local_places`).
    subroutine contract(blocks, body_i, body_j, left, right, matrix)
       real(wp), intent(in) :: blocks(6, 6, 3)
       integer, intent(in) :: body_i, body_j

@@ -80,7 +80,7 @@ contains
       allocate (self%values(size(self%columns%asked)), self%parts(size(self%columns%asked), size(self%row)), source=0.0_wp)
    end subroutine choose_contributions
 
-   !> The names of a row.
+   !> Sets the names of a row.
    subroutine name_share(suspension, share, name)
       type(suspension_t), intent(in) :: suspension
       type(share_t), intent(in) :: share
@@ -110,7 +110,7 @@ contains
       end select
    end subroutine name_share
 
-   !> The contributions at one reached state of a path.
+   !> Finds the contributions at one reached state of a path.
    !> Equation (C.15) of docs/theory/compliance.md.
    subroutine find_contributions(suspension, schedule, path, k, kkt, self)
       type(suspension_t), intent(in) :: suspension          !! on the rig
@@ -147,8 +147,8 @@ contains
       end associate
    end subroutine find_contributions
 
-   !> Shares of the strain energy under unit forces at the contact points: the shares of the diagonal of C. Not a number where a
-   !> joint holds the point against that force.
+   !> Finds shares of the strain energy under unit forces at the contact points: the shares of the diagonal of C. Not a number
+   !> where a joint holds the point against that force.
    subroutine find_energy(c, arm, self)
       real(wp), intent(in) :: c(:, :), arm(:, :)
       type(contribution_table_t), intent(inout) :: self

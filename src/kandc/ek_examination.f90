@@ -187,7 +187,7 @@ contains
       if (mistakes%count() > 0) call fail(error, merge(exit_file, exit_deck, mistakes%count() == unread), mistakes%text())
    end subroutine check_inputs
 
-   !> The mistakes in the table of case k, with all cases that name it, unless an earlier case names the same one.
+   !> Collects the errors in the table of case k, with all cases that name it, unless an earlier case names the same one.
    subroutine collect_table(cases, k, mistakes, unread)
       type(case_t), intent(in) :: cases(:)
       integer, intent(in) :: k
@@ -236,7 +236,7 @@ contains
       if (allocated(error)) call mistakes%add(case%where//': case '//quoted(case%name)//': target: '//error%message)
    end subroutine look_up_target
 
-   !> Refuses two result columns with the same head, as the names of different elements with their endings may coincide.
+   !> Rejects two result columns with the same heading, as the names of different elements with their suffixes may coincide.
    subroutine compare_heads(suspension, cases, mistakes)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: cases(:)
@@ -270,7 +270,7 @@ contains
 
    contains
 
-      !> An element whose name begins that of the column.
+      !> Adds an element whose name begins that of the column.
       subroutine add_owner(name, where)
          character(*), intent(in) :: name, where
 

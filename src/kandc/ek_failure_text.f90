@@ -210,7 +210,8 @@ contains
       text = text//'; the others are there. Use a shorter range, or more increments'
    end function grid_text
 
-   !> One warning each on: states with a negative stiffness, limit points and bifurcations on the path, nearly singular matrices.
+   !> Adds one warning each on: states with a negative stiffness, limit points and bifurcations on the path, nearly singular
+   !> matrices.
    subroutine stability_remarks(case, path, remarks)
       type(case_t), intent(in) :: case
       type(path_t), intent(in) :: path

@@ -30,7 +30,7 @@ module ek_geometry_columns
 
 contains
 
-   !> The values of wheel_axis: side view, distances from the steer axis of the deck, spin axis.
+   !> Computes the values of wheel_axis: side view, distances from the steering axis of the deck, spin axis.
    pure subroutine axis_geometry(now, frame, values)
       type(attitude_t), intent(in) :: now
       real(wp), intent(in) :: frame(3)              !! from the frame of the program to that of the deck
@@ -42,7 +42,7 @@ contains
       values(6:8) = frame*now%axes%spin
    end subroutine axis_geometry
 
-   !> The values of instant_distances, from the twist of the carrier while it steers with its springs locked.
+   !> Computes the values of instant_distances, from the twist of the carrier while it steers with its springs locked.
    pure subroutine instant_geometry(twist, now, values)
       real(wp), intent(in) :: twist(6)
       type(attitude_t), intent(in) :: now
@@ -56,7 +56,7 @@ contains
       values = axis_distances(now%axes%side, point, turn, now%at_centre, now%at_contact, now%axes%spin)
    end subroutine instant_geometry
 
-   !> The values of wheel_slopes: recession, camber per steer, frequency.
+   !> Computes the values of wheel_slopes: recession, camber per steer, frequency.
    pure subroutine slope_values(lift, twist, tyre_rate, mass, now, values)
       real(wp), intent(in) :: lift(6)       !! of the wheel centre per vertical force on every wheel [m/N, rad/N]
       real(wp), intent(in) :: twist(6)      !! while it steers with the wheels held; 0 without a rack
@@ -71,7 +71,7 @@ contains
       if (mass > 0.0_wp) values(3) = ride_frequency(1.0_wp/(lift(3) + 1.0_wp/tyre_rate), mass)
    end subroutine slope_values
 
-   !> The values of axle_geometry: track, and with &axle and &steering the quantities of a turn.
+   !> Computes the values of axle_geometry: track, and with &axle and &steering the quantities of a turn.
    pure subroutine axle_geometry_values(axle, tyre_width, has_turn, static, left, right, values)
       type(axle_t), intent(in) :: axle
       real(wp), intent(in) :: tyre_width(2)        !! m
@@ -154,7 +154,7 @@ contains
       if (.not. mass > 0.0_wp) mass = vertical_force(suspension, design_state(suspension), inputs_t(), wheel)/standard_gravity
    end function mass_on
 
-   !> Twist (v, ω) of each wheel's carrier at the wheel centre while it steers, all springs locked or all wheels held.
+   !> Computes the twist (v, ω) of each wheel's carrier at the wheel centre while it steers, all springs locked or all wheels held.
    !>
    !> With a steering driver (a rack) in the model, the rack is moved by a unit: a free rack under a steer moment has no
    !> stiffness, so its displacement dominates, and the elastic response of the other parts to the moment is negligible;

@@ -53,7 +53,7 @@ module ek_gradient
 
 contains
 
-   !> All gradients of the kind of a test whose columns are in its table.
+   !> Computes all gradients of the kind of a test whose columns are in its table.
    subroutine test_gradients(test, windows, gradients, wanted)
       type(test_result_t), intent(in) :: test
       type(windows_t), intent(in) :: windows
@@ -131,7 +131,7 @@ contains
       gradient%value = slope*(gradient%size*gradient%turn)
    end function one_gradient
 
-   !> The slope of a column over another one in the units of both, 0 if it is within the noise; makes no text.
+   !> Fits the slope of a column over another one in the units of both, 0 if it is within the noise; makes no text.
    subroutine fit_slope(table, place, over, factor_size, half, slope, points)
       type(table_t), intent(in) :: table
       integer, intent(in) :: place, over           !! of the columns
@@ -181,7 +181,7 @@ contains
       if (test%is_anti .and. side > 0) turn = -turn                  ! the load on the right wheel is −factor
    end function turn_of
 
-   !> Least-squares slope of y over x for |x| ≤ half; not a number with fewer than three different x.
+   !> Fits the least-squares slope of y over x for |x| ≤ half; not a number with fewer than three different x.
    pure subroutine slope_over_window(x, y, half, slope, points)
       real(wp), intent(in) :: x(:), y(:)   !! one value per state; values that are not numbers are skipped
       real(wp), intent(in) :: half

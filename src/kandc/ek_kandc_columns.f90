@@ -55,7 +55,7 @@ contains
       call fill_kandc(suspension, state, inputs, wheels, kkt, self)
    end subroutine observe_kandc
 
-   !> The same where the attitudes of the wheels are known, and the whole tangent is assembled if self%is_matrix_wanted.
+   !> Fills the columns where the attitudes of the wheels are known, and the whole tangent is assembled if self%is_matrix_wanted.
    subroutine fill_kandc(suspension, state, inputs, wheels, kkt, self)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
@@ -86,7 +86,7 @@ contains
       end do
    end subroutine fill_kandc
 
-   !> Positions of both wheels of an axle.
+   !> Sets the positions of both wheels of an axle.
    pure subroutine set_stand(wheels, self)
       type(attitude_t), intent(in) :: wheels(:)
       type(kandc_t), intent(inout) :: self
@@ -109,7 +109,7 @@ contains
       stand%arm(:, k) = now%at_contact - now%at_centre
    end subroutine stand_wheel
 
-   !> What several sections need of a known compliance matrix.
+   !> Computes the quantities that several sections need of a known compliance matrix.
    subroutine characterise(suspension, wheels, self)
       type(suspension_t), intent(in) :: suspension
       type(attitude_t), intent(in) :: wheels(:)
@@ -151,7 +151,7 @@ contains
       end associate
    end subroutine characterise
 
-   !> The values of a section that is not one of a wheel's characteristics, SI.
+   !> Computes the values of a section that is not one of a wheel's characteristics, SI.
    subroutine section_values(suspension, state, wheels, section, item, self, values)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
@@ -235,7 +235,7 @@ contains
 
    end subroutine section_values
 
-   !> The values of of_turn, with &axle and a rack.
+   !> Computes the values of of_turn, with &axle and a rack.
    pure subroutine turn_values(left_now, right_now, wheelbase, self, values)
       type(attitude_t), intent(in) :: left_now, right_now
       real(wp), intent(in) :: wheelbase
@@ -253,7 +253,7 @@ contains
       values(3) = ackermann_error(left, right, wheelbase, self%stand%track)
    end subroutine turn_values
 
-   !> The values of of_steering.
+   !> Computes the values of of_steering.
    pure subroutine steering_values(suspension, state, wheels, self, values)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state

@@ -58,7 +58,7 @@ module ek_kandc_list
 
 contains
 
-   !> All columns that a model defines, and all are asked.
+   !> Lists all columns that a model defines, and all are asked.
    subroutine start_kandc(suspension, self)
       type(suspension_t), intent(in) :: suspension
       type(kandc_t), intent(out) :: self
@@ -70,9 +70,9 @@ contains
       call begin_design(suspension, self)
    end subroutine start_kandc
 
-   !> The names of all columns that a model defines: self%names(:self%used). In the order of the table: each wheel, the axle with
-   !> its steering, the geometry of each wheel, that of the axle, elements, springs. Before they are filled, choose_kandc says which
-   !> are asked.
+   !> Lists the names of all columns that a model defines: self%names(:self%used). In the order of the table: each wheel, the axle
+   !> with its steering, the geometry of each wheel, that of the axle, elements, springs. Before they are filled, choose_kandc
+   !> says which are asked.
    subroutine list_kandc(suspension, self)
       type(suspension_t), intent(in) :: suspension
       type(kandc_t), intent(out) :: self
@@ -129,7 +129,7 @@ contains
 
    end subroutine list_kandc
 
-   !> The first sections of a wheel.
+   !> Adds the first sections of a wheel.
    subroutine add_wheel(suspension, place, self)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: place
@@ -162,7 +162,7 @@ contains
 
    end subroutine add_wheel
 
-   !> The column of a stop, or of a spring on a length measure.
+   !> Adds the column of a stop, or of a spring on a length measure.
    subroutine add_element(suspension, k, self)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: k

@@ -37,7 +37,7 @@ module ek_live_rates
 
 contains
 
-   !> The rates with the largest shares of a key compliance at a state, the largest first; none if its matrix is singular.
+   !> Chooses the rates with the largest shares of a key compliance at a state, the largest first; none if its matrix is singular.
    subroutine choose_rates(result, k, many, rates)
       type(case_result_t), intent(inout) :: result         !! is_run
       integer, intent(in) :: k                             !! the state: reached
@@ -69,7 +69,7 @@ contains
       end do
    end subroutine choose_rates
 
-   !> All rates with their largest shares; 0: rounding.
+   !> Lists all rates with their largest shares; 0: rounding.
    subroutine list_rates(suspension, table, all, score)
       type(suspension_t), intent(in) :: suspension
       type(contribution_table_t), intent(in) :: table       !! at the state
@@ -118,7 +118,7 @@ contains
       at = 0
    end function other_side
 
-   !> The numbers of the laws of the rates among the shares of a test, in the order of `of_law`.
+   !> Finds the numbers of the laws of the rates among the shares of a test, in the order of `of_law`.
    subroutine find_laws(suspension, shares, rates, laws)
       type(suspension_t), intent(in) :: suspension          !! on the rig of the test
       type(contribution_t), intent(in) :: shares            !! of the test

@@ -67,7 +67,7 @@ module ek_live_state
 
 contains
 
-   !> The columns of a test among some names, and the laws of the rates. Stiffnesses and heights held are those of a single
+   !> Chooses the columns of a test among some names, and the laws of the rates. Stiffnesses and heights held are those of a single
    !> wheel or of an axle.
    subroutine start_live(suspension, rates, names, self)
       type(suspension_t), intent(in) :: suspension          !! on the rig
@@ -129,7 +129,7 @@ contains
       end do
    end function is_named
 
-   !> The numbers of one reached state of a path.
+   !> Finds the numbers of one reached state of a path.
    !> Equation (C.19) of docs/theory/compliance.md.
    subroutine find_live_state(suspension, schedule, path, k, kkt, columns, self)
       type(suspension_t), intent(in) :: suspension          !! on the rig
@@ -170,7 +170,8 @@ contains
       end associate
    end subroutine find_live_state
 
-   !> ρ and β of every column, from the values of the column for the matrices g_v,a g_bᵀ, whose table over a and b has the rank 1.
+   !> Finds ρ and β of every column, from the values of the column for the matrices g_v,a g_bᵀ, whose table over a and b has the
+   !> rank 1.
    subroutine find_factors(suspension, left, move, columns, self)
       type(suspension_t), intent(in) :: suspension
       real(wp), intent(in) :: left(:, :), move(:, :)        !! (load, law)
@@ -204,7 +205,7 @@ contains
       end do
    end subroutine find_factors
 
-   !> A and the displacements of the wheel centres while the heights of the wheel centres are held.
+   !> Computes A and the displacements of the wheel centres while the heights of the wheel centres are held.
    subroutine hold_heights(compliance, move, left, self)
       type(compliance_t), intent(in) :: compliance
       real(wp), intent(in) :: move(:, :), left(:, :)        !! (load, law)
@@ -228,7 +229,7 @@ contains
       self%held_move = transpose(response(:n, n + 1:))
    end subroutine hold_heights
 
-   !> The deflections that the rates multiply: what a change of them adds to the forces of the state.
+   !> Finds the deflections that the rates multiply: the addition of their change to the forces of the state.
    subroutine find_forces(suspension, state, root, columns, self)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state

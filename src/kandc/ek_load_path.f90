@@ -39,7 +39,7 @@ module ek_load_path
 
 contains
 
-   !> The paths of unit forces along x, y, z at each contact point, in the order of the compliance matrix.
+   !> Finds the paths of unit forces along x, y, z at each contact point, in the order of the compliance matrix.
    !> Equation (C.18) of docs/theory/compliance.md.
    subroutine find_load_paths(suspension, state, inputs, kkt, compliance, shares, arm, self)
       type(suspension_t), intent(in) :: suspension
@@ -85,7 +85,7 @@ contains
       end do
    end subroutine find_load_paths
 
-   !> T_e u of an element.
+   !> Computes T_e u of an element.
    subroutine change_element(suspension, state, element, u, change)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
@@ -113,7 +113,7 @@ contains
       end associate
    end subroutine change_element
 
-   !> Φᵀμ + λ Hess u of a joint, added to the sum; its force and moment, of one of measures those of its first measure.
+   !> Adds Φᵀμ + λ Hess u of a joint to the sum; its force and moment, of one of measures those of its first measure.
    subroutine change_joint(suspension, state, joint, nq, u, sum_of, force, moment)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
@@ -151,7 +151,7 @@ contains
       end associate
    end subroutine change_joint
 
-   !> Force and moment on the second body, at its point.
+   !> Computes force and moment on the second body, at its point.
    subroutine place(state, body_i, body_j, arm_j, u, change, force, moment)
       type(state_t), intent(in) :: state
       integer, intent(in) :: body_i, body_j
@@ -184,7 +184,7 @@ contains
       end if
    end subroutine place
 
-   !> The stiffness of loads and the unbalanced force, times u.
+   !> Adds the stiffness of loads and the unbalanced force, times u.
    subroutine add_loads(suspension, state, inputs, rhs, u, sum_of)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state

@@ -80,7 +80,7 @@ contains
       end do
    end subroutine load_wheels
 
-   !> The columns of the three forces of a wheel, moved to its contact point: a force F there is F and a×F at the centre.
+   !> Moves the columns of the three forces of a wheel to its contact point: a force F there is F and a×F at the centre.
    !> Equation (C.7) of docs/theory/compliance.md.
    pure subroutine load_patch(n, c, arm, m)
       integer, intent(in) :: n
@@ -96,7 +96,7 @@ contains
       end do
    end subroutine load_patch
 
-   !> Lateral and vertical displacement of a contact point: δ + θ×a.
+   !> Computes lateral and vertical displacement of a contact point: δ + θ×a.
    !> Equation (C.7) of docs/theory/compliance.md.
    pure subroutine read_patch(twist, arm, moves)
       real(wp), intent(in) :: twist(6)

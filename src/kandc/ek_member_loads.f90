@@ -55,7 +55,7 @@ module ek_member_loads
 
 contains
 
-   !> The ends of all members, in the order elements, joints. Those of the rig are the last.
+   !> Lists the ends of all members, in the order elements, joints. Those of the rig are the last.
    subroutine member_ends(suspension, has_rig, ends)
       type(suspension_t), intent(in) :: suspension
       logical, intent(in) :: has_rig                !! .false.: without joints of the rig
@@ -124,7 +124,7 @@ contains
 
    end subroutine member_ends
 
-   !> Force and moment on the body of every end [N, N m], frame of the deck.
+   !> Computes force and moment on the body of every end [N, N m], frame of the deck.
    pure subroutine end_loads(suspension, state, gradients, ends, loads)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
@@ -162,7 +162,7 @@ contains
       end do
    end subroutine end_loads
 
-   !> A record without cases.
+   !> Begins a record without cases.
    subroutine begin_loads(suspension, model, checksum, record)
       type(suspension_t), intent(in) :: suspension      !! not on the rig
       character(*), intent(in) :: model, checksum
@@ -241,7 +241,7 @@ contains
 
    end subroutine add_loads
 
-   !> The largest value of every component of every end, with its test and state, as comma-separated values.
+   !> Writes the largest value of every component of every end, with its test and state, as comma-separated values.
    subroutine peak_loads(record, buffer)
       type(load_record_t), intent(in) :: record
       type(buffer_t), intent(out) :: buffer

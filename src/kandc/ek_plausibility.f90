@@ -24,7 +24,7 @@ module ek_plausibility
 
 contains
 
-   !> One remark per implausible item, `file:line: item: finding`.
+   !> Adds one remark per implausible item, `file:line: item: finding`.
    !>
    !> In a model without a wheel, which is no suspension, only the elements are checked.
    subroutine doubt(suspension, cases, remarks)
@@ -61,7 +61,7 @@ contains
       remarks = doubts%remarks
    end subroutine doubt
 
-   !> Links and springs: length, body at each end, direction.
+   !> Examines links and springs: length, body at each end, direction.
    subroutine doubt_links(suspension, doubts)
       type(suspension_t), intent(in) :: suspension
       type(doubts_t), intent(inout) :: doubts
@@ -97,7 +97,7 @@ contains
       end do
    end subroutine doubt_links
 
-   !> Whether the rack is connected to the wheels.
+   !> Examines whether the rack is connected to the wheels.
    subroutine doubt_rack(suspension, rack, doubts)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: rack

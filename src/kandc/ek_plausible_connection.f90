@@ -15,7 +15,7 @@ module ek_plausible_connection
 
 contains
 
-   !> Remarks on the connections of a model with a wheel.
+   !> Adds remarks on the connections of a model with a wheel.
    subroutine doubt_connections(suspension, doubts, carries)
       type(suspension_t), intent(in) :: suspension
       type(doubts_t), intent(inout) :: doubts
@@ -28,7 +28,7 @@ contains
       call doubt_bushing_axes(suspension, doubts)
    end subroutine doubt_connections
 
-   !> Springs against the chassis whose body is connected to no wheel, not even through other bodies.
+   !> Examines springs against the chassis whose body is connected to no wheel, not even through other bodies.
    subroutine doubt_bearing(suspension, doubts, carries)
       type(suspension_t), intent(in) :: suspension
       type(doubts_t), intent(inout) :: doubts
@@ -51,7 +51,7 @@ contains
       end do
    end subroutine doubt_bearing
 
-   !> The bodies that rods, joints, bushings and springs connect to a wheel other than through the chassis.
+   !> Finds the bodies that rods, joints, bushings and springs connect to a wheel other than through the chassis.
    subroutine reach_wheels(suspension, is_reached)
       type(suspension_t), intent(in) :: suspension
       logical, intent(out) :: is_reached(0:)
@@ -86,7 +86,7 @@ contains
 
    end subroutine reach_wheels
 
-   !> Torsion springs between two bodies, each on a hinge on the chassis that does not turn about the axis of the torsion.
+   !> Examines torsion springs between two bodies, each on a hinge on the chassis that does not turn about the axis of the torsion.
    subroutine doubt_bar_axes(suspension, doubts)
       type(suspension_t), intent(in) :: suspension
       type(doubts_t), intent(inout) :: doubts
@@ -131,7 +131,7 @@ contains
       axis = suspension%terms(suspension%rows(suspension%joints(j)%first_row + 3)%first)%measure%v
    end function hinge_axis
 
-   !> A bushing that lies on the axis of the only bushing of another body, and off that of the other bushings of its own.
+   !> Examines bushings on the axis of the only bushing of another body, and off that of the other bushings of their own.
    subroutine doubt_bushing_axes(suspension, doubts)
       type(suspension_t), intent(in) :: suspension
       type(doubts_t), intent(inout) :: doubts

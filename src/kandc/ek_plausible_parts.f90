@@ -19,7 +19,7 @@ module ek_plausible_parts
 
 contains
 
-   !> Springs, dampers, stops, torsion springs, bushings, drivers with a stiffness.
+   !> Examines springs, dampers, stops, torsion springs, bushings, drivers with a stiffness.
    subroutine doubt_elements(suspension, doubts)
       type(suspension_t), intent(in) :: suspension
       type(doubts_t), intent(inout) :: doubts
@@ -65,7 +65,7 @@ contains
       end do
    end subroutine doubt_elements
 
-   !> A spring: rate, length, and its force at design.
+   !> Examines a spring: rate, length, and its force at design.
    subroutine doubt_spring(spring, doubts)
       type(element_t), intent(in) :: spring
       type(doubts_t), intent(inout) :: doubts
@@ -84,7 +84,7 @@ contains
          '; a coil carries compression only: check the bodies at its ends, and preload or free_length')
    end subroutine doubt_spring
 
-   !> A stop: clearance, transition, rate, and no contact at design.
+   !> Examines a stop: clearance, transition, rate, and no contact at design.
    subroutine doubt_stop(stop, doubts)
       type(element_t), intent(in) :: stop
       type(doubts_t), intent(inout) :: doubts
@@ -108,7 +108,7 @@ contains
          '; clearance is measured from design')
    end subroutine doubt_stop
 
-   !> A bushing: its largest and smallest rate, the distance of its markers, its curves.
+   !> Examines a bushing: its largest and smallest rate, the distance of its markers, its curves.
    subroutine doubt_bushing(element, doubts)
       type(element_t), intent(in) :: element
       type(doubts_t), intent(inout) :: doubts
@@ -134,7 +134,7 @@ contains
       end associate
    end subroutine doubt_bushing
 
-   !> A curve over a deflection: its span and force are in the usual range, and it rises, as a restoring force must.
+   !> Examines a curve over a deflection: its span and force are in the usual range, and it rises, as a restoring force must.
    subroutine doubt_curve(curve, element, is_angular, doubts)
       type(curve_t), intent(in) :: curve
       type(element_t), intent(in) :: element
@@ -165,7 +165,7 @@ contains
       call doubts%examine(element%where, element_label(element))
    end subroutine doubt_curve
 
-   !> Masses, gravity, and the constant load of the road on each wheel.
+   !> Examines masses, gravity, and the constant load of the road on each wheel.
    subroutine doubt_loads(suspension, doubts)
       type(suspension_t), intent(in) :: suspension
       type(doubts_t), intent(inout) :: doubts
@@ -215,7 +215,7 @@ contains
          ', but the deck has no constant load and no weight to balance')
    end subroutine doubt_loads
 
-   !> &axle and &steering.
+   !> Examines &axle and &steering.
    subroutine doubt_vehicle(suspension, doubts)
       type(suspension_t), intent(in) :: suspension
       type(doubts_t), intent(inout) :: doubts
@@ -237,7 +237,7 @@ contains
       end associate
    end subroutine doubt_vehicle
 
-   !> The range of the cases.
+   !> Examines the range of the cases.
    subroutine doubt_cases(suspension, cases, doubts)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: cases(:)

@@ -132,7 +132,7 @@ module ek_plausible_range
 
 contains
 
-   !> The item that the next remarks are on.
+   !> Sets the item that the next remarks are on.
    pure subroutine examine(self, where, thing)
       class(doubts_t), intent(inout) :: self
       character(*), intent(in) :: where        !! file:line

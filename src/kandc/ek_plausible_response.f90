@@ -28,7 +28,7 @@ module ek_plausible_response
 
 contains
 
-   !> Remarks on a model that can be solved.
+   !> Adds remarks on a model that can be solved.
    subroutine doubt_response(suspension, kkt, doubts)
       type(suspension_t), intent(in) :: suspension     !! balanced if possible; not on a rig
       type(kkt_t), intent(inout) :: kkt                !! work space
@@ -49,7 +49,7 @@ contains
       call doubt_bar(suspension, kandc, kkt, doubts)
    end subroutine doubt_response
 
-   !> The columns of the response at design that are judged.
+   !> Computes the columns of the response at design that are judged.
    subroutine respond_at_design(suspension, kkt, kandc)
       type(suspension_t), intent(in) :: suspension
       type(kkt_t), intent(inout) :: kkt
@@ -82,7 +82,7 @@ contains
       if (k > 0) value = kandc%values(k)
    end function value_of
 
-   !> The motion ratio of a spring: its size, and whether the spring gets shorter in bump.
+   !> Examines the motion ratio of a spring: its size, and whether the spring gets shorter in bump.
    subroutine doubt_motion(suspension, k, kandc, doubts)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: k
@@ -105,7 +105,7 @@ contains
       end associate
    end subroutine doubt_motion
 
-   !> Wheel rate, ride frequency, bump steer and bump camber of a wheel.
+   !> Examines wheel rate, ride frequency, bump steer and bump camber of a wheel.
    subroutine doubt_wheel(suspension, w, kandc, doubts)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: w
@@ -150,7 +150,7 @@ contains
       end do
    end function road_load
 
-   !> Whether the preloads of balance leave all springs without force although the road loads the wheels.
+   !> Examines whether the preloads of balance leave all springs without force although the road loads the wheels.
    subroutine doubt_load(suspension, doubts)
       type(suspension_t), intent(in) :: suspension
       type(doubts_t), intent(inout) :: doubts
@@ -197,7 +197,7 @@ contains
       end do
    end function has_preload
 
-   !> Whether an anti-roll bar, a torsion spring between a body on the left and one on the right, adds to the roll rate.
+   !> Examines whether an anti-roll bar, a torsion spring between a body on the left and one on the right, adds to the roll rate.
    subroutine doubt_bar(suspension, kandc, kkt, doubts)
       type(suspension_t), intent(in) :: suspension
       type(kandc_t), intent(in) :: kandc

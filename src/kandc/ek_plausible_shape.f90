@@ -11,7 +11,7 @@ module ek_plausible_shape
 
 contains
 
-   !> Each wheel, and each pair of wheels.
+   !> Examines each wheel, and each pair of wheels.
    subroutine doubt_wheels(suspension, doubts)
       type(suspension_t), intent(in) :: suspension
       type(doubts_t), intent(inout) :: doubts
@@ -56,7 +56,7 @@ contains
       end do
    end subroutine doubt_wheels
 
-   !> The geometric steer axis: caster, kingpin inclination, scrub radius, trail.
+   !> Examines the geometric steering axis: caster, kingpin inclination, scrub radius, trail.
    subroutine doubt_steer_axis(suspension, wheel, doubts)
       type(suspension_t), intent(in) :: suspension
       type(wheel_t), intent(in) :: wheel
@@ -110,7 +110,7 @@ contains
       end associate
    end subroutine doubt_carrier
 
-   !> The mean of the attachment points of a body, and their number.
+   !> Computes the mean of the attachment points of a body, and their number.
    subroutine middle_of_joints(suspension, mean, joints)
       type(suspension_t), intent(in) :: suspension
       real(wp), intent(out) :: mean(:, 0:)
@@ -148,7 +148,7 @@ contains
 
    end subroutine middle_of_joints
 
-   !> Hardpoints outside the space of a suspension.
+   !> Examines hardpoints outside the space of a suspension.
    subroutine doubt_points(suspension, doubts)
       type(suspension_t), intent(in) :: suspension
       type(doubts_t), intent(inout) :: doubts

@@ -169,7 +169,7 @@ contains
          'and the reported rates are those of these elements')
    end subroutine spring_remarks
 
-   !> The preloads found by balance.
+   !> Adds the preloads found by balance.
    subroutine preload_remarks(suspension, words)
       type(suspension_t), intent(in) :: suspension
       type(message_list_t), intent(inout) :: words

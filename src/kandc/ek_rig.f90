@@ -56,7 +56,7 @@ contains
       call mount_on(base, given, rig, suspension, this)
    end subroutine mount
 
-   !> The same, with the rig.
+   !> Puts a completed suspension on the rig of a case, and returns the rig.
    pure subroutine mount_on(base, given, rig, suspension, this)
       type(suspension_t), intent(in) :: base
       type(case_t), intent(in) :: given
@@ -90,8 +90,8 @@ contains
       mounted%is_mounted = .true.
    end subroutine mount_case
 
-   !> As mount_case, for the next design of a blueprint: only numbers may have changed in the suspension and in the case since
-   !> `mounted` was put on the rig. Its numbers are renewed in place: no name is copied, and after the first design nothing is
+   !> Mounts the next design of a blueprint as mount_case does: only numbers may have changed in the suspension and in the case
+   !> since `mounted` was put on the rig. Its numbers are renewed in place: no name is copied, and after the first design nothing is
    !> allocated.
    subroutine mount_again(base, given, mounted)
       type(suspension_t), intent(in) :: base
@@ -141,7 +141,7 @@ contains
       mounted%is_mounted = .false.
    end subroutine take_off
 
-   !> A suspension and a rig as one flat model.
+   !> Joins a suspension and a rig to one flat model.
    pure subroutine put_on(rig, base, suspension)
       type(rig_t), intent(in) :: rig                  !! made for this suspension
       type(suspension_t), intent(in) :: base
@@ -172,7 +172,7 @@ contains
       call set_rig_numbers(suspension, case, rig)
    end function rig_of
 
-   !> The drivers, loads and actuations of the rig of a case.
+   !> Adds the drivers, loads and actuations of the rig of a case.
    pure subroutine add_parts(suspension, case, rig)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
@@ -223,7 +223,7 @@ contains
       end select
    end subroutine add_parts
 
-   !> The drive or the loads that a case without a test names.
+   !> Adds the drive or the loads that a case without a test names.
    pure subroutine follow_deck(suspension, case, rig)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
@@ -243,7 +243,7 @@ contains
       rig%unit = trim(driver_unit(suspension, case%drive))
    end subroutine follow_deck
 
-   !> Heights that follow the swept value; with vertical = 'force', vertical forces instead.
+   !> Adds heights that follow the swept value; with vertical = 'force', vertical forces instead.
    pure subroutine move_heights(test, suspension, case, wheels, control, rig)
       type(rig_test_t), intent(in) :: test
       type(suspension_t), intent(in) :: suspension
@@ -276,7 +276,7 @@ contains
       end do
    end subroutine move_heights
 
-   !> A unit load on each wheel, scaled by the case.
+   !> Adds a unit load on each wheel, scaled by the case.
    pure subroutine load_wheels(test, suspension, case, wheels, rig)
       type(rig_test_t), intent(in) :: test
       type(suspension_t), intent(in) :: suspension
@@ -295,7 +295,7 @@ contains
       end do
    end subroutine load_wheels
 
-   !> The loads and drivers of the columns of a table; its rows become the path of the case.
+   !> Adds the loads and drivers of the columns of a table; its rows become the path of the case.
    pure subroutine take_rows(suspension, case, control, rig)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case

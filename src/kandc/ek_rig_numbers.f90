@@ -100,7 +100,7 @@ contains
       end do
    end subroutine set_rig_numbers
 
-   !> The numbers of a rig for a suspension that stands on it already.
+   !> Copies the numbers of a rig to a suspension that stands on it already.
    pure subroutine copy_rig_numbers(rig, suspension)
       type(rig_t), intent(in) :: rig
       type(suspension_t), intent(inout) :: suspension    !! of put_on

@@ -14,7 +14,7 @@ module ek_standard_tests
 
 contains
 
-   !> The standard tests of an axle, or those of a single wheel.
+   !> Lists the standard tests of an axle, or those of a single wheel.
    !>
    !> A test that the deck contains (same test, phase, offset and vertical control) is taken from the deck with its range;
    !> the other cases of the deck follow. A name that the deck uses for another case gets the ending '_test'. Steering
@@ -51,7 +51,7 @@ contains
 
    contains
 
-      !> The deck's own case of this test, or the standard one.
+      !> Includes the deck's own case of this test, or the standard one.
       subroutine include(test, is_anti, offset)
          type(rig_test_t), intent(in) :: test
          logical, intent(in) :: is_anti
@@ -103,7 +103,7 @@ contains
 
    end subroutine standard_tests
 
-   !> A standard test of steering goes from one end of the rack to the other, and so does a grid; all others keep their range.
+   !> Sets the range of a standard test of steering, or of a grid, to the whole rack travel; all others keep their range.
    pure subroutine cover_rack_travel(suspension, this)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(inout) :: this

@@ -33,7 +33,7 @@ module ek_state_columns
 
 contains
 
-   !> The columns of a model. All are asked.
+   !> Lists the columns of a model. All are asked.
    subroutine state_columns(suspension, list)
       type(suspension_t), intent(in) :: suspension
       type(column_list_t), intent(out) :: list
@@ -44,7 +44,7 @@ contains
       call choose(list, is_wanted)
    end subroutine state_columns
 
-   !> The names of the columns of a model: list%names(:list%used). Before they are filled, `choose` says which are asked.
+   !> Lists the names of the columns of a model: list%names(:list%used). Before they are filled, `choose` sets which are asked.
    subroutine list_state(suspension, list)
       type(suspension_t), intent(in) :: suspension
       type(column_list_t), intent(out) :: list
@@ -122,7 +122,7 @@ contains
       has_joints = any(list%section(list%blocks) == of_joint)
    end function has_joints
 
-   !> The values of the asked columns at a state.
+   !> Computes the values of the asked columns at a state.
    pure subroutine state_values(suspension, state, wheels, kkt, list, row)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
@@ -156,7 +156,7 @@ contains
       end do
    end subroutine state_values
 
-   !> The values of wheel_position, SI.
+   !> Computes the values of wheel_position, SI.
    pure subroutine position_values(now, frame, values)
       type(attitude_t), intent(in) :: now
       real(wp), intent(in) :: frame(3)
@@ -171,7 +171,7 @@ contains
       values(9:11) = frame*now%contact
    end subroutine position_values
 
-   !> Length or gap, and force, of an element of one measure, in the units of their columns.
+   !> Computes length or clearance, and force, of an element of one measure, in the units of their columns.
    pure subroutine element_values(suspension, state, k, values)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
@@ -188,7 +188,7 @@ contains
       end associate
    end subroutine element_values
 
-   !> Deflection, rotation, force and moment of a bushing, marker axes, in the units of their columns.
+   !> Computes deflection, rotation, force and moment of a bushing, marker axes, in the units of their columns.
    pure subroutine bushing_values(suspension, state, k, values)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
@@ -207,7 +207,7 @@ contains
       end associate
    end subroutine bushing_values
 
-   !> Force and moment of a joint on its second body, at its point, frame of the deck; the reaction of one of measures.
+   !> Computes force and moment of a joint on its second body, at its point, frame of the deck; the reaction of one of measures.
    pure subroutine joint_values(suspension, state, gradients, frame, k, values)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state

@@ -60,7 +60,7 @@ contains
       inclination = camber - side*roll
    end function inclination_of
 
-   !> Steer angles, positive into the turn, and the side of the outer wheel.
+   !> Finds the steer angles, positive into the turn, and the side of the outer wheel.
    pure subroutine outer_wheel(left, right, inner, outer, side)
       real(wp), intent(in) :: left, right      !! positive to the left
       real(wp), intent(out) :: inner, outer

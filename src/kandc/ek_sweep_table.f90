@@ -93,7 +93,7 @@ contains
       if (case%has_all) is_for = same_columns(suspension, self%kandc)
    end function is_for
 
-   !> The table of a sweep: all states that were reached, and on either side the first that was not,
+   !> Makes makes the table of a sweep: all states that were reached, and on either side the first that was not,
    !> marked by converged = 0 and values that are not numbers.
    !>
    !> If the case requests all columns, the K&C quantities precede the last columns, from the compliance matrix
@@ -186,7 +186,7 @@ contains
       end do
    end subroutine observe_kandc_at
 
-   !> The values of quantity_columns at one state, an equilibrium or close to one, as observe has them in its table.
+   !> Computes the values of quantity_columns at one state, an equilibrium or close to one, as observe has them in its table.
    subroutine observe_state(suspension, state, inputs, kkt, observer, wheels, all_values, values)
       type(suspension_t), intent(in) :: suspension          !! on the rig
       type(state_t), intent(in) :: state
@@ -239,7 +239,7 @@ contains
       if (has_kandc) has_kandc = size(observer%kandc%blocks) > 0
    end function has_kandc
 
-   !> The asked quantities of a state. begin_design was called.
+   !> Fills the asked quantities of a state. begin_design was called.
    subroutine fill_quantities(suspension, state, inputs, kkt, observer, needs_violation, needs_kandc, wheels, values)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
@@ -281,7 +281,7 @@ contains
       end associate
    end subroutine fill_quantities
 
-   !> The table of a single path, as observe with an observer of its own.
+   !> Makes makes the table of a single path, as observe with an observer of its own.
    subroutine sweep_table(suspension, case, path, kkt, table, wanted)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
@@ -299,7 +299,7 @@ contains
       call observe(suspension, case, path, kkt, observer, table)
    end subroutine sweep_table
 
-   !> The heads of the table of a case, as in observe.
+   !> Lists the headings of the table of a case, as in observe.
    subroutine sweep_columns(suspension, case, columns)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
@@ -310,7 +310,7 @@ contains
       call list_columns(suspension, case, columns, list, kandc)
    end subroutine sweep_columns
 
-   !> The heads, and the work space of the K&C columns if the case requests them. Which are asked is still to be said.
+   !> Lists the headings, and prepares the K&C columns if the case requests them. Which are asked is set afterwards.
    subroutine list_columns(suspension, case, columns, list, kandc)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
@@ -357,7 +357,7 @@ contains
       bytes = margin + 8*int(case%increments + 2, i8)*(coordinates(suspension) + of_a_path + 2*size(observer%columns))
    end function sweep_bytes
 
-   !> The states in the table: those reached, and one more on a side that failed; of a load table every row.
+   !> Finds finds the states in the table: those reached, and one more on a side that failed; of a load table every row.
    pure subroutine reached_rows(path, first, last)
       type(path_t), intent(in) :: path
       integer, intent(out) :: first, last

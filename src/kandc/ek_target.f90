@@ -172,7 +172,7 @@ contains
 
    contains
 
-      !> Equilibrium at a swept value, from the nearer state of the sweep, and its difference to the target value.
+      !> Solves the equilibrium at a swept value, from the nearer state of the sweep, and its difference to the target value.
       subroutine look_at(place)
          real(wp), intent(in) :: place
          type(state_t) :: state
@@ -204,7 +204,7 @@ contains
 
    end subroutine close_in
 
-   !> A path reduced to one state.
+   !> Reduces a path to one state.
    subroutine one_state(path, k, here)
       type(path_t), intent(in) :: path
       integer, intent(in) :: k
@@ -221,7 +221,7 @@ contains
       here%settled = path%settled
    end subroutine one_state
 
-   !> The column of this name, or the only one that consists of this name and a unit.
+   !> Finds the column of this name, or the only one that consists of this name and a unit.
    subroutine find_column(columns, name, place, error)
       character(*), intent(in) :: columns(:)
       character(*), intent(in) :: name

@@ -21,7 +21,7 @@ module ek_what_if
 
 contains
 
-   !> A: deflections of some laws per unit load on each of them. Costs as many solutions.
+   !> Computes A: deflections of some laws per unit load on each of them. Costs as many solutions.
    !> Equation (C.16) of docs/theory/compliance.md.
    subroutine find_self_moves(laws, kkt, compliance, shares, self_move)
       integer, intent(in) :: laws(:)                      !! numbers of laws in `shares`
@@ -38,7 +38,7 @@ contains
       self_move = matmul(transpose(shares%gradient(:, laws)), columns(:kkt%nq, :))
    end subroutine find_self_moves
 
-   !> C' after changes of some rates. I + D A is singular where a rate becomes so negative that the suspension collapses.
+   !> Computes C' after changes of some rates. I + D A is singular where a rate becomes so negative that the suspension collapses.
    !> Equation (C.16) of docs/theory/compliance.md.
    subroutine changed_compliance(c, left_move, move, self_move, change, changed, is_known)
       real(wp), intent(in) :: c(:, :)                       !! at the wheel centres

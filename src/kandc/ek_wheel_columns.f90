@@ -9,7 +9,7 @@ module ek_wheel_columns
 
 contains
 
-   !> The values of one group of characteristics: wheel_rates, wheel_bump, wheel_roll, swing_arms, wheel_forces (twice),
+   !> Computes the values of one group of characteristics: wheel_rates, wheel_bump, wheel_roll, swing_arms, wheel_forces (twice),
    !> wheel_jacking, wheel_stiffness, wheel_pitch.
    pure subroutine wheel_values(group, is, frame, values)
       integer, intent(in) :: group
@@ -59,7 +59,7 @@ contains
       end select
    end subroutine wheel_values
 
-   !> Responses to roll: steer, camber, caster, steer in percent, rotations.
+   !> Computes responses to roll: steer, camber, caster, steer in percent, rotations.
    pure subroutine roll_values(roll, frame, values)
       type(response_t), intent(in) :: roll
       real(wp), intent(in) :: frame(3)
@@ -72,7 +72,7 @@ contains
       values(5:7) = frame*roll%rotation
    end subroutine roll_values
 
-   !> The values of wheel_forces under one condition.
+   !> Computes the values of wheel_forces under one condition.
    pure subroutine force_values(is, held, frame, values)
       type(wheel_characteristics_t), intent(in) :: is
       integer, intent(in) :: held
@@ -96,7 +96,7 @@ contains
       end associate
    end subroutine force_values
 
-   !> Deflections of patch and centre, steer, camber under a lateral force.
+   !> Computes deflections of contact point and centre, steer, camber under a lateral force.
    pure subroutine lateral_values(response, values)
       type(response_t), intent(in) :: response
       real(wp), intent(inout) :: values(4)
@@ -107,7 +107,7 @@ contains
       values(4) = response%camber
    end subroutine lateral_values
 
-   !> Angles and rotations under a longitudinal force.
+   !> Computes angles and rotations under a longitudinal force.
    pure subroutine turn_values(response, frame, values)
       type(response_t), intent(in) :: response
       real(wp), intent(in) :: frame(3)

@@ -64,7 +64,7 @@ contains
       call set_number(x%arm_j, lane, measure%arm_j)
    end subroutine set_measure
 
-   !> All designs have the same number of points.
+   !> Sets one lane of a curve. All designs have the same number of points.
    pure subroutine set_curve(x, lane, curve)
       type(curve_of_lanes_t), intent(inout) :: x
       integer, intent(in) :: lane

@@ -39,7 +39,7 @@ module ek_lane_numbers
 
 contains
 
-   !> The same number in all lanes.
+   !> Sets the same number in all lanes.
    elemental subroutine assign_real(x, number)
       type(lanes_t), intent(out) :: x
       real(wp), intent(in) :: number

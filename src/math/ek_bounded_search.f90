@@ -45,7 +45,7 @@ module ek_bounded_search
       real(wp), private :: predicted = 0.0_wp        !! reduction of |r|² that the last step promised
    end type bounded_search_t
 
-   real(wp), parameter :: far = 1.0e100_wp                 !! a bound further away is none; its distance can be divided by a scale
+   real(wp), parameter :: far = 1.0e100_wp                 !! a bound further away is ignored; its distance can be divided by a scale
    real(wp), parameter :: tiny_step = 1.0e-10_wp           !! of the scale
    real(wp), parameter :: tiny_gain = 1.0e-13_wp           !! of |r|²: rounding
    real(wp), parameter :: first_damping = 1.0e-3_wp, most_damping = 1.0e7_wp, least_damping = 1.0e-8_wp
@@ -136,7 +136,7 @@ contains
 
    end subroutine advance_search
 
-   !> The d with low ≤ d ≤ high and the smallest |J d + r|² + μ s² |d|², s² the largest square of a column's norm.
+   !> Finds the d with low ≤ d ≤ high and the smallest |J d + r|² + μ s² |d|², s² the largest square of a column's norm.
    !>
    !> An active set: the free unknowns are solved for; where they leave the bounds, d goes as far as the first bound, whose unknown
    !> is then held; when all are inside, one whose bound does not hold it back is freed. Every cycle reduces the sum, so it ends.
@@ -193,7 +193,7 @@ contains
       end do
    end subroutine bounded_step
 
-   !> The shortest z of the free unknowns with the smallest |J z + r|² + μ |z|²; the others are zero.
+   !> Finds the shortest z of the free unknowns with the smallest |J z + r|² + μ |z|²; the others are zero.
    subroutine solve_free(jacobian, r, mu, is_free, z)
       real(wp), intent(in) :: jacobian(:, :), r(:), mu
       logical, intent(in) :: is_free(:)

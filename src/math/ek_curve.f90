@@ -29,7 +29,7 @@ module ek_curve
 
 contains
 
-   !> A curve with the numbers of another one; its memory is used again if the number of points is the same.
+   !> Copies the numbers of a curve to another one, whose memory is used again if the number of points is the same.
    pure subroutine copy_curve(from, to)
       type(curve_t), intent(in) :: from
       type(curve_t), intent(inout) :: to          !! keeps its name in this case
@@ -47,7 +47,7 @@ contains
       to%end_slope = from%end_slope
    end subroutine copy_curve
 
-   !> Value and slope at x; at a corner of a linear curve, the slope to the right.
+   !> Finds value and slope at x; at a corner of a linear curve, the slope to the right.
    pure subroutine look_up_curve(curve, x, value, slope)
       type(curve_t), intent(in) :: curve
       real(num), intent(in) :: x
@@ -85,7 +85,7 @@ contains
       slope = merge(slope, s, is_outside)
    end subroutine look_up_curve
 
-   !> The least and the largest slope between two places.
+   !> Finds the least and the largest slope between two abscissae.
    pure subroutine slopes_between(curve, from, to, least, most)
       type(curve_t), intent(in) :: curve
       real(num), intent(in) :: from, to

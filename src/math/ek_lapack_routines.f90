@@ -8,7 +8,7 @@ module ek_lapack_routines
    public :: dsytrf, dsytrs, dsytrs2, dlacn2, dsysv, dsyev, dgesv, dgetrf, dgetrs, dgesvd, dgelsd, dpotrf
 
    interface
-      !> Cholesky factorisation of a symmetric positive definite matrix; info = order of the first minor that is not.
+      !> Factorises a symmetric positive definite matrix by Cholesky; info = order of the first minor that is not positive.
       pure subroutine dpotrf(uplo, n, a, lda, info)
          import :: wp
          implicit none(type, external)
@@ -18,7 +18,7 @@ module ek_lapack_routines
          integer, intent(out) :: info
       end subroutine dpotrf
 
-      !> Bunch–Kaufman factorisation of a symmetric indefinite matrix.
+      !> Factorises a symmetric indefinite matrix by Bunch and Kaufman's method.
       pure subroutine dsytrf(uplo, n, a, lda, ipiv, work, lwork, info)
          import :: wp
          implicit none(type, external)
@@ -30,7 +30,7 @@ module ek_lapack_routines
          integer, intent(out) :: info
       end subroutine dsytrf
 
-      !> Solution with the factors of dsytrf.
+      !> Solves with the factors of dsytrf.
       pure subroutine dsytrs(uplo, n, nrhs, a, lda, ipiv, b, ldb, info)
          import :: wp
          implicit none(type, external)
@@ -42,7 +42,7 @@ module ek_lapack_routines
          integer, intent(out) :: info
       end subroutine dsytrs
 
-      !> The same in matrix products: quicker than dsytrs for several right-hand sides. The factors are as before on return.
+      !> Solves as dsytrs does, but in matrix products: quicker for several right-hand sides. The factors are as before on return.
       pure subroutine dsytrs2(uplo, n, nrhs, a, lda, ipiv, b, ldb, work, info)
          import :: wp
          implicit none(type, external)
@@ -55,7 +55,7 @@ module ek_lapack_routines
          integer, intent(out) :: info
       end subroutine dsytrs2
 
-      !> Estimate of the 1-norm of a matrix from its products, by reverse communication (N. J. Higham): as long as kase > 0 on
+      !> Estimates the 1-norm of a matrix from its products, by reverse communication (N. J. Higham): as long as kase > 0 on
       !> return, the caller multiplies x by the matrix (kase 1) or its transpose (2) and calls again; the first call has kase = 0.
       pure subroutine dlacn2(n, v, x, isgn, est, kase, isave)
          import :: wp
@@ -68,7 +68,7 @@ module ek_lapack_routines
          integer, intent(inout) :: isave(3)
       end subroutine dlacn2
 
-      !> Factor and solve in one call: the unit of the benchmark.
+      !> Factorises and solves in one call: the unit of the benchmark.
       pure subroutine dsysv(uplo, n, nrhs, a, lda, ipiv, b, ldb, work, lwork, info)
          import :: wp
          implicit none(type, external)
@@ -81,7 +81,7 @@ module ek_lapack_routines
          integer, intent(out) :: info
       end subroutine dsysv
 
-      !> Factor (LU, partial pivoting) and solve a general system.
+      !> Factorises (LU, partial pivoting) and solves a general system.
       pure subroutine dgesv(n, nrhs, a, lda, ipiv, b, ldb, info)
          import :: wp
          implicit none(type, external)
@@ -92,7 +92,7 @@ module ek_lapack_routines
          integer, intent(out) :: info
       end subroutine dgesv
 
-      !> LU factorisation with partial pivoting; info > 0: a pivot is zero.
+      !> Factorises by LU with partial pivoting; info > 0: a pivot is zero.
       pure subroutine dgetrf(m, n, a, lda, ipiv, info)
          import :: wp
          implicit none(type, external)
@@ -114,7 +114,7 @@ module ek_lapack_routines
          integer, intent(out) :: info
       end subroutine dgetrs
 
-      !> Eigenvalues and eigenvectors of a symmetric matrix, ascending.
+      !> Finds eigenvalues and eigenvectors of a symmetric matrix, ascending.
       pure subroutine dsyev(jobz, uplo, n, a, lda, w, work, lwork, info)
          import :: wp
          implicit none(type, external)
@@ -126,7 +126,7 @@ module ek_lapack_routines
          integer, intent(out) :: info
       end subroutine dsyev
 
-      !> Singular value decomposition.
+      !> Decomposes a matrix by singular values.
       pure subroutine dgesvd(jobu, jobvt, m, n, a, lda, s, u, ldu, vt, ldvt, work, lwork, info)
          import :: wp
          implicit none(type, external)
@@ -138,7 +138,7 @@ module ek_lapack_routines
          integer, intent(out) :: info
       end subroutine dgesvd
 
-      !> Least squares of minimum norm, by singular values; those below rcond times the largest count as zero.
+      !> Solves least squares of minimum norm, by singular values; those below rcond times the largest count as zero.
       pure subroutine dgelsd(m, n, nrhs, a, lda, b, ldb, s, rcond, rank, work, lwork, iwork, info)
          import :: wp
          implicit none(type, external)

@@ -19,7 +19,7 @@ module ek_philox
 
 contains
 
-   !> Four random integers from a key of two and a counter of four integers, all from 0 to 2³² − 1.
+   !> Computes four random integers from a key of two and a counter of four integers, all from 0 to 2³² − 1.
    !>
    !> A round replaces (c₁, c₂, c₃, c₄) by (hi(m₂c₃) ⊕ c₂ ⊕ k₁, lo(m₂c₃), hi(m₁c₁) ⊕ c₄ ⊕ k₂, lo(m₁c₁)), where hi and lo are the
    !> upper and lower 32 bits of a product; ten rounds, between which the key grows by the increments (section 3.3 of the source).
@@ -43,7 +43,7 @@ contains
       end do
    end subroutine philox
 
-   !> The upper and lower 32 bits of a product. In halves of b, because 64 bits with a sign cannot hold the product:
+   !> Computes the upper and lower 32 bits of a product. In halves of b, because 64 bits with a sign cannot hold the product:
    !> a b = (a b₁) 2¹⁶ + a b₀, each below 2⁴⁸.
    pure subroutine product_of_words(a, b, high, low)
       integer(i8), intent(in) :: a, b
@@ -56,7 +56,8 @@ contains
       low = ior(shiftl(iand(second, 65535_i8), 16), iand(first, 65535_i8))
    end subroutine product_of_words
 
-   !> The random integers of one counter: block m = 1, 2, … of a design, which holds the numbers of the factors 2m − 1 and 2m.
+   !> Computes the random integers of one counter: block m = 1, 2, … of a design, which holds the numbers of the factors 2m − 1
+   !> and 2m.
    pure subroutine words_of(seed, stream, design, block, words)
       integer(i8), intent(in) :: seed, design
       integer, intent(in) :: stream, block
@@ -98,7 +99,7 @@ contains
       end if
    end function uniform
 
-   !> u(j) = uniform(seed, stream, design, j) for all factors of a design, in half the time.
+   !> Computes u(j) = uniform(seed, stream, design, j) for all factors of a design, in half the time.
    pure subroutine fill_uniforms(seed, stream, design, u)
       integer(i8), intent(in) :: seed, design
       integer, intent(in) :: stream
@@ -113,7 +114,7 @@ contains
       end do
    end subroutine fill_uniforms
 
-   !> Random integers from 0 to 2³² − 1.
+   !> Fills an array with random integers from 0 to 2³² − 1.
    pure subroutine fill_words(seed, stream, number, words)
       integer(i8), intent(in) :: seed, number
       integer, intent(in) :: stream

@@ -36,7 +36,7 @@ module ek_saddle
 
 contains
 
-   !> A matrix of zeros.
+   !> Creates a saddle matrix of zeros.
    pure subroutine new_saddle(n, m, saddle)
       integer, intent(in) :: n, m
       type(saddle_t), intent(out) :: saddle
@@ -56,7 +56,7 @@ contains
       call eliminate_arrays(saddle%n, saddle%m, saddle%k, saddle%f, saddle%swapped, saddle%is_regular)
    end subroutine eliminate
 
-   !> The same with explicit shapes.
+   !> Does the work of eliminate, with explicit shapes.
    !> Equation (K.22) of docs/theory/kkt.md.
    pure subroutine eliminate_arrays(n, m, k, f, swapped, is_regular)
       integer, intent(in) :: n, m
@@ -124,7 +124,7 @@ contains
       is_regular = .true.
    end subroutine eliminate_arrays
 
-   !> Rows c < p of F change places, and rows and columns c and p of K, of which columns before c are not needed any more.
+   !> Exchanges rows c < p of F, and rows and columns c and p of K, of which columns before c are not needed any more.
    pure subroutine exchange(n, m, c, p, k, f)
       integer, intent(in) :: n, m, c, p
       real(wp), intent(inout) :: k(n, n), f(n, m)
@@ -151,7 +151,7 @@ contains
       end do
    end subroutine exchange
 
-   !> b ← L⁻¹ P b: first what y must hold, then from m + 1 on what only v can.
+   !> Computes b ← L⁻¹ P b: first the part that y must hold, then from m + 1 on the part that only v can.
    pure subroutine reduce(saddle, b)
       type(saddle_t), intent(in) :: saddle        !! is_regular
       real(wp), intent(inout) :: b(:)             !! n
@@ -178,7 +178,7 @@ contains
       end do
    end subroutine apply
 
-   !> v from a reduced b, in place.
+   !> Computes v from a reduced b, in place.
    pure subroutine spread_motion(saddle, b)
       type(saddle_t), intent(in) :: saddle        !! is_regular
       real(wp), intent(inout) :: b(:)             !! n: from `reduce`; then v
@@ -194,7 +194,7 @@ contains
       end do
    end subroutine spread_motion
 
-   !> b ← L⁻ᵀ [0; S⁻¹ b₂] with the factor of S = Zᵀ K Z.
+   !> Computes b ← L⁻ᵀ [0; S⁻¹ b₂] with the factor of S = Zᵀ K Z.
    !> Equation (K.22) of docs/theory/kkt.md.
    pure subroutine substitute_back(n, m, k, f, b)
       integer, intent(in) :: n, m
@@ -214,7 +214,7 @@ contains
       end do
    end subroutine substitute_back
 
-   !> y with F y = b, from a reduced b whose part after m is rounding.
+   !> Finds y with F y = b, from a reduced b whose part after m is rounding.
    pure subroutine solve_forces(saddle, b, y)
       type(saddle_t), intent(in) :: saddle        !! is_regular
       real(wp), intent(in) :: b(:)                !! n: from `reduce`

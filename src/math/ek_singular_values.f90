@@ -61,7 +61,7 @@ contains
       parts%rank = count(parts%values > share*most)
    end subroutine decompose
 
-   !> The shortest x of those with the smallest |A x − b|.
+   !> Finds the shortest x of those with the smallest |A x − b|.
    pure subroutine min_norm(parts, b, x)
       type(singular_values_t), intent(in) :: parts       !! of A
       real(wp), intent(in) :: b(:)
@@ -74,7 +74,7 @@ contains
       end do
    end subroutine min_norm
 
-   !> A matrix with ones on its diagonal.
+   !> Sets a matrix with ones on its diagonal.
    pure subroutine set_unit(rows, columns, matrix)
       integer, intent(in) :: rows, columns
       real(wp), allocatable, intent(out) :: matrix(:, :)

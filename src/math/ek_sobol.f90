@@ -30,7 +30,7 @@ module ek_sobol
 
 contains
 
-   !> A sequence of some dimensions, 1 … largest_dimension. With a seed it is scrambled.
+   !> Creates a sequence of some dimensions, 1 … largest_dimension. With a seed it is scrambled.
    pure subroutine new_sobol(dimensions, sobol, seed, stream)
       integer, intent(in) :: dimensions
       type(sobol_t), intent(out) :: sobol
@@ -57,7 +57,8 @@ contains
       if (dimension > 1) degree = bit_size(0) - 1 - leadz(polynomials(dimension - 1))
    end function degree_of
 
-   !> The direction numbers of one dimension: v_k = m_k 2³²⁻ᵏ, and beyond the degree s of its polynomial xˢ + a₁xˢ⁻¹ + … + 1
+   !> Computes the direction numbers of one dimension: v_k = m_k 2³²⁻ᵏ. Beyond the degree s of its polynomial
+   !> xˢ + a₁xˢ⁻¹ + … + 1 they are
    !>
    !>     v_k = a₁v_{k−1} ⊕ … ⊕ a_{s−1}v_{k−s+1} ⊕ v_{k−s} ⊕ v_{k−s} 2⁻ˢ      (Bratley and Fox, equation 2)
    !>
@@ -129,7 +130,7 @@ contains
       x = (real(sum, wp) + 0.5_wp)*step
    end function sobol_coordinate
 
-   !> The first coordinates of a point.
+   !> Computes the first coordinates of a point.
    pure subroutine sobol_point(sobol, index, x)
       type(sobol_t), intent(in) :: sobol
       integer(i8), intent(in) :: index               !! 0 … largest_index

@@ -11,7 +11,7 @@ module ek_substitution
 
 contains
 
-   !> x ← A⁻¹ x with the factors and pivots of dsytrf('L', …), info = 0.
+   !> Computes x ← A⁻¹ x with the factors and pivots of dsytrf('L', …), info = 0.
    !>
    !> Column k of `factors` holds column k of L below the diagonal; a pair with pivots(k) = pivots(k+1) < 0 has a 2 × 2 block
    !> of D, whose off-diagonal element is factors(k+1, k).

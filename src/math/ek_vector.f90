@@ -10,7 +10,7 @@ module ek_vector
 
 contains
 
-   !> y ← y + factor × x
+   !> Computes y ← y + factor × x.
    pure subroutine add_multiple(n, factor, x, y)
       integer, intent(in) :: n
       real(num), intent(in) :: factor, x(n)
@@ -22,7 +22,7 @@ contains
       end do
    end subroutine add_multiple
 
-   !> y ← x y, component by component
+   !> Computes y ← x y, component by component.
    pure subroutine multiply(n, x, y)
       integer, intent(in) :: n
       real(num), intent(in) :: x(n)

@@ -19,7 +19,7 @@ module ek_block
 
 contains
 
-   !> y ← y + factor × gradient, that of a measure of two bodies, at their unknowns; at_i, at_j: the number of unknowns before
+   !> Adds factor × gradient to y, that of a measure of two bodies, at their unknowns; at_i, at_j: the number of unknowns before
    !> those of body i, j; negative: the chassis.
    pure subroutine add_gradient(factor, gradient, at_i, at_j, y)
       real(num), intent(in) :: factor, gradient(12)
@@ -180,7 +180,7 @@ contains
       end if
    end subroutine add_block
 
-   !> block(row+1:row+3, column+1:column+3) += part
+   !> Adds a part: block(row+1:row+3, column+1:column+3) += part.
    pure subroutine add_part(part, row, column, block)
       real(num), intent(in) :: part(3, 3)
       integer, intent(in) :: row, column
@@ -194,7 +194,7 @@ contains
       end do
    end subroutine add_part
 
-   !> block(row+1:row+3, column+1:column+3) += partᵀ
+   !> Adds a transposed part: block(row+1:row+3, column+1:column+3) += partᵀ.
    pure subroutine add_transposed(part, row, column, block)
       real(num), intent(in) :: part(3, 3)
       integer, intent(in) :: row, column

@@ -126,7 +126,7 @@ module ek_blueprint
 
 contains
 
-   !> A blueprint without parts.
+   !> Creates a blueprint without parts.
    subroutine new_blueprint(self)
       type(blueprint_t), intent(out) :: self
       integer :: number

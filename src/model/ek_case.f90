@@ -92,7 +92,7 @@ contains
       if (.not. case%says_solver) case%uses_plan = .true.
    end subroutine prefer_plan
 
-   !> The numbers of a case of a deck for its copy of another design: nothing is allocated. An empty copy receives the whole case.
+   !> Copies the numbers of a case of a deck for another design: nothing is allocated. An empty copy receives the whole case.
    pure subroutine copy_case_numbers(from, to)
       type(case_t), intent(in) :: from
       type(case_t), intent(inout) :: to
@@ -119,7 +119,7 @@ contains
       scales_loads = any([(len(case%actuations(k)%load) > 0, k=1, size(case%actuations))])
    end function scales_loads
 
-   !> Add an actuation to a case: a load or a driver joint; the other name is empty.
+   !> Adds an actuation to a case: a load or a driver joint; the other name is empty.
    pure subroutine append_actuation(actuations, load, drive, share, law, values)
       type(actuation_t), allocatable, intent(inout) :: actuations(:)
       character(*), intent(in) :: load, drive

@@ -14,7 +14,7 @@ module ek_design_vector
 
 contains
 
-   !> All points [m] and directions; vector 0 is zero.
+   !> Computes all points [m] and directions; vector 0 is zero.
    pure subroutine find_vectors(plan, x, vectors, is_good, only)
       type(blueprint_t), intent(in) :: plan
       real(wp), intent(in) :: x(:)
@@ -47,7 +47,7 @@ contains
       end do
    end subroutine find_vectors
 
-   !> A unit vector; zero, and is_good = .false., if it has no direction.
+   !> Computes a unit vector; zero, and is_good = .false., if it has no direction.
    pure subroutine find_direction(plan, x, this, vectors, direction, is_good)
       type(blueprint_t), intent(in) :: plan
       real(wp), intent(in) :: x(:)
@@ -79,7 +79,7 @@ contains
       if (norm2(direction) > 0.0_wp) direction = unit_vector(direction)
    end subroutine find_direction
 
-   !> The marker axes: z is kept, x is made perpendicular to it, y = z × x. Without directions they are the deck's global axes.
+   !> Computes the marker axes: z stays, x is made perpendicular to it, y = z × x. Default: the deck's global axes.
    pure subroutine marker_axes(plan, z, x, axes, is_good)
       type(blueprint_t), intent(in) :: plan
       real(wp), intent(in) :: z(3), x(3)          !! unit vectors, or both zero
@@ -101,7 +101,7 @@ contains
       axes(:, 3) = z
    end subroutine marker_axes
 
-   !> The spin axis of a wheel, from its direction or from toe and camber. Outboard:
+   !> Computes the spin axis of a wheel, from its direction or from toe and camber. Outboard:
    !> w = (−cos γ sin δ, side cos γ cos δ, −sin γ), δ toe-in, γ camber (top outboard), which inverts
    !> toe = atan2(−w_x, side w_y), camber = asin(−w_z).
    pure subroutine spin_of(side, toe, camber, direction, wheel)

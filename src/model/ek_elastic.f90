@@ -75,7 +75,7 @@ contains
       end do
    end function in_body
 
-   !> Gap, rotation, force and moment of the law, and its slopes.
+   !> Computes displacement, rotation, force and moment of the law, and its slopes.
    !> Equation (M.15) of docs/theory/measures.md.
    pure subroutine evaluate_bushing(bushing, measure, pose_i, pose_j, evaluation)
       type(bushing_t), intent(in) :: bushing
@@ -110,7 +110,7 @@ contains
       evaluation%force = rotated(pose_i%a, force)
    end subroutine evaluate_bushing
 
-   !> dV/d(component) minus the preload, along and about the marker axes [N, N m], and the slopes [N/m, N m/rad].
+   !> Computes dV/d(component) minus the preload, along and about the marker axes [N, N m], and the slopes [N/m, N m/rad].
    pure subroutine evaluate_components(bushing, gap, theta, load, slope)
       type(bushing_t), intent(in) :: bushing
       real(num), intent(in) :: gap(3), theta(3)          !! axes of body i
@@ -134,8 +134,8 @@ contains
       load(4:6) = load(4:6) - bushing%preload_moment
    end subroutine evaluate_components
 
-   !> Force and moment of the bushing law on body j, marker axes: preload minus restoring force of rates or curves [N, N m].
-   !> The force is the force on body j. The moment is conjugate to θ (−dV/dθ); the moment on body j is ∂θ/∂δᵀ times it, as in
+   !> Computes force and moment of the bushing law on body j, marker axes: preload minus restoring force of rates or curves [N,
+   !> N m]. The force is the force on body j. The moment is conjugate to θ (−dV/dθ); the moment on body j is ∂θ/∂δᵀ times it, as in
    !> bushing_force.
    pure subroutine bushing_load(bushing, evaluation, force, moment)
       type(bushing_t), intent(in) :: bushing

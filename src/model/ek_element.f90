@@ -121,7 +121,7 @@ contains
       end if
    end subroutine set_design_value
 
-   !> The numbers of an element for another one, which is the same but for numbers; nothing is allocated.
+   !> Copies the numbers of an element to another one, which is the same but for numbers; nothing is allocated.
    pure subroutine copy_element(from, to)
       type(element_t), intent(in) :: from
       type(element_t), intent(inout) :: to
@@ -138,7 +138,7 @@ contains
       end if
    end subroutine copy_element
 
-   !> The same of a bushing.
+   !> Copies the numbers of a bushing to another one, which is the same but for numbers; nothing is allocated.
    pure subroutine copy_bushing(from, to)
       type(bushing_t), intent(in) :: from
       type(bushing_t), intent(inout) :: to
@@ -163,7 +163,7 @@ contains
       end do
    end subroutine copy_bushing
 
-   !> Force of an element of one measure without its preload (derivative of the energy) at a value of the measure, and its slope.
+   !> Finds the force of an element of one measure without its preload (derivative of the energy) at a value, and its slope.
    pure subroutine look_up_element(element, value, force, slope)
       type(element_t), intent(in) :: element
       real(num), intent(in) :: value               !! m, rad, -
@@ -171,7 +171,7 @@ contains
       call look_up_law(element%law, value, force, slope)
    end subroutine look_up_element
 
-   !> The least and the largest slope of that force between two values of the measure.
+   !> Finds the least and the largest slope of that force between two values of the measure.
    pure subroutine element_slopes(element, from, to, least, most)
       type(element_t), intent(in) :: element
       real(num), intent(in) :: from, to            !! m, rad, -

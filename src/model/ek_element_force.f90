@@ -26,7 +26,7 @@ module ek_element_force
 
 contains
 
-   !> Deflection, force and slope.
+   !> Computes deflection, force and slope.
    pure subroutine evaluate_element(element, pose_i, pose_j, evaluation)
       type(element_t), intent(in) :: element
       type(pose_t), intent(in) :: pose_i, pose_j
@@ -42,7 +42,7 @@ contains
       end if
    end subroutine evaluate_element
 
-   !> Tension at a value of the measure, and its slope; for a torsion spring, the moment at an angle.
+   !> Computes the tension at a value of the measure, and its slope; for a torsion spring, the moment at an angle.
    !> Equation (M.14) of docs/theory/measures.md.
    pure subroutine spring_tension(spring, value, tension, slope)
       type(element_t), intent(in) :: spring

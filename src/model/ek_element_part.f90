@@ -49,8 +49,8 @@ contains
       end if
    end function has_rate
 
-   !> The deflection of each law that is a rate: how much its force changes per change of the rate. 0 at design, where the preload
-   !> stands for the force, except for a spring whose preload follows from its rate and its free length.
+   !> Finds the deflection of each law that is a rate: the change of its force per change of the rate. 0 at design, where the
+   !> preload stands for the force, except for a spring whose preload follows from its rate and its free length.
    pure subroutine find_deflections(element, pose_i, pose_j, deflection)
       type(element_t), intent(in) :: element
       type(pose_t), intent(in) :: pose_i, pose_j
@@ -75,7 +75,7 @@ contains
          deflection(1) = whole%measure%value - element%free_length
    end subroutine find_deflections
 
-   !> The laws of an element at a pair of poses, of a bushing in the order along x, y, z, about x, y, z of its marker.
+   !> Lists the laws of an element at a pair of poses, of a bushing in the order along x, y, z, about x, y, z of its marker.
    !> Equation (C.15) of docs/theory/compliance.md.
    pure subroutine take_apart(element, pose_i, pose_j, parts)
       type(element_t), intent(in) :: element

@@ -54,7 +54,7 @@ contains
       if (mod(place(2), 2) == 0) place(1) = levels(1) + 1 - place(1)
    end function grid_place
 
-   !> Travel or value of the driver in every state of a grid. Memory is used again if it fits.
+   !> Sets travel or value of the driver in every state of a grid. Memory is used again if it fits.
    pure subroutine set_grid_values(case, is_of_driver, values)
       type(case_t), intent(in) :: case
       logical, intent(in) :: is_of_driver

@@ -115,7 +115,7 @@ contains
       end select
    end function axes_fit
 
-   !> The terms of a joint in row order, and the number of terms of each row.
+   !> Lists the terms of a joint in row order, and the number of terms of each row.
    !>
    !> Arms are design points (global); `settle_design` subtracts the reference points of the bodies.
    !> Equation (M.19) of docs/theory/measures.md.

@@ -27,7 +27,7 @@ module ek_law
 
 contains
 
-   !> A law with the numbers of another one of its kind; nothing is allocated.
+   !> Copies the numbers of a law to another one of its kind; nothing is allocated.
    pure subroutine copy_law(from, to)
       type(law_t), intent(in) :: from
       type(law_t), intent(inout) :: to
@@ -45,7 +45,7 @@ contains
       call copy_curve(from%curve, to%curve)
    end subroutine copy_law
 
-   !> Force (derivative of the energy) at a value of the measure, and its slope.
+   !> Finds the force (derivative of the energy) at a value of the measure, and its slope.
    !> Equation (M.14) of docs/theory/measures.md.
    pure subroutine look_up_law(law, value, force, slope)
       type(law_t), intent(in) :: law
@@ -85,7 +85,7 @@ contains
       deflection = law%sign*(value - law%reference)
    end function deflection
 
-   !> The least and the largest slope of the force between two values of the measure.
+   !> Finds the least and the largest slope of the force between two values of the measure.
    pure subroutine find_slopes(law, from, to, least, most)
       type(law_t), intent(in) :: law
       real(num), intent(in) :: from, to

@@ -61,7 +61,7 @@ module ek_measure
 
 contains
 
-   !> Value and gradient of a measure, and its vectors for the Hessian.
+   !> Evaluates a measure: value and gradient, and its vectors for the Hessian.
    !>
    !> Degenerate cases: a distance of 0 has no direction (checked when the model is built); a rotation
    !> of exactly π has no unique axis.

@@ -28,7 +28,7 @@ module ek_realise
 
 contains
 
-   !> A suspension for `realise`: the only allocation.
+   !> Creates a suspension for `realise`: the only allocation.
    subroutine new_design(plan, suspension)
       type(blueprint_t), intent(in) :: plan
       type(suspension_t), intent(out) :: suspension
@@ -38,7 +38,7 @@ contains
       allocate (suspension%vectors(3, 0:size(plan%vectors)), source=0.0_wp)
    end subroutine new_design
 
-   !> All numbers of the suspension for the parameters x. Call `new_design` first, once.
+   !> Computes all numbers of the suspension for the parameters x. Call `new_design` first, once.
    subroutine realise(plan, x, suspension, is_good)
       type(blueprint_t), intent(in) :: plan
       real(wp), intent(in) :: x(:)                        !! SI, axes of the deck
@@ -84,7 +84,7 @@ contains
       if (is_good) call settle_design(suspension)
    end subroutine realise
 
-   !> Reference points and masses; the centres of gravity still as points.
+   !> Computes reference points and masses; the centres of gravity still as points.
    subroutine place_bodies(plan, x, suspension)
       type(blueprint_t), intent(in) :: plan
       real(wp), intent(in) :: x(:)
@@ -107,7 +107,7 @@ contains
       end do
    end subroutine place_bodies
 
-   !> The terms of all joints, with design points instead of arms.
+   !> Computes the terms of all joints, with design points instead of arms.
    subroutine place_joints(plan, x, suspension, is_good)
       type(blueprint_t), intent(in) :: plan
       real(wp), intent(in) :: x(:)
@@ -152,7 +152,7 @@ contains
       end do
    end subroutine place_joints
 
-   !> Elastic elements of one measure.
+   !> Computes the elastic elements of one measure.
    subroutine place_elements(plan, x, suspension, is_good)
       type(blueprint_t), intent(in) :: plan
       real(wp), intent(in) :: x(:)
@@ -185,7 +185,7 @@ contains
       end do
    end subroutine place_elements
 
-   !> Bushings, with design points instead of arms.
+   !> Computes bushings, with design points instead of arms.
    subroutine place_bushings(plan, x, suspension, is_good)
       type(blueprint_t), intent(in) :: plan
       real(wp), intent(in) :: x(:)
@@ -215,7 +215,7 @@ contains
       end do
    end subroutine place_bushings
 
-   !> A curve of an element, in SI; unchanged points keep it as it is.
+   !> Renews a curve of an element, in SI; unchanged points leave it as it is.
    subroutine renew(plan, number, x, x_unit, y_unit, curve, is_good)
       type(blueprint_t), intent(in) :: plan
       integer, intent(in) :: number
@@ -262,7 +262,7 @@ contains
       end do
    end subroutine place_loads
 
-   !> Wheels, with design points instead of arms.
+   !> Computes wheels, with design points instead of arms.
    subroutine place_wheels(plan, x, suspension, is_good)
       type(blueprint_t), intent(in) :: plan
       real(wp), intent(in) :: x(:)
@@ -289,7 +289,7 @@ contains
       end do
    end subroutine place_wheels
 
-   !> The numbers of the cases for the parameters x.
+   !> Computes the numbers of the cases for the parameters x.
    subroutine realise_cases(plan, x, cases, is_good)
       type(blueprint_t), intent(in) :: plan
       real(wp), intent(in) :: x(:)

@@ -29,7 +29,7 @@ module ek_relative_rotation
 
 contains
 
-   !> The rotation of body j relative to body i.
+   !> Computes the rotation of body j relative to body i.
    !> Equation (R.10) of docs/theory/rotations.md.
    pure subroutine relative_rotation(pose_i, pose_j, turn)
       type(pose_t), intent(in) :: pose_i, pose_j

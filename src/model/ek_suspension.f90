@@ -113,7 +113,7 @@ module ek_suspension
 
 contains
 
-   !> A suspension without parts.
+   !> Creates a suspension without parts.
    subroutine allocate_lists(self)
       type(suspension_t), intent(inout) :: self
       allocate (self%bodies(0), self%points(0), self%joints(0), self%rows(0), self%terms(0), self%elements(0), self%loads(0), &
@@ -127,7 +127,7 @@ contains
       self%steering%driver = ''
    end subroutine allocate_lists
 
-   !> The numbers of a suspension for another one, which has the same parts, and may have those of a rig behind them (ek_rig): joints,
+   !> Copies the numbers of a suspension to another one, which has the same parts, and may have those of a rig behind them (ek_rig):
    !> rows, terms and loads. Every number that realise, settle_design or balance sets is copied; nothing is allocated.
    pure subroutine copy_numbers(from, to)
       type(suspension_t), intent(in) :: from

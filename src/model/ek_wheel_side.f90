@@ -15,7 +15,7 @@ contains
       name = merge('left ', 'right', side == 1)
    end function side_name
 
-   !> The numbers of the left and the right wheel, 0 if there is none.
+   !> Finds the indices of the left and the right wheel, 0 for a wheel that the model does not have.
    pure subroutine left_and_right(suspension, wheels)
       type(suspension_t), intent(in) :: suspension
       integer, intent(out) :: wheels(2)

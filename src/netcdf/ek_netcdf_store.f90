@@ -80,7 +80,7 @@ contains
          "cannot write '"//path//"': "//trim(nf90_strerror(file%fault)))
    end subroutine write_store_file
 
-   !> Keeps the first fault.
+   !> Records the first fault.
    subroutine note(fault, status)
       integer, intent(inout) :: fault
       integer, intent(in) :: status
@@ -109,7 +109,7 @@ contains
       end do
    end function count_of
 
-   !> Dimensions, variables and attributes. The last dimension of Fortran is the first one that ncdump shows.
+   !> Defines dimensions, variables and attributes. The last dimension of Fortran is the first one that ncdump shows.
    subroutine define(store, file)
       type(store_t), intent(in) :: store
       type(file_t), intent(inout) :: file
@@ -152,7 +152,7 @@ contains
 
    contains
 
-      !> A variable over design.
+      !> Defines a variable over design.
       subroutine over_designs(name, kind, variable)
          character(*), intent(in) :: name
          integer, intent(in) :: kind
@@ -162,7 +162,7 @@ contains
          call set_cache(8*length, variable)
       end subroutine over_designs
 
-      !> A variable over (design, a second dimension).
+      !> Defines a variable over (design, a second dimension).
       subroutine over_two(name, kind, second, entries, bytes, variable)
          character(*), intent(in) :: name
          integer, intent(in) :: kind
@@ -175,7 +175,7 @@ contains
          call set_cache(entries*designs*bytes, variable)
       end subroutine over_two
 
-      !> Room for the two blocks into which a chunk may be written.
+      !> Sets room for the two blocks into which a chunk may be written.
       subroutine set_cache(bytes, variable)
          integer, intent(in) :: bytes             !! of a block
          integer, intent(in) :: variable
@@ -197,7 +197,7 @@ contains
       text = text(2:)
    end function flag_meanings
 
-   !> Attributes of a byte whose values have meanings.
+   !> Writes attributes of a byte whose values have meanings.
    subroutine put_flags(file, variable, long_name, meanings, last)
       type(file_t), intent(inout) :: file
       integer, intent(in) :: variable
@@ -217,7 +217,7 @@ contains
       call note(file%fault, nf90_put_att(file%id, variable, name, text))
    end subroutine put_text
 
-   !> The attributes of the description.
+   !> Writes the attributes of the description.
    subroutine put_attributes(file, variable, list)
       type(file_t), intent(inout) :: file
       integer, intent(in) :: variable
@@ -242,7 +242,7 @@ contains
       end do
    end subroutine put_attributes
 
-   !> The names of the variables of responses and quantities, over dimensions of their own; the numbers of the states.
+   !> Writes the names of the variables of responses and quantities, over dimensions of their own; the numbers of the states.
    subroutine write_names(store, file)
       type(store_t), intent(in) :: store
       type(file_t), intent(inout) :: file
@@ -283,7 +283,7 @@ contains
 
    end subroutine write_names
 
-   !> The designs of a chunk. Reasons are written only where there are some.
+   !> Writes the designs of a chunk. Reasons are written only where there are some.
    subroutine write_chunk(store, chunk, file)
       type(store_t), intent(in) :: store
       type(chunk_t), intent(in) :: chunk
@@ -329,7 +329,7 @@ contains
       end do
    end subroutine write_chunk
 
-   !> 1 for the designs that keep all limits.
+   !> Finds the designs that satisfy all limits: 1 for these.
    pure subroutine find_within(store, chunk, flags)
       type(store_t), intent(in) :: store
       type(chunk_t), intent(in) :: chunk
@@ -349,7 +349,7 @@ contains
       end do
    end subroutine find_within
 
-   !> One column of the curves of a chunk; states that a design lacks are not numbers.
+   !> Extracts one column of the curves of a chunk; states that a design lacks are not numbers.
    pure subroutine take_curve(chunk, column, curve)
       type(chunk_t), intent(in) :: chunk
       integer, intent(in) :: column

@@ -65,14 +65,14 @@ contains
       if (file%id /= 0) call note(file, nf90_close(file%id))
    end subroutine write_store_tables
 
-   !> Keeps the first fault.
+   !> Records the first fault.
    subroutine note(file, status)
       type(store_file_t), intent(inout) :: file
       integer, intent(in) :: status
       if (file%fault == nf90_noerr) file%fault = status
    end subroutine note
 
-   !> The fault as an error.
+   !> Returns the fault as an error.
    subroutine check(file, error)
       type(store_file_t), intent(in) :: file
       type(error_t), allocatable, intent(inout) :: error
@@ -81,7 +81,7 @@ contains
       call fail(error, exit_file, 'it is not the store of a study, or damaged: '//trim(nf90_strerror(file%fault)))
    end subroutine check
 
-   !> Dimensions and variables.
+   !> Reads dimensions and variables.
    subroutine survey(file)
       type(store_file_t), intent(inout) :: file
       character(nf90_max_name) :: name
@@ -122,7 +122,7 @@ contains
       has = nf90_inquire_attribute(file%id, variable, name) == nf90_noerr
    end function has
 
-   !> A text attribute; '' after a fault.
+   !> Reads a text attribute; '' after a fault.
    subroutine get_text(file, variable, name, text)
       type(store_file_t), intent(inout) :: file
       integer, intent(in) :: variable
@@ -136,7 +136,7 @@ contains
       if (file%fault == nf90_noerr) call note(file, nf90_get_att(file%id, variable, name, text))
    end subroutine get_text
 
-   !> Header lines and column names.
+   !> Adds header lines and column names.
    subroutine add_head(file, variables, last, table_file)
       type(store_file_t), intent(inout) :: file
       integer, intent(in) :: variables(:)
@@ -159,7 +159,7 @@ contains
       call table_file%add(csv_head(table))
    end subroutine add_head
 
-   !> A row per design.
+   !> Writes a row per design.
    subroutine write_rows(file, rows)
       type(store_file_t), intent(inout) :: file
       type(writer_t), intent(inout) :: rows
@@ -201,7 +201,7 @@ contains
       end do
    end subroutine write_rows
 
-   !> A row per state of every n-th design; states that a design lacks are left out.
+   !> Writes a row per state of every n-th design; states that a design lacks are omitted.
    subroutine write_curves(file, every, curves)
       type(store_file_t), intent(inout) :: file
       integer, intent(in) :: every

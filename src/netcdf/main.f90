@@ -35,7 +35,7 @@ program elastokin_netcdf
 
 contains
 
-   !> The fourth argument, a number; 1 if there is none.
+   !> Reads the fourth argument, a number; 1 without it.
    subroutine read_every(every, error)
       integer, intent(out) :: every
       type(error_t), allocatable, intent(out) :: error

@@ -115,7 +115,7 @@ contains
       if (row > 0) value = table%values(place, row)
    end function design_value
 
-   !> The maximum or minimum of a column over the converged states, or its largest magnitude in this test and those before.
+   !> Finds the maximum or minimum of a column over the converged states, or its largest magnitude in this test and those before.
    subroutine take_extreme(how, table, place, value)
       integer, intent(in) :: how
       type(table_t), intent(in) :: table

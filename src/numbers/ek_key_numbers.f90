@@ -87,7 +87,7 @@ module ek_key_numbers
 
 contains
 
-   !> All key numbers that the tests provide, with their values.
+   !> Computes all key numbers that the tests provide, with their values.
    subroutine key_numbers(tests, gradients, numbers)
       type(test_result_t), intent(in) :: tests(:)        !! solved
       type(gradient_t), intent(in) :: gradients(:)       !! of these tests
@@ -120,7 +120,7 @@ contains
       end do
    end subroutine key_numbers
 
-   !> All key numbers that the tests may have, by the heads of their tables: nothing needs to be solved.
+   !> Lists all key numbers that the tests may have, by the headings of their tables: nothing needs to be solved.
    subroutine list_key_numbers(tests, gradients, numbers, wanted)
       type(test_result_t), intent(in) :: tests(:)        !! with the columns of their tables and their wheels
       type(gradient_t), intent(in) :: gradients(:)       !! of these tests
@@ -159,7 +159,7 @@ contains
       call numbers_of(list, numbers)
    end subroutine list_key_numbers
 
-   !> The gradients among wanted numbers that are read from a kind of test: 'bump toe (fitted)'.
+   !> Lists the gradients among wanted numbers that are read from a kind of test: 'bump toe (fitted)'.
    subroutine wanted_gradients(kind, wanted, quantities, is_gradient)
       character(*), intent(in) :: kind, wanted(:)        !! names without left_ and right_
       character(64), allocatable, intent(out) :: quantities(:)
@@ -198,8 +198,8 @@ contains
       end select
    end function name_of
 
-   !> The names of a number for programs: one of the axle or of a single wheel, or one per wheel, the left one first; '': the number
-   !> does not exist for this wheel.
+   !> Lists the names of a number for programs: one of the axle or of a single wheel, or one per wheel, the left one first; '':
+   !> the number does not exist for this wheel.
    subroutine number_heads(number, is_pair, heads)
       type(key_number_t), intent(in) :: number
       logical, intent(in) :: is_pair                     !! the model has two wheels
@@ -217,7 +217,7 @@ contains
       end do
    end subroutine number_heads
 
-   !> A gradient of the tests of the kind and phase; the first that was run counts.
+   !> Reads a gradient of the tests of the kind and phase; the first that was run counts.
    subroutine from_gradients(tests, gradients, entry, number)
       type(test_result_t), intent(in) :: tests(:)
       type(gradient_t), intent(in) :: gradients(:)
@@ -256,7 +256,7 @@ contains
       end do
    end subroutine from_gradients
 
-   !> A column at design, or its maximum or minimum, in the tests that have it.
+   !> Reads a column at design, or its maximum or minimum, in the tests that have it.
    subroutine from_tables(tests, entry, is_steered, number)
       type(test_result_t), intent(in) :: tests(:)
       type(entry_t), intent(in) :: entry

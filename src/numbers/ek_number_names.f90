@@ -18,7 +18,7 @@ module ek_number_names
 
 contains
 
-   !> The message on unknown names.
+   !> Makes the message on unknown names.
    subroutine explain_unknown(names, suspension, cases, error)
       character(*), intent(in) :: names(:)
       type(suspension_t), intent(in) :: suspension
@@ -56,7 +56,7 @@ contains
       where (index(names, 'right_') == 1) stems = stems(:) (7:)
    end function stems_of
 
-   !> The place of a name; number 0 if there is none.
+   !> Finds a name among the numbers; number 0 if it is unknown.
    pure subroutine find_number(name, heads, number, wheel)
       character(*), intent(in) :: name
       character(*), intent(in) :: heads(:, :)           !! (wheel, number)
@@ -70,7 +70,7 @@ contains
       end do
    end subroutine find_number
 
-   !> All names, with units and definitions, in the order of the report. Nothing is solved, so one of them may have no value.
+   !> Lists all names, with units and definitions, in the order of the report. Nothing is solved, so one of them may have no value.
    subroutine list_numbers(suspension, cases, names, units, definitions)
       type(suspension_t), intent(in) :: suspension      !! on no rig
       type(case_t), intent(in) :: cases(:)
@@ -91,8 +91,8 @@ contains
       end do
    end subroutine list_numbers
 
-   !> The tests with the heads of their tables, and the numbers that they may have. The rig adds nothing to what key numbers are read
-   !> from, so that all tests have the heads of the first.
+   !> Lists the tests with the headings of their tables, and the numbers that they may have. The rig adds nothing to what key
+   !> numbers are read from, so that all tests have the heads of the first.
    subroutine list_all(suspension, cases, tests, listed, names, wanted)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: cases(:)

@@ -27,7 +27,7 @@ module ek_place_numbers
 
 contains
 
-   !> A number without values and sources.
+   !> Creates a number without values and sources.
    subroutine new_number(group, quantity, unit, sign, how, number)
       character(*), intent(in) :: group, quantity, unit, sign
       integer, intent(in) :: how
@@ -73,7 +73,7 @@ contains
       call add_rack_force(tests, numbers)
    end subroutine place_numbers
 
-   !> A column with the inner wheel at 20 deg: `left` is the turn to the left, with the left wheel inside.
+   !> Adds a column with the inner wheel at 20 deg: `left` is the turn to the left, with the left wheel inside.
    subroutine add_at_steer(test, place, column, quantity, name, unit, numbers)
       type(test_result_t), intent(in) :: test
       integer, intent(in) :: place                 !! of the test
@@ -100,7 +100,7 @@ contains
       call append(number, numbers)
    end subroutine add_at_steer
 
-   !> Wheel travel from design to the contact of a stop on its side, both wheels in parallel.
+   !> Adds the wheel travel from design to the contact of a stop on its side, both wheels in parallel.
    subroutine add_stops(test, place, numbers)
       type(test_result_t), intent(in) :: test
       integer, intent(in) :: place                 !! of the test
@@ -144,7 +144,7 @@ contains
 
    contains
 
-      !> The gap of a stop, and the travel of its side.
+      !> Reads the clearance of a stop, and the travel of its side.
       subroutine read_at(wheel, element, prefix)
          integer, intent(in) :: wheel
          character(*), intent(in) :: element, prefix       !! prefix: side of the stop, or ''
@@ -156,7 +156,7 @@ contains
 
    end subroutine add_stops
 
-   !> The maximum magnitude of the force on the rack over all states of all tests.
+   !> Adds the maximum magnitude of the force on the rack over all states of all tests.
    subroutine add_rack_force(tests, numbers)
       type(test_result_t), intent(in) :: tests(:)
       type(number_list_t), intent(inout) :: numbers
@@ -205,7 +205,7 @@ contains
       list%used = list%used + 1
    end subroutine append
 
-   !> The numbers of a list as an array.
+   !> Returns the numbers of a list as an array.
    subroutine numbers_of(list, numbers)
       type(number_list_t), intent(in) :: list
       type(key_number_t), allocatable, intent(out) :: numbers(:)

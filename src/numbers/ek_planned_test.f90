@@ -12,7 +12,7 @@ module ek_planned_test
 
 contains
 
-   !> Name, kind and title of every test before it is run.
+   !> Lists name, kind and title of every test before it is run.
    subroutine planned_tests(suspension, cases, tests)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(inout) :: cases(:)      !! their results have all columns
@@ -39,7 +39,7 @@ contains
       end do
    end subroutine planned_tests
 
-   !> The kind of test that a case of a deck amounts to, from its drive or load.
+   !> Finds the kind of test that a case of a deck amounts to, from its drive or load.
    subroutine kind_of_case(suspension, case, kind, factor_size)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case

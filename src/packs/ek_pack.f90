@@ -52,7 +52,7 @@ module ek_pack
 
 contains
 
-   !> Work space for designs with the connections of this one.
+   !> Creates work space for designs with the connections of this one.
    subroutine new_pack(suspension, kkt, path, pack)
       type(suspension_t), intent(in) :: suspension
       type(kkt_t), intent(in) :: kkt                     !! with a plan

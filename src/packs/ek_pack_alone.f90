@@ -22,7 +22,7 @@ module ek_pack_alone
 
 contains
 
-   !> The next state of one design, by the way of a single design, with the scale of the pack. If the pack found an
+   !> Solves the next state of one design, by the way of a single design, with the scale of the pack. If the pack found an
    !> equilibrium, this is judged first, with the factors of the pack.
    subroutine step_alone(self, member, place, outcome, lane, k, direction)
       type(walker_t), intent(inout) :: self
@@ -114,7 +114,7 @@ contains
       if (has) has = all(kkt%plan(held)%slot == pack%plan%slot)
    end function has_plan_of
 
-   !> The factors of a design in the pack become those of its own system.
+   !> Copies the factors of a design in the pack to its own system.
    pure subroutine take_factors(factors, lane, negative, kkt)
       type(lanes_t), intent(in) :: factors(:)
       integer, intent(in) :: lane, negative                !! negative: eigenvalues
@@ -149,7 +149,7 @@ contains
       is_same_assembly = .not. (is_over .or. is_singular)
    end function is_same_assembly
 
-   !> The present poses of a design, as self%state.
+   !> Copies the present poses of a design to self%state.
    pure subroutine take_state(self, lane)
       type(walker_t), intent(inout) :: self
       integer, intent(in) :: lane
@@ -162,7 +162,7 @@ contains
       end do
    end subroutine take_state
 
-   !> How many states would have predicted the present one of a design best.
+   !> Learns how many states would have predicted the present one of a design best.
    subroutine learn(self, member, k, direction, lane, trusted)
       type(walker_t), intent(inout) :: self
       type(member_t), intent(in) :: member
@@ -188,7 +188,7 @@ contains
       self%is_fresh(lane) = .true.
    end subroutine refresh
 
-   !> The last states of a design before state k, as a predictor has them.
+   !> Recalls the last states of a design before state k, as a predictor has them.
    subroutine recall(predictor, path, k, direction, trusted)
       type(predictor_t), intent(inout) :: predictor
       type(path_t), intent(in) :: path
@@ -203,7 +203,7 @@ contains
       predictor%trusted = trusted
    end subroutine recall
 
-   !> The present poses of a design, packed.
+   !> Packs the present poses of a design.
    pure subroutine take_poses(pack, lane, packed)
       type(pack_t), intent(in) :: pack
       integer, intent(in) :: lane

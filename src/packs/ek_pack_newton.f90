@@ -16,7 +16,7 @@ module ek_pack_newton
 
 contains
 
-   !> From the poses and reactions of the pack to equilibrium under its inputs.
+   !> Iterates from the poses and reactions of the pack to equilibrium under its inputs.
    subroutine find_equilibria(pack, tolerance, is_wanted, outcome)
       type(pack_t), intent(inout) :: pack
       real(wp), intent(in) :: tolerance                  !! m
@@ -93,7 +93,7 @@ contains
       end do
    end subroutine find_equilibria
 
-   !> The system at the present poses.
+   !> Assembles the system at the present poses.
    subroutine assemble(pack, mode)
       type(pack_t), intent(inout) :: pack
       integer, intent(in) :: mode
@@ -108,7 +108,7 @@ contains
       end do
    end subroutine assemble
 
-   !> New factors; those of designs whose iteration has ended stay, so that they do not depend on the others.
+   !> Factorises anew; the factors of designs whose iteration has ended stay, so that they do not depend on the others.
    subroutine factorise(pack, is_going, soundness)
       type(pack_t), intent(inout) :: pack
       logical, intent(in) :: is_going(lanes)

@@ -14,8 +14,9 @@ module ek_pack_tangents
 
 contains
 
-   !> The error of the trapezoidal rule in the step to the present states, as `compare` of ek_branch finds it from the last factors and
-   !> the state before the last. Where they do not explain the step, the tangent at its beginning takes the place of that state.
+   !> Finds the error of the trapezoidal rule in the step to the present states, as `compare` of ek_branch does from the last
+   !> factors and the state before the last. Where they do not explain the step, the tangent at its beginning takes the place of
+   !> that state.
    subroutine compare_tangents(self, members, places, is_common, is_asked, value, rest)
       type(walker_t), intent(inout) :: self
       type(member_t), intent(in) :: members(lanes)
@@ -70,7 +71,7 @@ contains
       end associate
    end subroutine compare_tangents
 
-   !> dz/ds at poses with the factors there, from the inputs at two places.
+   !> Computes dz/ds at poses with the factors there, from the inputs at two swept values.
    subroutine find_tangents(self, members, places, is_common, from, to, poses, factors, tangent)
       type(walker_t), intent(inout) :: self
       type(member_t), intent(in) :: members(lanes)
@@ -98,7 +99,7 @@ contains
       end associate
    end subroutine find_tangents
 
-   !> The first prediction: from design along the tangent there. Poses and factors are those of design.
+   !> Predicts the first state: from design along the tangent there. Poses and factors are those of design.
    subroutine go_along(self, members, places, is_common, value)
       type(walker_t), intent(inout) :: self
       type(member_t), intent(in) :: members(lanes)

@@ -179,7 +179,7 @@ contains
       end do
    end function has_state
 
-   !> The next state of all designs.
+   !> Solves the next state of all designs.
    subroutine step_to(self, members, places, is_common, k, direction)
       type(walker_t), intent(inout) :: self
       type(member_t), intent(inout) :: members(lanes)

@@ -52,7 +52,7 @@ module ek_walker
 
 contains
 
-   !> The inputs of all designs at a swept value.
+   !> Sets the inputs of all designs at a swept value.
    subroutine set_inputs(members, places, is_common, value, pack)
       type(member_t), intent(in) :: members(lanes)
       type(place_t), intent(in) :: places(lanes)
@@ -85,7 +85,7 @@ contains
       end do
    end subroutine set_inputs
 
-   !> Weights of the stored states, for each design of as many as it trusts, and where these states are stored.
+   !> Finds weights of the stored states, for each design of as many as it trusts, and where these states are stored.
    subroutine find_lane_weights(history, value, trusted, weight, slot, states)
       type(predictor_t), intent(in) :: history
       real(wp), intent(in) :: value

@@ -30,7 +30,7 @@ module ek_camera
 
 contains
 
-   !> To the right and upward in the picture, unit vectors.
+   !> Finds unit vectors to the right and upward in the picture.
    pure subroutine directions(camera, right, up)
       type(camera_t), intent(in) :: camera
       real(wp), intent(out) :: right(3), up(3)

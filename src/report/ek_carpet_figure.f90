@@ -173,7 +173,7 @@ contains
       point = [carpet%place(i, 1) + shift*carpet%place(j, 2), carpet%value(i, j, r)]
    end function point_of
 
-   !> The lines on which factor f is constant.
+   !> Adds the lines on which factor f is constant.
    subroutine add_lines(carpet, f, r, sheet)
       type(carpet_t), intent(in) :: carpet
       integer, intent(in) :: f, r
@@ -209,7 +209,7 @@ contains
       is_at_begin = first(2) - first(1) > last(2) - last(1)
    end function is_at_begin
 
-   !> The values of factor f at the ends of its lines, and 1 or −1 for above or below: away from the mean of the line. At the
+   !> Adds the values of factor f at the ends of its lines, and 1 or −1 for above or below: away from the mean of the line. At the
    !> corner of the carpet where the values of both factors meet, those of factor 2 have 2 or −2: further above or below.
    subroutine add_ends(carpet, f, r, sheet)
       type(carpet_t), intent(in) :: carpet

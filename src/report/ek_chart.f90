@@ -125,7 +125,7 @@ contains
       text = script%text()
    end function charts_script
 
-   !> Data and plot command of one chart.
+   !> Adds data and plot command of one chart.
    pure subroutine add_chart(script, chart)
       type(buffer_t), intent(inout) :: script
       type(chart_t), intent(in) :: chart
@@ -207,7 +207,7 @@ contains
          range = '[* < '//str((low + high)/2 - chart%noise, 6)//' : '//str((low + high)/2 + chart%noise, 6)//' < *]'
    end function range_of
 
-   !> The same range as two numbers, for a page that draws the chart itself; low > high: the chart has no value.
+   !> Returns the range of a chart as two numbers, for a page that draws the chart itself; low > high: the chart has no value.
    pure subroutine view_of(chart, low, high)
       type(chart_t), intent(in) :: chart
       real(wp), intent(out) :: low, high
@@ -228,7 +228,7 @@ contains
       high = middle + half
    end subroutine view_of
 
-   !> The smallest and largest value of all curves, each moved to within ±cut.
+   !> Finds the smallest and largest value of all curves, each moved to within ±cut.
    pure subroutine extremes(chart, cut, low, high)
       type(chart_t), intent(in) :: chart
       real(wp), intent(in) :: cut
@@ -296,7 +296,7 @@ contains
       end do
    end subroutine set_level
 
-   !> x and y with seven digits, more than a picture resolves.
+   !> Adds x and y with seven digits, more than a picture resolves.
    pure subroutine add_pair(script, x, y)
       type(buffer_t), intent(inout) :: script
       real(wp), intent(in) :: x, y
@@ -307,7 +307,7 @@ contains
       call script%line('')
    end subroutine add_pair
 
-   !> A number rounded to significant digits; NaN if it is not finite.
+   !> Adds a number rounded to significant digits; NaN if it is not finite.
    pure subroutine add_coordinate(script, value, digits)
       type(buffer_t), intent(inout) :: script
       real(wp), intent(in) :: value
@@ -339,7 +339,7 @@ contains
       rounded = anint(value*scale)/scale
    end function rounded
 
-   !> The picture files of these charts. A chart without curves is not drawn; every name is listed once.
+   !> Lists the picture files of these charts. A chart without curves is not drawn; every name is listed once.
    subroutine pictures_of(charts, pictures)
       type(chart_t), intent(in) :: charts(:)
       type(message_list_t), intent(inout) :: pictures

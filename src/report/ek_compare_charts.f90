@@ -36,8 +36,8 @@ module ek_compare_charts
 
 contains
 
-   !> The charts of every test of the first result that another one has too. A curve that is the same as that of the first result is
-   !> drawn once, as 'A = B'.
+   !> Compares the charts of every test of the first result that another one has too. A curve that is the same as that of the
+   !> first result is drawn once, as 'A = B'.
    subroutine compare_charts(results, threshold, charts, changes, curves)
       type(results_t), intent(in) :: results(:)
       real(wp), intent(in) :: threshold
@@ -89,7 +89,7 @@ contains
       end do
    end function chart_number
 
-   !> A chart that only one result has.
+   !> Adds a chart that only one result has.
    subroutine add_lone(chart, test, r, curves)
       type(chart_t), intent(in) :: chart
       character(*), intent(in) :: test
@@ -131,7 +131,7 @@ contains
       curves = [curves, curve]
    end subroutine add_curve
 
-   !> One chart of all results.
+   !> Joins one chart of all results.
    subroutine join(own, places, design, threshold, test, chart, change, curves)
       type(chart_list_t), intent(in) :: own(:)
       integer, intent(in) :: places(:)             !! of the chart in each list; 0: not there
@@ -210,7 +210,7 @@ contains
       if (is_invisible) is_invisible = abs(change%change) <= invisible
    end function is_invisible
 
-   !> Keeps the larger of two changes.
+   !> Stores the larger of two changes.
    pure subroutine take(one, largest)
       type(chart_change_t), intent(in) :: one
       type(chart_change_t), intent(inout) :: largest
@@ -249,8 +249,8 @@ contains
       if (at > 0) stands_for = single == 'left_'//joint(:at - 1) .or. single == 'right_'//joint(:at - 1)
    end function stands_for
 
-   !> Name, colour and dash of a curve: the colour of its result, dashed on the right; of several elements the colour is that of the
-   !> element, and the results are distinguished by dashes.
+   !> Sets name, colour and dash of a curve: the colour of its result, dashed on the right; of several elements the colour is
+   !> that of the element, and the results are distinguished by dashes.
    pure subroutine dress(trace, letters, r, is_elements)
       type(trace_t), intent(inout) :: trace
       character(*), intent(in) :: letters

@@ -55,7 +55,7 @@ contains
       text = page_text(page)
    end function page_of
 
-   !> What was changed: facts of the making, values of the decks.
+   !> Adds what was changed: facts of the making, values of the decks.
    subroutine add_changes(page, this)
       type(page_t), intent(inout) :: page
       type(comparison_t), intent(in) :: this
@@ -132,7 +132,7 @@ contains
       if (index(number, '-') == 1) text = '−'//number(2:)
    end function with_minus
 
-   !> A table whose rows the filter of the page finds.
+   !> Begins a table whose rows the filter of the page finds.
    subroutine begin_rows(page, heads)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: heads(:)
@@ -150,7 +150,7 @@ contains
       call begin_rows(page, heads)
    end subroutine fold_rows
 
-   !> How many results changed: a line each of numbers and of charts.
+   !> Counts the results that changed: a line each of numbers and of charts.
    subroutine verdicts(this, lines)
       type(comparison_t), intent(in) :: this
       type(message_list_t), intent(out) :: lines
@@ -182,7 +182,7 @@ contains
 
    end subroutine verdicts
 
-   !> The verdicts, the numbers sorted by change, and the charts that changed most.
+   !> Adds the verdicts, the numbers sorted by change, and the charts that changed most.
    subroutine add_results(page, this)
       type(page_t), intent(inout) :: page
       type(comparison_t), intent(in) :: this
@@ -220,7 +220,7 @@ contains
       call end_table(page)
    end subroutine add_results
 
-   !> The table of key numbers and gradients; those that did not change are folded.
+   !> Adds the table of key numbers and gradients; those that did not change are folded.
    subroutine add_numbers(page, this)
       type(page_t), intent(inout) :: page
       type(comparison_t), intent(in) :: this
@@ -288,7 +288,8 @@ contains
       call add_cell(page, row%test//', '//row%window, 's')
    end subroutine add_number
 
-   !> The charts of a test: the changed ones by the size of the change, the first few open; then, folded, those that did not change.
+   !> Adds the charts of a test: the changed ones by the size of the change, the first few open; then, folded, those that did
+   !> not change.
    subroutine add_test(page, this, test)
       type(page_t), intent(inout) :: page
       type(comparison_t), intent(in) :: this
@@ -327,7 +328,7 @@ contains
       call add_markup(page, '<details class="more"><summary>'//escape_html(summary)//'</summary>')
    end subroutine begin_fold
 
-   !> Charts side by side: places that the script of the page fills, or the drawings of gnuplot.
+   !> Adds charts side by side: areas that the script of the page fills, or the drawings of gnuplot.
    subroutine add_charts(page, this, numbers)
       type(page_t), intent(inout) :: page
       type(comparison_t), intent(in) :: this

@@ -139,7 +139,7 @@ contains
 
    end function deck_csv
 
-   !> A cell of the last row.
+   !> Writes a cell of the last row.
    subroutine put(table, column, text)
       type(text_table_t), intent(inout) :: table
       integer, intent(in) :: column

@@ -40,7 +40,7 @@ module ek_comparison
 
 contains
 
-   !> All gradients of all results; the same test, quantity and side are one row. Rows are in the order of the first
+   !> Compares all gradients of all results; the same test, quantity and side are one row. Rows are in the order of the first
    !> result, followed by gradients of the others only.
    subroutine compare_gradients(results, rows)
       type(results_t), intent(in) :: results(:)
@@ -55,7 +55,7 @@ contains
       rows = rows(:used)
    end subroutine compare_gradients
 
-   !> The same of all key numbers, by their names. A result without key numbers, a lone table, is left out.
+   !> Compares all key numbers of all results, by their names. A result without key numbers, a lone table, is omitted.
    subroutine compare_numbers(results, rows)
       type(results_t), intent(in) :: results(:)
       type(difference_t), allocatable, intent(out) :: rows(:)
@@ -168,7 +168,7 @@ contains
 
    end function results_shown
 
-   !> Keeps one row of the two sides of an axle where they show the same numbers, or the opposite ones.
+   !> Leaves one row of the two sides of an axle where they show the same numbers, or the opposite ones.
    subroutine join_sides(list)
       type(difference_t), allocatable, intent(inout) :: list(:)
       logical :: is_twin(size(list))

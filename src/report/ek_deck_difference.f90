@@ -20,8 +20,8 @@ module ek_deck_difference
 
 contains
 
-   !> The facts and values that are not the same in all records, in the order of the first. A value that only some decks give is
-   !> a difference; of the two sides of an axle that changed alike there is one row.
+   !> Finds the facts and values that are not the same in all records, in the order of the first. A value that only some decks
+   !> give is a difference; of the two sides of an axle that changed alike there is one row.
    subroutine find_differences(records, facts, values)
       type(deck_record_t), intent(in) :: records(:)
       type(deck_difference_t), allocatable, intent(out) :: facts(:), values(:)
@@ -54,7 +54,7 @@ contains
       is_in_all = all([(row%texts%line(r) /= '', r=1, row%texts%count())])
    end function is_in_all
 
-   !> The names whose texts differ.
+   !> Lists the names whose texts differ.
    subroutine differing(names, texts, list)
       type(message_list_t), intent(in) :: names(:), texts(:)     !! of each result
       type(deck_difference_t), allocatable, intent(out) :: list(:)
@@ -134,7 +134,7 @@ contains
       are_numbers = is_number
    end function are_numbers
 
-   !> b − a of two values, as '+5'; '' if they are no numbers.
+   !> b − a of two values, as '+5'; '' if they are not numbers.
    function step_text(a, b) result(text)
       character(*), intent(in) :: a, b
       character(:), allocatable :: text
@@ -147,7 +147,7 @@ contains
       if (y > x) text = '+'//text
    end function step_text
 
-   !> One row for the two sides of an axle, where both have the same values or the opposite ones.
+   !> Joins the rows of the two sides of an axle, where both have the same values or the opposite ones.
    subroutine join_sides(list)
       type(deck_difference_t), allocatable, intent(inout) :: list(:)
       logical :: is_twin(size(list))

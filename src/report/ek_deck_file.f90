@@ -74,7 +74,7 @@ contains
       end do
    end subroutine read_deck_file
 
-   !> What the header of a table says of its making; nothing that the record has already.
+   !> Reads the facts in the header of a table about its making; nothing that the record has already.
    subroutine facts_of_table(table, record)
       type(table_t), intent(in) :: table
       type(deck_record_t), intent(inout) :: record

@@ -27,8 +27,8 @@ module ek_explanation
 
 contains
 
-   !> The contributions to the key compliances at the state of a case that is nearest to design; of an axle those of the left wheel.
-   !> None if there is no such state, or its matrix is singular.
+   !> Finds the contributions to the key compliances at the state of a case that is nearest to design; of an axle those of the
+   !> left wheel. None if there is no such state, or its matrix is singular.
    subroutine find_explanations(result, list)
       type(case_result_t), intent(inout) :: result              !! is_run
       type(explanation_t), allocatable, intent(out) :: list(:)
@@ -77,7 +77,7 @@ contains
       call move_alloc(found, list)
    end subroutine find_explanations
 
-   !> The section of the page; none for an empty list.
+   !> Adds the section of the page; none for an empty list.
    subroutine add_explanations(page, list)
       type(page_t), intent(inout) :: page
       type(explanation_t), intent(in) :: list(:)

@@ -123,7 +123,7 @@ contains
       text = script%text()//nl//'   unset output'//nl//'}'//nl
    end function figure_script
 
-   !> Labels and ranges of one panel.
+   !> Adds labels and ranges of one panel.
    pure subroutine add_axes(script, panel, is_upward, indent)
       type(message_list_t), intent(inout) :: script
       type(chart_t), intent(in) :: panel
@@ -152,7 +152,7 @@ contains
       if (is_folded .and. gap > 0) words = gnuplot_text(text(:gap - 1))//'."\n".'//gnuplot_text(text(gap + 4:))
    end function label
 
-   !> The plot command: the curves, then a ring on each at the design state.
+   !> Adds the plot command: the curves, then a ring on each at the design state.
    pure subroutine add_plot(script, figure, number, has_legend)
       type(message_list_t), intent(inout) :: script
       type(figure_t), intent(in) :: figure
@@ -206,8 +206,8 @@ contains
       if (index(name, '(') == 1) text = name
    end function field
 
-   !> The standard figures of a run: wheel attitude, steer axis and forces, over the wheel travel or the load. Quantities without
-   !> a column or without a value are omitted.
+   !> Lists the standard figures of a run: wheel attitude, steering axis and forces, over the wheel travel or the load.
+   !> Quantities without a column or without a value are omitted.
    !>
    !> The wheel travel is drawn upward if the wheel moves by 1 mm or more; otherwise (for instance under a lateral force), and
    !> with `factor_label`, the abscissa is the load factor.
@@ -253,7 +253,7 @@ contains
 
    contains
 
-      !> One figure with a panel for every quantity that has a column; a single one of several has its own figure already.
+      !> Adds one figure with a panel for every quantity that has a column; a single one of several has its own figure already.
       subroutine add_quantities(name, title, columns)
          character(*), intent(in) :: name, title, columns(:)
          type(chart_t), allocatable :: panels(:)

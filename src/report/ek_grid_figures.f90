@@ -28,7 +28,7 @@ module ek_grid_figures
 
 contains
 
-   !> The grid of a test, if its case has one.
+   !> Finds the grid of a test, if its case has one.
    subroutine find_grid(suspension, case, test)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case               !! on no rig
@@ -237,7 +237,7 @@ contains
       text = end_panels(sheet)
    end function envelope_script
 
-   !> Ranges of the axes: a cube, so that gnuplot scales all three alike and keeps it in its panel.
+   !> Sets ranges of the axes: a cube, so that gnuplot scales all three alike and draws it within its panel.
    subroutine set_cube(low, high, sheet)
       real(wp), intent(in) :: low(3), high(3)        !! mm
       type(sheet_t), intent(inout) :: sheet

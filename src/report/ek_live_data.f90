@@ -66,7 +66,7 @@ contains
       call json%close('}')
    end subroutine add_live_data
 
-   !> A rate: its name, its value in a usual unit, and the paths of the settings that change it in the deck.
+   !> Adds a rate: its name, its value in a usual unit, and the paths of the settings that change it in the deck.
    subroutine add_rate(json, rate)
       type(json_t), intent(inout) :: json
       type(live_rate_t), intent(in) :: rate
@@ -96,7 +96,7 @@ contains
       call json%close('}')
    end subroutine add_rate
 
-   !> The columns of the design state that a key number is read from; 0: it is not read there, or has no value.
+   !> Finds the columns of the design state that a key number is read from; 0: it is not read there, or has no value.
    subroutine find_columns(design, number, columns)
       type(live_test_t), intent(in) :: design
       type(key_number_t), intent(in) :: number
@@ -112,7 +112,7 @@ contains
       end do
    end subroutine find_columns
 
-   !> A key number that follows the rates, and the number of the page beside which it stands.
+   !> Adds a key number that follows the rates, and the number of the page beside which it stands.
    subroutine add_number(json, numbers, k, columns, is_used)
       type(json_t), intent(inout) :: json
       type(key_number_t), intent(in) :: numbers(:)

@@ -129,7 +129,7 @@ contains
       end do
    end subroutine turn_columns
 
-   !> Sum and difference of two numbers, over √2.
+   !> Computes sum and difference of two numbers, over √2.
    pure subroutine turn(sign, first, second)
       real(wp), intent(in) :: sign
       real(wp), intent(inout) :: first, second
@@ -140,7 +140,7 @@ contains
       first = sum
    end subroutine turn
 
-   !> Laws that the load of a column touches, and those that A couples with such a law.
+   !> Finds the laws that the load of a column touches, and those that A couples with such a law.
    subroutine find_left(state, column, is_left)
       type(live_state_t), intent(in) :: state(:)
       integer, intent(in) :: column
@@ -178,7 +178,7 @@ contains
 
    end subroutine find_left
 
-   !> Some laws and columns of a state.
+   !> Extracts some laws and columns of a state.
    subroutine take_part(is_left, columns, state)
       logical, intent(in) :: is_left(:)
       integer, intent(in) :: columns(:)
@@ -195,7 +195,7 @@ contains
       state%load = whole%load(laws, columns)
    end subroutine take_part
 
-   !> Numbers the vectors of the columns: those of loads, then those of readings, each once.
+   !> Finds the vectors of the columns and numbers them: those of loads, then those of readings, each once.
    subroutine find_vectors(state, small)
       type(live_state_t), intent(in) :: state(:)
       type(small_t), intent(inout) :: small
@@ -247,7 +247,7 @@ contains
       is_symmetric = maxval(abs(a - transpose(a))) <= nothing*maxval(abs(a))
    end function is_symmetric
 
-   !> The numbers of all states in the order of `numbers`.
+   !> Writes the numbers of all states in the order of `numbers`.
    subroutine put_numbers(test, state, small)
       type(live_test_t), intent(in) :: test
       type(live_state_t), intent(in) :: state(:)

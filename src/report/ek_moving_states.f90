@@ -29,7 +29,7 @@ contains
       test = 0
    end function moving_test
 
-   !> State k of a path. The reactions of joints added by a case follow those of the suspension and are omitted.
+   !> Reads state k of a path. The reactions of joints added by a case follow those of the suspension and are omitted.
    subroutine state_of_path(path, k, suspension, state)
       type(path_t), intent(in) :: path
       integer, intent(in) :: k

@@ -17,7 +17,7 @@ module ek_number_section
 
 contains
 
-   !> The numbers that head the report, as cards.
+   !> Adds the numbers that head the report, as cards.
    subroutine add_summary(page, report)
       type(page_t), intent(inout) :: page
       type(report_t), intent(in) :: report
@@ -45,7 +45,7 @@ contains
       call add_markup(page, '</ul>')
    end subroutine add_summary
 
-   !> All other numbers, each once; what a number repeats is named with the one that is kept.
+   !> Adds all other numbers, each once; a repetition is named with the number that stays.
    subroutine add_other_numbers(page, report)
       type(page_t), intent(inout) :: page
       type(report_t), intent(in) :: report

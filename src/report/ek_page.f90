@@ -36,7 +36,7 @@ module ek_page
 
 contains
 
-   !> A page with its title.
+   !> Begins a page with its title.
    pure subroutine begin_page(page, title, subtitle)
       type(page_t), intent(out) :: page
       character(*), intent(in) :: title, subtitle
@@ -48,7 +48,7 @@ contains
       page%header = page%body%length()
    end subroutine begin_page
 
-   !> The data of a page whose charts are drawn by its script: JSON without '<'.
+   !> Sets the data of a page whose charts are drawn by its script: JSON without '<'.
    pure subroutine set_data(page, json, is_live, has_turntable)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: json
@@ -60,7 +60,7 @@ contains
       if (present(has_turntable)) page%has_turntable = has_turntable
    end subroutine set_data
 
-   !> HTML as it is, on a line: every text in it has been escaped by escape_html.
+   !> Adds HTML as it is, on a line: every text in it has been escaped by escape_html.
    pure subroutine add_markup(page, html)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: html
@@ -85,14 +85,14 @@ contains
       call page%contents%line('<li><a href="#'//escape_html(id)//'">'//escape_html(title)//'</a></li>')
    end subroutine begin_section
 
-   !> Plain text as a paragraph 'p', or as a heading 'h3' within a section; HTML markup in it is escaped.
+   !> Adds plain text as a paragraph 'p', or as a heading 'h3' within a section; HTML markup in it is escaped.
    pure subroutine add_text(page, tag, text)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: tag, text
       call page%body%line('<'//tag//'>'//escape_html(text)//'</'//tag//'>')
    end subroutine add_text
 
-   !> A box of warnings; no box for an empty list.
+   !> Adds a box of warnings; no box for an empty list.
    pure subroutine add_warnings(page, title, list)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: title
@@ -124,7 +124,7 @@ contains
       end do
    end function lines_html
 
-   !> Pairs of name and value, two lists of the same length.
+   !> Adds pairs of name and value, two lists of the same length.
    pure subroutine add_facts(page, names, values)
       type(page_t), intent(inout) :: page
       type(message_list_t), intent(in) :: names, values
@@ -157,7 +157,7 @@ contains
       call page%body%line('</tr></thead><tbody>')
    end subroutine begin_table
 
-   !> A heading across the table for the rows below it.
+   !> Adds a heading across the table for the rows below it.
    pure subroutine add_group(page, title)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: title
@@ -165,7 +165,7 @@ contains
          escape_html(title)//'</th></tr>')
    end subroutine add_group
 
-   !> The next cell, of text, of a number (kind 'n'), or of small text ('s'); a row has as many as the table has headings.
+   !> Adds the next cell, of text, of a number (kind 'n'), or of small text ('s'); a row has as many as the table has headings.
    pure subroutine add_cell(page, text, kind, link)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: text
@@ -184,7 +184,7 @@ contains
       if (page%cells == 0) call page%body%line('</tr>')
    end subroutine add_cell
 
-   !> The next cell: a bar from the middle to the right or, of a negative share, to the left.
+   !> Adds the next cell: a bar from the middle to the right or, of a negative share, to the left.
    pure subroutine add_bar(page, share)
       type(page_t), intent(inout) :: page
       real(wp), intent(in) :: share              !! of the longest bar, -1 to 1
@@ -222,7 +222,7 @@ contains
       call page%body%line('</div>')
    end subroutine end_charts
 
-   !> A picture from the SVG written by gnuplot: of full width with a caption, or one chart of a block without.
+   !> Adds a picture from the SVG written by gnuplot: of full width with a caption, or one chart of a block without.
    pure subroutine add_picture(page, svg, title, caption)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: svg, title     !! content of the file; its description
@@ -235,7 +235,7 @@ contains
       call page%body%line('</figure>')
    end subroutine add_picture
 
-   !> A raster picture (GIF, PNG) embedded in the page as base64.
+   !> Adds a raster picture (GIF, PNG) embedded in the page as base64.
    pure subroutine add_data_picture(page, bytes, kind, title, caption)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: bytes          !! content of the file
@@ -250,7 +250,7 @@ contains
       call page%body%line('</figure>')
    end subroutine add_data_picture
 
-   !> Legend of the charts below: names in the order of the palette; from the second on dashed lines (or rings instead of
+   !> Adds a legend of the charts below: names in the order of the palette; from the second on dashed lines (or rings instead of
    !> points).
    pure subroutine add_legend(page, names, has_design, has_points)
       type(page_t), intent(inout) :: page

@@ -107,7 +107,7 @@ contains
       call add_label(scene, at, 'front')
    end subroutine add_ground
 
-   !> Bars along the skeleton of a body; an arm attached at two points gets a plate between them.
+   !> Adds bars along the skeleton of a body; an arm attached at two points gets a plate between them.
    subroutine add_body(scene, suspension, state, body, plain)
       type(scene_t), intent(inout) :: scene
       type(suspension_t), intent(in) :: suspension
@@ -133,7 +133,7 @@ contains
       if (kind == part_arm .and. .not. plain) call add_plate(scene, state, body, skeleton)
    end subroutine add_body
 
-   !> An arm attached at two points is a wishbone: a thin plate between them and its furthest other point.
+   !> Adds the plate of an arm attached at two points, a wishbone: a thin plate between them and its furthest other point.
    subroutine add_plate(scene, state, body, skeleton)
       type(scene_t), intent(inout) :: scene
       type(state_t), intent(in) :: state
@@ -161,7 +161,7 @@ contains
       call add_run(scene%faces, part_plate, face)
    end subroutine add_plate
 
-   !> Rods, ball joints, sliding joints, and attachments to the chassis.
+   !> Adds rods, ball joints, sliding joints, and attachments to the chassis.
    subroutine add_joints(scene, suspension, state, plain)
       type(scene_t), intent(inout) :: scene
       type(suspension_t), intent(in) :: suspension
@@ -203,7 +203,7 @@ contains
 
    contains
 
-      !> A sphere at the end of a rod on a body, a block at its end on the chassis.
+      !> Adds a sphere at the end of a rod on a body, a block at its end on the chassis.
       subroutine add_end(body, at)
          integer, intent(in) :: body
          real(wp), intent(in) :: at(3)
@@ -234,8 +234,8 @@ contains
       end do
    end function reach_along
 
-   !> A coil, a damper as two tubes, the rubber of a stop, or the sleeve of a bushing; a torsion spring is part of the bars that
-   !> it connects.
+   !> Adds a coil, a damper as two tubes, the rubber of a stop, or the sleeve of a bushing; a torsion spring is part of the bars
+   !> that it connects.
    subroutine add_elastic(scene, element, is_a_rod, state, plain)
       type(scene_t), intent(inout) :: scene
       type(element_t), intent(in) :: element
@@ -270,7 +270,7 @@ contains
       end select
    end subroutine add_elastic
 
-   !> Tyre as a surface of revolution, and a hub.
+   !> Adds a tyre as a surface of revolution, and a hub.
    subroutine add_wheel(scene, wheel, state, plain)
       type(scene_t), intent(inout) :: scene
       type(wheel_t), intent(in) :: wheel
@@ -290,7 +290,7 @@ contains
       end if
    end subroutine add_wheel
 
-   !> Circles of the tread and the rim, in the wheel plane.
+   !> Adds circles of the tread and the rim, in the wheel plane.
    subroutine add_tread(scene, wheel, state, kind)
       type(scene_t), intent(inout) :: scene
       type(wheel_t), intent(in) :: wheel

@@ -36,7 +36,7 @@ module ek_report_content
 
 contains
 
-   !> A fact for the head of the page.
+   !> Adds a fact for the head of the page.
    subroutine add_fact(report, name, value)
       type(report_t), intent(inout) :: report
       character(*), intent(in) :: name, value

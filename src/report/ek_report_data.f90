@@ -116,7 +116,7 @@ contains
       if (.not. abs(target) < huge(1.0_wp)) limit_of = ieee_value(1.0_wp, ieee_quiet_nan)
    end function limit_of
 
-   !> A test: its abscissae and columns, each once, and the charts that refer to them by name.
+   !> Adds a test: its abscissae and columns, each once, and the charts that refer to them by name.
    subroutine add_test(json, test, charts, number)
       type(json_t), intent(inout) :: json
       type(test_result_t), intent(in) :: test

@@ -85,7 +85,7 @@ contains
       end do
    end function envelope_file
 
-   !> tests.csv: the tests of a report and their files.
+   !> Writes tests.csv: the tests of a report and their files.
    subroutine write_contents(tests, path, error)
       type(test_result_t), intent(in) :: tests(:)
       character(*), intent(in) :: path

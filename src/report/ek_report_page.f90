@@ -58,7 +58,7 @@ contains
       text = page_text(page)
    end function report_page
 
-   !> The section in which a reader changes rates; the script fills it.
+   !> Adds the section in which a reader changes rates; the script fills it.
    subroutine add_rates(page)
       type(page_t), intent(inout) :: page
 
@@ -70,7 +70,7 @@ contains
       call add_markup(page, '<div id="rates"><noscript><p>The sliders are made by the script of this page.</p></noscript></div>')
    end subroutine add_rates
 
-   !> The picture in space, the turntable, the views with hardpoints, and the animation.
+   !> Adds the picture in space, the turntable, the views with hardpoints, and the animation.
    subroutine add_scene(page, report)
       type(page_t), intent(inout) :: page
       type(report_t), intent(in) :: report
@@ -105,7 +105,7 @@ contains
       end if
    end subroutine add_scene
 
-   !> The first cells of a row: a quantity and one or two cells of numbers; a value of the axle is in the first.
+   !> Adds the first cells of a row: a quantity and one or two cells of numbers; a value of the axle is in the first.
    subroutine add_values(page, quantity, has_sides, is_of_axle, left, right)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: quantity
@@ -119,7 +119,7 @@ contains
       if (.not. is_of_axle) call add_cell(page, page_number(right), 'n')
    end subroutine add_values
 
-   !> Section of a test: warnings, charts, gradients.
+   !> Adds the section of a test: warnings, charts, gradients.
    subroutine add_test(page, report, test, number)
       type(page_t), intent(inout) :: page
       type(report_t), intent(in) :: report
@@ -165,7 +165,7 @@ contains
          ' of the wheel travel and '//str(size(test%grid%steer))//' of '//test%grid%driver
    end function over_what
 
-   !> A figure of the folder of figures, of full width.
+   !> Adds a figure of the folder of figures, of full width.
    subroutine add_figure(page, folder, name, title, caption)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: folder, name, title, caption
@@ -178,8 +178,8 @@ contains
       if (.not. allocated(error)) call add_picture(page, svg, title, caption)
    end subroutine add_figure
 
-   !> The charts of a test that the script of the page draws: the principal ones, and the others folded. Without a script a chart
-   !> is a link to the picture by gnuplot.
+   !> Adds the charts of a test that the script of the page draws: the principal ones, and the others folded. Without a script a
+   !> chart is a link to the picture by gnuplot.
    subroutine add_live_charts(page, charts, test, held)
       type(page_t), intent(inout) :: page
       type(chart_t), intent(in) :: charts(:)
@@ -202,7 +202,7 @@ contains
       call end_more(page, shown, principal)
    end subroutine add_live_charts
 
-   !> Before a chart: opens the block of charts, and folds those behind the first `most`.
+   !> Begins the block of charts before a chart, and folds those behind the first `most`.
    subroutine begin_more(page, charts, test, shown, most)
       type(page_t), intent(inout) :: page
       type(chart_t), intent(in) :: charts(:)
@@ -225,7 +225,7 @@ contains
       if (shown > most) call add_markup(page, '</details>')
    end subroutine end_more
 
-   !> What does not change over a test, as numbers instead of charts.
+   !> Adds quantities that do not change over a test, as numbers instead of charts.
    subroutine add_constants(page, charts, test)
       type(page_t), intent(inout) :: page
       type(chart_t), intent(in) :: charts(:)
@@ -258,7 +258,7 @@ contains
       if (abs(value) < 1.0e-4_wp*span) value = 0.0_wp
    end function level_of
 
-   !> The charts of a test drawn by gnuplot; those behind the first few are folded.
+   !> Adds the charts of a test drawn by gnuplot; those behind the first few are folded.
    subroutine add_charts(page, charts, test, folder)
       type(page_t), intent(inout) :: page
       type(chart_t), intent(in) :: charts(:)
@@ -288,7 +288,7 @@ contains
       path = join_path(join_path(folder, 'figures'), picture_file(chart))
    end function figure_of
 
-   !> Charts drawn by gnuplot, side by side.
+   !> Adds charts drawn by gnuplot, side by side.
    subroutine add_pictures(page, charts, numbers, folder)
       type(page_t), intent(inout) :: page
       type(chart_t), intent(in) :: charts(:)
@@ -314,7 +314,7 @@ contains
       if (is_begun) call end_charts(page)
    end subroutine add_pictures
 
-   !> The gradients of a test; left and right in one row.
+   !> Adds the gradients of a test; left and right in one row.
    subroutine add_gradients(page, test, list)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: test                    !! its name

@@ -104,7 +104,7 @@ contains
       call pictures%add(name//'.png')
    end subroutine add_sheet
 
-   !> Design as solid parts, the ends of the travel as lines.
+   !> Writes the picture: design as solid parts, the ends of the travel as lines.
    subroutine write_picture(report, suspension, camera, error)
       type(report_t), intent(in) :: report
       type(suspension_t), intent(in) :: suspension
@@ -136,7 +136,7 @@ contains
          suspension%name//': design, and the ends of its travel'), error, can_be_redrawn=.true.)
    end subroutine write_picture
 
-   !> There and back through the travel, then through the steering.
+   !> Writes the animation: there and back through the travel, then through the steering.
    subroutine write_animation(report, suspension, camera, error)
       type(report_t), intent(inout) :: report                !! has_animation: something moves
       type(suspension_t), intent(in) :: suspension

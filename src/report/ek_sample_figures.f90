@@ -75,7 +75,7 @@ contains
       text = end_panels(sheet)
    end function family_script
 
-   !> The scale of the colours, above the panels at the right.
+   !> Adds the scale of the colours, above the panels at the right.
    subroutine add_scale(sheet, label, values)
       type(sheet_t), intent(inout) :: sheet
       character(*), intent(in) :: label
@@ -330,7 +330,7 @@ contains
       room_of_constant = merge(abs(value), 1.0_wp, abs(value) > 1.0e-9_wp)
    end function room_of_constant
 
-   !> A vertical line across a panel: dark, or red if it is dashed.
+   !> Adds a vertical line across a panel: dark, or red if it is dashed.
    subroutine add_mark(sheet, number, x, dash)
       type(sheet_t), intent(inout) :: sheet
       integer, intent(in) :: number

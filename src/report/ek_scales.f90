@@ -12,7 +12,7 @@ module ek_scales
 
 contains
 
-   !> The charts of a report folder, made again from its tables.
+   !> Reads the charts of a report folder, made again from its tables.
    subroutine read_scales(folder, windows, charts, error)
       character(*), intent(in) :: folder
       type(windows_t), intent(in) :: windows

@@ -63,7 +63,7 @@ contains
       list%first(list%runs + 1) = list%used + 1
    end subroutine add_run
 
-   !> The name of a point.
+   !> Adds the name of a point.
    pure subroutine add_label(scene, at, text)
       type(scene_t), intent(inout) :: scene
       real(wp), intent(in) :: at(3)
@@ -76,7 +76,7 @@ contains
       scene%labels = [scene%labels, label]
    end subroutine add_label
 
-   !> A round bar from a to b, closed at both ends. Long bars are made of pieces, because faces are sorted by their middle.
+   !> Adds a round bar from a to b, closed at both ends. Long bars are made of pieces, because faces are sorted by their middle.
    pure subroutine add_tube(scene, kind, a, b, radius, sides)
       type(scene_t), intent(inout) :: scene
       integer, intent(in) :: kind
@@ -95,7 +95,7 @@ contains
       call add_surface(scene, kind, a, (b - a)/length, along, round, sides)
    end subroutine add_tube
 
-   !> A surface of revolution: radius at positions along an axis through a point.
+   !> Adds a surface of revolution: radius at positions along an axis through a point.
    pure subroutine add_surface(scene, kind, base, axis, along, radius, sides)
       type(scene_t), intent(inout) :: scene
       integer, intent(in) :: kind
@@ -125,7 +125,7 @@ contains
       end do
    end subroutine add_surface
 
-   !> A coil spring from a to b, closed and ground at its ends.
+   !> Adds a coil spring from a to b, closed and ground at its ends.
    pure subroutine add_coil(scene, kind, a, b, radius, wire, coils, per_coil)
       type(scene_t), intent(inout) :: scene
       integer, intent(in) :: kind
@@ -159,7 +159,7 @@ contains
       end do
    end subroutine add_coil
 
-   !> A small sphere.
+   !> Adds a small sphere.
    pure subroutine add_ball(scene, kind, at, radius, sides)
       type(scene_t), intent(inout) :: scene
       integer, intent(in) :: kind
@@ -170,7 +170,7 @@ contains
          radius*[0.0_wp, 0.8_wp, 0.8_wp, 0.0_wp], sides)
    end subroutine add_ball
 
-   !> Two unit vectors normal to an axis.
+   !> Finds two unit vectors normal to an axis.
    pure subroutine find_normals(axis, u, v)
       real(wp), intent(in) :: axis(3)
       real(wp), intent(out) :: u(3), v(3)

@@ -74,7 +74,7 @@ contains
       text = script%text()
    end function animation_script
 
-   !> Equal axes without box, direction of view, shading.
+   !> Adds equal axes without box, direction of view, shading.
    pure subroutine add_style(script, camera)
       type(buffer_t), intent(inout) :: script
       type(camera_t), intent(in) :: camera
@@ -92,7 +92,7 @@ contains
          'set pm3d lighting primary 0.42 specular 0.12')
    end subroutine add_style
 
-   !> The vertices [mm], one block per kind.
+   !> Adds the vertices [mm], one block per kind.
    pure subroutine add_blocks(script, scene)
       type(buffer_t), intent(inout) :: script
       type(scene_t), intent(in) :: scene
@@ -115,7 +115,7 @@ contains
       if (list%runs > 0) has_kind = any(list%kind(:list%runs) == kind)
    end function has_kind
 
-   !> The data of all faces or lines of a kind [mm], to 0.1 mm.
+   !> Adds the data of all faces or lines of a kind [mm], to 0.1 mm.
    pure subroutine add_block(script, name, list, kind, ending)
       type(buffer_t), intent(inout) :: script
       character(*), intent(in) :: name, ending       !! ending: after each face or line
@@ -142,7 +142,7 @@ contains
       call script%line('EOD')
    end subroutine add_block
 
-   !> Labels, legend and the splot command.
+   !> Adds labels, legend and the splot command.
    subroutine add_splot(script, scene, camera, has_legend)
       type(buffer_t), intent(inout) :: script
       type(scene_t), intent(in) :: scene
@@ -169,7 +169,7 @@ contains
       call script%line("      1/0 notitle")
    end subroutine add_splot
 
-   !> The names of points where they cover little, each with a line from its point if it lies apart.
+   !> Adds the names of points where they cover little, each with a line from its point if it lies apart.
    subroutine add_labels(script, scene, camera)
       type(buffer_t), intent(inout) :: script
       type(scene_t), intent(in) :: scene
@@ -197,7 +197,7 @@ contains
       text = 'screen '//str(at(1), 4)//', screen '//str(at(2), 4)
    end function on_screen
 
-   !> Swatches and labels below the picture. (gnuplot's own legend loses entries in splot if it has several columns.)
+   !> Adds swatches and labels below the picture. (gnuplot's own legend loses entries in splot if it has several columns.)
    subroutine add_legend(script, scene)
       type(buffer_t), intent(inout) :: script
       type(scene_t), intent(in) :: scene
@@ -214,7 +214,7 @@ contains
 
    contains
 
-      !> One swatch and its label.
+      !> Adds one swatch and its label.
       subroutine add_entry(name, colour, height)
          character(*), intent(in) :: name, colour
          real(wp), intent(in) :: height              !! of the swatch, share of the picture

@@ -112,7 +112,7 @@ contains
       measure = suspension%terms(suspension%rows(suspension%joints(joint)%first_row)%first)%measure
    end function first_measure
 
-   !> The two points of a measure, global [m].
+   !> Finds the two points of a measure, global [m].
    pure subroutine ends_of(measure, state, a, b)
       type(measure_t), intent(in) :: measure
       type(state_t), intent(in) :: state

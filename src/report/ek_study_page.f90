@@ -98,7 +98,7 @@ contains
       end if
    end function limits_text
 
-   !> The statistics of the responses.
+   !> Adds the statistics of the responses.
    subroutine add_responses(page, study)
       type(page_t), intent(inout) :: page
       type(study_data_t), intent(in) :: study
@@ -136,7 +136,7 @@ contains
       call end_table(page)
    end subroutine add_responses
 
-   !> The scatter of each response by derivatives and by the designs.
+   !> Adds the scatter of each response by derivatives and by the designs.
    subroutine add_moments(page, study)
       type(page_t), intent(inout) :: page
       type(study_data_t), intent(in) :: study
@@ -188,7 +188,7 @@ contains
 
    end subroutine add_moments
 
-   !> The factors and the ranges that the designs cover.
+   !> Adds the factors and the ranges that the designs cover.
    subroutine add_factors(page, study)
       type(page_t), intent(inout) :: page
       type(study_data_t), intent(in) :: study
@@ -207,7 +207,7 @@ contains
       call end_table(page)
    end subroutine add_factors
 
-   !> The pictures that were drawn.
+   !> Adds the pictures that were drawn.
    subroutine add_figures(page, study, folder)
       type(page_t), intent(inout) :: page
       type(study_data_t), intent(in) :: study
@@ -231,7 +231,7 @@ contains
       end do
    end subroutine add_figures
 
-   !> The table of what the factors do, for the kinds that yield it.
+   !> Adds the table of the effects of the factors, for the kinds that yield it.
    subroutine add_effects(page, study)
       type(page_t), intent(inout) :: page
       type(study_data_t), intent(in) :: study
@@ -297,7 +297,7 @@ contains
          'An index rests on the base points whose designs were all solved.')
    end subroutine add_effects
 
-   !> The best and the worst designs, with what makes them.
+   !> Adds the best and the worst designs, with the numbers that make them.
    subroutine add_extremes(page, study)
       type(page_t), intent(inout) :: page
       type(study_data_t), intent(in) :: study

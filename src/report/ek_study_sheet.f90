@@ -64,7 +64,7 @@ contains
       call sheet%text%line('$'//name//' << EOD')
    end subroutine begin_data
 
-   !> A row of a data block, with seven digits, and a text at its end.
+   !> Adds a row of a data block, with seven digits, and a text at its end.
    pure subroutine add_numbers(sheet, values, label)
       type(sheet_t), intent(inout) :: sheet
       real(wp), intent(in) :: values(:)
@@ -97,8 +97,8 @@ contains
       call sheet%text%line('EOD')
    end subroutine end_data
 
-   !> The data of the names of points in a panel: the point, the way to its name, and whether the name ends there. Names lie over no
-   !> other name and over no named point.
+   !> Adds the data of the names of points in a panel: the point, the way to its name, and whether the name ends there. Names
+   !> lie over no other name and over no named point.
    subroutine add_point_names(sheet, panel, names, x, y, x_range, y_range)
       type(sheet_t), intent(inout) :: sheet
       integer, intent(in) :: panel

@@ -69,7 +69,7 @@ contains
       svg = compact_svg(svg)
    end function embedded_svg
 
-   !> Text up to the next tag, which begins at the new `at`; blank text becomes one line end.
+   !> Adds text up to the next tag, which begins at the new `at`; blank text becomes one line end.
    pure subroutine add_words(out, text, at)
       type(buffer_t), intent(inout) :: out
       character(*), intent(in) :: text
@@ -98,8 +98,8 @@ contains
       end if
    end subroutine add_words
 
-   !> A tag with its ids and references to ids renamed, its mouse events and gnuplot's default style dropped; `at` is then behind.
-   !> An empty group is left out with its end: gnuplot writes many.
+   !> Adds a tag with its ids and references to ids renamed, its mouse events and gnuplot's default style dropped; `at` is then
+   !> behind. An empty group is left out with its end: gnuplot writes many.
    pure subroutine add_tag(out, symbols, text, prefix, at)
       type(buffer_t), intent(inout) :: out
       type(symbols_t), intent(inout) :: symbols
@@ -190,7 +190,7 @@ contains
          attribute(value + 1:value + 1) /= 'u' .and. attribute(last:last) /= 'd'
    end function is_plain
 
-   !> Keeps where a point symbol is defined.
+   !> Records where a point symbol is defined.
    pure subroutine define(self, name, first, last)
       class(symbols_t), intent(inout) :: self
       character(*), intent(in) :: name
@@ -203,7 +203,7 @@ contains
       self%last(self%count) = last
    end subroutine define
 
-   !> Keeps that an id is referred to.
+   !> Records that an id is referred to.
    pure subroutine refer(self, name)
       class(symbols_t), intent(inout) :: self
       character(*), intent(in) :: name
@@ -212,7 +212,7 @@ contains
       if (index(self%used, ' '//name//' ') == 0) self%used = self%used//name//' '
    end subroutine refer
 
-   !> A picture without the point symbols to which it does not refer: gnuplot defines all sixteen in every picture.
+   !> Copies a picture without the point symbols to which it does not refer: gnuplot defines all sixteen in every picture.
    pure subroutine take_used(out, symbols, svg)
       type(buffer_t), intent(in) :: out
       type(symbols_t), intent(in) :: symbols

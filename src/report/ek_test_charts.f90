@@ -49,7 +49,7 @@ contains
 
    contains
 
-      !> Keeps a chart that has a curve.
+      !> Stores a chart that has a curve.
       subroutine take(chart)
          type(chart_t), intent(in) :: chart
 
@@ -62,7 +62,7 @@ contains
 
    end subroutine test_charts
 
-   !> One line for the two sides where they are the same: within a thousandth of the least span, over the same abscissa.
+   !> Joins the lines of the two sides where they are the same: within a thousandth of the least span, over the same abscissa.
    pure subroutine join_sides(chart)
       type(chart_t), intent(inout) :: chart
       logical :: is_twin(size(chart%traces))
@@ -149,7 +149,7 @@ contains
       end select
    end function quantities_of
 
-   !> A chart of a test, still without curves. The rows of a load table are no path and are drawn as points.
+   !> A chart of a test, still without curves. The rows of a load table do not form a path and are drawn as points.
    pure type(chart_t) function chart_of(test, name, title, label) result(chart)
       type(test_result_t), intent(in) :: test
       character(*), intent(in) :: name, title, label
@@ -244,7 +244,7 @@ contains
       end do
    end function bushing_chart
 
-   !> The elements with columns _fx_n, _fy_n, _fz_n, in the order of the columns, and the magnitudes of their forces; of more
+   !> Finds the elements with columns _fx_n, _fy_n, _fz_n, in the order of the columns, and the magnitudes of their forces; of more
    !> elements than fit in a chart those with the largest force.
    pure subroutine largest_forces(table, is_good, names, force, elements)
       type(table_t), intent(in) :: table

@@ -49,7 +49,7 @@ module ek_turntable
 
 contains
 
-   !> The turntable of a report; not allocated if nothing moves.
+   !> Makes the turntable of a report; not allocated if nothing moves.
    subroutine make_turntable(suspension, tests, paths, table)
       type(suspension_t), intent(in) :: suspension
       type(test_result_t), intent(in) :: tests(:)
@@ -87,7 +87,7 @@ contains
       if (frame(1) < 0.0_wp) first_turn = first_turn - sign(180.0_wp, first_turn)
    end function first_turn
 
-   !> The bars of the skeletons.
+   !> Adds the bars of the skeletons.
    subroutine add_bodies(suspension, lines)
       type(suspension_t), intent(in) :: suspension
       type(fixed_line_t), allocatable, intent(inout) :: lines(:)
@@ -110,7 +110,7 @@ contains
       end do
    end subroutine add_bodies
 
-   !> Rods, springs and dampers.
+   !> Adds rods, springs and dampers.
    subroutine add_links(suspension, lines)
       type(suspension_t), intent(in) :: suspension
       type(fixed_line_t), allocatable, intent(inout) :: lines(:)
@@ -137,7 +137,7 @@ contains
 
    end subroutine add_links
 
-   !> Circles of the tread.
+   !> Adds circles of the tread.
    subroutine add_wheels(suspension, lines)
       type(suspension_t), intent(in) :: suspension
       type(fixed_line_t), allocatable, intent(inout) :: lines(:)

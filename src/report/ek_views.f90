@@ -83,7 +83,7 @@ contains
       text = end_panels(sheet)
    end function views_script
 
-   !> The hardpoints that are used, and are not those of the right side of an axle.
+   !> Lists the hardpoints that are used, and are not those of the right side of an axle.
    subroutine half_of(suspension, points)
       type(suspension_t), intent(in) :: suspension
       type(points_t), intent(out) :: points
@@ -107,7 +107,7 @@ contains
       end do
    end subroutine half_of
 
-   !> Springs, dampers and stops as lines between their ends.
+   !> Adds springs, dampers and stops as lines between their ends.
    subroutine add_springs(scene, suspension, state)
       type(scene_t), intent(inout) :: scene
       type(suspension_t), intent(in) :: suspension
@@ -124,7 +124,7 @@ contains
       end do
    end subroutine add_springs
 
-   !> All lines of the scene in a panel, each followed by an empty line.
+   !> Adds all lines of the scene in a panel, each followed by an empty line.
    subroutine add_lines(sheet, scene, frame, v)
       type(sheet_t), intent(inout) :: sheet
       type(scene_t), intent(in) :: scene
@@ -140,7 +140,7 @@ contains
       call end_data(sheet)
    end subroutine add_lines
 
-   !> The two coordinates of points in a panel [mm].
+   !> Adds the two coordinates of points in a panel [mm].
    subroutine add_places(sheet, at, frame, v)
       type(sheet_t), intent(inout) :: sheet
       real(wp), intent(in) :: at(:, :), frame(3)
@@ -152,7 +152,7 @@ contains
       end do
    end subroutine add_places
 
-   !> What a panel shows, from left to right and from below upward [mm]: all points, in one scale.
+   !> Finds the range of a panel, from left to right and from below upward [mm]: all points, in one scale.
    subroutine find_ranges(sheet, points, frame, v, x_range, y_range)
       type(sheet_t), intent(in) :: sheet
       type(points_t), intent(in) :: points

@@ -31,7 +31,7 @@ module ek_json
 
 contains
 
-   !> Begin an object '{' or a list '['; `key` if it is part of an object.
+   !> Begins an object '{' or a list '['; `key` if it is part of an object.
    pure subroutine json_open(self, bracket, key)
       class(json_t), intent(inout) :: self
       character(1), intent(in) :: bracket
@@ -43,7 +43,7 @@ contains
       self%is_empty = .true.
    end subroutine json_open
 
-   !> End the innermost object '}' or list ']'.
+   !> Ends the innermost object '}' or list ']'.
    pure subroutine json_close(self, bracket)
       class(json_t), intent(inout) :: self
       character(1), intent(in) :: bracket
@@ -54,7 +54,7 @@ contains
       self%is_empty = .false.
    end subroutine json_close
 
-   !> Add an item: `literal` is made by json_string, json_strings, json_number, json_numbers, or str for an integer.
+   !> Adds an item: `literal` is made by json_string, json_strings, json_number, json_numbers, or str for an integer.
    pure subroutine json_item(self, key, literal)
       class(json_t), intent(inout) :: self
       character(*), intent(in) :: key, literal
@@ -63,7 +63,7 @@ contains
       call self%buffer%add(literal)
    end subroutine json_item
 
-   !> Add an item of a list.
+   !> Adds an item of a list.
    pure subroutine json_item_of_list(self, literal)
       class(json_t), intent(inout) :: self
       character(*), intent(in) :: literal
@@ -79,7 +79,7 @@ contains
       text = self%buffer%text()//line_end
    end function json_text
 
-   !> Comma, line, indent and key before an item.
+   !> Writes comma, line, indent and key before an item.
    pure subroutine begin_item(self, key)
       class(json_t), intent(inout) :: self
       character(*), intent(in), optional :: key
@@ -90,7 +90,7 @@ contains
       self%is_empty = .false.
    end subroutine begin_item
 
-   !> A new line, with its indent.
+   !> Begins a new line, with its indent.
    pure subroutine begin_line(self)
       class(json_t), intent(inout) :: self
 

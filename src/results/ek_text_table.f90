@@ -37,7 +37,7 @@ contains
       table%columns = columns
    end function new_text_table
 
-   !> Begin a row of empty cells; the caller sets table%cells(k, table%rows)%text.
+   !> Begins a row of empty cells; the caller sets table%cells(k, table%rows)%text.
    pure subroutine add_row(table, line)
       type(text_table_t), intent(inout) :: table
       integer, intent(in), optional :: line
@@ -110,7 +110,7 @@ contains
       cell = cell//'"'
    end function protected_cell
 
-   !> Read a table back.
+   !> Reads a table back.
    subroutine read_text_table(path, table, error)
       character(*), intent(in) :: path
       type(text_table_t), intent(out) :: table

@@ -56,7 +56,7 @@ contains
       end associate
    end subroutine solve_with_slopes
 
-   !> A table with the columns of a case and those of its compliance matrix that were derived.
+   !> Makes a table with the columns of a case and those of its compliance matrix that were derived.
    subroutine make_table(table, derivatives, whole, place, row)
       type(table_t), intent(in) :: table
       type(derivatives_t), intent(in) :: derivatives
@@ -74,7 +74,7 @@ contains
       row = [(minloc(abs(table%values(1, :) - (derivatives%states(s) - 1)), dim=1), s=1, size(derivatives%states))]
    end subroutine make_table
 
-   !> The table of the design at a distance along a direction. A number that cannot move has no effect.
+   !> Moves the table to the design at a distance along a direction. A number that cannot move has no effect.
    pure subroutine move_table(p, distance, this)
       integer, intent(in) :: p                               !! the direction
       real(wp), intent(in) :: distance                       !! in its unit

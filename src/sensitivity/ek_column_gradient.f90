@@ -24,7 +24,7 @@ module ek_column_gradient
 
 contains
 
-   !> ∂y/∂z of all columns at a state, and the parts of its error: see find_quotients.
+   !> Finds ∂y/∂z of all columns at a state, and the parts of its error: see find_quotients.
    !> Equation (E.9) of docs/theory/derivatives.md.
    subroutine find_gradients(suspension, state, inputs, kkt, observer, values, moved, gradients)
       type(suspension_t), intent(in) :: suspension         !! on the rig
@@ -71,7 +71,7 @@ contains
          end do
       end function is_read
 
-      !> From the state by one unknown of a body; 0: by all of them.
+      !> Moves from the state by one unknown of a body; 0: by all of them.
       subroutine move(b, unknown, distance)
          integer, intent(in) :: b, unknown
          real(wp), intent(in) :: distance

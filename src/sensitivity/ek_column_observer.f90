@@ -29,7 +29,7 @@ module ek_column_observer
 
 contains
 
-   !> An observer of those columns that the model has. Makes texts.
+   !> Creates an observer of those columns that the model has. Makes texts.
    subroutine new_column_observer(suspension, case, columns, self)
       type(suspension_t), intent(in) :: suspension         !! on the rig
       type(case_t), intent(in) :: case
@@ -50,7 +50,7 @@ contains
       allocate (self%matrix(size(names)), source=0.0_wp)
    end subroutine new_column_observer
 
-   !> Values at an equilibrium; or, with what was kept at one, at a state close to it.
+   !> Computes values at an equilibrium; or, with what was kept at one, at a state close to it.
    subroutine observe_columns(suspension, state, inputs, kkt, self, values, kept)
       type(suspension_t), intent(in) :: suspension         !! on the rig
       type(state_t), intent(in) :: state
@@ -93,7 +93,7 @@ contains
       kept_loads = merge(6*size(self%wheels), 0, size(self%entries) > 0)
    end function kept_loads
 
-   !> What an observation of an equilibrium leaves for those close to it.
+   !> Stores the part of an observation of an equilibrium that serves states close to it.
    pure subroutine keep_state(self, kept)
       type(column_observer_t), intent(in) :: self          !! after observe_columns
       real(wp), intent(inout) :: kept(:, :)                !! (kept_loads, unknown)

@@ -80,7 +80,7 @@ contains
       allocate (self%can_move(size(directions)), source=.true.)
    end subroutine begin_derivatives
 
-   !> Why a case has no derivatives: each state must be an equilibrium under inputs that belong to its swept value.
+   !> Rejects a case without derivatives: each state must be an equilibrium under inputs that belong to its swept value.
    subroutine refuse_case(case, error)
       type(case_t), intent(in) :: case
       type(error_t), allocatable, intent(out) :: error     !! exit_usage
@@ -94,7 +94,7 @@ contains
       end if
    end subroutine refuse_case
 
-   !> Derivatives at states of the path that the solver has found for the case. No text is made.
+   !> Computes derivatives at states of the path that the solver has found for the case. No text is made.
    subroutine find_derivatives(solver, states, self)
       type(design_solver_t), intent(inout) :: solver       !! the case is solved at its present numbers; its work space is used
       integer, intent(in) :: states(:)
@@ -135,7 +135,7 @@ contains
       self%can_move(:) = .true.
    end subroutine allocate_results
 
-   !> Derivatives at the states first … last of self%states.
+   !> Computes derivatives at the states first … last of self%states.
    subroutine derive(x, result, first, last, self)
       real(wp), intent(in) :: x(:)                         !! numbers of the design
       type(case_result_t), intent(inout) :: result
@@ -174,7 +174,7 @@ contains
       is_adjoint = size(self%columns) > 0 .and. 3*size(self%columns) <= size(self%directions) .and. reads_states(self%observer)
    end function is_adjoint
 
-   !> Derivatives by the motions of the states.
+   !> Computes derivatives by the motions of the states.
    subroutine derive_by_numbers(x, result, first, last, inputs, changes, values, kept, points, self)
       real(wp), intent(in) :: x(:)                         !! numbers of the design
       type(case_result_t), intent(inout) :: result
@@ -208,7 +208,7 @@ contains
       end do
    end subroutine derive_by_numbers
 
-   !> Derivatives by the gradients of the columns: the adjoint way.
+   !> Computes derivatives by the gradients of the columns: the adjoint way.
    !> Equation (E.9) of docs/theory/derivatives.md.
    subroutine derive_by_columns(x, result, first, last, inputs, changes, values, kept, points, self)
       real(wp), intent(in) :: x(:)                         !! numbers of the design
@@ -265,7 +265,7 @@ contains
       end do
    end subroutine derive_by_columns
 
-   !> ∂F/∂p of all numbers at a state.
+   !> Computes ∂F/∂p of all numbers at a state.
    !> Equation (E.1) of docs/theory/derivatives.md.
    subroutine add_forces(result, state, inputs, at, changes, parts, self, forces, doubts)
       type(case_result_t), intent(in) :: result
@@ -293,8 +293,8 @@ contains
       end do
    end subroutine add_forces
 
-   !> Difference quotients of the columns along the motions of the states, or at states that do not move, from the first stencil
-   !> whose points are all designs.
+   !> Adds difference quotients of the columns along the motions of the states, or at states that do not move, from the first
+   !> stencil whose points are all designs.
    !> Equation (E.2) of docs/theory/derivatives.md.
    subroutine add_observations(x, p, result, points, here, values, kept, self, slopes, errors, motions)
       real(wp), intent(in) :: x(:)

@@ -36,7 +36,7 @@ module ek_direction
 
 contains
 
-   !> All numbers that a deck gives. Those that cannot move (y of a point in the plane of &mirror) are left out.
+   !> Lists all numbers that a deck gives. Those that cannot move (y of a point in the plane of &mirror) are omitted.
    subroutine all_directions(design, directions)
       type(design_t), intent(in) :: design
       type(direction_t), allocatable, intent(out) :: directions(:)
@@ -46,7 +46,7 @@ contains
       call gather(design, [(choice_t(k, design%parameters%list(k)%sign), k=1, used)], directions, .true.)
    end subroutine all_directions
 
-   !> The directions of paths, in their order, each once; a path with * or of a list (bushing.a.kt) leads to several.
+   !> Finds the directions of paths, in their order, each once; a path with * or of a list (bushing.a.kt) leads to several.
    subroutine find_directions(design, deck, paths, directions, error)
       type(design_t), intent(in) :: design
       type(deck_t), intent(in) :: deck                     !! of the design
@@ -81,7 +81,7 @@ contains
       end do
    end function is_listed
 
-   !> One direction for each number found; the number of the right side joins that of the left if both were found.
+   !> Gathers one direction for each number found; the number of the right side joins that of the left if both were found.
    subroutine gather(design, found, directions, is_free_choice)
       type(design_t), intent(in) :: design
       type(choice_t), intent(in) :: found(:)

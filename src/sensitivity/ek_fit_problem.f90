@@ -68,7 +68,7 @@ contains
       if (mistakes%count() > 0) call fail(error, exit_deck, mistakes%text())
    end subroutine make_problem
 
-   !> A factor, or with each = .true. as many as its paths lead to numbers.
+   !> Adds a factor, or with each = .true. as many as its paths lead to numbers.
    subroutine add_factor(factor, deck, solver, variables, mistakes)
       type(fit_factor_t), intent(in) :: factor
       type(deck_t), intent(in) :: deck
@@ -110,7 +110,7 @@ contains
 
    contains
 
-      !> Bounds and prior of the factor, which is then complete.
+      !> Sets bounds and prior of the factor, which is then complete.
       subroutine finish()
          this%start = this%direction%value
          this%lower = -huge(1.0_wp)
@@ -175,7 +175,7 @@ contains
       end do
    end subroutine join
 
-   !> The points of a target.
+   !> Adds the points of a target.
    subroutine add_target(fit, k, home, solver, problem, mistakes)
       type(fit_t), intent(in) :: fit
       integer, intent(in) :: k
@@ -283,7 +283,7 @@ contains
 
    end subroutine add_target
 
-   !> A slope within a window of design, read as a gradient of the report is.
+   !> Makes a slope within a window of design, read as a gradient of the report is.
    subroutine make_slope(target, wanted)
       type(fit_target_t), intent(in) :: target
       type(wanted_number_t), intent(inout) :: wanted

@@ -62,7 +62,7 @@ contains
       if (reading%deck_errors%count() > 0) call fail(error, exit_deck, reading%deck_errors%text())
    end subroutine read_fit
 
-   !> A name is that of a column or of files, and unique in its group.
+   !> Checks that a name is that of a column or of files, and unique in its group.
    subroutine check_name(reading)
       type(deck_reading_t), intent(inout) :: reading
       integer :: j
@@ -79,7 +79,7 @@ contains
       end associate
    end subroutine check_name
 
-   !> &fit
+   !> Reads &fit.
    subroutine take_fit(reading, fit)
       type(deck_reading_t), intent(inout) :: reading
       type(fit_t), intent(inout) :: fit
@@ -94,7 +94,7 @@ contains
       fit%where = where_of(reading)
    end subroutine take_fit
 
-   !> &factor
+   !> Reads &factor.
    subroutine take_factor(reading, fit)
       type(deck_reading_t), intent(inout) :: reading
       type(fit_t), intent(inout) :: fit
@@ -136,7 +136,7 @@ contains
       fit%factors = [fit%factors, this]
    end subroutine take_factor
 
-   !> &target
+   !> Reads &target.
    subroutine take_target(reading, fit)
       type(deck_reading_t), intent(inout) :: reading
       type(fit_t), intent(inout) :: fit

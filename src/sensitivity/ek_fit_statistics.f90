@@ -31,7 +31,7 @@ module ek_fit_statistics
 
 contains
 
-   !> Equation (E.6) of docs/theory/derivatives.md.
+   !> Computes the statistics of a fit. Equation (E.6) of docs/theory/derivatives.md.
    subroutine find_statistics(problem, found, statistics)
       type(fit_problem_t), intent(in) :: problem
       type(fit_result_t), intent(in) :: found
@@ -115,7 +115,7 @@ contains
 
    end subroutine find_statistics
 
-   !> (AᵀA)⁻¹ from the singular values of A; infinite for an unknown that is part of the null space.
+   !> Computes (AᵀA)⁻¹ from the singular values of A; infinite for an unknown that is part of the null space.
    subroutine covariance_of(parts, covariance)
       type(singular_values_t), intent(in) :: parts
       real(wp), allocatable, intent(out) :: covariance(:, :)

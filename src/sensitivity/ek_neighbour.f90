@@ -60,7 +60,7 @@ contains
       call keep_choices(solver%raw, self%solver%raw)
    end subroutine follow_design
 
-   !> The neighbours keep the directions that the rows of joints take across an axis. The free choice is the global axis with the
+   !> Gives the neighbours the directions that the rows of joints take across an axis. The free choice is the global axis with the
    !> least component along it; where two are equal it changes between neighbours, and λ would have another meaning in each.
    subroutine keep_choices(design, neighbour)
       type(suspension_t), intent(in) :: design
@@ -87,7 +87,7 @@ contains
       end do
    end function has_same_axes
 
-   !> The states and their inputs.
+   !> Copies the states and their inputs.
    subroutine take_states(result, states, self, points, inputs)
       type(case_result_t), intent(in) :: result
       integer, intent(in) :: states(:)
@@ -107,9 +107,9 @@ contains
       end do
    end subroutine take_states
 
-   !> What a number changes in the parts of the model: from two neighbours close by, or four where the axes of a bushing may turn:
-   !> between a stiff and a soft axis rates and preloads curve a hundred times as much as the angle. Where a law that is not linear
-   !> changes, and at the end of the range of the number, from the first stencil whose points are all designs.
+   !> Learns the change that a number causes in the parts of the model: from two neighbours close by, or four where the axes of a
+   !> bushing may turn: between a stiff and a soft axis rates and preloads curve a hundred times as much as the angle. Where a law
+   !> that is not linear changes, and at the end of the range of the number, from the first stencil whose points are all designs.
    subroutine learn_number(x, direction, result, points, here, self, draft, change, can_move)
       real(wp), intent(in) :: x(:)
       type(direction_t), intent(in) :: direction
@@ -132,7 +132,7 @@ contains
       end do
    end subroutine learn_number
 
-   !> The change by the points of a stencil; can_move is .false. if one of them is no design.
+   !> Learns the change by the points of a stencil; can_move is .false. if one of them is not a design.
    subroutine visit_neighbours(x, direction, stencil, result, points, here, self, draft, change, can_move)
       real(wp), intent(in) :: x(:)
       type(direction_t), intent(in) :: direction

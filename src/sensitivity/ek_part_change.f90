@@ -138,7 +138,7 @@ contains
       end do
    end subroutine learn_neighbour
 
-   !> Keeps what the number touches.
+   !> Stores the parts that the number touches.
    subroutine finish_draft(step, draft, change)
       real(wp), intent(in) :: step
       type(draft_t), intent(inout) :: draft
@@ -246,7 +246,7 @@ contains
       end if
    end subroutine learn_measure
 
-   !> Of an element of one measure.
+   !> Learns the change of an element of one measure.
    pure subroutine learn_spring(here, there, number, k, all, change, bends)
       type(element_t), intent(in) :: here, there
       integer, intent(in) :: number, k
@@ -308,7 +308,7 @@ contains
       change%is_touched = .true.
    end subroutine learn_bushing
 
-   !> Keeps the law of a neighbour, with the markers of the design.
+   !> Stores the law of a neighbour, with the markers of the design.
    pure subroutine keep_neighbour(here, there, k, laws)
       type(element_t), intent(in) :: here, there
       integer, intent(in) :: k
@@ -343,7 +343,7 @@ contains
       call copy_load(there, change%there(k))
    end subroutine learn_load
 
-   !> Without its names.
+   !> Copies a load without its names.
    pure subroutine copy_load(from, to)
       type(load_t), intent(in) :: from
       type(load_t), intent(inout) :: to

@@ -28,7 +28,7 @@ module ek_part_force
 
 contains
 
-   !> The parts that any of the numbers touches.
+   !> Chooses the parts that any of the numbers touches.
    subroutine choose_parts(suspension, changes, self)
       type(suspension_t), intent(in) :: suspension
       type(change_t), intent(in) :: changes(:)
@@ -42,7 +42,7 @@ contains
       end do
    end subroutine choose_parts
 
-   !> Their responses at a state.
+   !> Computes the responses of the parts at a state.
    subroutine find_responses(suspension, state, self)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
@@ -128,7 +128,7 @@ contains
       end associate
    end subroutine add_term
 
-   !> y ← y + columns × x
+   !> Computes y ← y + columns × x.
    pure subroutine add_columns(columns, x, y)
       real(wp), intent(in) :: columns(12, 6), x(6)
       real(wp), intent(inout) :: y(12)
@@ -208,7 +208,7 @@ contains
       end associate
    end subroutine add_load
 
-   !> Of inputs that change.
+   !> Adds the rates of inputs that change.
    pure subroutine add_rates(suspension, state, rates, nq, force)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state

@@ -37,7 +37,7 @@ module ek_part_response
 
 contains
 
-   !> The response of an element.
+   !> Computes the response of an element.
    !> Equation (E.7) of docs/theory/derivatives.md.
    pure subroutine respond_element(element, pose_i, pose_j, evaluation, response)
       type(element_t), intent(in) :: element
@@ -76,7 +76,7 @@ contains
       end associate
    end subroutine respond_element
 
-   !> The response of a measure.
+   !> Computes the response of a measure.
    !> Equation (E.7) of docs/theory/derivatives.md.
    pure subroutine respond_measure(measure, pose_i, pose_j, evaluation, response)
       type(measure_t), intent(in) :: measure
@@ -101,7 +101,7 @@ contains
       end do
    end subroutine respond_measure
 
-   !> ∂g by the arms, from the tangent.
+   !> Computes ∂g by the arms, from the tangent.
    !> Equation (E.7) of docs/theory/derivatives.md.
    pure subroutine move_markers(blocks, pose_i, pose_j, response)
       real(wp), intent(in) :: blocks(6, 6, 3)            !! diagonal blocks of i and j, lower triangle; rows of j, columns of i

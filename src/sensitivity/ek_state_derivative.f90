@@ -17,8 +17,8 @@ module ek_state_derivative
 
 contains
 
-   !> ∂F/∂p → dz/dp, in place, for many numbers; or ∂y/∂z → a, for many columns, with the transposed matrix. Where the tangent is
-   !> singular, is_regular is .false. and the columns have no meaning.
+   !> Solves ∂F/∂p → dz/dp, in place, for many numbers; or ∂y/∂z → a, for many columns, with the transposed matrix. Where the
+   !> tangent is singular, is_regular is .false. and the columns have no meaning.
    !> Equation (E.1) of docs/theory/derivatives.md.
    subroutine solve_motions(suspension, state, inputs, kkt, many, columns, is_regular, is_transposed)
       type(suspension_t), intent(in) :: suspension
@@ -47,7 +47,7 @@ contains
       end if
    end subroutine solve_motions
 
-   !> The state at a distance along a motion.
+   !> Moves the state by a distance along a motion.
    pure subroutine displace(state, motion, distance, step, moved)
       type(state_t), intent(in) :: state
       real(wp), intent(in) :: motion(:)                    !! dz/dp

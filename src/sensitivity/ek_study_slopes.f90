@@ -101,7 +101,7 @@ contains
       call place_curves(study, self)
    end subroutine begin_study_slopes
 
-   !> The curves among the columns that are derived, and their states.
+   !> Lists the curves among the columns that are derived, and their states.
    subroutine place_curves(study, self)
       type(study_t), intent(in) :: study
       type(study_slopes_t), intent(inout) :: self
@@ -117,8 +117,8 @@ contains
       allocate (self%slopes(size(self%values), size(self%directions)))
    end subroutine place_curves
 
-   !> Values and derivatives at a design. is_valid is .false. where the design has a defect, a number of the deck is outside its
-   !> range, or a state was not found. No text is made.
+   !> Computes values and derivatives at a design. is_valid is .false. where the design has a defect, a number of the deck is
+   !> outside its range, or a state was not found. No text is made.
    subroutine find_study_slopes(values, self, is_valid)
       real(wp), intent(in) :: values(:)                      !! of the factors
       type(study_slopes_t), intent(inout) :: self
@@ -174,7 +174,7 @@ contains
       end do
    end subroutine read_values
 
-   !> The curves, state by state.
+   !> Copies the curves, state by state.
    pure subroutine take_curves(self, is_valid)
       type(study_slopes_t), intent(inout) :: self
       logical, intent(inout) :: is_valid                     !! .false. if the case has other states here

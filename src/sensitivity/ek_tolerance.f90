@@ -99,7 +99,7 @@ contains
 
    contains
 
-      !> The slopes in standard form where factor f is u standard deviations from the centre.
+      !> Computes the slopes in standard form where factor f is u standard deviations from the centre.
       subroutine find_beside(u, standard)
          real(wp), intent(in) :: u
          real(wp), allocatable, intent(out) :: standard(:, :)      !! (value, factor)

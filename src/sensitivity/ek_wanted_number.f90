@@ -38,7 +38,7 @@ module ek_wanted_number
 
 contains
 
-   !> A column, an entry of the compliance matrix, or a key number, in this order.
+   !> Finds a column, an entry of the compliance matrix, or a key number, in this order.
    subroutine find_wanted(solver, k, name, at, wanted, error)
       type(design_solver_t), intent(in) :: solver
       integer, intent(in) :: k                             !! the case of a column
@@ -59,7 +59,7 @@ contains
          ', no entry of its compliance matrix and no key number'//hint)
    end subroutine find_wanted
 
-   !> A column of a case, at a value of another one; wanted%case is 0 if the case has no such quantity.
+   !> Finds a column of a case, at a value of another one; wanted%case is 0 if the case has no such quantity.
    subroutine find_column(solver, k, name, over, at, wanted, heads)
       type(design_solver_t), intent(in) :: solver
       integer, intent(in) :: k                             !! the case
@@ -85,7 +85,7 @@ contains
       if (abs(at) <= 0.0_wp .and. over == 'factor') wanted%reach = 0.0_wp      ! the design state alone
    end subroutine find_column
 
-   !> A key number; wanted%key is not allocated if the report has none of this name.
+   !> Finds a key number; wanted%key is not allocated if the report has no key number of this name.
    subroutine find_key_number(solver, name, wanted, known)
       type(design_solver_t), intent(in) :: solver
       character(*), intent(in) :: name
@@ -118,7 +118,7 @@ contains
       end associate
    end subroutine find_key_number
 
-   !> Its value, from the tables of its cases; not a number if it has none there.
+   !> Reads the value of a wanted number from the tables of its cases; not a number if it has no value there.
    subroutine read_number(wanted, source, table, value)
       type(wanted_number_t), intent(in) :: wanted
       integer, intent(in) :: source                        !! of a key number that is read

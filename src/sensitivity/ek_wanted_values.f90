@@ -214,7 +214,7 @@ contains
       end associate
    end subroutine solve_first
 
-   !> Cases from which no number is read are not solved again.
+   !> Marks the cases that are used. Cases from which no number is read are not solved again.
    subroutine mark_used(self)
       type(wanted_values_t), intent(inout) :: self
       integer :: j, k, n
@@ -228,8 +228,8 @@ contains
       end do
    end subroutine mark_used
 
-   !> Values and derivatives of a design. is_valid is .false. where a number has no value: the design has a defect, a number of
-   !> the deck is outside its range, or a state that is needed was not found.
+   !> Computes values and derivatives of a design. is_valid is .false. where a number has no value: the design has a defect, a
+   !> number of the deck is outside its range, or a state that is needed was not found.
    subroutine find_values(distances, solver, self, is_valid)
       real(wp), intent(in) :: distances(:)                   !! along the directions, in their units
       type(design_solver_t), intent(inout) :: solver
@@ -287,7 +287,7 @@ contains
       end do
    end subroutine read_values
 
-   !> The Jacobian: all numbers read from the tables moved along each direction. A number that cannot move has no effect.
+   !> Computes the Jacobian: all numbers read from the tables moved along each direction. A number that cannot move has no effect.
    !> Equation (E.3) of docs/theory/derivatives.md.
    subroutine differentiate_values(self)
       type(wanted_values_t), intent(inout) :: self

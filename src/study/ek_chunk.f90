@@ -47,7 +47,7 @@ module ek_chunk
 
 contains
 
-   !> An empty chunk.
+   !> Creates an empty chunk.
    pure subroutine new_chunk(first, designs, factors, responses, columns, states, self)
       integer(i8), intent(in) :: first
       integer, intent(in) :: designs, factors, responses, columns
@@ -88,7 +88,7 @@ contains
       call move_alloc(more, self%reasons)
    end subroutine add_reason
 
-   !> Keeps the first error that no design has caused: too little memory, or a table that cannot be read any more.
+   !> Stores the first error that no design has caused: too little memory, or a table that cannot be read any more.
    subroutine put_error(self, error)
       type(chunk_t), intent(inout) :: self
       type(error_t), intent(in) :: error
@@ -232,7 +232,7 @@ contains
 
    contains
 
-      !> The next numbers of the file.
+      !> Reads the next numbers of the file.
       subroutine take(count)
          integer, intent(in) :: count
          numbers = transfer(text(at:at + 8*count - 1), numbers, count)

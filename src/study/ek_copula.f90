@@ -21,7 +21,7 @@ module ek_copula
 
 contains
 
-   !> The copula of n factors from pairs of factors and their correlations; other pairs are independent.
+   !> Creates the copula of n factors from pairs of factors and their correlations; other pairs are independent.
    pure subroutine new_copula(n, pairs, correlations, copula, error)
       integer, intent(in) :: n
       integer, intent(in) :: pairs(:, :)          !! (2, m): two different factors each
@@ -58,7 +58,7 @@ contains
          ' are impossible together with those among the factors before it (the matrix is not positive definite)')
    end subroutine new_copula
 
-   !> z ← L z, in place.
+   !> Computes z ← L z, in place.
    !>
    !> Equation (D.9) of docs/theory/sampling.md.
    pure subroutine correlate(copula, z)

@@ -88,7 +88,7 @@ contains
 
    end subroutine begin_design_solver
 
-   !> The design of a deck and its suspension, with all mistakes of the deck, of the tables and of the targets of its cases.
+   !> Reads the design of a deck and its suspension, with all errors of the deck, of the tables and of the targets of its cases.
    subroutine read_checked(deck, design, suspension, error, needs_tables)
       type(deck_t), intent(in) :: deck
       type(design_t), intent(out) :: design
@@ -205,7 +205,7 @@ contains
       solver%is_realised = is_done
    end subroutine take_numbers
 
-   !> The work space of a case that is solved for the first time.
+   !> Makes the work space of a case that is solved for the first time.
    subroutine make_room(this)
       type(worker_case_t), intent(inout) :: this
       if (.not. allocated(this%result)) allocate (this%result)
@@ -296,7 +296,7 @@ contains
       call fail(error, exit_model, 'the model cannot be solved'//new_line('a')//defects%text())
    end subroutine fail_unsolvable
 
-   !> As settle_fully, for cases that were solved before: no text is made. is_done is .false. if there is a doubt.
+   !> Settles as settle_fully does, for cases that were solved before: no text is made. is_done is .false. if there is a doubt.
    subroutine settle_again(is_needed, solver, is_done)
       logical, intent(in) :: is_needed(:)                  !! in the order of the report
       type(design_solver_t), intent(inout) :: solver
@@ -345,7 +345,7 @@ contains
       is_balanced = .not. allocated(error)
    end subroutine settle_model
 
-   !> The cases in the order of the report, with the present numbers.
+   !> Lists the cases in the order of the report, with the present numbers.
    subroutine report_cases(solver, cases)
       type(design_solver_t), intent(in) :: solver
       type(case_t), allocatable, intent(out) :: cases(:)
@@ -357,7 +357,7 @@ contains
       end do
    end subroutine report_cases
 
-   !> Lets the report have these of its cases only, with their method and their increments.
+   !> Restricts the report to these of its cases, with their method and their increments.
    subroutine restrict_cases(chosen, solver)
       type(case_t), intent(in) :: chosen(:)
       type(design_solver_t), intent(inout) :: solver
@@ -372,7 +372,7 @@ contains
       end do
    end subroutine restrict_cases
 
-   !> All columns that the table of a case has.
+   !> Lists all columns that the table of a case has.
    subroutine heads_of_case(k, solver, heads)
       integer, intent(in) :: k
       type(design_solver_t), intent(in) :: solver

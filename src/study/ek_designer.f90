@@ -96,7 +96,7 @@ contains
       end do
    end subroutine new_designer
 
-   !> The cases: that of the study first, then those of its responses.
+   !> Lists the cases: that of the study first, then those of its responses.
    subroutine list_cases(study, designer)
       type(study_t), intent(in) :: study
       type(designer_t), intent(inout) :: designer
@@ -113,7 +113,7 @@ contains
       end do
    end subroutine list_cases
 
-   !> The columns that are computed of a case.
+   !> Lists the columns that are computed of a case.
    subroutine list_columns(study, designer, case)
       type(study_t), intent(in) :: study
       type(designer_t), intent(inout) :: designer
@@ -166,7 +166,7 @@ contains
       if (mistakes%count() > 0) call fail(error, exit_deck, mistakes%text())
    end subroutine check_columns
 
-   !> No two columns of the table of responses may have the same name.
+   !> Checks that no two columns of the table of responses have the same name.
    subroutine check_heads(study, designer, mistakes)
       type(study_t), intent(in) :: study
       type(designer_t), intent(in) :: designer

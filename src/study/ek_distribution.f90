@@ -36,7 +36,7 @@ module ek_distribution
 
 contains
 
-   !> A distribution from its parameters:
+   !> Creates a distribution from its parameters:
    !>
    !> | kind | a | b | c |
    !> |---|---|---|---|
@@ -84,7 +84,7 @@ contains
       end select
    end subroutine new_distribution
 
-   !> The distribution of nominal ± tolerance, see the head of the file.
+   !> Creates the distribution of nominal ± tolerance, see the head of the file.
    pure subroutine from_tolerance(kind, nominal, tolerance, distribution, error)
       integer, intent(in) :: kind
       real(wp), intent(in) :: nominal, tolerance       !! tolerance > 0
@@ -234,7 +234,7 @@ contains
       call moments(distribution, mean, deviation)
    end function deviation_of
 
-   !> Mean and standard deviation.
+   !> Computes mean and standard deviation.
    !>
    !> Truncated normal, between the scores α and β, Z = Φ(β) − Φ(α): mean μ + σ m, m = (φ(α) − φ(β))/Z, and
    !> variance σ²(1 + (α φ(α) − β φ(β))/Z − m²). Truncated log-normal: E xʳ = exp(rμ + r²σ²/2) (Φ(β − rσ) − Φ(α − rσ))/Z.
@@ -280,7 +280,7 @@ contains
       if (abs(z) < unbounded) weighted = z*normal_density(z)
    end function weighted
 
-   !> Mean and standard deviation of a truncated triangle; the Gauss points are exact for it.
+   !> Computes mean and standard deviation of a truncated triangle; the Gauss points are exact for it.
    pure subroutine triangle_moments(distribution, mean, deviation)
       type(distribution_t), intent(in) :: distribution
       real(wp), intent(out) :: mean, deviation
@@ -291,7 +291,8 @@ contains
       deviation = sqrt(sum(weight*(x - mean)**2))
    end subroutine triangle_moments
 
-   !> Points x (ln x of a log-normal distribution) with weights, so that Σ weight f(x) is the mean of f: four Gauss points in each of
+   !> Lists points x (ln x of a log-normal distribution) with weights, so that Σ weight f(x) is the mean of f: four Gauss points
+   !> in each of
    !> some intervals. Exact for polynomials up to the sixth power over a triangle, and to 1e-12 over a normal distribution.
    pure subroutine integration_points(distribution, x, weight)
       type(distribution_t), intent(in) :: distribution
@@ -342,8 +343,8 @@ contains
       acts_on_logarithm = distribution%kind == log_normal_kind
    end function acts_on_logarithm
 
-   !> The range that grids, tornados and Morris' method explore: the bounds, and on a side without one, three standard deviations
-   !> from the mean (of ln x for a log-normal), so that a normal `nominal ± tolerance` is explored over its tolerance.
+   !> Finds the range that grids, tornados and Morris' method explore: the bounds, and on a side without one, three standard
+   !> deviations from the mean (of ln x for a log-normal), so that a normal `nominal ± tolerance` is explored over its tolerance.
    pure subroutine ends_of(distribution, low, high)
       type(distribution_t), intent(in) :: distribution
       real(wp), intent(out) :: low, high

@@ -21,7 +21,7 @@ module ek_factor_paths
 
 contains
 
-   !> Every path must lead to something in the deck that takes a number.
+   !> Checks that every path leads to something in the deck that takes a number.
    subroutine check_paths(study, deck, error)
       type(study_t), intent(in) :: study
       type(deck_t), intent(in) :: deck
@@ -48,8 +48,8 @@ contains
       if (mistakes%count() > 0) call fail(error, exit_deck, mistakes%text())
    end subroutine check_paths
 
-   !> Refuses factors that move a point out of the centre plane of a mirrored deck: every design would be invalid, as a point off the
-   !> plane exists on both sides. A factor that multiplies leaves the point where it is; the rows of a list may have zeros.
+   !> Rejects factors that move a point out of the centre plane of a mirrored deck: every design would be invalid, as a point
+   !> off the plane exists on both sides. A factor that multiplies leaves the point where it is; the rows of a list may have zeros.
    subroutine check_planes(study, design, paths, error)
       type(study_t), intent(in) :: study
       type(design_t), intent(in) :: design
@@ -101,7 +101,7 @@ contains
       is_held_in_plane = .true.
    end function is_held_in_plane
 
-   !> The numbers of the deck to which the paths of a factor lead; none if one of them is no number of the design space.
+   !> Finds the numbers of the deck to which the paths of a factor lead; none if one of them is not a number of the design space.
    subroutine find_paths(factor, design, paths)
       type(study_factor_t), intent(in) :: factor
       type(design_t), intent(in) :: design

@@ -50,7 +50,7 @@ contains
       end do
    end subroutine factor_remarks
 
-   !> The points of which a factor moves a coordinate.
+   !> Finds the points of which a factor moves a coordinate.
    subroutine find_moved(design, paths, is_moved)
       type(design_t), intent(in) :: design
       type(factor_paths_t), intent(in) :: paths
@@ -65,7 +65,7 @@ contains
       end do
    end subroutine find_moved
 
-   !> "'contact_patch' and 'wheel_centre'" of the moved points; ''.
+   !> Lists the moved points as "'contact_patch' and 'wheel_centre'"; '' if none moved.
    subroutine wheel_points(design, is_moved, list)
       type(design_t), intent(in) :: design
       logical, intent(in) :: is_moved(:)
@@ -98,7 +98,7 @@ contains
       end do
    end function is_of_wheel
 
-   !> "'strut_top', but not 'spring_upper_seat'": moved points, each with one that stays at its location; ''.
+   !> Lists, as "'strut_top', but not 'spring_upper_seat'", moved points, each with one that stays at its location; ''.
    subroutine parted_points(design, is_moved, list)
       type(design_t), intent(in) :: design
       logical, intent(in) :: is_moved(:)
@@ -125,7 +125,7 @@ contains
       if (found > most) list = list//' and '//str(found - most)//' more'
    end subroutine parted_points
 
-   !> The locations of the points whose three coordinates are numbers of the deck.
+   !> Finds the locations of the points whose three coordinates are numbers of the deck.
    subroutine place_points(design, at, is_point)
       type(design_t), intent(in) :: design
       real(wp), intent(out) :: at(:, :)                    !! of each record [m]

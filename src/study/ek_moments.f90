@@ -33,7 +33,7 @@ module ek_moments
 
 contains
 
-   !> Mean, deviations, skewness and shares.
+   !> Computes mean, deviations, skewness and shares.
    !>
    !> Equation (D.15) of docs/theory/sampling.md. Equation (D.16) of docs/theory/sampling.md.
    pure subroutine find_moments(expansion, factors, moments)

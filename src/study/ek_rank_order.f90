@@ -23,7 +23,7 @@ module ek_rank_order
 
 contains
 
-   !> The intervals, 0 … n − 1, of the factors that have a correlation; those of the other factors are their permutations.
+   !> Orders the intervals, 0 … n − 1, of the factors that have a correlation; those of the other factors are their permutations.
    pure subroutine order_ranks(permutations, copula, tied, designs, intervals, error)
       type(permutation_t), intent(in) :: permutations(:)   !! of the intervals of each factor
       type(copula_t), intent(in) :: copula                 !! of all factors

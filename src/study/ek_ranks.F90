@@ -4,7 +4,7 @@
 !> counters, which lie in the memory of rank 0: the work is handed out by tickets, to whoever asks next. The procedures may be
 !> called by one thread at a time; those that say `all ranks` return when every rank has called them.
 !>
-!> elastokin itself is not linked with MPI, whose libraries would make every start longer by 2 ms: under a launcher it goes on as
+!> elastokin itself is not linked with MPI, whose libraries would make every start longer by 2 ms: under a launcher it becomes
 !> elastokin-mpi, the same program with this module compiled with EK_MPI. Both see the same types.
 module ek_ranks
    use ek_error, only: error_t, fail, exit_usage
@@ -44,7 +44,7 @@ module ek_ranks
 
 contains
 
-   !> All ranks: begin. A launcher whose processes do not find each other is an error, as each would compute the whole study.
+   !> Starts all ranks. A launcher whose processes do not find each other is an error, as each would compute the whole study.
    subroutine start_ranks(ranks, error)
       type(ranks_t), intent(out) :: ranks
       type(error_t), allocatable, intent(out) :: error     !! exit_usage
@@ -85,8 +85,8 @@ contains
    end function why_no_mpi
 #endif
 
-   !> Whether mpirun or srun started this process with MPI, and as one of how many (1 if that is not known). srun without --mpi gives
-   !> the number of tasks only.
+   !> Finds whether mpirun or srun started this process with MPI, and as one of how many (1 if that is not known). srun without
+   !> --mpi gives the number of tasks only.
    subroutine look_for_launcher(is_launched, launched)
       logical, intent(out) :: is_launched
       integer, intent(out) :: launched
@@ -109,7 +109,7 @@ contains
       end do
    end subroutine look_for_launcher
 
-   !> The value of a counter before it is increased; `by` may be 0.
+   !> Increases a counter and returns its value before; `by` may be 0.
    subroutine count_up(ranks, counter, by, before)
       type(ranks_t), intent(inout) :: ranks
       integer, intent(in) :: counter              !! one of *_counter
@@ -126,7 +126,7 @@ contains
       ranks%values(counter) = before + by
    end subroutine count_up
 
-   !> Lets the tickets of others through, where the network cannot read the memory of rank 0 by itself. Called now and then.
+   !> Passes the tickets of others, where the network cannot read the memory of rank 0 by itself. Called now and then.
    subroutine help_others(ranks)
       type(ranks_t), intent(in) :: ranks
 #ifdef EK_MPI
@@ -139,7 +139,7 @@ contains
 #endif
    end subroutine help_others
 
-   !> All ranks: take the list of rank 0.
+   !> Shares the list of rank 0 with all ranks.
    subroutine share(ranks, list)
       type(ranks_t), intent(in) :: ranks
       integer, allocatable, intent(inout) :: list(:)
@@ -158,7 +158,7 @@ contains
 #endif
    end subroutine share
 
-   !> All ranks: if one of them has an error, all have it afterwards (that of the lowest rank).
+   !> Gives all ranks the error of the lowest rank that has one.
    subroutine agree(ranks, error)
       type(ranks_t), intent(in) :: ranks
       type(error_t), allocatable, intent(inout) :: error
@@ -184,7 +184,7 @@ contains
       call fail(error, numbers(1), 'rank '//str(lowest)//': '//text(:numbers(2)))
    end subroutine agree
 
-   !> All ranks: end MPI. Each process then goes on alone; a second call has no effect.
+   !> Ends MPI on all ranks. Each process then continues alone; a second call has no effect.
    subroutine end_ranks(ranks)
       type(ranks_t), intent(inout) :: ranks
 #ifdef EK_MPI
@@ -202,7 +202,7 @@ contains
 
 #ifdef EK_MPI
 
-   !> All ranks: begin MPI, with all counters zero.
+   !> Starts MPI on all ranks, with all counters zero.
    subroutine start_mpi(ranks)
       type(ranks_t), intent(inout) :: ranks
       integer, pointer :: values(:)

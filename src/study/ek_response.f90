@@ -26,7 +26,7 @@ module ek_response
 
 contains
 
-   !> The columns from which a response may be read.
+   !> Lists the columns from which a response may be read.
    subroutine needed_columns(asked, kind, names)
       type(response_t), intent(in) :: asked
       character(*), intent(in) :: kind                          !! of the test of its case, '' for none
@@ -114,7 +114,7 @@ contains
       if (message /= '') message = asked%where//': response '//quoted(asked%name)//': '//message
    end subroutine prepare_reading
 
-   !> The reading of a difference, after those of its two responses.
+   !> Prepares the reading of a difference, after those of its two responses.
    subroutine prepare_difference(asked, first, second, reading, message)
       type(response_t), intent(in) :: asked
       type(reading_t), intent(in) :: first, second
@@ -130,7 +130,7 @@ contains
          quoted(first%head)//' and '//quoted(second%head)//' have different units'
    end subroutine prepare_difference
 
-   !> The columns, the window and the sign of a gradient of the report.
+   !> Finds the columns, the window and the sign of a gradient of the report.
    subroutine find_gradient(test, reading, message)
       type(test_result_t), intent(in), optional :: test
       type(reading_t), intent(inout) :: reading
@@ -143,7 +143,7 @@ contains
 
       allocate (gradients(0), names(0))
       if (present(test)) then
-         if (test%kind == '') message = 'a gradient belongs to a test of the rig, and case '//quoted(test%name)//' is none'
+         if (test%kind == '') message = 'a gradient belongs to a test of the rig, and case '//quoted(test%name)//' is not a test'
          call test_gradients(test, windows_t(), gradients)
          list = definitions_of(test%kind)
          names = [character(name_length) :: list%quantity]

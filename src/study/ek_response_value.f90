@@ -32,7 +32,7 @@ module ek_response_value
 
 contains
 
-   !> A response of one table, and why it has no value.
+   !> Reads a response of one table, and why it has no value.
    subroutine read_response(reading, table, value, fault)
       type(reading_t), intent(in) :: reading
       type(table_t), intent(in) :: table
@@ -43,7 +43,8 @@ contains
       if (fault == no_fault .and. .not. ieee_is_finite(value)) fault = is_undefined
    end subroutine read_response
 
-   !> A response of one table: the value at a factor (linear between states), the least-squares slope in a window around it, the
+   !> Reads a response of one table: the value at a factor (linear between states), the least-squares slope in a window around
+   !> it, the
    !> span or an extreme over all states, or the root of the mean square of the deviations from a curve at its points. Where the column
    !> is undefined at a state that is read, there is no value: minval and maxval would pass over such a state.
    subroutine read_value(reading, table, value, fault)
@@ -197,7 +198,7 @@ contains
       is_slope = reading%of == a_slope .or. reading%of == a_gradient
    end function is_slope
 
-   !> The states in the window of a slope.
+   !> Finds the states in the window of a slope.
    pure subroutine find_window(reading, table, over, at, centre, is_near)
       type(reading_t), intent(in) :: reading
       type(table_t), intent(in) :: table
@@ -226,7 +227,7 @@ contains
       rounded = nearest_end(at, low, high)
    end function rounded
 
-   !> The least and the largest of some swept values.
+   !> Finds the least and the largest of some swept values.
    pure subroutine find_ends(x, low, high)
       real(wp), intent(in) :: x(:)
       real(wp), intent(out) :: low, high
@@ -279,7 +280,7 @@ contains
       if (next > k) between = y(k) + (y(next) - y(k))*(at - x(k))/(x(next) - x(k))
    end function between
 
-   !> The row with x = at, or the two rows on either side of it.
+   !> Finds the row with x = at, or the two rows on either side of it.
    pure subroutine neighbours(x, at, first, last)
       real(wp), intent(in) :: x(:), at
       integer, intent(out) :: first, last        !! 0: outside the range of x

@@ -8,7 +8,7 @@ module ek_sample_statistics
 
 contains
 
-   !> Mean, and standard deviation with n − 1 (0 for one value), in two passes: s² = Σ (x − x̄)²/(n − 1).
+   !> Computes mean, and standard deviation with n − 1 (0 for one value), in two passes: s² = Σ (x − x̄)²/(n − 1).
    pure subroutine mean_and_deviation(values, mean, deviation)
       real(wp), intent(in) :: values(:)            !! at least one
       real(wp), intent(out) :: mean, deviation
@@ -34,7 +34,7 @@ contains
       error = deviation*sqrt(max(0.0_wp, sum((values - mean)**4)/n/deviation**4 - 1.0_wp)/(4.0_wp*n))
    end function error_of_deviation
 
-   !> The order in which values ascend: values(order(1)) is the smallest. Equal values keep their order (merge sort).
+   !> Finds the order in which values ascend: values(order(1)) is the smallest. Equal values keep their order (merge sort).
    pure subroutine ascending_order(values, order)
       real(wp), intent(in) :: values(:)
       integer, intent(out) :: order(:)             !! as many as values
@@ -87,7 +87,7 @@ contains
       if (place > k) value = value + (place - k)*(ascending(k + 1) - value)
    end function percentile
 
-   !> The values (by rank in a sample of n) between which the share p of the whole population lies with a confidence, for any
+   !> Finds the values (by rank in a sample of n) between which the share p of the whole population lies with a confidence, for any
    !> distribution: the number of values below it is binomial, P(lower ≤ B < upper) = Σ C(n,b) pᵇ(1 − p)ⁿ⁻ᵇ.
    !>
    !> The ranks leave out at most (1 − confidence)/2 on either side. Where the sample is too small for that, they are its ends, and
@@ -163,7 +163,7 @@ contains
       r = linear_correlation(rank_x, rank_y)
    end function rank_correlation
 
-   !> The rank of each value, 1 … n; equal values share the mean of their ranks.
+   !> Finds the rank of each value, 1 … n; equal values share the mean of their ranks.
    pure subroutine ranks(values, rank)
       real(wp), intent(in) :: values(:)
       real(wp), intent(out) :: rank(:)

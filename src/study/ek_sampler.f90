@@ -111,7 +111,7 @@ contains
       sampler%position = sampler%position*[(sum(sampler%position(:j)), j=1, size(factors))]
    end subroutine new_sampler
 
-   !> The number of designs.
+   !> Counts the designs.
    pure subroutine count_designs(sampler, error)
       type(sampler_t), intent(inout) :: sampler
       type(error_t), allocatable, intent(out) :: error
@@ -167,7 +167,7 @@ contains
       is_kind = sampler%settings%kind == kind
    end function is_kind
 
-   !> The factors of a design. No allocation.
+   !> Computes the factors of a design. No allocation.
    pure subroutine sample(sampler, design, x)
       type(sampler_t), intent(in) :: sampler
       integer(i8), intent(in) :: design            !! 1 … designs_of
@@ -208,7 +208,7 @@ contains
       end select
    end subroutine sample
 
-   !> The kinds that begin with numbers u in (0, 1).
+   !> Computes the factors of the kinds that begin with numbers u in (0, 1).
    pure subroutine sample_at_random(sampler, design, x)
       type(sampler_t), intent(in) :: sampler
       integer(i8), intent(in) :: design
@@ -268,7 +268,7 @@ contains
       u = (real(i, wp) + max(margin, min(1.0_wp - margin, fraction)))/real(n, wp)
    end function point_in_interval
 
-   !> Numbers u in (0, 1) become values of the factors, in place: x_j = F_j⁻¹(u_j), or x_j = F_j⁻¹(Φ(Σ L_ji Φ⁻¹(u_i))).
+   !> Converts numbers u in (0, 1) to values of the factors, in place: x_j = F_j⁻¹(u_j), or x_j = F_j⁻¹(Φ(Σ L_ji Φ⁻¹(u_i))).
    pure subroutine take_quantiles(sampler, x)
       type(sampler_t), intent(in) :: sampler
       real(wp), intent(inout) :: x(:)
@@ -312,7 +312,7 @@ contains
       end if
    end function level_of
 
-   !> The trajectory that a design lies on, and where.
+   !> Finds the trajectory that a design lies on, and where.
    pure subroutine find_trajectory(sampler, design, trajectory)
       type(sampler_t), intent(in) :: sampler
       integer(i8), intent(in) :: design

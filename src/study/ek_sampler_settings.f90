@@ -30,7 +30,7 @@ module ek_sampler_settings
 
 contains
 
-   !> The mistakes in the settings of a sampler.
+   !> Checks the settings of a sampler.
    pure subroutine check_settings(settings, factors, error)
       type(sampler_settings_t), intent(in) :: settings
       type(factor_t), intent(in) :: factors(:)

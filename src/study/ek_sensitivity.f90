@@ -39,8 +39,8 @@ module ek_sensitivity
 
 contains
 
-   !> First-order and total indices from the responses of a Saltelli design: of the sampler, or a list in such an order (see
-   !> saltelli_block). With f_A, f_B, f_i the responses of row r in the blocks
+   !> Computes first-order and total indices from the responses of a Saltelli design: of the sampler, or a list in such an order
+   !> (see saltelli_block). With f_A, f_B, f_i the responses of row r in the blocks
    !> A, B and AB_i (A with factor i from B), less the mean of all, and V the variance of f_A and f_B together:
    !>
    !>     S_i = ⟨f_B (f_i − f_A)⟩ / V           Saltelli et al., Comput. Phys. Commun. 181 (2010) 259–270, table 2 (b)
@@ -134,7 +134,7 @@ contains
 
    end function saltelli_block
 
-   !> ⟨share⟩/V with V = ⟨a² + b²⟩/2 − ⟨a + b⟩²/4, and its confidence by the jackknife. Unchanged if V = 0.
+   !> Computes ⟨share⟩/V with V = ⟨a² + b²⟩/2 − ⟨a + b⟩²/4, and its confidence by the jackknife. Unchanged if V = 0.
    !>
    !> Equation (D.11) of docs/theory/sampling.md.
    pure subroutine estimate(a, b, share, index, error)
@@ -179,7 +179,8 @@ contains
       variance = sums(2)/(2.0_wp*n) - (sums(3)/(2.0_wp*n))**2
    end function variance
 
-   !> Elementary effects: the response changes by d_r = (f(x + Δ range_i e_i) − f(x))/Δ at a step of factor i on trajectory r;
+   !> Computes elementary effects: the response changes by d_r = (f(x + Δ range_i e_i) − f(x))/Δ at a step of factor i on
+   !> trajectory r;
    !>
    !>     μ_i = ⟨d⟩,   μ*_i = ⟨|d|⟩,   σ_i² = Σ (d − μ_i)²/(n − 1)
    !>
@@ -218,7 +219,7 @@ contains
       end do
    end subroutine morris_effects
 
-   !> The range of the response when each factor changes alone.
+   !> Finds the range of the response when each factor changes alone.
    subroutine tornado(sampler, responses, bars)
       type(sampler_t), intent(in) :: sampler                 !! of kind one_at_a_time
       real(wp), intent(in) :: responses(:)

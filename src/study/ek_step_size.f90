@@ -32,7 +32,7 @@ module ek_step_size
 
 contains
 
-   !> The study as CSV text: column `method`, then those above, one row for each method and N. Each row is passed to
+   !> Writes the study as CSV text: column `method`, then those above, one row for each method and N. Each row is passed to
    !> `writer` as soon as it is available.
    subroutine step_size_text(study, deck, text, error, writer)
       type(study_t), intent(in) :: study

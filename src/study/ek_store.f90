@@ -37,7 +37,7 @@ module ek_store
 
 contains
 
-   !> The texts of study and deck, as they are now; '' for what is no file.
+   !> Stores the texts of study and deck, as they are now; '' for a path that is not a file.
    subroutine keep_texts(study, deck, changes, texts)
       character(*), intent(in) :: study, deck              !! paths
       type(message_list_t), intent(in) :: changes          !! --set
@@ -63,7 +63,8 @@ contains
       wants_store = study%format == 'netcdf' .or. (study%format == '' .and. designs > many_designs)
    end function wants_store
 
-   !> Whether the results go into a store: if the study says so; if it says nothing, for many designs where the helper is there.
+   !> Decides whether the results go into a store: if the study says so; if it says nothing, for many designs where the helper
+   !> is there.
    subroutine choose_store(study, plan, is_wanted, error)
       type(study_t), intent(in) :: study
       type(study_plan_t), intent(in) :: plan
@@ -174,7 +175,7 @@ contains
       if (allocated(full)) trouble = full%message(index(full%message, ': ', back=.true.) + 2:)
    end subroutine run_helper
 
-   !> What the helper must know.
+   !> Describes the study to the helper.
    subroutine describe(study, plan, texts, counts, store)
       type(study_t), intent(in) :: study
       type(study_plan_t), intent(in) :: plan
@@ -227,7 +228,7 @@ contains
       end do
    end subroutine describe
 
-   !> The name of variable k. One that is taken, or that a dimension has, gets its role as an ending.
+   !> Begins variable k with its name. A name that is used already, or that a dimension has, gets its role as a suffix.
    subroutine begin_variable(store, k, head, role)
       type(store_t), intent(inout) :: store
       integer, intent(in) :: k

@@ -165,7 +165,7 @@ contains
 
    contains
 
-      !> The content of a record.
+      !> Reads the content of a record.
       subroutine take(content)
          character(*), intent(in) :: content
          integer :: number, ignored
@@ -196,7 +196,7 @@ contains
 
    end subroutine read_description
 
-   !> 'text units 2': the first line of a record.
+   !> Reads the first line of a record: 'text units 2'.
    subroutine next_head(text, at, word, name, length)
       character(*), intent(in) :: text
       integer, intent(inout) :: at                !! first character of the record, then of its content

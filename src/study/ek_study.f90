@@ -91,7 +91,7 @@ contains
       is_given = ieee_is_finite(value)
    end function is_given
 
-   !> The range of a factor for the sampler. `usual` is the nominal value of a factor that gives none: that of the deck for an
+   !> Sets the range of a factor for the sampler. `usual` is the nominal value of a factor that gives none: that of the deck for an
    !> absolute factor (NaN if its paths lead to different numbers), else 0 (delta) or 1 (scale).
    subroutine define_factor(given, kind, usual, factor, error)
       type(study_factor_t), intent(in) :: given

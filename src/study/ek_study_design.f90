@@ -145,7 +145,7 @@ contains
       end do
    end subroutine complete_tables
 
-   !> The responses and the curves of a design. A response of a case that lost a state has no value.
+   !> Reads the responses and the curves of a design. A response of a case that did not reach all states has no value.
    subroutine take_row(study, designer, worker, k, chunk, faults)
       type(study_t), intent(in) :: study
       type(designer_t), intent(in) :: designer
@@ -213,7 +213,7 @@ contains
       chunk%rows = chunk%rows + rows
    end subroutine take_curves
 
-   !> Says why a design is incomplete.
+   !> Explains why a design is incomplete.
    subroutine explain(designer, worker, k, faults, chunk)
       type(designer_t), intent(in) :: designer
       type(worker_t), intent(in) :: worker        !! with the results of its cases

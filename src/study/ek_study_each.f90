@@ -98,7 +98,7 @@ contains
 
    end subroutine expand_columns
 
-   !> The factors of one path.
+   !> Adds the factors of one path.
    subroutine add_each(design, given, path_text, factors)
       type(design_t), intent(in) :: design
       type(study_factor_t), intent(in) :: given

@@ -89,7 +89,7 @@ contains
 
    contains
 
-      !> Files beside the study.
+      !> Includes files next to the study.
       subroutine include_numbers(numbers)
          real(wp), allocatable, intent(in) :: numbers(:, :)
          integer :: j
@@ -101,7 +101,7 @@ contains
 
    end subroutine new_plan
 
-   !> The sampler of a study. Nothing of the designer but the numbers of the deck is used.
+   !> Prepares the sampler of a study. Only the numbers of the deck are used of the designer.
    subroutine plan_sampler(study, home, designer, settings, sampler, error)
       type(study_t), intent(in) :: study
       character(*), intent(in) :: home                     !! folder of the study with its slash
@@ -180,7 +180,7 @@ contains
       designs_in = int(min(int(plan%chunk, i8), plan%designs - first_of(plan, number) + 1))
    end function designs_in
 
-   !> An empty chunk with the factors of its designs.
+   !> Begins an empty chunk with the factors of its designs.
    subroutine begin_chunk(plan, number, chunk)
       type(study_plan_t), intent(in) :: plan
       integer, intent(in) :: number               !! from 1

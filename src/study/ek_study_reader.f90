@@ -123,7 +123,7 @@ contains
       end associate
    end subroutine check_name
 
-   !> &study
+   !> Reads &study.
    subroutine take_study(reading, study)
       type(deck_reading_t), intent(inout) :: reading
       type(study_t), intent(inout) :: study
@@ -172,7 +172,7 @@ contains
       study%where = where_of(reading)
    end subroutine take_study
 
-   !> The settings of the sampler, and none that its kind does not use.
+   !> Reads the settings of the sampler, and none that its kind does not use.
    subroutine take_settings(reading, study)
       type(deck_reading_t), intent(inout) :: reading
       type(study_t), intent(inout) :: study
@@ -203,7 +203,7 @@ contains
       end associate
    end subroutine take_settings
 
-   !> &factor: values one by one; or from, to, count and spacing; or a range.
+   !> Reads &factor: values one by one; or from, to, count and spacing; or a range.
    subroutine take_factor(reading, study)
       type(deck_reading_t), intent(inout) :: reading
       type(study_t), intent(inout) :: study
@@ -240,7 +240,7 @@ contains
       study%factors = [study%factors, this]
    end subroutine take_factor
 
-   !> from, to, count and spacing: evenly spaced values.
+   !> Reads from, to, count and spacing: evenly spaced values.
    subroutine take_steps(reading, this)
       type(deck_reading_t), intent(inout) :: reading
       type(study_factor_t), intent(inout) :: this
@@ -264,7 +264,7 @@ contains
       end if
    end subroutine take_steps
 
-   !> lower and upper, or nominal ± tolerance, or a distribution and its deviation.
+   !> Checks lower and upper, or nominal ± tolerance, or a distribution and its deviation.
    subroutine check_range(reading, study, this)
       type(deck_reading_t), intent(inout) :: reading
       type(study_t), intent(in) :: study
@@ -294,7 +294,7 @@ contains
       if (is_given(lower) .and. is_given(upper)) is_reversed = lower >= upper
    end function is_reversed
 
-   !> &correlation
+   !> Reads &correlation.
    subroutine take_correlation(reading, study)
       type(deck_reading_t), intent(inout) :: reading
       type(study_t), intent(inout) :: study
@@ -321,7 +321,7 @@ contains
       study%settings%correlations = [study%settings%correlations, number_of(reading, 'value', 0.0_wp)]
    end subroutine take_correlation
 
-   !> &response
+   !> Reads &response.
    subroutine take_response(reading, study)
       type(deck_reading_t), intent(inout) :: reading
       type(study_t), intent(inout) :: study
@@ -357,7 +357,7 @@ contains
       study%responses = [study%responses, this]
    end subroutine take_response
 
-   !> The two responses of a difference; any other response has a column.
+   !> Reads the two responses of a difference; any other response has a column.
    subroutine take_difference(reading, study, this)
       type(deck_reading_t), intent(inout) :: reading
       type(study_t), intent(in) :: study                   !! with the responses before this one

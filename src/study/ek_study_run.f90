@@ -1,7 +1,7 @@
 !> Runs the designs of a study in chunks, by several threads of one or several processes, and keeps what is finished.
 !>
 !> The folder <out>/<study>.parts holds one file per finished chunk (ek_chunk). A run computes the chunks that are missing; so a
-!> study that was stopped, or killed at any moment, goes on where it was. Which thread computes a chunk has no influence on it.
+!> study that was stopped, or killed at any moment, resumes. Which thread computes a chunk has no influence on it.
 !> Several runs may use one folder: each holds a locked scratch folder in it, and the chunks are removed by the last one only. The
 !> locks of other machines may be invisible, so a run renews its scratch folder every hour; one of another machine that was not
 !> renewed for a day is that of a dead run.
@@ -110,7 +110,7 @@ contains
       call write_whole(join_path(folder, identity_name), content_of(study, plan), error)
    end subroutine open_parts
 
-   !> Refuses a folder of chunks that holds another study, or designs that another build of this program has computed.
+   !> Rejects a folder of chunks that holds another study, or designs that another build of this program has computed.
    subroutine check_parts(study, plan, out, error)
       type(study_t), intent(in) :: study
       type(study_plan_t), intent(in) :: plan
@@ -167,7 +167,7 @@ contains
       chunk = max(0, chunk)
    end function chunk_of_parts
 
-   !> The designs whose chunks are there and whole.
+   !> Counts the designs whose chunks are there and whole.
    subroutine count_parts(study, plan, out, done)
       type(study_t), intent(in) :: study
       type(study_plan_t), intent(in) :: plan
@@ -244,7 +244,7 @@ contains
       state%is_stopped = stops > 0 .and. state%done < state%wanted
    end subroutine run_chunks
 
-   !> What all ranks have done by now.
+   !> Counts the finished designs of all ranks.
    subroutine count_all(ranks, state)
       type(ranks_t), intent(inout) :: ranks
       type(run_state_t), intent(inout) :: state
@@ -255,7 +255,7 @@ contains
       call count_up(ranks, failed_counter, 0, state%failed)
    end subroutine count_all
 
-   !> The chunks of this run whose files are missing, damaged or of another study.
+   !> Lists the chunks of this run whose files are missing, damaged or of another study.
    subroutine list_pending(plan, options, shared)
       type(study_plan_t), intent(in) :: plan
       type(run_options_t), intent(in) :: options
@@ -278,7 +278,7 @@ contains
       shared%state%done = shared%state%before
    end subroutine list_pending
 
-   !> One thread: takes chunks until there is none left.
+   !> Works as one thread: takes chunks until there is none left.
    subroutine work(study, plan, deck, options, designer, ranks, shared, report)
       type(study_t), intent(in) :: study
       type(study_plan_t), intent(in) :: plan
@@ -321,7 +321,7 @@ contains
       end do
    end subroutine work
 
-   !> The next chunk; 0 if there is none, or no time for it.
+   !> Takes the next chunk; 0 if there is none, or no time for it.
    subroutine take_chunk(options, ranks, shared, number)
       type(run_options_t), intent(in) :: options
       type(ranks_t), intent(inout) :: ranks
@@ -344,7 +344,7 @@ contains
       if (before < size(shared%pending)) number = shared%pending(before + 1)
    end subroutine take_chunk
 
-   !> Keeps a finished chunk.
+   !> Stores a finished chunk.
    subroutine put_chunk(plan, number, chunk, is_whole, time, ranks, shared, report)
       type(study_plan_t), intent(in) :: plan
       integer, intent(in) :: number
@@ -360,7 +360,7 @@ contains
       if (allocated(chunk%error)) then
          if (.not. allocated(shared%error)) then
             call move_alloc(chunk%error, shared%error)
-            shared%error%message = shared%error%message//'; the designs that are done are kept: the same command goes on from there'
+            shared%error%message = shared%error%message//'; finished designs are kept: run the same command again to resume'
          end if
          return
       end if

@@ -124,7 +124,7 @@ contains
       end do
    end subroutine count_designs
 
-   !> The BLAS kernels by which the chunks were computed, each once, in the order of the chunks.
+   !> Lists the BLAS kernels by which the chunks were computed, each once, in the order of the chunks.
    subroutine list_kernels(study, plan, out, counts)
       type(study_t), intent(in) :: study
       type(study_plan_t), intent(in) :: plan
@@ -227,7 +227,7 @@ contains
       if (sampler_kinds(study%kind)%has_seed) text = ', seed '//str(int(study%settings%seed))
    end function seed_of
 
-   !> The rows of a chunk.
+   !> Appends the rows of a chunk to the table of designs.
    subroutine add_rows(study, chunk, rows)
       type(study_t), intent(in) :: study
       type(chunk_t), intent(in) :: chunk
@@ -249,7 +249,7 @@ contains
 
    contains
 
-      !> The numbers of a design, then its reason.
+      !> Appends the numbers of a design, then its reason.
       subroutine add_line(line)
          character(*), intent(in) :: line            !! with its end
          call rows%add(line(:len(line) - 1)//','//quoted_field(reason_of(chunk, k))//new_line('a'))
@@ -311,7 +311,7 @@ contains
       field = '"'//field//'"'
    end function quoted_field
 
-   !> The states of the designs of a chunk.
+   !> Appends the states of the designs of a chunk.
    subroutine add_curves(chunk, is_begun, curves)
       type(chunk_t), intent(in) :: chunk
       logical, intent(inout) :: is_begun          !! a curve precedes

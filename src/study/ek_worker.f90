@@ -146,7 +146,8 @@ contains
       found%case = cases(k)
    end subroutine take_case
 
-   !> The design with these values of the factors, from the numbers alone, with its cases on the rig. is_done is .false. if it must be
+   !> Changes to the design with these values of the factors, from the numbers alone, with its cases on the rig. is_done is
+   !> .false. if it must be
    !> read from the text: a factor is no number of the design space, a value is outside its range, or the design may have a defect.
    subroutine change_design(factors, values, worker, is_done)
       type(factor_paths_t), intent(in) :: factors(:)
@@ -195,7 +196,7 @@ contains
       is_sound = .not. is_in_doubt
    end subroutine examine_design
 
-   !> The numbers of a case at a design: those of the deck, or of the standard test.
+   !> Renews the numbers of a case at a design: those of the deck, or of the standard test.
    subroutine refresh_case(suspension, design, this)
       type(suspension_t), intent(in) :: suspension
       type(design_t), intent(in) :: design                 !! with the cases of these numbers
