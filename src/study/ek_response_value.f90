@@ -52,7 +52,7 @@ contains
       real(wp), intent(out) :: value             !! nan if there is none
       integer, intent(out) :: fault              !! 0, or for fault_text
       real(wp) :: at, centre, spread, low, high
-      integer :: points
+      integer :: points, undefined
       real(wp) :: x(size(table%values, 2)), y(size(table%values, 2))
       logical :: is_near(size(table%values, 2))
       integer :: column, over, k
@@ -74,7 +74,8 @@ contains
          if (reading%of == a_least) value = minval(y)
          if (reading%of == a_most) value = maxval(y)
       case (a_gradient)
-         call slope_over_window(table%values(over, :), y, reading%asked%window, value, points)
+         call slope_over_window(table%values(over, :), y, reading%asked%window, value, points, undefined)
+         if (undefined > 0) return
          if (.not. ieee_is_finite(value)) fault = merge(has_few_states, is_flat, points < 3)
          if (fault == no_fault .and. abs(value)*reading%asked%window <= reading%noise) value = 0.0_wp
          value = value*reading%size
