@@ -77,8 +77,8 @@ contains
             end if
             if (.not. path%is_wild) exit
          end do
-         if (.not. is_changed) message = path%key//' is not given in the deck'// &
-            trim(merge(', so it cannot be changed by '//trim(text), repeat(' ', 30 + len_trim(text)), change%is_relative))
+         if (.not. is_changed) message = path%key//' is not given in the deck'
+         if (.not. is_changed .and. change%is_relative) message = message//', so it cannot be changed by '//trim(text)
       end if
       if (message /= '') message = '--set '//setting//': '//message
    end subroutine apply_setting
