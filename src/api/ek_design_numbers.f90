@@ -4,6 +4,7 @@
 !> After begin_numbers and add_path nothing here makes a text, except apply_settings.
 module ek_design_numbers
    use ek_kinds, only: wp
+   use ek_decimal, only: number_limit
    use ek_error, only: error_t
    use ek_parameter, only: choice_t, parameters_t, parameter_path
    use ek_group, only: is_inside
@@ -154,14 +155,15 @@ contains
       end associate
    end function is_legal_path
 
-   !> Whether a value is inside the legal range of one number.
+   !> Whether a value is inside the legal range of one number, and below the limit of all numbers.
    pure logical function is_legal_at(numbers, k, value, parameters)
       type(design_numbers_t), intent(in) :: numbers
       integer, intent(in) :: k
       real(wp), intent(in) :: value                       !! in the unit of the deck
       type(parameters_t), intent(in) :: parameters        !! of begin_numbers
 
-      is_legal_at = is_inside(parameters%list(k)%range, value*numbers%unit(k))
+      is_legal_at = abs(value) < number_limit
+      if (is_legal_at) is_legal_at = is_inside(parameters%list(k)%range, value*numbers%unit(k))
    end function is_legal_at
 
    !> Sets one number by its position.

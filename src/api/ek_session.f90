@@ -2,6 +2,7 @@
 module ek_session
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
+   use ek_decimal, only: number_limit
    use ek_error, only: error_t, message_list_t, fail, exit_usage, exit_deck
    use ek_text, only: quoted, replace
    use ek_deck, only: deck_t, read_deck, parse_deck, move_deck, set_value, deck_checksum
@@ -227,7 +228,8 @@ contains
          return
       end if
       trial = session%deck
-      call set_value(trial, path, shortest(value), error)
+      ! of a value that is too large, whether the path is right: set_number refuses the value
+      call set_value(trial, path, shortest(merge(value, 1.0_wp, abs(value) < number_limit)), error)
       call without_option(error)
       if (allocated(error)) return
       call find_parameters(session%solver%design%parameters, session%solver%design%records, path, found)

@@ -13,11 +13,11 @@
 !> outside 1e-40 ≤ |x| < 1e15. Every text is therefore the correctly rounded decimal; a tie
 !> goes to the even digit, as in the formatted write.
 module ek_decimal
-   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan, ieee_positive_inf, ieee_negative_inf
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan, ieee_positive_inf, ieee_negative_inf
    use ek_kinds, only: wp, i8
    implicit none(type, external)
    private
-   public :: decimal, put_decimal, get_decimal, checked_number, longest_decimal
+   public :: decimal, put_decimal, get_decimal, get_bounded, size_hint, checked_number, longest_decimal, number_limit
 
    integer, parameter :: longest_decimal = 24       !! most characters of one number
    integer, parameter :: i16 = selected_int_kind(38)
@@ -33,6 +33,8 @@ module ek_decimal
    integer, parameter :: cut(0:most) = [(max(0, 65 - leadz(five(k))), k=0, most)]
    integer(i16), parameter :: top(0:most) = [(shiftr(five(k), cut(k)), k=0, most)]
    real(wp), parameter :: ten(smallest:kept) = [(10.0_wp**k, k=smallest, kept)]
+   integer(i8), parameter :: largest = 17976931348623157_i8     !! first 17 digits of the largest double, about 1.797e308
+   real(wp), parameter :: number_limit = 1.0e30_wp  !! numbers of decks, settings and options are below it in magnitude
    real(wp), parameter :: exact_ten(0:22) = [(10.0_wp**k, k=0, 22)]   !! no rounding error
    character(2), parameter :: pair(0:99) = &
       [((achar(iachar('0') + k)//achar(iachar('0') + l), l=0, 9), k=0, 9)]
@@ -277,13 +279,69 @@ contains
          end if
       else if (number == 0 .and. figures <= 18) then
          x = 0.0_wp
-      else if (decade + figures > 308) then
-         is_number = .false.                    ! would overflow; 1e308 and above do not occur
+      else if (overflows(text(mark:last), decade + figures)) then
+         is_number = .false.
       else
          read (text(mark:last), *, iostat=status) x
          is_number = status == 0
       end if
    end subroutine get_decimal
+
+   !> Whether a number in digits is larger than the largest double.
+   pure logical function overflows(text, decades)
+      character(*), intent(in) :: text
+      integer, intent(in) :: decades            !! digits in front of the decimal point, zeros in front of the first digit included
+      integer(i8) :: first
+      integer :: k, zeros, figures
+
+      overflows = .false.
+      if (decades <= 308) return
+      first = 0
+      zeros = 0
+      figures = 0
+      do k = 1, len(text)
+         if (scan(text(k:k), 'eEdD') > 0 .or. figures == 17) exit
+         if (verify(text(k:k), '0123456789') > 0) cycle
+         if (figures == 0 .and. text(k:k) == '0') then
+            zeros = zeros + 1
+         else
+            first = 10*first + iachar(text(k:k)) - iachar('0')
+            figures = figures + 1
+         end if
+      end do
+      if (first == 0) return
+      first = first*10_i8**(17 - figures)
+      overflows = decades - zeros > 309 .or. (decades - zeros == 309 .and. first > largest)
+   end function overflows
+
+   !> Reads a number that enters the calculation: finite and, as in a deck, below 1e30 in magnitude.
+   pure subroutine get_bounded(text, x, is_good)
+      character(*), intent(in) :: text
+      real(wp), intent(out) :: x
+      logical, intent(out) :: is_good           !! false: another text, or a number beyond the limit
+
+      call get_decimal(text, x, is_good)
+      if (is_good) is_good = ieee_is_finite(x)
+      if (is_good) is_good = abs(x) < number_limit
+   end subroutine get_bounded
+
+   !> For a message about a text that get_bounded does not take: ' (write a number below 1e30)' if it is a number, else ''.
+   pure function size_hint(text) result(words)
+      character(*), intent(in) :: text
+      character(:), allocatable :: words
+      real(wp) :: x
+      integer :: mark
+      logical :: is_number
+
+      words = ''
+      mark = scan(text, 'eEdD')
+      if (verify(trim(adjustl(text)), '+-.0123456789eEdD') > 0) return
+      if (mark == 0) mark = len_trim(text) + 1
+      call get_decimal(text(:mark - 1), x, is_number)
+      if (mark <= len_trim(text)) is_number = is_number .and. scan(text(mark + 1:), '123456789') > 0 .and. &
+         scan(text(mark + 1:), '+0123456789') == 1 .and. verify(trim(text(mark + 2:)), '0123456789') == 0
+      if (is_number .and. abs(x) > 0.0_wp) words = ' (write a number below 1e30)'
+   end function size_hint
 
    !> The number in a text that was checked to be one, as a list-directed `read` gives it, but ten times as fast.
    real(wp) function checked_number(text) result(x)

@@ -30,7 +30,7 @@ module ek_bench_derivatives
    public :: bench_derivatives
 
    character(*), parameter :: nl = new_line('a')
-   integer, parameter :: rounds = 3
+   integer, parameter :: rounds = 7
 
    !> One way to use derivatives.
    type :: use_t

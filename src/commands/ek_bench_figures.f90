@@ -13,7 +13,7 @@ module ek_bench_figures
 
    integer, parameter :: short_sweep = 20     !! increments of a design, like those of a study
 
-   !> What was measured.
+   !> What was measured; times are of the processor, so that a busy machine does not change them.
    type :: figures_t
       character(:), allocatable :: model, case
       integer :: increments = 0, n = 0       !! of the case; size of the matrix
@@ -68,7 +68,7 @@ contains
       end if
       if (.not. figures%design > 0.0_wp) return
       text = text//'design of '//str(short_sweep)//' increments, from numbers to a column: '//microseconds(figures%design)//', '// &
-         microseconds(figures%design - figures%states)//' more than its states and the column; designs per second '// &
+         microseconds(max(figures%design - figures%states, 0.0_wp))//' more than its states and the column; designs per second '// &
          per_second(figures%design)//nl
    end function table_of
 

@@ -1,8 +1,8 @@
-!> The single measurements of `bench`.
+!> The single measurements of `bench`, in time of the processor.
 module ek_bench_times
    use ek_kinds, only: wp
    use ek_error, only: error_t, fail, exit_convergence
-   use ek_clock, only: seconds
+   use ek_clock, only: processor_seconds
    use ek_lapack, only: dsysv
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t
@@ -28,7 +28,7 @@ module ek_bench_times
    private
    public :: rounds, collect_matrices, time_lapack, time_packs, time_kandc, time_designs
 
-   integer, parameter :: rounds = 15          !! each method is timed this often; the minimum counts
+   integer, parameter :: rounds = 30          !! each method is timed this often; the minimum counts
    integer, parameter :: kept_numbers = 2**17 !! size of the matrices kept for the unit: 1 MB stays in the cache
    integer, parameter :: designs = 10         !! timed together
    integer, parameter :: rows = 20            !! of K&C quantities, timed together
@@ -74,22 +74,22 @@ contains
       integer :: pivots(n), k, info
       logical :: is_singular
 
-      start = seconds()
+      start = processor_seconds()
       do k = 1, size(matrices, 3)
          copy = matrices(:, :, k)
          rhs = real(k, wp)
          call keep(copy, rhs)
       end do
-      copying = min(copying, (seconds() - start)/size(matrices, 3))
+      copying = min(copying, (processor_seconds() - start)/size(matrices, 3))
       is_singular = .false.
-      start = seconds()
+      start = processor_seconds()
       do k = 1, size(matrices, 3)
          copy = matrices(:, :, k)
          rhs = real(k, wp)
          call dsysv('L', n, 1, copy, n, pivots, rhs, n, work, size(work), info)
          if (info /= 0) is_singular = .true.
       end do
-      together = min(together, (seconds() - start)/size(matrices, 3))
+      together = min(together, (processor_seconds() - start)/size(matrices, 3))
       if (is_singular) call fail(error, exit_convergence, 'the matrix of a state is singular and cannot be timed')
    end subroutine time_lapack
 
@@ -128,9 +128,9 @@ contains
          end do
          walker%steps = 0
          walker%steps_alone = 0
-         start = seconds()
+         start = processor_seconds()
          call walk_pack(walker, members)
-         time = min(time, seconds() - start)
+         time = min(time, processor_seconds() - start)
       end do
       if (.not. all(members%is_walked)) return
       figures%pack_states = lanes*path(1)%states/time
@@ -165,16 +165,16 @@ contains
       figures%kandc_row = huge(start)
       figures%kandc_all = huge(start)
       do round = 1, rounds
-         start = seconds()
+         start = processor_seconds()
          do k = 1, rows
             call wheel_compliance(suspension, state, inputs, 0, kkt, compliance)
          end do
-         figures%kandc_row = min(figures%kandc_row, (seconds() - start)/rows)
-         start = seconds()
+         figures%kandc_row = min(figures%kandc_row, (processor_seconds() - start)/rows)
+         start = processor_seconds()
          do k = 1, rows
             call observe_kandc(suspension, state, inputs, kkt, kandc)
          end do
-         figures%kandc_all = min(figures%kandc_all, (seconds() - start)/rows)
+         figures%kandc_all = min(figures%kandc_all, (processor_seconds() - start)/rows)
       end do
    end subroutine time_kandc
 
@@ -210,8 +210,8 @@ contains
       if (size(worker%suspension%wheels) > 1) options%columns = prefix_of(worker%suspension, 1)//'toe_deg'
       figures%design = huge(time)
       figures%states = huge(time)
-      do k = 1, 5
-         start = seconds()
+      do k = 1, rounds/2
+         start = processor_seconds()
          do d = 1, designs
             call change_design(paths, [value*(1.0_wp + 1.0e-10_wp*d)], worker, is_done)
             if (.not. is_done) then      ! such a model has no design from numbers
@@ -220,15 +220,15 @@ contains
             end if
             call solve_mounted(options, worker%cases(1)%result, observer=worker%cases(1)%observer)
          end do
-         figures%design = min(figures%design, (seconds() - start)/designs)
-         start = seconds()
+         figures%design = min(figures%design, (processor_seconds() - start)/designs)
+         start = processor_seconds()
          do d = 1, designs
             associate (this => worker%cases(1)%result)
                call sweep(this%suspension, this%case, this%path, this%kkt, space=this%space)
                call observe(this%suspension, this%case, this%path, this%kkt, worker%cases(1)%observer, this%table)
             end associate
          end do
-         figures%states = min(figures%states, (seconds() - start)/designs)
+         figures%states = min(figures%states, (processor_seconds() - start)/designs)
       end do
    end subroutine time_designs
 

@@ -5,7 +5,7 @@ module ek_derivatives_command
    use ek_error, only: error_t, message_list_t, fail, exit_usage, exit_model
    use ek_text, only: str, quoted, plural, suggestion
    use ek_buffer, only: buffer_t
-   use ek_decimal, only: decimal, get_decimal
+   use ek_decimal, only: decimal, get_bounded, size_hint
    use ek_file, only: make_folder, join_path, write_whole, write_standard_output
    use ek_case, only: case_t
    use ek_case_result, only: solve_options_t, failure_of
@@ -198,10 +198,11 @@ contains
          high = maxval(path%value)
          half = 0.5_wp*(high - low)/max(1, path%states - 1)
          do j = 1, words%count()
-            call get_decimal(words%line(j), place, is_number)
-            place = place*case%unit
+            call get_bounded(words%line(j), place, is_number)
+            if (is_number) place = place*case%unit
             if (.not. is_number) then
-               call fail(error, exit_usage, '--at: expected swept values or all, found '//quoted(words%line(j)))
+               call fail(error, exit_usage, '--at: expected swept values or all, found '//quoted(words%line(j))// &
+                  size_hint(words%line(j)))
             else if (line%has('--at') .and. (place < low - half .or. place > high + half)) then
                call fail(error, exit_usage, '--at: case '//quoted(case%name)//' goes from '//str(case%from/case%unit, 6)//' to '// &
                   str(case%to/case%unit, 6)//' '//case%unit_name//', found '//words%line(j))

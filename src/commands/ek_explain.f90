@@ -3,7 +3,7 @@ module ek_explain
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t, fail, exit_usage, exit_convergence
    use ek_text, only: str, quoted, suggestion, is_like, plural
-   use ek_decimal, only: get_decimal
+   use ek_decimal, only: get_bounded, size_hint
    use ek_buffer, only: buffer_t
    use ek_file, only: make_folder, join_path, write_whole
    use ek_suspension, only: suspension_t
@@ -99,8 +99,9 @@ contains
       if (settings%out == '-') call fail(error, exit_usage, 'explain writes several files and cannot be used with --out -')
       if (.not. settings%has_place .or. allocated(error)) return
       place = line%value('--at')
-      call get_decimal(place, settings%place, settings%has_place)
-      if (.not. settings%has_place) call fail(error, exit_usage, '--at: expected a swept value, found '//quoted(place))
+      call get_bounded(place, settings%place, settings%has_place)
+      if (.not. settings%has_place) call fail(error, exit_usage, '--at: expected a swept value, found '//quoted(place)// &
+         size_hint(place))
    end subroutine read_settings
 
    !> Explains one case: solve, split, write, print.

@@ -3,7 +3,7 @@ module ek_export_settings
    use ek_kinds, only: wp, millimetre
    use ek_error, only: error_t, message_list_t, fail, exit_usage, exit_deck
    use ek_text, only: str, quoted
-   use ek_decimal, only: get_decimal
+   use ek_decimal, only: get_bounded
    use ek_suspension, only: suspension_t, driver_row
    use ek_measure, only: is_of_angle
    use ek_case, only: case_t
@@ -91,7 +91,7 @@ contains
          range%is_given = .true.
          do k = 1, 3
             colon = index(text//':', ':')
-            call get_decimal(text(:colon - 1), numbers(k), is_good)
+            call get_bounded(text(:colon - 1), numbers(k), is_good)
             if (.not. is_good .or. colon == 1) exit
             text = text(min(colon + 1, len(text) + 1):)
          end do

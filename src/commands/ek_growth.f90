@@ -7,7 +7,7 @@ module ek_growth
    use ek_kinds, only: wp, i8
    use ek_error, only: error_t, fail, exit_usage, exit_convergence
    use ek_text, only: str
-   use ek_clock, only: seconds
+   use ek_clock, only: seconds, processor_seconds
    use ek_buffer, only: buffer_t
    use ek_json, only: json_t, json_string, json_number
    use ek_suspension, only: suspension_t
@@ -87,9 +87,9 @@ contains
 
       call read_chain(bodies_of(n), lift, suspension, case, error)
       if (allocated(error)) return
-      start = seconds()
+      start = processor_seconds()
       kkt = new_kkt(suspension, wants_plan=solver == by_plan)
-      spent = seconds() - start
+      spent = processor_seconds() - start
       this%n = kkt%n
       this%bodies = bodies_of(n)
       if (solver == by_plan) then

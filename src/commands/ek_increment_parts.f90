@@ -2,7 +2,7 @@
 !> that the step stays on the branch).
 module ek_increment_parts
    use ek_kinds, only: wp
-   use ek_clock, only: seconds
+   use ek_clock, only: processor_seconds
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t
    use ek_state, only: state_t, inputs_t, design_state, unpack_state
@@ -13,10 +13,14 @@ module ek_increment_parts
    private
    public :: parts_t, time_walk, time_parts
 
-   integer, parameter :: rounds = 5              !! the minimum counts
+   integer, parameter :: rounds = 30             !! the minimum counts
    integer, parameter :: most = 20               !! states on which the parts are timed
 
-   !> Times per increment [s].
+   ! Work at a state; each of the last three needs the one before. The clock of the processor counts microseconds, so the times of
+   ! many states are compared, not single steps.
+   integer, parameter :: unpacking = 1, reacting = 2, assembling = 3, factorising = 4, solving = 5
+
+   !> Times per increment [s], of the processor.
    type :: parts_t
       real(wp) :: increment = huge(1.0_wp)       !! all of it
       real(wp) :: assembly = 0.0_wp, factor = 0.0_wp, solve = 0.0_wp, rest = 0.0_wp
@@ -34,9 +38,9 @@ contains
       real(wp) :: start
 
       call new_path(suspension, case, path)
-      start = seconds()
+      start = processor_seconds()
       call walk(suspension, case, path, kkt)
-      parts%increment = min(parts%increment, (seconds() - start)/(path%states - 1))
+      parts%increment = min(parts%increment, (processor_seconds() - start)/(path%states - 1))
    end subroutine time_walk
 
    !> Times the parts: one assembly, factorisation and solution at states of the path, as often as an increment has them.
@@ -49,8 +53,8 @@ contains
       type(state_t) :: state
       type(inputs_t) :: inputs
       type(schedule_t) :: schedule
-      real(wp) :: whole, residual, factor, solution, lap(4), factorisations, solutions, start
-      integer :: k, round, number, count
+      real(wp) :: least(unpacking:solving), spent, factorisations, solutions
+      integer :: round, work
 
       state = design_state(suspension)
       schedule = new_schedule(suspension, case)
@@ -59,49 +63,42 @@ contains
       call walk(suspension, case, path, kkt)
       factorisations = (kkt%factorisations - factorisations)/(path%states - 1)
       solutions = (kkt%solutions - solutions)/(path%states - 1)
-      whole = huge(whole)
-      residual = huge(whole)
-      factor = huge(whole)
-      solution = huge(whole)
-      count = min(most, path%states)
+      least = huge(spent)
       do round = 1, rounds
-         lap = 0.0_wp
-         do k = 1, count
-            number = 1 + ((k - 1)*(path%states - 1))/max(count - 1, 1)
-            call inputs_at(schedule, path%value(number), inputs)
-            call unpack_state(path%packed(:, number), state)
-            start = seconds()
-            call assemble(suspension, state, inputs, residual_only, kkt)
-            call next_lap(1)
-            call assemble(suspension, state, inputs, whole_tangent, kkt)
-            call next_lap(2)
-            call factorise(kkt)
-            call next_lap(3)
-            call solve(kkt)
-            call next_lap(4)
+         do work = unpacking, solving
+            call time_work(work, spent)
+            least(work) = min(least(work), spent)
          end do
-         lap = lap/count
-         residual = min(residual, lap(1))
-         whole = min(whole, lap(2))
-         factor = min(factor, lap(3))
-         solution = min(solution, lap(4))
       end do
       ! a solution with old factors has a new right-hand side
-      parts%assembly = factorisations*whole + max(solutions - factorisations, 0.0_wp)*residual
-      parts%factor = factorisations*factor
-      parts%solve = solutions*solution
+      parts%assembly = max(factorisations*(least(assembling) - least(unpacking)) + &
+         max(solutions - factorisations, 0.0_wp)*(least(reacting) - least(unpacking)), 0.0_wp)
+      parts%factor = factorisations*max(least(factorising) - least(assembling), 0.0_wp)
+      parts%solve = solutions*max(least(solving) - least(factorising), 0.0_wp)
       parts%rest = max(parts%increment - parts%assembly - parts%factor - parts%solve, 0.0_wp)
 
    contains
 
-      subroutine next_lap(part)
-         integer, intent(in) :: part
-         real(wp) :: now
+      !> The time per state of one kind of work, with all work that it needs before.
+      subroutine time_work(work, spent)
+         integer, intent(in) :: work
+         real(wp), intent(out) :: spent
+         real(wp) :: start
+         integer :: k, count, number
 
-         now = seconds()
-         lap(part) = lap(part) + (now - start)
-         start = seconds()
-      end subroutine next_lap
+         count = min(most, path%states)
+         start = processor_seconds()
+         do k = 1, count
+            number = 1 + ((k - 1)*(path%states - 1))/max(count - 1, 1)
+            call inputs_at(schedule, path%value(number), inputs)
+            call unpack_state(path%packed(:, number), state)
+            if (work == reacting) call assemble(suspension, state, inputs, residual_only, kkt)
+            if (work >= assembling) call assemble(suspension, state, inputs, whole_tangent, kkt)
+            if (work >= factorising) call factorise(kkt)
+            if (work >= solving) call solve(kkt)
+         end do
+         spent = (processor_seconds() - start)/count
+      end subroutine time_work
 
    end subroutine time_parts
 

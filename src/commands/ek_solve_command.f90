@@ -3,7 +3,7 @@ module ek_solve_command
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t, fail, exit_usage, exit_convergence
    use ek_text, only: str, quoted, suggestion, plural
-   use ek_decimal, only: decimal, get_decimal
+   use ek_decimal, only: decimal, get_bounded, size_hint
    use ek_buffer, only: buffer_t
    use ek_file, only: make_folder, join_path, write_whole
    use ek_table, only: name_length
@@ -71,7 +71,7 @@ contains
       type(direction_t), allocatable :: directions(:)
       type(message_list_t) :: mistakes, path
       type(unknown_t) :: this
-      character(:), allocatable :: text
+      character(:), allocatable :: text, hint
       type(buffer_t) :: names
       logical :: has_low, has_high
       integer :: k, j, equals, colon
@@ -84,11 +84,13 @@ contains
          has_low = .false.
          has_high = .false.
          if (equals > 1 .and. colon > equals) then
-            call get_decimal(trim(adjustl(text(equals + 1:colon - 1))), this%lower, has_low)
-            call get_decimal(trim(adjustl(text(colon + 1:))), this%upper, has_high)
+            call get_bounded(trim(adjustl(text(equals + 1:colon - 1))), this%lower, has_low)
+            call get_bounded(trim(adjustl(text(colon + 1:))), this%upper, has_high)
          end if
          if (.not. (has_low .and. has_high)) then
-            call mistakes%add('--vary '//text//': expected path=low:high, as in point.tie_rod_inner.z=-70:-50')
+            hint = size_hint(text(equals + 1:max(equals, colon - 1)))
+            if (hint == '') hint = size_hint(text(colon + 1:))
+            call mistakes%add('--vary '//text//': expected path=low:high, as in point.tie_rod_inner.z=-70:-50'//hint)
             cycle
          end if
          if (.not. this%upper > this%lower) then
@@ -155,9 +157,10 @@ contains
          text = given%line(k)
          mark = index(text, '=', back=.true.)
          is_number = .false.
-         if (mark > 1) call get_decimal(trim(adjustl(text(mark + 1:))), targets(k), is_number)
+         if (mark > 1) call get_bounded(trim(adjustl(text(mark + 1:))), targets(k), is_number)
          if (.not. is_number) then
-            call mistakes%add('--for '//text//': expected quantity=value, case:quantity=value or quantity@swept value=value')
+            call mistakes%add('--for '//text//': expected quantity=value, case:quantity=value or quantity@swept value=value'// &
+               size_hint(text(mark + 1:)))
             cycle
          end if
          text = trim(adjustl(text(:mark - 1)))
@@ -171,9 +174,10 @@ contains
             place = text(mark + 1:)
             text = trim(text(:mark - 1))
          end if
-         call get_decimal(trim(adjustl(place)), at, is_number)
+         call get_bounded(trim(adjustl(place)), at, is_number)
          if (.not. is_number) then
-            call mistakes%add(trim(merge('--for', '--at ', mark > 0))//': expected a swept value, found '//quoted(place))
+            call mistakes%add(trim(merge('--for', '--at ', mark > 0))//': expected a swept value, found '//quoted(place)// &
+               size_hint(place))
             cycle
          end if
          c = case_number(case, solver)

@@ -354,6 +354,7 @@ contains
          ! sorted before all other mistakes, which may be its consequences
          call deck%deck_errors%add(place_in(deck%file, 0, 0), 'more than '//str(max_files)//' files or '// &
             str(max_letters/1000000)//' MB are included in total; the last one by '//place%words)
+         call deck%deck_errors%cut()
          files%sources = max_files + 2                       ! reported once; the rest is not read
          return
       end if

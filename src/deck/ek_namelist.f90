@@ -16,7 +16,7 @@ module ek_namelist
    private
    public :: check_record, value_fault, surplus, name_fault, is_legal_name
 
-   integer, parameter :: largest_exponent = 30      !! numbers above 1e30 are mistakes and could overflow later
+   integer, parameter :: largest_exponent = 30      !! numbers from 1e30 are mistakes and could overflow later
    integer, parameter :: smallest_exponent = -100   !! numbers below 1e-100 are mistakes too; the smallest would be read as 0
    character(*), parameter :: digits = '0123456789'
    character(*), parameter :: types(heading) = [character(17) :: 'a text in quotes', 'a text in quotes', 'a number', &
@@ -204,7 +204,7 @@ contains
             if (type == number) fault = fault//number_hint(value%text)
             if (type == whole .and. is_signed(value%text)) fault = 'a whole number of at most 9 digits, found '//value%text
          else if (type == number) then
-            if (size_exponent(value%text) > largest_exponent) then
+            if (size_exponent(value%text) >= largest_exponent) then
                fault = 'a number below 1e'//str(largest_exponent)//', found '//value%text
             else if (size_exponent(value%text) < smallest_exponent) then
                fault = '0 or a number above 1e'//str(smallest_exponent)//', found '//value%text

@@ -3,7 +3,7 @@
 !> Here numbers are converted from the deck's units: x is in SI, in the axes of the deck. All mistakes of the deck are
 !> collected; the blueprint is complete only if there are none.
 module ek_reader
-   use ek_kinds, only: wp, units_t, millimetre, degree
+   use ek_kinds, only: wp, i8, units_t, millimetre, degree
    use ek_text, only: str, quoted, lower, did_you_mean
    use ek_error, only: error_t, fail, exit_deck
    use ek_record, only: single, record_t, hand_over, element, place_of, own_name
@@ -224,20 +224,23 @@ contains
    !> Completes the lists of the prototype that follow from the whole deck: points and weights.
    subroutine complete_prototype(reading)
       type(deck_reading_t), intent(inout) :: reading
-      type(point_t) :: point
-      integer :: k
+      type(point_t), allocatable :: points(:)
+      integer :: k, n
 
+      allocate (points(count(reading%cards%group == point_group)))
+      n = 0
       do k = 1, size(reading%records)
          reading%k = k
          associate (card => reading%cards(k))
             if (card%group /= point_group) cycle
-            point%name = trim(card%name)
-            point%where = where_of(reading)
-            point%is_used = card%is_used
-            reading%plan%prototype%points = [reading%plan%prototype%points, point]
+            n = n + 1
+            points(n)%name = trim(card%name)
+            points(n)%where = where_of(reading)
+            points(n)%is_used = card%is_used
             reading%plan%points = [reading%plan%points, card%index]
          end associate
       end do
+      call move_alloc(points, reading%plan%prototype%points)
       call add_gravity(reading%plan%prototype)
    end subroutine complete_prototype
 
@@ -262,6 +265,7 @@ contains
          card%group = group
          name = element(record, 'name', 1)
          if (len(name) <= word_length) card%name = name
+         card%hash = name_hash(lower(trim(card%name)))
          if (group == 0) then
             if (record%group /= '') call reading%deck_errors%add(place_of(record, 0), 'there is no group &'//record%group// &
                did_you_mean(record%group, names_of_groups(of_deck=.true.)))
@@ -277,6 +281,19 @@ contains
       if (group /= model_group) call check_new(reading)
    end subroutine check_names
 
+   !> A number that equal texts have in common.
+   pure integer function name_hash(text) result(hash)
+      character(*), intent(in) :: text
+      integer(i8) :: sum
+      integer :: k
+
+      sum = 0
+      do k = 1, len(text)
+         sum = modulo(131*sum + iachar(text(k:k)), 2147483647_i8)
+      end do
+      hash = int(sum)
+   end function name_hash
+
    !> Checks that no earlier record has the same name.
    subroutine check_new(reading)
       type(deck_reading_t), intent(inout) :: reading
@@ -284,6 +301,7 @@ contains
 
       k = reading%k
       do j = 1, k - 1
+         if (reading%cards(j)%hash /= reading%cards(k)%hash) cycle
          if (lower(reading%cards(j)%name) /= lower(reading%cards(k)%name)) cycle
          if (reading%cards(j)%group == reading%cards(k)%group) then
             call complain(reading, 'name', 'the name is given twice, first in '//line_of(reading, j)//doubling(j))

@@ -58,6 +58,9 @@ contains
          if (.not. (has_key(reading, 'to') .or. has_grid)) call complain(reading, '', "'to' is missing")
          if (reading%cards(reading%k)%is_good .and. .not. abs(to - from) > 0.0_wp) &
             call complain(reading, 'to', 'from and to must differ, found '//str(from)//' twice')
+         if (reading%cards(reading%k)%is_good .and. from > to .and. (has_key(reading, 'from') .neqv. has_key(reading, 'to'))) &
+            call complain(reading, trim(merge('from', 'to  ', has_key(reading, 'from'))), 'a range from '//str(from)//' to '// &
+            str(to)//', where one end is the default: give from and to')
       end if
       this%increments = whole_of(reading, 'increments', merge(test%increments, this%increments, has_grid))
       if (this%increments < 1 .or. this%increments > max_increments) call complain(reading, 'increments', &

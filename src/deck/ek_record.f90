@@ -35,9 +35,10 @@ module ek_record
    type :: deck_errors_t
       private
       integer :: used = 0
+      logical :: is_cut = .false.         !! a file was not read to its end: it may have more mistakes
       type(deck_error_t), allocatable :: list(:)
    contains
-      procedure :: add => complaints_add, count => complaints_count, text => complaints_text
+      procedure :: add => complaints_add, cut => complaints_cut, count => complaints_count, text => complaints_text
    end type deck_errors_t
 
    !> One value as written; a string without its quotes.
@@ -286,6 +287,12 @@ contains
       self%list(self%used)%text = place%words//': '//text
    end subroutine complaints_add
 
+   !> Records that a file is not read to its end, so that the number of mistakes is unknown.
+   pure subroutine complaints_cut(self)
+      class(deck_errors_t), intent(inout) :: self
+      self%is_cut = .true.
+   end subroutine complaints_cut
+
    !> The number of recorded mistakes.
    pure integer function complaints_count(self)
       class(deck_errors_t), intent(in) :: self
@@ -314,7 +321,12 @@ contains
          if (k > 1) text = text//new_line('a')
          text = text//self%list(order(k))%text
       end do
-      if (self%used > most) text = text//new_line('a')//'and '//str(self%used - most)//' or more other mistakes; is this a deck?'
+      if (self%used <= most) return
+      text = text//new_line('a')//'and '//str(self%used - most)
+      if (self%is_cut) text = text//' or more'
+      text = text//' other mistake'
+      if (self%used > most + 1 .or. self%is_cut) text = text//'s'
+      text = text//'; is this a deck?'
    end function complaints_text
 
    !> The location of a line of a file; line 0: the file itself.

@@ -52,6 +52,7 @@ contains
          if (deck_errors%count() >= max_mistakes) then
             call complain(deck_errors, blank, cursor%line, 'the file has '//str(max_mistakes)//' mistakes up to this line; the '// &
                'rest is not read. Is it a deck?')
+            call deck_errors%cut()
             exit
          end if
          if (text(cursor%at:cursor%at) == '&') then

@@ -15,7 +15,7 @@ module ek_setting
    use ek_kinds, only: wp
    use ek_text, only: str, quoted, plural, did_you_mean
    use ek_error, only: error_t, fail, exit_usage
-   use ek_record, only: record_t, entry_t, add_entry, add_value, entry_index, element
+   use ek_record, only: record_t, entry_t, value_t, add_entry, add_value, entry_index, element
    use ek_scanner, only: scan_values
    use ek_group, only: group_names, is_single, unknown_key, longest, number, word_length
    use ek_namelist, only: value_fault, surplus
@@ -77,8 +77,8 @@ contains
             end if
             if (.not. path%is_wild) exit
          end do
-         if (.not. is_changed) message = path%key//' is not given in the deck'// &
-            trim(merge(', so it cannot be changed by '//trim(text), repeat(' ', 30 + len_trim(text)), change%is_relative))
+         if (.not. is_changed) message = path%key//' is not given in the deck'
+         if (.not. is_changed .and. change%is_relative) message = message//', so it cannot be changed by '//trim(text)
       end if
       if (message /= '') message = '--set '//setting//': '//message
    end subroutine apply_setting
@@ -155,6 +155,7 @@ contains
       type(path_t), intent(in) :: path
       type(entry_t), intent(out) :: given
       character(:), allocatable, intent(out) :: message
+      type(value_t) :: factor
       character(:), allocatable :: fault
       integer :: j, last
 
@@ -179,7 +180,12 @@ contains
          do j = 1, given%used
             if (message /= '') return
             fault = value_fault(given%values(j), key%type)
-            if (fault /= '') message = path%key//' must be '//fault
+            if (fault == '') cycle
+            message = path%key//' must be '//fault
+            if (key%type /= number .or. given%values(j)%text(:1) /= '*' .or. len(given%values(j)%text) < 2) cycle
+            factor = given%values(j)
+            factor%text = factor%text(2:)
+            if (value_fault(factor, number) /= '') message = path%key//': * must be followed by '//value_fault(factor, number)
          end do
       end associate
 

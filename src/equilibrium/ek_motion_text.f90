@@ -40,7 +40,7 @@ contains
       main_body = max(1, findloc(part >= (1.0_wp - equal)*maxval(part), .true., dim=1))      ! 1: not a number
    end function main_body
 
-   !> Text on the body that moves most, its motion, and the bodies that move with it.
+   !> Text on the body that moves most, its motion, and the bodies that move with it: one or two with their motion, more by name.
    function motion_text(suspension, state, kkt, motion) result(text)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
@@ -48,22 +48,29 @@ contains
       real(wp), intent(in) :: motion(:)            !! scaled unknowns
       character(:), allocatable :: text
       real(wp) :: part(size(suspension%bodies))
-      integer, parameter :: max_named = 6
-      integer :: k, main, named
+      integer, parameter :: max_described = 2, max_named = 6
+      character(:), allocatable :: names
+      integer :: k, main, named, others
 
       part = body_parts(motion)
       main = main_body(motion)
       text = 'body '//quoted(suspension%bodies(main)%name)//place(suspension%bodies(main)%where)//' '// &
          one_body_text(suspension, state%poses(main + 1)%r, kkt, motion(6*main - 5:6*main), main)
+      others = count(part > takes_part*part(main)) - 1
       named = 0
+      names = ''
       do k = 1, size(part)
          if (k == main .or. part(k) <= takes_part*part(main)) cycle
          named = named + 1
-         if (named > max_named) cycle
-         text = text//'; body '//quoted(suspension%bodies(k)%name)//' '// &
-            one_body_text(suspension, state%poses(k + 1)%r, kkt, motion(6*k - 5:6*k), k)
+         if (others <= max_described) then
+            text = text//'; body '//quoted(suspension%bodies(k)%name)//' '// &
+               one_body_text(suspension, state%poses(k + 1)%r, kkt, motion(6*k - 5:6*k), k)
+         else if (named <= max_named) then
+            names = names//', '//quoted(suspension%bodies(k)%name)
+         end if
       end do
-      if (named > max_named) text = text//'; and '//plural(named - max_named, 'body', 'bodies')//' more'
+      if (others > max_named) names = names//' and '//plural(others - max_named, 'body', 'bodies')//' more'
+      if (others > max_described) text = text//'; with it move '//names(3:)
    end function motion_text
 
    !> 'turns freely about the axis …' or 'slides freely along …'.

@@ -15,7 +15,7 @@
 module ek_gradient
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
-   use ek_text, only: str, quoted
+   use ek_text, only: str, quoted, plural
    use ek_quantity, only: slope_unit, unit_text
    use ek_table, only: table_t, row_count, column_index, name_length
    use ek_test_result, only: test_result_t, unfolded_rows, wheel_column
@@ -101,7 +101,7 @@ contains
       character(8) :: unit
       character(:), allocatable :: slope_ending
       real(wp) :: slope
-      integer :: over, side
+      integer :: over, side, undefined
 
       over = wheel_column(test, wheel, trim(definition%over))
       side = test%sides(wheel)
@@ -117,7 +117,8 @@ contains
       gradient%unit = unit_text(slope_ending)
       gradient%window = '±'//str(gradient%window_half)//' '//trim(unit)
 
-      call fit_slope(test%table, place, over, test%factor_size, gradient%window_half, slope, gradient%points)
+      call fit_slope(test%table, place, over, test%factor_size, gradient%window_half, slope, gradient%points, &
+         undefined)
       gradient%note = ''
       gradient%turn = turn_of(test, definition, side)
       gradient%value = slope
@@ -126,19 +127,21 @@ contains
          if (gradient%points > 0) gradient%note = 'only '//str(gradient%points)//' of at least '//str(min_points)// &
             ' states in the window'
          if (gradient%points >= min_points) gradient%note = trim(gradient%over)//' does not change'
+         if (undefined > 0) gradient%note = 'undefined at '//plural(undefined, 'state', 'states')//' in the window'
          return
       end if
       gradient%value = slope*(gradient%size*gradient%turn)
    end function one_gradient
 
    !> Fits the slope of a column over another one in the units of both, 0 if it is within the noise; makes no text.
-   subroutine fit_slope(table, place, over, factor_size, half, slope, points)
+   subroutine fit_slope(table, place, over, factor_size, half, slope, points, undefined)
       type(table_t), intent(in) :: table
       integer, intent(in) :: place, over           !! of the columns
       real(wp), intent(in) :: factor_size          !! load or displacement at `factor` = 1, if that is the abscissa
       real(wp), intent(in) :: half                 !! of the window
-      real(wp), intent(out) :: slope               !! not a number if it has too few states
-      integer, intent(out) :: points               !! states in the window
+      real(wp), intent(out) :: slope               !! not a number if it has too few states, or the column is undefined at one
+      integer, intent(out) :: points               !! states in the window at which the column is defined
+      integer, intent(out), optional :: undefined  !! and at which it is not
       logical :: is_good(row_count(table))
       real(wp), allocatable :: x(:), y(:)
 
@@ -148,7 +151,7 @@ contains
       if (table%columns(over) == 'factor') then
          where (ieee_is_finite(x)) x = x*factor_size
       end if
-      call slope_over_window(x, y, half, slope, points)
+      call slope_over_window(x, y, half, slope, points, undefined)
       if (.not. ieee_is_finite(slope)) return
       if (abs(slope)*half <= noise_of(table%columns(place))) slope = 0.0_wp
    end subroutine fit_slope
@@ -181,21 +184,24 @@ contains
       if (test%is_anti .and. side > 0) turn = -turn                  ! the load on the right wheel is −factor
    end function turn_of
 
-   !> Fits the least-squares slope of y over x for |x| ≤ half; not a number with fewer than three different x.
-   pure subroutine slope_over_window(x, y, half, slope, points)
-      real(wp), intent(in) :: x(:), y(:)   !! one value per state; values that are not numbers are skipped
+   !> Fits the least-squares slope of y over x for |x| ≤ half; not a number with fewer than three different x, or if y is not a number at a
+   !> state in the window: the other states would give another slope.
+   pure subroutine slope_over_window(x, y, half, slope, points, undefined)
+      real(wp), intent(in) :: x(:), y(:)   !! one value per state; a state that was not found has no x and is skipped
       real(wp), intent(in) :: half
       real(wp), intent(out) :: slope
-      integer, intent(out) :: points       !! states in the window
+      integer, intent(out) :: points       !! states in the window at which y is a number
+      integer, intent(out), optional :: undefined      !! and at which it is not
       real(wp), parameter :: rim = 1.0_wp + 1.0e-6_wp   !! a state nominally on the edge is inside: travel is driven to 1e-7 mm
       logical :: is_inside(size(x))
       real(wp) :: mean(2), spread
 
       slope = ieee_value(1.0_wp, ieee_quiet_nan)
-      is_inside = ieee_is_finite(x) .and. ieee_is_finite(y)
+      is_inside = ieee_is_finite(x)
       where (is_inside) is_inside = abs(x) <= half*rim
-      points = count(is_inside)
-      if (points < min_points) return
+      points = count(is_inside .and. ieee_is_finite(y))
+      if (present(undefined)) undefined = count(is_inside) - points
+      if (points < min_points .or. points < count(is_inside)) return
       if (maxval(x, mask=is_inside) - minval(x, mask=is_inside) <= 1.0e-3_wp*half) return        ! all at one x: no slope
       mean = [sum(x, mask=is_inside), sum(y, mask=is_inside)]/points
       spread = sum((x - mean(1))**2, mask=is_inside)

@@ -53,7 +53,7 @@ contains
       real(wp), intent(out) :: value             !! nan if there is none
       integer, intent(out) :: fault              !! 0, or for fault_text
       real(wp) :: at, centre, spread, low, high
-      integer :: points
+      integer :: points, undefined
       real(wp) :: x(size(table%values, 2)), y(size(table%values, 2))
       logical :: is_near(size(table%values, 2))
       integer :: column, over, k
@@ -75,7 +75,8 @@ contains
          if (reading%of == a_least) value = minval(y)
          if (reading%of == a_most) value = maxval(y)
       case (a_gradient)
-         call slope_over_window(table%values(over, :), y, reading%asked%window, value, points)
+         call slope_over_window(table%values(over, :), y, reading%asked%window, value, points, undefined)
+         if (undefined > 0) return
          if (.not. ieee_is_finite(value)) fault = merge(has_few_states, is_flat, points < 3)
          if (fault == no_fault .and. abs(value)*reading%asked%window <= reading%noise) value = 0.0_wp
          value = value*reading%size
@@ -115,7 +116,7 @@ contains
       end select
    end subroutine read_value
 
-   !> Whether a response reads its column at every state. A gradient skips states without a value, so it is given all.
+   !> Whether a response reads its column at every state. A gradient is given all: its columns need no compliance matrix.
    pure logical function reads_all_states(reading)
       type(reading_t), intent(in) :: reading
       reads_all_states = reading%of == a_span .or. reading%of == a_least .or. reading%of == a_most .or. reading%of == a_gradient
