@@ -148,7 +148,7 @@ contains
       page%table_columns = size(heads)
       look = ''
       if (present(class)) look = ' class="'//escape_html(class)//'"'
-      call page%body%add('<div class="scroll"><table'//look//'><thead><tr>')
+      call page%body%add('<div class="scroll" tabindex="0"><table'//look//'><thead><tr>')
       do k = 1, size(heads)
          first = merge(2, 1, index(heads(k), '>') == 1)
          call page%body%add('<th scope="col"'//trim(merge(' class="n">', '>          ', first == 2))// &
