@@ -24,7 +24,7 @@ module ek_rate_split
 
 contains
 
-   !> Shares of the classes in the wheel rate of a wheel, both wheels moved in phase; they add up to 1.
+   !> Shares of the classes in the wheel rate of a wheel, both wheels moved alike; they add up to 1.
    subroutine split_wheel_rate(suspension, table, place, shares, is_known)
       type(suspension_t), intent(in) :: suspension              !! on the rig
       type(contribution_table_t), intent(in) :: table           !! of a state

@@ -10,6 +10,7 @@ module ek_test_charts
    use ek_table, only: table_t, name_length, column_index, row_count
    use ek_test_result, only: test_result_t, converged_rows, design_row, wheel_column, has_column, wheel_word
    use ek_quantity, only: quantity_t, quantity_named, label_of, without_phase, unit_of, unit_text
+   use ek_contact, only: states_in_contact
    use ek_chart, only: chart_t, trace_t, new_chart, add_trace, set_level, both_sides
    implicit none(type, external)
    private
@@ -28,15 +29,18 @@ contains
       integer, intent(in), optional :: number         !! of the test
       character(48), allocatable :: columns(:)
       type(chart_t), allocatable :: drawn(:)
+      logical, allocatable :: is_in_contact(:)
       integer :: k, used
 
       allocate (columns, source=quantities_of(test%kind))
+      call states_in_contact(test%table, is_in_contact)
       allocate (drawn(size(columns) + 4))
       used = 0
       do k = 1, size(columns)
          if (columns(k) == test%abscissa) cycle
          if (columns(k) == 'toe_deg' .and. has_column(test, 'steer_deg') .and. any(columns == 'steer_deg')) cycle
          call take(quantity_chart(test, quantity_named(columns(k))))
+         if (used > 0 .and. allocated(is_in_contact)) call set_contact(drawn(used), is_in_contact)
       end do
       call take(ending_chart(test, 'motion_ratio', '_motion_ratio', 'Motion ratio', &
          'd(length)/d(wheel travel)    (− shortens in bump)', 0.02_wp))
@@ -61,6 +65,17 @@ contains
       end subroutine take
 
    end subroutine test_charts
+
+   !> Gives every curve of a chart the states at which a stop is in contact.
+   pure subroutine set_contact(chart, is_in_contact)
+      type(chart_t), intent(inout) :: chart
+      logical, intent(in) :: is_in_contact(:)
+      integer :: k
+
+      do k = 1, size(chart%traces)
+         chart%traces(k)%in_contact = is_in_contact
+      end do
+   end subroutine set_contact
 
    !> One line for the two sides where they are the same: within a thousandth of the least span, over the same abscissa.
    pure subroutine join_sides(chart)
