@@ -89,7 +89,11 @@ contains
    pure subroutine add_text(page, tag, text)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: tag, text
-      call page%body%line('<'//tag//'>'//escape_html(text)//'</'//tag//'>')
+      character(:), allocatable :: open
+
+      open = tag
+      if (tag == 'pre') open = tag//' tabindex="0"'      ! it scrolls
+      call page%body%line('<'//open//'>'//escape_html(text)//'</'//tag//'>')
    end subroutine add_text
 
    !> A box of warnings; no box for an empty list.

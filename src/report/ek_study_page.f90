@@ -18,6 +18,8 @@ module ek_study_page
    character(*), parameter :: method_words(3) = [character(26) :: 'derivatives, first order', 'derivatives, second order', &
       'Monte Carlo']
 
+   integer, parameter :: most_factors = 12        !! of a table that is not folded
+
 contains
 
    !> '<study>.html'
@@ -197,6 +199,8 @@ contains
       integer :: f
 
       call begin_section(page, 'factors', 'Factors')
+      if (size(study%factors) > most_factors) call add_markup(page, '<details class="more"><summary>'// &
+         plural(size(study%factors), 'factor', 'factors')//'</summary>')
       call begin_table(page, [character(24) :: 'Factor', 'Numbers of the deck', '>smallest', '>largest'])
       do f = 1, size(study%factors)
          range = range_of_values(study%x(f, :))
@@ -206,6 +210,7 @@ contains
          call add_cell(page, page_number(range(2)), 'n')
       end do
       call end_table(page)
+      if (size(study%factors) > most_factors) call add_markup(page, '</details>')
    end subroutine add_factors
 
    !> The pictures that were drawn.
