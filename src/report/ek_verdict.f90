@@ -198,15 +198,21 @@ contains
       if (limit < 0.0_wp) text = '−'//text
    end function short
 
-   !> The largest force on a member, if the loads of the members are wanted.
+   !> The largest force on a member, if the loads of the members are wanted; otherwise that on the rack.
    function largest_load(report) result(text)
       type(report_t), intent(in) :: report
       character(:), allocatable :: text
       integer, parameter :: resultant = 4
-      integer :: e
+      integer :: e, k
 
       text = ''
-      if (.not. allocated(report%loads)) return
+      if (.not. allocated(report%loads)) then
+         do k = 1, size(report%numbers)
+            if (report%numbers(k)%name /= 'largest_rack_force_n' .or. .not. has_value(report%numbers(k))) cycle
+            text = 'largest rack force '//page_number(report%numbers(k)%left)//' N; --loads adds the members'
+         end do
+         return
+      end if
       if (size(report%loads%ends) == 0) return
       e = maxloc(report%loads%peaks(resultant, :size(report%loads%ends)), dim=1)
       if (report%loads%case(resultant, e) == 0) return
