@@ -303,7 +303,8 @@ contains
       if (page%is_live) call add_live_style(head)
       call head%line('</style></head><body'//trim(merge(' class="is-live">', '>                ', allocated(page%data)))//'<main>')
       contents = ''
-      if (page%contents%length() > 0) contents = '<nav aria-label="Contents"><ul>'//page%contents%text()//'</ul></nav>'
+      if (page%contents%length() > 0) contents = '<nav aria-label="Contents"><ul>'//page%contents%text()// &
+         '<li><a href="#top">Back to top</a></li></ul></nav>'
       if (page%has_section) call tail%line('</section>')
       call tail%line('</main>')
       if (allocated(page%data)) then
