@@ -101,6 +101,12 @@ page_in_a_browser() {
     "$logs/browser/softer" | tee "$logs/compared.txt"
   [ "${PIPESTATUS[0]}" -eq 0 ] || return 1
   echo "remark: $(tail -n 1 "$logs/compared.txt")"
+  for name in what_matters hardpoint_tolerance; do
+    build/release/bin/elastokin study "studies/$name/study.nml" --samples 32 --out "$logs/browser/studies" --quiet >/dev/null || return 1
+    "$tools/bin/python" tests/page/study_in_a_browser.py "$logs/browser/studies/$name.html" | tee "$logs/study_page.txt"
+    [ "${PIPESTATUS[0]}" -eq 0 ] || return 1
+    echo "remark: $(tail -n 1 "$logs/study_page.txt")"
+  done
   # other rates on the page against runs of the program: free of stress, and with preloads
   local live=("$tools/bin/python" tests/page/live_rates_in_a_browser.py build/release/bin/elastokin)
   "${live[@]}" input/mcpherson_axle/mcpherson_axle.nml "$logs/browser/live" model.balance=none 'load.static.force(3)=0' \

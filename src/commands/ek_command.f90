@@ -55,7 +55,8 @@ module ek_command
       'overlay results and list the differences', &
       'Compares reports (folders written by report), or the results of one case: compare.html lists what was changed'//nl// &
       'in the deck, the key numbers and gradients sorted by change, and shows each chart with the curves of all results.'//nl// &
-      'The gradients are also printed. Tables for programs, with change and verdict (changed, same, only in A, only in B,'//nl// &
+      'The gradients are printed, and the ten largest changes go to standard error.'//nl// &
+      'Tables for programs, with change and verdict (changed, same, only in A, only in B,'//nl// &
       'not a number): differences.csv, number-differences.csv, curve-differences.csv, deck-differences.csv.', '', 2), &
       command_t('study', 'study STUDY.nml [options]', 'study STUDY', 'many designs of a deck, or step-size convergence', &
       'Runs the designs of a study and writes CSV files into DIR; if gnuplot is installed, draws the'//nl// &

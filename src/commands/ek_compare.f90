@@ -13,7 +13,8 @@ module ek_compare
    use ek_command_line, only: command_line_t, refuse_stream, read_windows, read_threshold
    use ek_console, only: print_note, print_text
    use ek_change, only: change_of, verdict_of, letter_of
-   use ek_comparison, only: comparison_t, difference_t, compare_gradients, compare_numbers, results_shown, difference, percent
+   use ek_comparison, only: comparison_t, difference_t, compare_gradients, compare_numbers, results_shown, difference, &
+      percent, largest_lines
    use ek_compare_charts, only: compare_charts
    use ek_deck_file, only: deck_record_t
    use ek_deck_difference, only: deck_difference_t, find_differences, step_text
@@ -77,6 +78,7 @@ contains
       do k = 1, this%missing%count()
          call print_note(is_quiet, this%missing%line(k))
       end do
+      call print_largest(is_quiet, this)
       call write_tables(this, error)
       if (allocated(error)) return
       ! first without its pictures: the page then exists even if gnuplot fails or hangs
@@ -94,6 +96,24 @@ contains
       if (allocated(undrawn)) call move_alloc(undrawn, unprinted)
       call move_alloc(unprinted, error)
    end subroutine compare
+
+   !> The ten largest changes, on standard error.
+   subroutine print_largest(is_quiet, this)
+      logical, intent(in) :: is_quiet
+      type(comparison_t), intent(in) :: this
+      integer, parameter :: most = 10
+      type(message_list_t) :: lines
+      integer :: k
+
+      if (size(this%shown) == 0) return
+      lines = largest_lines(this%shown, this%threshold, most)
+      if (lines%count() == 0) call print_note(is_quiet, 'no key number or gradient changed by more than '// &
+         str(100*this%threshold, 4)//' %')
+      if (lines%count() > 0) call print_note(is_quiet, 'largest changes:')
+      do k = 1, lines%count()
+         call print_note(is_quiet, '  '//lines%line(k))
+      end do
+   end subroutine print_largest
 
    !> Lists the tests, columns and gradients of one result that another lacks.
    subroutine find_missing(results, rows, missing)

@@ -9,13 +9,15 @@ module ek_plot
    use ek_study_data, only: study_data_t
    use ek_study_figures, only: figure_rule_t, rules, applies, script_of, figure_name
    use ek_study_page, only: study_page, page_name
+   use ek_step_page, only: step_page, step_script, figure_ending
+   use ek_text_table, only: text_table_t, read_text_table
    use ek_study_results, only: read_results_of
    use ek_command_line, only: command_line_t
    use ek_opened_study, only: opened_study_t, open_study
    use ek_console, only: print_note, print_path
    implicit none(type, external)
    private
-   public :: run_plot_command, draw_study
+   public :: run_plot_command, draw_study, draw_steps
 
 contains
 
@@ -147,5 +149,38 @@ contains
       end function is_asked
 
    end subroutine draw_study
+
+   !> Draws the figure of a step-size study and writes its page, from its table.
+   subroutine draw_steps(study, out, is_quiet, error)
+      type(study_t), intent(in) :: study
+      character(*), intent(in) :: out                !! folder of the table
+      logical, intent(in) :: is_quiet
+      type(error_t), allocatable, intent(out) :: error
+      type(text_table_t) :: table
+      type(message_list_t) :: scripts, pictures
+      type(error_t), allocatable :: undrawn
+      character(:), allocatable :: folder, message, name
+
+      call read_text_table(join_path(out, study%name//'.csv'), table, error)
+      if (allocated(error)) return
+      folder = join_path(out, 'figures')
+      call make_folder(folder, error)
+      if (allocated(error)) return
+      name = study%name//figure_ending
+      call write_whole(join_path(folder, name//'.gp'), step_script(study%name, table), error, can_be_redrawn=.true.)
+      if (allocated(error)) return
+      call scripts%add(name//'.gp')
+      call pictures%add(name//'.png')
+      call pictures%add(name//'.svg')
+      call run_gnuplot(scripts, pictures, folder, message, undrawn)
+      if (len(message) > 0) call print_note(is_quiet, message)
+      if (allocated(undrawn)) message = undrawn%message
+      if (len(message) > 0) folder = ''
+      call write_whole(join_path(out, study%name//'.html'), step_page(study%title, study%name, study%deck, study%case, table, &
+         folder, message), error)
+      if (allocated(error)) return
+      call print_path(join_path(out, study%name//'.html'), error)
+      if (allocated(undrawn)) call move_alloc(undrawn, error)
+   end subroutine draw_steps
 
 end module ek_plot

@@ -29,6 +29,7 @@ module ek_report
    use ek_report_content, only: report_t, add_fact
    use ek_report_data, only: report_data
    use ek_report_page, only: report_page
+   use ek_verdict, only: verdict_t, verdict_lines, plain
    use ek_report_pictures, only: draw_pictures
    use ek_explanation, only: explanation_t, find_explanations
    use ek_live, only: live_t, add_live
@@ -46,6 +47,7 @@ module ek_report
    use ek_remark, only: remark_t, failure, on_case, on_end, on_stability, on_settling, on_rack, on_curve, on_closure
    use ek_compliance_table, only: compliance_table
    use ek_member_loads, only: load_record_t, begin_loads, add_loads
+   use ek_report_list, only: renew_list
    use ek_load_files, only: write_loads, remove_loads
    use ek_test_result, only: test_result_t, find_wheels, choose_abscissa
    implicit none(type, external)
@@ -172,7 +174,10 @@ contains
       page%has_pictures = .not. allocated(undrawn) .and. len(message) == 0
       call write_whole(join_path(page%folder, 'report.html'), report_page(page), error)
       if (allocated(error)) return
+      call renew_list(page, settings%is_quiet, error)
+      if (allocated(error)) return
       call print_path(join_path(page%folder, 'report.html'), unprinted)
+      call print_verdicts(settings%is_quiet, page)
       if (allocated(incomplete)) then
          call move_alloc(incomplete, error)
       else if (allocated(undrawn)) then
@@ -262,9 +267,23 @@ contains
          if (allocated(error)) return
          call print_path(join_path(page%folder, page%tests(k)%envelope), unprinted)
       end do
+      page%incomplete = failed
       if (failed > 0) call fail(incomplete, code, str(failed)//' of '//plural(size(chosen), 'test', 'tests')// &
          trim(merge(' is ', ' are', failed == 1))//' incomplete; see the warnings at the top of the report')
    end subroutine run_tests
+
+   !> The lines of the summary, on standard error.
+   subroutine print_verdicts(is_quiet, page)
+      logical, intent(in) :: is_quiet
+      type(report_t), intent(in) :: page
+      type(verdict_t), allocatable :: lines(:)
+      integer :: k
+
+      call verdict_lines(page, lines)
+      do k = 1, size(lines)
+         call print_note(is_quiet, trim(lines(k)%domain)//': '//plain(lines(k)%text))
+      end do
+   end subroutine print_verdicts
 
    !> Sets title and facts of the page.
    subroutine set_head(settings, suspension, checksum, page)

@@ -15,7 +15,7 @@ module ek_study_outcome
    use ek_command_line, only: command_line_t
    use ek_opened_study, only: opened_study_t, results_name
    use ek_tolerance_outcome, only: write_tolerance
-   use ek_plot, only: draw_study
+   use ek_plot, only: draw_study, draw_steps
    use ek_console, only: print_note, print_warning, print_error, print_path
    implicit none(type, external)
    private
@@ -115,6 +115,7 @@ contains
       end if
       if (this%study%kind /= step_size_kind) call draw_study(this%study, this%deck, join_path(this%home, ''), this%out, &
          message_list_t(), line%has('--quiet'), undrawn)
+      if (this%study%kind == step_size_kind) call draw_steps(this%study, this%out, line%has('--quiet'), undrawn)
       if (.not. allocated(undrawn) .and. .not. this%has_store) &          ! the script reads CSV
          call draw(line%has('--quiet'), join_path(this%home, this%study%plot), tables, this%out, undrawn)
       if (allocated(undrawn)) then

@@ -225,7 +225,7 @@ contains
    end subroutine move_deck
 
    !> Checksum of everything that can change a result, 16 hexadecimal digits (FNV-1a, 64 bits): comments,
-   !> notes, titles, layout and the file of a group are ignored; settings and load tables are included.
+   !> notes, titles, layout, target bands and the file of a group are ignored; settings and load tables are included.
    function deck_checksum(deck) result(digits)
       type(deck_t), intent(in) :: deck
       character(16) :: digits
@@ -261,7 +261,7 @@ contains
       integer :: k, e, v
 
       do k = 1, size(records)
-         if (records(k)%group == 'include' .or. records(k)%group == 'hardpoints') cycle
+         if (any([character(11) :: 'include', 'hardpoints', 'target_band'] == records(k)%group)) cycle
          call include(sum, '&'//records(k)%group)
          do e = 1, records(k)%used
             associate (entry => records(k)%entries(e))

@@ -46,6 +46,7 @@ module ek_contribution_table
       real(wp), allocatable :: values(:)        !! of the asked columns, in their units
       real(wp), allocatable :: parts(:, :)      !! (asked column, row): they add up to the value
       type(load_path_t) :: paths
+      real(wp), allocatable :: arm(:, :)        !! from each wheel centre to its contact point at the state [m], global axes
       real(wp), allocatable :: energy(:, :)     !! (load of the paths, row): share of the strain energy; they add up to 1
       logical :: is_known = .false.             !! the matrix of the state is not singular
    end type contribution_table_t
@@ -144,6 +145,7 @@ contains
          end do
          call find_load_paths(suspension, state, inputs, kkt, compliance, self%shares, arm, self%paths)
          call find_energy(compliance%response(:n, :n), arm, self)
+         self%arm = arm
       end associate
    end subroutine find_contributions
 

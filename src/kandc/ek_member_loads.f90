@@ -11,6 +11,7 @@ module ek_member_loads
    use ek_block, only: rotated
    use ek_rotation, only: cross
    use ek_measure, only: measure_t
+   use ek_element, only: bushing_element
    use ek_element_force, only: element_evaluation_t, evaluate_element
    use ek_suspension, only: suspension_t, body_name
    use ek_case, only: case_t
@@ -49,7 +50,10 @@ module ek_member_loads
    ! what is larger by less is the same: the first state stays, on both sides of an axle
    real(wp), parameter :: rounding = 1.0e-9_wp, tiny_load = 1.0e-9_wp      !! of the value; N, N m
 
-   character(*), parameter :: components(8) = [character(2) :: 'fx', 'fy', 'fz', 'f', 'mx', 'my', 'mz', 'm']
+   !> The last three: the force of a bushing in its own axes x, y, z, which move with its first body.
+   character(*), parameter :: components(11) = [character(6) :: 'fx', 'fy', 'fz', 'f', 'mx', 'my', 'mz', 'm', 'own_fx', 'own_fy', &
+      'own_fz']
+   integer, parameter :: of_all = 8           !! components that every member has
    integer, parameter :: resultants(2) = [4, 8]
    character(*), parameter :: nl = new_line('a')
 
@@ -190,6 +194,7 @@ contains
       type(schedule_t) :: schedule
       type(inputs_t) :: inputs
       real(wp), allocatable :: loads(:, :)
+      real(wp) :: own(3)
       character(:), allocatable :: start
       integer :: k, e, c
 
@@ -218,8 +223,9 @@ contains
                call record%text%add(str(loads(c, e), 9))
             end do
             call record%text%add(nl)
+            own = own_force(suspension, state, record%ends(e), loads(1:3, e))
             call keep(e, k - 1, path%value(k)/case%unit, [loads(1:3, e), norm2(loads(1:3, e)), loads(4:6, e), &
-               norm2(loads(4:6, e))])
+               norm2(loads(4:6, e)), own])
          end do
       end do
 
@@ -228,9 +234,11 @@ contains
       subroutine keep(e, number, factor, values)
          integer, intent(in) :: e, number
          real(wp), intent(in) :: factor, values(size(components))
-         integer :: i
+         integer :: i, last
 
-         do i = 1, size(components)
+         last = of_all
+         if (is_of_bushing(suspension, record%ends(e))) last = size(components)
+         do i = 1, last
             if (record%case(i, e) > 0 .and. abs(values(i)) <= abs(record%peaks(i, e))*(1.0_wp + rounding) + tiny_load) cycle
             record%peaks(i, e) = values(i)
             record%state(i, e) = number
@@ -240,6 +248,35 @@ contains
       end subroutine keep
 
    end subroutine add_loads
+
+   pure logical function is_of_bushing(suspension, end)
+      type(suspension_t), intent(in) :: suspension
+      type(member_end_t), intent(in) :: end
+
+      is_of_bushing = end%element > 0
+      if (is_of_bushing) is_of_bushing = suspension%elements(end%element)%kind == bushing_element
+   end function is_of_bushing
+
+   !> The force on an end of a bushing along the axes of the bushing at this state [N]; 0 for other members.
+   pure function own_force(suspension, state, end, force) result(own)
+      type(suspension_t), intent(in) :: suspension
+      type(state_t), intent(in) :: state
+      type(member_end_t), intent(in) :: end
+      real(wp), intent(in) :: force(3)              !! frame of the deck
+      real(wp) :: own(3), global(3), axis(3)
+      integer :: k
+
+      own = 0.0_wp
+      if (.not. is_of_bushing(suspension, end)) return
+      global = deck_frame(suspension)*force
+      associate (element => suspension%elements(end%element))
+         do k = 1, 3
+            axis = element%bushing%axes(:, k)
+            axis = rotated(state%poses(element%measure%body_i + 1)%a, axis)
+            own(k) = dot_product(axis, global)
+         end do
+      end associate
+   end function own_force
 
    !> Writes the largest value of every component of every end, with its test and state, as comma-separated values.
    subroutine peak_loads(record, buffer)
@@ -260,7 +297,7 @@ contains
             call buffer%add(trim(components(i)))
             call buffer%add(',')
             call buffer%add(str(record%peaks(i, e), 9))
-            call buffer%add(trim(merge(',N,  ', ',N m,', i <= resultants(1))))
+            call buffer%add(trim(merge(',N,  ', ',N m,', i <= resultants(1) .or. i > of_all)))
             call buffer%add(trim(record%cases(record%case(i, e))))
             call buffer%add(',')
             call buffer%add(str(record%state(i, e)))

@@ -9,7 +9,7 @@ module ek_plausible_range
    use ek_text, only: str
    implicit none(type, external)
    private
-   public :: doubts_t, length, force, is_usual
+   public :: doubts_t, length, force, is_usual, usual_range
 
    ! dimensions
    integer, parameter :: length = 1, rate = 2, rotation_rate = 3, force = 4, moment = 5, angle = 6, mass = 7, share = 8, &
@@ -213,6 +213,22 @@ contains
       is_usual = k > 0
       if (is_usual) is_usual = is_within(ranges(k), value)
    end function is_usual
+
+   !> The usual range of a quantity in the unit of the table (N/mm, Hz, deg/m, …); of its magnitude if `low` is not negative.
+   pure subroutine usual_range(quantity, low, high, is_known)
+      character(*), intent(in) :: quantity     !! of a row of `ranges`
+      real(wp), intent(out) :: low, high
+      logical, intent(out) :: is_known         !! there is such a row
+      integer :: k
+
+      k = findloc(ranges%quantity, quantity, dim=1)
+      is_known = k > 0
+      low = -huge(1.0_wp)
+      high = huge(1.0_wp)
+      if (.not. is_known) return
+      low = ranges(k)%low
+      high = ranges(k)%high
+   end subroutine usual_range
 
    !> Whether a value (SI) lies in its range.
    pure logical function is_within(row, value)

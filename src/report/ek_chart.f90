@@ -11,6 +11,8 @@ module ek_chart
    use ek_buffer, only: buffer_t
    use ek_decimal, only: put_decimal, longest_decimal
    use ek_gnuplot_text, only: gnuplot_text, file_letters
+   use ek_chart_data, only: chart_t, trace_t, new_chart, add_trace, append_chart
+   use ek_chart_axis, only: range_of, view_of, cut_of, contact_spans
    implicit none(type, external)
    private
    public :: chart_t, trace_t, new_chart, add_trace, append_chart, charts_script, add_coordinate, picture_file
@@ -30,70 +32,7 @@ module ek_chart
       ' dashtype (10, 4, 2, 4)']
    integer, parameter :: chart_width = 460, chart_height = 330   !! pixels at font size 13
 
-   !> One curve.
-   type :: trace_t
-      character(:), allocatable :: title
-      !> Its columns in the table, or an expression of columns in parentheses: `(abs(column("toe_deg")))`
-      character(:), allocatable :: over, column
-      real(wp), allocatable :: x(:), y(:)
-      real(wp), allocatable :: mark(:)       !! [x, y] of a ring: the design state
-      integer :: colour = 1                  !! index in the palette
-      integer :: dash = 0                    !! 0 solid, 1 dashed, 2 dotted, 3 dash-dotted
-      integer :: design = 0                  !! row of the design state where it is not that of the test; 0: as the test
-      integer :: reference = 0               !! the curve of the chart that it is compared with; 0: none
-   end type trace_t
-
-   type :: chart_t
-      integer :: test = 0                    !! number of the test that it belongs to
-      character(:), allocatable :: name      !! of the SVG, without extension
-      character(:), allocatable :: title     !! the quantity
-      character(:), allocatable :: y_label   !! its unit and sign
-      character(:), allocatable :: x_label
-      type(trace_t), allocatable :: traces(:)
-      logical :: has_key = .false.           !! the curves are named in the chart
-      logical :: has_points = .false.        !! the states are independent: points without a line
-      logical :: is_fixed = .false.          !! the axis ends at `fixed`
-      real(wp) :: fixed(2) = 0.0_wp
-      logical :: is_level = .false.          !! constant to the digits shown: a row of a table, not drawn
-      real(wp) :: noise = 0.0_wp             !! a smaller span is drawn flat
-      real(wp) :: cap = 0.0_wp               !! values beyond ± this are not drawn; 0: no limit
-   end type chart_t
-
 contains
-
-   !> A chart without curves.
-   pure type(chart_t) function new_chart(name, title, y_label, x_label) result(chart)
-      character(*), intent(in) :: name, title, y_label, x_label
-
-      chart%name = name
-      chart%title = title
-      chart%y_label = y_label
-      chart%x_label = x_label
-      allocate (chart%traces(0))
-   end function new_chart
-
-   !> Appends a curve.
-   pure subroutine add_trace(chart, trace)
-      type(chart_t), intent(inout) :: chart
-      type(trace_t), intent(in) :: trace
-      chart%traces = [chart%traces, trace]
-   end subroutine add_trace
-
-   !> Appends a chart to the first `used` of a list, whose room doubles when it is exhausted.
-   pure subroutine append_chart(charts, used, chart)
-      type(chart_t), allocatable, intent(inout) :: charts(:)
-      integer, intent(inout) :: used
-      type(chart_t), intent(in) :: chart
-      type(chart_t), allocatable :: grown(:)
-
-      if (used == size(charts)) then
-         allocate (grown(2*used + 16))
-         grown(:used) = charts
-         call move_alloc(grown, charts)
-      end if
-      used = used + 1
-      charts(used) = chart
-   end subroutine append_chart
 
    !> The file of a chart: its name, reduced to the characters of a file name, as it may come from a foreign table.
    pure function picture_file(chart) result(name)
@@ -157,6 +96,7 @@ contains
          " at screen 0.02, screen 0.875 font ',12' textcolor rgb '#606060'")
       call script%line('set xlabel '//gnuplot_text(chart%x_label)//" offset 0, 0.65 font ',12' textcolor rgb '#606060'")
       call script%line('set yrange '//range_of(chart))
+      call add_contact(script, chart)
       keys = 0
       if (chart%has_key) keys = size(chart%traces)
       if (keys > 0) then
@@ -188,99 +128,22 @@ contains
       end do
    end subroutine add_chart
 
-   !> The range of y: of a span within the noise, and of a constant, the middle; otherwise that of the curves. Poles are cut.
-   pure function range_of(chart) result(range)
+   !> Grey where a stop is in contact along the first curve.
+   pure subroutine add_contact(script, chart)
+      type(buffer_t), intent(inout) :: script
       type(chart_t), intent(in) :: chart
-      character(:), allocatable :: range
-      real(wp) :: low, high, margin, cut
-
-      range = '['//str(chart%fixed(1), 6)//' : '//str(chart%fixed(2), 6)//']'
-      if (chart%is_fixed) return
-      cut = cut_of(chart)
-      range = '[*:*]'
-      if (cut > 0.0_wp) range = '['//str(-cut, 6)//' < * : * < '//str(cut, 6)//']'
-      call extremes(chart, huge(1.0_wp), low, high)
-      if (low > high) return
-      margin = max(abs(low)/10, 1.0e-6_wp)
-      if (high - low <= 0.0_wp) range = '['//str(low - margin, 6)//' : '//str(low + margin, 6)//']'
-      if (high - low < chart%noise) &
-         range = '[* < '//str((low + high)/2 - chart%noise, 6)//' : '//str((low + high)/2 + chart%noise, 6)//' < *]'
-   end function range_of
-
-   !> Returns the range of a chart as two numbers, for a page that draws the chart itself; low > high: the chart has no value.
-   pure subroutine view_of(chart, low, high)
-      type(chart_t), intent(in) :: chart
-      real(wp), intent(out) :: low, high
-      real(wp) :: cut, middle, half
-
-      low = chart%fixed(1)
-      high = chart%fixed(2)
-      if (chart%is_fixed) return
-      cut = cut_of(chart)
-      if (.not. cut > 0.0_wp) cut = huge(1.0_wp)
-      call extremes(chart, cut, low, high)
-      if (low > high) return
-      half = chart%noise
-      if (.not. half > 0.0_wp) half = max(abs(low)/10, 1.0e-6_wp)
-      if (high - low >= chart%noise .and. high > low) return
-      middle = (low + high)/2
-      low = middle - half
-      high = middle + half
-   end subroutine view_of
-
-   !> Finds the smallest and largest value of all curves, each moved to within ±cut.
-   pure subroutine extremes(chart, cut, low, high)
-      type(chart_t), intent(in) :: chart
-      real(wp), intent(in) :: cut
-      real(wp), intent(out) :: low, high
+      real(wp), allocatable :: spans(:, :)
       integer :: k
 
-      low = huge(1.0_wp)
-      high = -huge(1.0_wp)
-      do k = 1, size(chart%traces)
-         associate (y => chart%traces(k)%y)
-            if (.not. any(ieee_is_finite(y))) cycle
-            low = min(low, max(-cut, minval(y, mask=ieee_is_finite(y))))
-            high = max(high, min(cut, maxval(y, mask=ieee_is_finite(y))))
-         end associate
+      call script%line('unset object; unset label 3')
+      spans = contact_spans(chart%traces(1))
+      if (size(spans, 2) == 0) return
+      do k = 1, size(spans, 2)
+         call script%line('set object '//str(k)//' rectangle from '//str(spans(1, k), 7)//', graph 0 to '//str(spans(2, k), 7)// &
+            ", graph 1 behind fillcolor rgb '#ECECEC' fillstyle solid noborder")
       end do
-   end subroutine extremes
-
-   !> Where the axis ends on both sides of 0: at the cap of the chart or, of a curve through a pole, at a multiple of what it
-   !> usually is. A pole: between two states the value changes sign and jumps by more than half of the whole span. 0: no limit.
-   pure real(wp) function cut_of(chart) result(cut)
-      type(chart_t), intent(in) :: chart
-      real(wp), parameter :: usual = 8.0_wp      ! times the mean of the magnitudes on a logarithmic scale
-      integer, parameter :: least_states = 12
-      real(wp) :: low, high
-      integer :: k, row
-      logical :: has_pole
-
-      cut = chart%cap
-      call extremes(chart, huge(1.0_wp), low, high)
-      has_pole = .false.
-      do k = 1, size(chart%traces)
-         associate (y => chart%traces(k)%y)
-            if (size(y) < least_states) cycle
-            do row = 2, size(y)
-               if (.not. (ieee_is_finite(y(row)) .and. ieee_is_finite(y(row - 1)))) cycle
-               if (y(row) < 0.0_wp .eqv. y(row - 1) < 0.0_wp) cycle
-               has_pole = has_pole .or. abs(y(row)/2 - y(row - 1)/2) > (high/2 - low/2)/2
-            end do
-         end associate
-      end do
-      if (.not. has_pole) return
-      low = 0.0_wp
-      row = 0
-      do k = 1, size(chart%traces)
-         associate (y => chart%traces(k)%y)
-            low = low + sum(log(max(abs(y), 1.0e-9_wp)), mask=ieee_is_finite(y))
-            row = row + count(ieee_is_finite(y))
-         end associate
-      end do
-      high = usual*exp(low/row)
-      if (.not. cut > 0.0_wp .or. high < cut) cut = high
-   end function cut_of
+      call script%line("set label 3 'grey: stop in contact' at screen 0.965, screen 0.875 right font ',11' textcolor rgb '#606060'")
+   end subroutine add_contact
 
    !> Finds whether a chart is constant to the digits shown: every curve stays within a hundredth of its least span.
    elemental subroutine set_level(chart)

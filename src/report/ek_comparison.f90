@@ -8,13 +8,13 @@ module ek_comparison
    use ek_report_files, only: results_t
    use ek_chart, only: chart_t, both_sides, rounded
    use ek_page, only: page_number
-   use ek_change, only: least_of, change_of
+   use ek_change, only: least_of, change_of, has_changed
    use ek_compare_charts, only: chart_change_t, curve_difference_t
    use ek_deck_difference, only: deck_difference_t
    implicit none(type, external)
    private
    public :: comparison_t, difference_t, compare_gradients, compare_numbers, results_shown, difference, percent, largest_change, &
-      descending, counted
+      descending, counted, largest_lines
 
    !> One gradient or key number of all results. Of a key number `test` is its group and `column` its name for programs.
    type, extends(gradient_t) :: difference_t
@@ -159,6 +159,7 @@ contains
       others = pack(rows, .not. is_twin)
       call join_sides(others)
       shown = [shown, others]
+      call drop_repeated_angles(shown)
       allocate (changes(size(shown)))
       do k = 1, size(shown)
          changes(k) = rounded(abs(largest_change(shown(k))), 6)         ! equal but for rounding: their order stays
@@ -167,6 +168,65 @@ contains
       shown = shown(descending(changes))
 
    end function results_shown
+
+   !> Keeps one row of an angle that is listed as toe and as steer with the same magnitudes: the first.
+   subroutine drop_repeated_angles(list)
+      type(difference_t), allocatable, intent(inout) :: list(:)
+      logical :: is_repeated(size(list))
+      integer :: k, l, r
+
+      is_repeated = .false.
+      do k = 2, size(list)
+         do l = 1, k - 1
+            if (list(k)%quantity == list(l)%quantity .or. list(k)%unit /= list(l)%unit) cycle
+            if (as_toe(list(k)%quantity) /= as_toe(list(l)%quantity)) cycle
+            if (list(k)%side /= list(l)%side .and. (is_one_side(list(k)%side) .or. is_one_side(list(l)%side))) cycle
+            if (any(list(k)%is_there .neqv. list(l)%is_there)) cycle
+            is_repeated(k) = is_repeated(k) .or. all([(page_number(abs(list(k)%values(r))) == &
+               page_number(abs(list(l)%values(r))), r=1, size(list(k)%values))])
+         end do
+      end do
+      list = pack(list, .not. is_repeated)
+   end subroutine drop_repeated_angles
+
+   !> A title with 'toe' in place of 'steer': 'bump steer (fitted)' gives 'bump toe (fitted)'.
+   pure function as_toe(title) result(text)
+      character(*), intent(in) :: title
+      character(:), allocatable :: text
+      integer :: at
+
+      text = title
+      at = index(title, 'steer')
+      if (at > 0) text = title(:at - 1)//'toe'//title(at + len('steer'):)
+   end function as_toe
+
+   pure logical function is_one_side(side)
+      character(*), intent(in) :: side
+      is_one_side = side == 'left' .or. side == 'right'
+   end function is_one_side
+
+   !> The largest changes beyond the threshold, a line each: 'bump toe left: -2.47 → 2.59 deg/m (+205 %), parallel_travel'.
+   function largest_lines(shown, threshold, most) result(lines)
+      type(difference_t), intent(in) :: shown(:)       !! sorted by change
+      real(wp), intent(in) :: threshold
+      integer, intent(in) :: most
+      type(message_list_t) :: lines
+      character(:), allocatable :: line
+      real(wp) :: change
+      integer :: k, r
+
+      do k = 1, size(shown)
+         change = largest_change(shown(k))
+         if (lines%count() == most .or. .not. has_changed(change, threshold)) exit
+         line = trim(shown(k)%quantity//' '//shown(k)%side)//': '//str(shown(k)%values(1), 4)
+         do r = 2, size(shown(k)%values)
+            line = line//' → '//str(shown(k)%values(r), 4)
+         end do
+         line = line//' '//shown(k)%unit//' ('
+         if (change > 0.0_wp) line = line//'+'
+         call lines%add(line//str(100*change, 3)//' %), '//shown(k)%test)
+      end do
+   end function largest_lines
 
    !> Leaves one row of the two sides of an axle where they show the same numbers, or the opposite ones.
    subroutine join_sides(list)

@@ -8,7 +8,7 @@ module ek_effect_figures
       add_point_names, names_plot
    implicit none(type, external)
    private
-   public :: map_script, line_script, tornado_script, sobol_script, morris_script
+   public :: map_script, line_script, tornado_script, sobol_script, morris_script, ranked
 
    character(*), parameter :: nl = new_line('a')
    integer, parameter :: most_bars = 15           !! factors of a panel, the most important ones

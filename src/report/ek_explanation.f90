@@ -1,6 +1,9 @@
-!> What makes the key compliances of a report: of each its largest contributions at design, as bars.
+!> What makes the rates and the key compliances of a report: the parts of the rates, and of each compliance its largest
+!> contributions at design, as bars.
 module ek_explanation
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
+   use ek_text, only: str
    use ek_largest, only: largest
    use ek_quantity, only: quantity_t, quantity_named, unit_of, unit_text
    use ek_case_result, only: case_result_t
@@ -8,10 +11,13 @@ module ek_explanation
    use ek_path_states, only: nearest_reached
    use ek_contribution_table, only: contribution_table_t, start_contributions, choose_contributions, find_contributions, &
       is_key_compliance, share_length
+   use ek_rate_split, only: classes, split_wheel_rate, split_roll_rate
+   use ek_test_result, only: design_row
+   use ek_table, only: column_index
    use ek_page, only: page_t, begin_section, add_text, begin_table, add_cell, add_group, add_bar, end_table, page_number
    implicit none(type, external)
    private
-   public :: explanation_t, find_explanations, add_explanations
+   public :: explanation_t, find_explanations, add_explanations, parts_of
 
    integer, parameter :: shown = 10      !! contributions of a column
 
@@ -74,8 +80,77 @@ contains
             this%rest = this%value - sum(this%part)
          end associate
       end do
-      call move_alloc(found, list)
+      list = [rates_of(result, table), found]
    end subroutine find_explanations
+
+   !> The wheel rate of the left or single wheel and the roll rate, taken apart; those that the table of the case has at design.
+   function rates_of(result, table) result(list)
+      type(case_result_t), intent(in) :: result
+      type(contribution_table_t), intent(in) :: table
+      type(explanation_t), allocatable :: list(:)
+      character(*), parameter :: names(3) = [character(32) :: 'left_wheel_rate_n_per_mm', 'wheel_rate_n_per_mm', &
+         'suspension_roll_rate_nm_per_deg']
+      real(wp) :: shares(size(classes))
+      type(explanation_t) :: rate
+      logical :: is_known
+      integer :: k, column, row
+
+      allocate (list(0))
+      row = design_row(result%table)
+      if (row == 0) return
+      do k = 1, size(names)
+         column = column_index(result%table, names(k))
+         if (column == 0) cycle
+         if (k == size(names)) then
+            call split_roll_rate(result%suspension, table, shares, is_known)
+         else
+            call split_wheel_rate(result%suspension, table, 1, shares, is_known)
+         end if
+         if (.not. is_known .or. .not. ieee_is_finite(result%table%values(column, row))) cycle
+         rate = split_of(trim(names(k)), result%table%values(column, row), shares)
+         list = [list, rate]
+      end do
+   end function rates_of
+
+   !> A rate with the parts that do not read 0.
+   function split_of(column, value, shares) result(rate)
+      character(*), intent(in) :: column
+      real(wp), intent(in) :: value, shares(:)
+      type(explanation_t) :: rate
+      integer :: c
+
+      rate%column = column
+      rate%unit = unit_text(unit_of(column))
+      rate%title = 'Wheel rate at design, wheels parallel'
+      if (index(column, 'roll_rate') > 0) rate%title = 'Suspension roll rate at design'
+      rate%value = value
+      do c = 1, size(shares)
+         if (abs(shares(c)) < 0.5e-4_wp) cycle           ! 0.0 %
+         rate%rows = rate%rows + 1
+         rate%row(rate%rows) = classes(c)
+         rate%part(rate%rows) = shares(c)*value
+      end do
+      rate%rest = value - sum(rate%part)
+   end function split_of
+
+   !> 'at design: springs 81 %, bushings 15 %, …'; '' if the column has no explanation.
+   function parts_of(list, column) result(text)
+      type(explanation_t), intent(in) :: list(:)
+      character(*), intent(in) :: column
+      character(:), allocatable :: text
+      integer :: c, k
+
+      text = ''
+      do c = 1, size(list)
+         if (list(c)%column /= column) cycle
+         do k = 1, list(c)%rows
+            if (len(text) > 0) text = text//', '
+            text = text//trim(list(c)%row(k))//' '//str(anint(1000.0_wp*list(c)%part(k)/list(c)%value)/10.0_wp, 4)//' %'
+         end do
+         if (len(text) > 0) text = 'at design: '//text
+         return
+      end do
+   end function parts_of
 
    !> Adds the section of the page; none for an empty list.
    subroutine add_explanations(page, list)
@@ -87,7 +162,8 @@ contains
       call begin_section(page, 'contributions', 'What makes these numbers', is_printed=.false.)
       call add_text(page, 'p', 'Each compliance at design is the exact sum of what every axis of every bushing, spring, bar '// &
          'and preload adds to it; elastokin explain lists all of them at every state. Geometric: by the force that the part '// &
-         'carries, not by its rate. A rate that is 1 % higher lowers the compliance by 1 % of its contribution.')
+         'carries, not by its rate. A rate that is 1 % higher lowers the compliance by 1 % of its contribution. '// &
+         'The rates are the same sums for a given motion: the part of a spring is its rate times the square of its motion ratio.')
       call begin_table(page, [character(13) :: 'Contribution', '>Value', '>Share, %', '- 0 +', 'Unit'])
       do c = 1, size(list)
          if (list(c)%rows == 0 .and. reads_zero(list(c)%value)) cycle      ! held by a joint, or zero by symmetry

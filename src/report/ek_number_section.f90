@@ -3,7 +3,9 @@ module ek_number_section
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
    use ek_key_number, only: key_number_t
-   use ek_number_words, only: steer_effect, target_verdict
+   use ek_explanation, only: parts_of
+   use ek_number_words, only: steer_effect, target_verdict, short_name, is_symmetric, is_opposite
+   use ek_verdict, only: verdict_t, verdict_lines
    use ek_page, only: page_t, begin_section, add_markup, page_number
    use ek_report_content, only: report_t
    use ek_sparkline, only: sparkline
@@ -12,8 +14,6 @@ module ek_number_section
    implicit none(type, external)
    private
    public :: add_summary, add_other_numbers
-
-   character(*), parameter :: fitted = ' (fitted)'
 
 contains
 
@@ -28,6 +28,7 @@ contains
       allocate (places, source=summary_numbers(report%numbers))
       if (size(places) == 0) return
       call begin_section(page, 'summary', 'Summary')
+      call add_verdicts(page, report)
       call add_markup(page, '<ul class="cards">')
       do k = 1, size(places)
          associate (number => report%numbers(places(k)))
@@ -39,11 +40,49 @@ contains
             if (effect /= '') call add_markup(page, '<span class="effect">'//escape_html(trim(effect))//'</span>')
             call add_markup(page, target_of(number))
             if (number%held /= '') call add_markup(page, '<span class="held">'//escape_html(trim(number%held))//'</span>')
+            call add_markup(page, taken_apart(report, number%name))
             call add_markup(page, details_of(report%numbers, places(k))//'</li>')
          end associate
       end do
       call add_markup(page, '</ul>')
    end subroutine add_summary
+
+   !> A line per domain: its numbers, and whether they lie in their bands.
+   subroutine add_verdicts(page, report)
+      type(page_t), intent(inout) :: page
+      type(report_t), intent(in) :: report
+      type(verdict_t), allocatable :: lines(:)
+      character(:), allocatable :: mark
+      integer :: k
+
+      call verdict_lines(report, lines)
+      call add_markup(page, '<dl class="verdicts">')
+      do k = 1, size(lines)
+         mark = ''
+         if (lines(k)%verdict /= '') mark = ' <span class="target '//trim(lines(k)%verdict)//'">'//trim(lines(k)%verdict)//'</span>'
+         call add_markup(page, '<div><dt>'//escape_html(trim(lines(k)%domain))//'</dt><dd>'//escape_html(lines(k)%text)//mark// &
+            '</dd></div>')
+      end do
+      call add_markup(page, '</dl>')
+   end subroutine add_verdicts
+
+   !> What makes a rate: its parts in percent; '' for other numbers.
+   function taken_apart(report, name) result(html)
+      type(report_t), intent(in) :: report
+      character(*), intent(in) :: name
+      character(:), allocatable :: html
+
+      html = ''
+      if (.not. allocated(report%explanations)) return
+      select case (name)
+      case ('wheel_rate')
+         html = parts_of(report%explanations, 'left_wheel_rate_n_per_mm')
+         if (html == '') html = parts_of(report%explanations, 'wheel_rate_n_per_mm')
+      case ('suspension_roll_rate_nm_per_deg')
+         html = parts_of(report%explanations, name)
+      end select
+      if (html /= '') html = '<span class="held">'//escape_html(html)//'</span>'
+   end function taken_apart
 
    !> Adds all other numbers, each once; a repetition is named with the number that stays.
    subroutine add_other_numbers(page, report)
@@ -67,7 +106,7 @@ contains
             if (number%group /= group) then
                if (group /= '') call add_markup(page, '</tbody></table></div>')
                group = number%group
-               call add_markup(page, '<div class="scroll"><table class="numbers"><caption>'//escape_html(group)// &
+               call add_markup(page, '<div class="scroll" tabindex="0"><table class="numbers"><caption>'//escape_html(group)// &
                   '</caption><thead><tr><th scope="col">Quantity</th><th scope="col" class="n">Value</th>'// &
                   '<th scope="col">Unit</th><th scope="col">Sign</th></tr></thead><tbody>')
             end if
@@ -97,19 +136,6 @@ contains
       html = html//' Name: <code>'//escape_html(numbers(k)%name)//'</code></p></details>'
    end function details_of
 
-   !> A number without the mark of a fitted slope, which its formula gives.
-   function short_name(number) result(name)
-      type(key_number_t), intent(in) :: number
-      character(:), allocatable :: name
-      integer :: at
-
-      name = number%quantity
-      at = index(name, fitted)
-      if (at > 0) name = name(:at - 1)//name(at + len(fitted):)
-      name = trim(name)
-      if (name(1:1) >= 'a' .and. name(1:1) <= 'z') name(1:1) = achar(iachar(name(1:1)) - 32)
-   end function short_name
-
    !> '−3.21 deg/m' and a remark, as 'symmetric'.
    function values_of(number) result(html)
       type(key_number_t), intent(in) :: number
@@ -135,23 +161,6 @@ contains
          html = right
       end if
    end function pair_of
-
-   logical function is_symmetric(number)
-      type(key_number_t), intent(in) :: number
-
-      is_symmetric = .false.
-      if (number%is_of_axle .or. .not. ieee_is_finite(number%left) .or. .not. ieee_is_finite(number%right)) return
-      is_symmetric = page_number(number%left) == page_number(number%right)
-   end function is_symmetric
-
-   !> Left and right differ by their sign alone.
-   logical function is_opposite(number)
-      type(key_number_t), intent(in) :: number
-
-      is_opposite = .false.
-      if (number%is_of_axle .or. .not. ieee_is_finite(number%left) .or. .not. ieee_is_finite(number%right)) return
-      is_opposite = page_number(number%left) == page_number(-number%right) .and. .not. is_symmetric(number)
-   end function is_opposite
 
    function held_of(number) result(html)
       type(key_number_t), intent(in) :: number

@@ -3,9 +3,12 @@ module ek_number_words
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
    use ek_key_number, only: key_number_t
+   use ek_page, only: page_number
    implicit none(type, external)
    private
-   public :: steer_effect, target_verdict, mean_value
+   public :: steer_effect, target_verdict, mean_value, short_name, is_symmetric, is_opposite
+
+   character(*), parameter :: fitted = ' (fitted)'
 
    !> Numbers that are positive if the wheels steer to the left in a right turn, away from the bend.
    character(*), parameter :: away(*) = [character(44) :: 'wheel_roll_steer', 'lateral_force_steer', 'aligning_torque_steer', &
@@ -63,5 +66,36 @@ contains
          if (values(k) < number%target(1) .or. values(k) > number%target(2)) verdict = 'outside'
       end do
    end function target_verdict
+
+   !> A number without the mark of a fitted slope, which its formula gives.
+   function short_name(number) result(name)
+      type(key_number_t), intent(in) :: number
+      character(:), allocatable :: name
+      integer :: at
+
+      name = number%quantity
+      at = index(name, fitted)
+      if (at > 0) name = name(:at - 1)//name(at + len(fitted):)
+      name = trim(name)
+      if (name(1:1) >= 'a' .and. name(1:1) <= 'z') name(1:1) = achar(iachar(name(1:1)) - 32)
+   end function short_name
+
+   !> Both wheels have the same number to the digits shown.
+   logical function is_symmetric(number)
+      type(key_number_t), intent(in) :: number
+
+      is_symmetric = .false.
+      if (number%is_of_axle .or. .not. ieee_is_finite(number%left) .or. .not. ieee_is_finite(number%right)) return
+      is_symmetric = page_number(number%left) == page_number(number%right)
+   end function is_symmetric
+
+   !> Left and right differ by their sign alone.
+   logical function is_opposite(number)
+      type(key_number_t), intent(in) :: number
+
+      is_opposite = .false.
+      if (number%is_of_axle .or. .not. ieee_is_finite(number%left) .or. .not. ieee_is_finite(number%right)) return
+      is_opposite = page_number(number%left) == page_number(-number%right) .and. .not. is_symmetric(number)
+   end function is_opposite
 
 end module ek_number_words

@@ -89,7 +89,11 @@ contains
    pure subroutine add_text(page, tag, text)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: tag, text
-      call page%body%line('<'//tag//'>'//escape_html(text)//'</'//tag//'>')
+      character(:), allocatable :: open
+
+      open = tag
+      if (tag == 'pre') open = tag//' tabindex="0"'      ! it scrolls
+      call page%body%line('<'//open//'>'//escape_html(text)//'</'//tag//'>')
    end subroutine add_text
 
    !> Adds a box of warnings; no box for an empty list.
@@ -148,7 +152,7 @@ contains
       page%table_columns = size(heads)
       look = ''
       if (present(class)) look = ' class="'//escape_html(class)//'"'
-      call page%body%add('<div class="scroll"><table'//look//'><thead><tr>')
+      call page%body%add('<div class="scroll" tabindex="0"><table'//look//'><thead><tr>')
       do k = 1, size(heads)
          first = merge(2, 1, index(heads(k), '>') == 1)
          call page%body%add('<th scope="col"'//trim(merge(' class="n">', '>          ', first == 2))// &
@@ -299,7 +303,8 @@ contains
       if (page%is_live) call add_live_style(head)
       call head%line('</style></head><body'//trim(merge(' class="is-live">', '>                ', allocated(page%data)))//'<main>')
       contents = ''
-      if (page%contents%length() > 0) contents = '<nav aria-label="Contents"><ul>'//page%contents%text()//'</ul></nav>'
+      if (page%contents%length() > 0) contents = '<nav aria-label="Contents"><ul>'//page%contents%text()// &
+         '<li><a href="#top">Back to top</a></li></ul></nav>'
       if (page%has_section) call tail%line('</section>')
       call tail%line('</main>')
       if (allocated(page%data)) then

@@ -7,7 +7,7 @@ module ek_peak_section
    private
    public :: add_peak_loads
 
-   integer, parameter :: forces(4) = [1, 2, 3, 4], resultant = 4, moment = 8     !! components of a record
+   integer, parameter :: forces(4) = [1, 2, 3, 4], resultant = 4, moment = 8, own(3) = [9, 10, 11]     !! components of a record
 
 contains
 
@@ -19,10 +19,11 @@ contains
 
       call begin_section(page, 'peak-loads', 'Peak loads', is_printed=.false.)
       call add_text(page, 'p', 'Largest values over all tests, each by itself: force and moment on the body in the frame of '// &
-         'the deck, the moment about the hardpoint. On the first body of each member the forces are opposite: '// &
+         'the deck, the moment about the hardpoint; own: the force of a bushing along its own axes. '// &
+         'On the first body of each member the forces are opposite: '// &
          'peak-loads.csv has both bodies and the state of every component, loads.csv all states.')
       call begin_table(page, [character(15) :: 'Member', 'On body', 'At', '>Fx [N]', '>Fy [N]', '>Fz [N]', '>Force [N]', &
-         '>Moment [N m]', 'Largest load in', '>at'])
+         '>Moment [N m]', '>own Fx [N]', '>own Fy [N]', '>own Fz [N]', 'Largest load in', '>at'])
       do e = 2, size(record%ends), 2
          if (record%case(resultant, e) == 0) cycle
          if (record%peaks(resultant, e) <= 0.0_wp .and. record%peaks(moment, e) <= 0.0_wp) cycle
@@ -33,6 +34,10 @@ contains
             call add_cell(page, page_number(record%peaks(forces(c), e)), 'n')
          end do
          call add_cell(page, page_number(record%peaks(moment, e)), 'n')
+         do c = 1, size(own)
+            if (record%case(own(c), e) == 0) call add_cell(page, '–', 'n')
+            if (record%case(own(c), e) > 0) call add_cell(page, page_number(record%peaks(own(c), e)), 'n')
+         end do
          c = merge(resultant, moment, record%peaks(resultant, e) > 0.0_wp)
          call add_cell(page, trim(record%cases(record%case(c, e))))
          call add_cell(page, page_number(record%factor(c, e)), 'n')

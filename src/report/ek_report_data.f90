@@ -9,6 +9,8 @@ module ek_report_data
    use ek_letters, only: as_utf8
    use ek_json, only: json_t, json_string, json_number
    use ek_test_result, only: test_result_t, design_row
+   use ek_chart_axis, only: free_range, extremes
+   use ek_contact, only: contact_t, contacts_of
    use ek_chart, only: chart_t, trace_t, view_of, rounded
    use ek_key_number, only: key_number_t
    use ek_number_words, only: steer_effect, target_verdict
@@ -132,6 +134,7 @@ contains
       call json%item('file', json_string(as_utf8(test%file)))
       call json%item('label', json_string(as_utf8(test%label)))
       call json%item('design', str(design_row(test%table) - 1))
+      call add_contacts(json, test)
       call json%open('[', 'charts')
       do k = 1, size(charts)
          if (charts(k)%test == number) call add_chart(json, charts(k))
@@ -154,10 +157,31 @@ contains
       call json%close('}')
    end subroutine add_test
 
+   !> The stretches of states in which stops are in contact; nothing if there are none.
+   subroutine add_contacts(json, test)
+      type(json_t), intent(inout) :: json
+      type(test_result_t), intent(in) :: test
+      type(contact_t), allocatable :: contacts(:)
+      integer :: k
+
+      contacts = contacts_of(test%table)
+      if (size(contacts) == 0) return
+      call json%open('[', 'contacts')
+      do k = 1, size(contacts)
+         call json%open('{')
+         call json%item('stop', json_string(as_utf8(trim(contacts(k)%stop))))
+         call json%item('first', str(contacts(k)%first - 1))
+         call json%item('last', str(contacts(k)%last - 1))
+         call json%close('}')
+      end do
+      call json%close(']')
+   end subroutine add_contacts
+
    subroutine add_chart(json, chart)
       type(json_t), intent(inout) :: json
       type(chart_t), intent(in) :: chart
       real(wp) :: low, high
+      logical :: is_cut
       integer :: k
 
       call view_of(chart, low, high)
@@ -168,6 +192,14 @@ contains
       call json%item('low', json_number(rounded(low, figures)))
       call json%item('high', json_number(rounded(high, figures)))
       call json%item('span', json_number(chart%noise))
+      call free_range(chart, low, high, is_cut)
+      if (is_cut .and. .not. chart%is_fixed) then
+         call extremes(chart, huge(1.0_wp), low, high)
+         call json%open('[', 'beyond')
+         call json%item_of_list(json_number(rounded(low, figures)))
+         call json%item_of_list(json_number(rounded(high, figures)))
+         call json%close(']')
+      end if
       if (chart%has_points) call json%item('points', 'true')
       if (chart%is_level) call json%item('level', 'true')
       call json%open('[', 'curves')

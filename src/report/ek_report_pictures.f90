@@ -89,8 +89,22 @@ contains
             call pictures%add('../animation.gif')
          end if
       end if
+      do k = 1, scripts%count()
+         call report%drawn%add('figures/'//scripts%line(k))
+      end do
+      do k = 1, pictures%count()
+         if (index(pictures%line(k), '../') == 1) call report%drawn%add(after(pictures%line(k), '../'))
+         if (index(pictures%line(k), '../') /= 1) call report%drawn%add('figures/'//pictures%line(k))
+      end do
       call run_gnuplot(scripts, pictures, join_path(report%folder, 'figures'), message, error)
    end subroutine draw_pictures
+
+   !> The rest of a text behind its first letters.
+   pure function after(text, first) result(rest)
+      character(*), intent(in) :: text, first
+      character(:), allocatable :: rest
+      rest = text(len(first) + 1:)
+   end function after
 
    !> Writes the script of a figure with its data, which draws <name>.svg and .png.
    subroutine add_sheet(folder, name, script, scripts, pictures, error)

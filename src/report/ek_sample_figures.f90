@@ -1,4 +1,4 @@
-!> Figures of the designs of a study as a sample: families and bands of curves, scatter, histograms, means.
+!> Figures of the designs of a study as a sample: bands of curves, scatter, histograms, means.
 module ek_sample_figures
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
@@ -9,11 +9,10 @@ module ek_sample_figures
       full_height, blues
    implicit none(type, external)
    private
-   public :: family_script, fan_script, scatter_script, histogram_script, convergence_script
+   public :: fan_script, scatter_script, histogram_script, convergence_script
    public :: most_columns, thinned, cut, add_scale, leading_factors
 
    character(*), parameter :: nl = new_line('a')
-   integer, parameter :: most_curves = 300           !! of a family
    integer, parameter :: most_points = 20000         !! of a scatter matrix, all panels together
    integer, parameter :: most_rows = 6, most_columns = 7     !! of a scatter matrix: responses, factors
 
@@ -37,43 +36,6 @@ contains
       words = ''
       if (drawn < of) words = '; '//str(drawn)//' of '//str(of)//' '//what
    end function cut
-
-   !> The curves of the designs, coloured by the first factor.
-   function family_script(study, name, subtitle) result(text)
-      type(study_data_t), intent(in) :: study
-      character(*), intent(in) :: name, subtitle
-      character(:), allocatable :: text
-      type(sheet_t) :: sheet
-      integer :: k, j, c, every, leader(1)
-
-      leader = leading_factors(study, 1)
-      every = (size(study%drawn) + most_curves - 1)/most_curves
-      sheet = new_sheet(name, 'The curves of all designs', '', min(size(study%columns), most_panels))
-      if (size(study%drawn)*every < study%designs .or. every > 1) sheet%title = 'The curves of some designs'
-      sheet%has_scale = .true.
-      sheet%subtitle = subtitle// &
-         thinned(every*max(1, study%designs/max(1, size(study%drawn))), study%designs)// &
-         cut(sheet%panels, size(study%columns), 'columns')
-      call begin_data(sheet, 'curves')
-      do k = 1, size(study%drawn), every
-         do j = 1, size(study%sweep)
-            if (.not. any(ieee_is_finite(study%curves(:, j, k)))) cycle
-            call add_numbers(sheet, [study%sweep(j), study%x(leader(1), study%drawn(k)), study%curves(:sheet%panels, j, k)])
-         end do
-         call sheet%text%line('')
-      end do
-      call end_data(sheet)
-      call begin_panels(sheet)
-      call sheet%text%line(blues)
-      if (is_geometric(study%x(leader(1), :))) call sheet%text%line('set logscale cb')
-      call add_scale(sheet, study%factors(leader(1))%label, study%x(leader(1), :))
-      do c = 1, sheet%panels
-         call begin_panel(sheet, c, '', study%swept, study%columns(c)%label)
-         if (c == 2) call sheet%text%line('unset colorbox')
-         call sheet%text%line('plot $curves using 1:'//str(c + 2)//':2 with lines linewidth 1 linecolor palette notitle')
-      end do
-      text = end_panels(sheet)
-   end function family_script
 
    !> Adds the scale of the colours, above the panels at the right.
    subroutine add_scale(sheet, label, values)

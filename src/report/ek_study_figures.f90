@@ -4,7 +4,8 @@
 module ek_study_figures
    use ek_text, only: plural
    use ek_study_data, only: study_data_t, has_indices
-   use ek_sample_figures, only: family_script, fan_script, scatter_script, histogram_script, convergence_script
+   use ek_sample_figures, only: fan_script, scatter_script, histogram_script, convergence_script
+   use ek_family_figure, only: family_script
    use ek_parallel_figure, only: parallel_script
    use ek_effect_figures, only: map_script, line_script, tornado_script, sobol_script, morris_script
    use ek_carpet_figure, only: carpet_script, study_carpet

@@ -6,16 +6,19 @@ module ek_study_page
    use ek_text, only: str, plural
    use ek_version, only: version
    use ek_file, only: join_path, file_exists, read_whole
-   use ek_study_data, only: study_data_t, study_axis_t, percents, methods, range_of_values, has_indices
+   use ek_study_data, only: study_data_t, study_axis_t, percents, methods, range_of_values
    use ek_study_figures, only: rules, applies, figure_name
+   use ek_effect_table, only: add_effects
    use ek_page, only: page_t, begin_page, begin_section, add_text, add_warnings, add_facts, begin_table, add_cell, add_group, &
-      end_table, add_picture, page_text, page_number
+      add_markup, end_table, add_picture, page_text, page_number
    implicit none(type, external)
    private
    public :: study_page, page_name
 
    character(*), parameter :: method_words(3) = [character(26) :: 'derivatives, first order', 'derivatives, second order', &
       'Monte Carlo']
+
+   integer, parameter :: most_factors = 12        !! of a table that is not folded
 
 contains
 
@@ -196,6 +199,8 @@ contains
       integer :: f
 
       call begin_section(page, 'factors', 'Factors')
+      if (size(study%factors) > most_factors) call add_markup(page, '<details class="more"><summary>'// &
+         plural(size(study%factors), 'factor', 'factors')//'</summary>')
       call begin_table(page, [character(24) :: 'Factor', 'Numbers of the deck', '>smallest', '>largest'])
       do f = 1, size(study%factors)
          range = range_of_values(study%x(f, :))
@@ -205,6 +210,7 @@ contains
          call add_cell(page, page_number(range(2)), 'n')
       end do
       call end_table(page)
+      if (size(study%factors) > most_factors) call add_markup(page, '</details>')
    end subroutine add_factors
 
    !> Adds the pictures that were drawn.
@@ -231,72 +237,6 @@ contains
       end do
    end subroutine add_figures
 
-   !> Adds the table of the effects of the factors, for the kinds that yield it.
-   subroutine add_effects(page, study)
-      type(page_t), intent(inout) :: page
-      type(study_data_t), intent(in) :: study
-      integer :: r, f
-
-      select case (study%kind)
-      case ('saltelli', 'list')
-         if (.not. has_indices(study)) return
-         call begin_section(page, 'indices', 'Sobol indices')
-         call begin_table(page, [character(24) :: 'Factor', '>first order', '>± 95 %', '>total', '>± 95 %', &
-            '>base points'])
-      case ('tolerance')
-         if (.not. has_indices(study)) return
-         call begin_section(page, 'shares', 'Share of the variance')
-         call begin_table(page, [character(32) :: 'Factor', '>at the centre', '>standard deviation', '>slope', &
-            '>effect of one deviation', '>share', '>with interactions'])
-      case ('morris')
-         call begin_section(page, 'effects', 'Elementary effects')
-         call begin_table(page, [character(24) :: 'Factor', '>μ*', '>σ', '>effects'])
-      case ('one_at_a_time')
-         call begin_section(page, 'effects', 'One factor at a time')
-         call begin_table(page, [character(24) :: 'Factor', '>at its smallest', '>at its largest', '>span'])
-      case default
-         return
-      end select
-      do r = 1, size(study%responses)
-         call add_group(page, study%responses(r)%label)
-         do f = 1, size(study%factors)
-            call add_cell(page, study%factors(f)%name)
-            associate (effect => study%effects(r))
-               select case (study%kind)
-               case ('saltelli', 'list')
-                  call add_cell(page, page_number(effect%first(f)), 'n')
-                  call add_cell(page, page_number(effect%first_error(f)), 'n')
-                  call add_cell(page, page_number(effect%total(f)), 'n')
-                  call add_cell(page, page_number(effect%total_error(f)), 'n')
-                  call add_cell(page, str(effect%used(f))//' of '//str(effect%planned), 'n')
-               case ('tolerance')
-                  call add_cell(page, page_number(study%centers(f)), 'n')
-                  call add_cell(page, page_number(study%deviations(f)), 'n')
-                  call add_cell(page, page_number(effect%slope(f)), 'n')
-                  call add_cell(page, page_number(effect%effect(f)), 'n')
-                  call add_cell(page, page_number(100.0_wp*effect%first(f))//' %', 'n')
-                  call add_cell(page, page_number(100.0_wp*effect%total(f))//' %', 'n')
-               case ('morris')
-                  call add_cell(page, page_number(effect%mean_size(f)), 'n')
-                  call add_cell(page, page_number(effect%deviation(f)), 'n')
-                  call add_cell(page, str(effect%used(f))//' of '//str(effect%planned), 'n')
-               case default
-                  call add_cell(page, page_number(effect%at_low(f)), 'n')
-                  call add_cell(page, page_number(effect%at_high(f)), 'n')
-                  call add_cell(page, page_number(effect%highest(f) - effect%lowest(f)), 'n')
-               end select
-            end associate
-         end do
-      end do
-      call end_table(page)
-      if (study%failed == 0) return
-      if (study%kind == 'one_at_a_time') call add_text(page, 'p', '–: the design at this end of the factor '// &
-         'failed. The span covers the designs that were solved.')
-      if (study%kind == 'morris') call add_text(page, 'p', 'An effect is the difference of two designs that were both solved.')
-      if (study%kind == 'saltelli' .or. study%kind == 'list') call add_text(page, 'p', &
-         'An index rests on the base points whose designs were all solved.')
-   end subroutine add_effects
-
    !> Adds the best and the worst designs, with the numbers that make them.
    subroutine add_extremes(page, study)
       type(page_t), intent(inout) :: page
@@ -308,6 +248,7 @@ contains
       call add_text(page, 'p', 'Best is farthest inside the limits of the response, or the smallest deviation; without limits, '// &
          'the smallest and the largest value are shown. The options make the design on the command line; the lines '// &
          'of the deck replace the keys of the same names.')
+      call add_markup(page, '<details class="more"><summary>'//plural(size(study%extremes), 'design', 'designs')//'</summary>')
       do k = 1, size(study%extremes)
          associate (extreme => study%extremes(k))
             call add_text(page, 'h3', study%responses(extreme%response)%label//', '//extreme%what//': '// &
@@ -316,6 +257,7 @@ contains
             if (extreme%fragment /= '') call add_text(page, 'pre', extreme%fragment)
          end associate
       end do
+      call add_markup(page, '</details>')
    end subroutine add_extremes
 
 end module ek_study_page

@@ -5,11 +5,13 @@
 module ek_test_charts
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
+   use ek_text, only: str
    use ek_rig_test, only: rig_test_t, rig_test, is_scattered, of_tilt, of_roll, of_steer, of_lateral, of_braking, of_traction, &
       of_aligning, of_vertical, of_table, of_grid
    use ek_table, only: table_t, name_length, column_index, row_count
    use ek_test_result, only: test_result_t, converged_rows, design_row, wheel_column, has_column, wheel_word
    use ek_quantity, only: quantity_t, quantity_named, label_of, without_phase, unit_of, unit_text
+   use ek_contact, only: states_in_contact
    use ek_chart, only: chart_t, trace_t, new_chart, add_trace, set_level, both_sides
    implicit none(type, external)
    private
@@ -28,15 +30,18 @@ contains
       integer, intent(in), optional :: number         !! of the test
       character(48), allocatable :: columns(:)
       type(chart_t), allocatable :: drawn(:)
+      logical, allocatable :: is_in_contact(:)
       integer :: k, used
 
       allocate (columns, source=quantities_of(test%kind))
+      call states_in_contact(test%table, is_in_contact)
       allocate (drawn(size(columns) + 4))
       used = 0
       do k = 1, size(columns)
          if (columns(k) == test%abscissa) cycle
          if (columns(k) == 'toe_deg' .and. has_column(test, 'steer_deg') .and. any(columns == 'steer_deg')) cycle
          call take(quantity_chart(test, quantity_named(columns(k))))
+         if (used > 0 .and. allocated(is_in_contact)) call set_contact(drawn(used), is_in_contact)
       end do
       call take(ending_chart(test, 'motion_ratio', '_motion_ratio', 'Motion ratio', &
          'd(length)/d(wheel travel)    (− shortens in bump)', 0.02_wp))
@@ -61,6 +66,17 @@ contains
       end subroutine take
 
    end subroutine test_charts
+
+   !> Gives every curve of a chart the states at which a stop is in contact.
+   pure subroutine set_contact(chart, is_in_contact)
+      type(chart_t), intent(inout) :: chart
+      logical, intent(in) :: is_in_contact(:)
+      integer :: k
+
+      do k = 1, size(chart%traces)
+         chart%traces(k)%in_contact = is_in_contact
+      end do
+   end subroutine set_contact
 
    !> Joins the lines of the two sides where they are the same: within a thousandth of the least span, over the same abscissa.
    pure subroutine join_sides(chart)
@@ -197,20 +213,25 @@ contains
       character(*), intent(in) :: name, ending, title, label
       real(wp), intent(in) :: noise              !! in units of the column; a smaller span is drawn flat
       character(name_length) :: stem
-      integer :: k, place
+      integer :: k, place, columns
 
+      columns = 0
       chart = chart_of(test, name, title, label)
       chart%has_key = .true.
       chart%noise = noise
       do k = 1, size(test%table%columns)
          place = len_trim(test%table%columns(k)) - len(ending)
-         if (place < 1 .or. size(chart%traces) >= max_curves) cycle
+         if (place < 1) cycle
          if (test%table%columns(k) (place + 1:) /= ending) cycle
          stem = test%table%columns(k) (:place)
          if (any(stem == [character(14) :: 'vertical', 'roll', 'left_vertical', 'right_vertical'])) cycle   ! of the wheel, the axle
+         columns = columns + 1
+         if (size(chart%traces) >= max_curves) cycle
          call add_column(chart, test, side_of(test, stem), k, trim(stem), colour_of(chart, trim(stem)), &
             merge(1, 0, index(stem, 'right_') == 1))
       end do
+      if (size(chart%traces) >= max_curves .and. columns > max_curves) chart%y_label = chart%y_label//'    (the first '// &
+         str(max_curves)//' of '//str(columns)//')'
    end function ending_chart
 
    !> The colour of the corresponding left element for a right one, otherwise the next free colour.
@@ -232,12 +253,14 @@ contains
       character(*), intent(in), optional :: elements(:)    !! only these; absent: all with _fx_n, _fy_n, _fz_n
       real(wp), allocatable :: force(:, :)
       character(name_length), allocatable :: names(:)
-      integer :: k
+      integer :: k, carrying
 
       chart = chart_of(test, 'bushings', 'Bushings and joints', 'force, magnitude, N')
       chart%has_key = .true.
       chart%noise = 20.0_wp
-      call largest_forces(test%table, converged_rows(test%table), names, force, elements)
+      call largest_forces(test%table, converged_rows(test%table), names, force, carrying, elements)
+      if (size(names) < carrying) chart%y_label = chart%y_label//'    (the '//str(size(names))//' largest of '// &
+         str(carrying)//')'
       do k = 1, size(names)
          call add_curve(chart, test, side_of(test, names(k)), '(sqrt(column("'//trim(names(k))//'_fx_n")**2 + column("'// &
             trim(names(k))//'_fy_n")**2 + column("'//trim(names(k))//'_fz_n")**2))', force(:, k), trim(names(k)), k, 0)
@@ -246,11 +269,12 @@ contains
 
    !> Finds the elements with columns _fx_n, _fy_n, _fz_n, in the order of the columns, and the magnitudes of their forces; of more
    !> elements than fit in a chart those with the largest force.
-   pure subroutine largest_forces(table, is_good, names, force, elements)
+   pure subroutine largest_forces(table, is_good, names, force, carrying, elements)
       type(table_t), intent(in) :: table
       logical, intent(in) :: is_good(:)                    !! rows to consider
       character(name_length), allocatable, intent(out) :: names(:)
       real(wp), allocatable, intent(out) :: force(:, :)    !! N (row, name); not a number elsewhere
+      integer, intent(out) :: carrying                     !! elements that carry a force
       character(*), intent(in), optional :: elements(:)    !! only these
       character(*), parameter :: ending = '_fx_n'
       real(wp) :: peak(size(table%columns)), least
@@ -279,6 +303,7 @@ contains
          end do
       end do
       least = 0.0_wp
+      carrying = count(peak(:n) > least)
       do while (count(peak(:n) > least) > max_curves)
          least = minval(peak(:n), mask=peak(:n) > least)
       end do

@@ -40,6 +40,12 @@ with sync_playwright() as tool:
     page = new_page(browser, page_file, 1400, "light", messages, requests)
     size = page_file.stat().st_size
     expect(size < 1.5e6, f"compare.html has {size} bytes")
+    # what was changed and its largest consequence are seen without scrolling
+    for part, where in (("change", "#changed tbody tr"), ("consequence", "#results tbody tr")):
+        top = page.locator(where).first.bounding_box()["y"]
+        expect(top < 900, f"the first {part} is {top:.0f} pixels from the top")
+    started = page.evaluate("performance.timing.domContentLoadedEventEnd - performance.timing.navigationStart")
+    print(f"loaded after {started} ms, the largest change {top:.0f} pixels from the top")
     head = page.locator("#changed").inner_text()
     for row in table(folder / "deck-differences.csv"):
         expect(row["path"] in head and row["b"] in head, f"{row['path']} is not among what was changed")

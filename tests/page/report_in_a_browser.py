@@ -53,6 +53,13 @@ with sync_playwright() as tool:
     started = page.evaluate("performance.timing.domContentLoadedEventEnd - performance.timing.navigationStart")
     expect(size < 1e6, f"report.html has {size} bytes")
     print(f"size {size / 1e3:.0f} kB, loaded after {started} ms")
+    # the first number of the summary is seen without scrolling
+    top = page.evaluate("""() => { const found = [...document.querySelectorAll('#summary dd, #summary .value')]
+      .find((n) => /[0-9]/.test(n.innerText)); return found ? found.getBoundingClientRect().top + scrollY : 1e9; }""")
+    lines = page.locator("#summary .verdicts dd").count()
+    print(f"first number {top:.0f} pixels from the top, {lines} lines of verdict")
+    expect(top < 600, f"the first number is {top:.0f} pixels from the top")
+    expect(lines >= 8, f"{lines} lines of verdict")
 
     # hover: the values of the state in the table of the test
     test, read = data["tests"][0], hover(page, chart["id"], 0.8)

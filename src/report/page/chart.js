@@ -115,6 +115,7 @@ class Chart {
     this.x_label = svg("text", { x: (edge.left + right) / 2, y: drawn_height - 4, "text-anchor": "middle" }, this.test.data.label);
     const clip = `clip-${this.figure.id}`, clipping = svg("clipPath", { id: clip }), plot = svg("g", { "clip-path": `url(#${clip})` });
     clipping.append(svg("rect", { x: edge.left, y: edge.top, width: right - edge.left, height: bottom - edge.top }));
+    this.shade(plot, x0, x1, bottom);
     for (const curve of this.curves) {
       const seen = !this.test.hidden.has(curve.name), colour = `--colour:var(--c${(curve.colour - 1) % 8 + 1})`;
       if (curve.other && seen) plot.append(this.line(curve.other, "curve other", colour));
@@ -135,6 +136,24 @@ class Chart {
     this.is_drawn = true;
     this.listen(width);
     this.show_cursor();
+  }
+
+  // Where a stop is in contact along the first curve: shaded, with the name of the stop; and how far the curves reach beyond the axis.
+  shade(plot, x0, x1, bottom) {
+    const { contacts = [] } = this.test.data, x = this.curves[0] && this.curves[0].x;
+    if (!x || this.description.points) return;
+    contacts.forEach((contact, row) => {
+      const ends = [x[contact.first], x[contact.last]];
+      if (ends.includes(null) || ends.includes(undefined)) return;
+      const [from, to] = [Math.max(x0, Math.min(...ends)), Math.min(x1, Math.max(...ends))].map(this.to_x);
+      if (to <= from) return;
+      const is_right = from + to > this.width;
+      plot.append(svg("rect", { class: "contact", x: from, y: edge.top, width: Math.max(1, to - from), height: bottom - edge.top }),
+        svg("text", { x: is_right ? to - 3 : from + 3, y: bottom - 4 - 12 * row, "text-anchor": is_right ? "end" : "start" }, contact.stop));
+    });
+    const { beyond } = this.description;
+    if (beyond) plot.append(svg("text", { x: (edge.left + this.width - edge.right) / 2, y: edge.top + 11, "text-anchor": "middle" },
+      `with stops ${shown(beyond[0])} … ${shown(beyond[1])}`));
   }
 
   // The path of a curve with gaps where it has no value, or its states as points.

@@ -1,0 +1,173 @@
+!> Where the axis of a chart ends: at its curves, at a pole, or at the values of the free travel where stops in contact reach far
+!> beyond them.
+module ek_chart_axis
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use ek_kinds, only: wp
+   use ek_text, only: str
+   use ek_chart_data, only: chart_t, trace_t
+   implicit none(type, external)
+   private
+   public :: range_of, view_of, cut_of, free_range, extremes, contact_spans
+
+   real(wp), parameter :: much = 3.0_wp       !! times the span of the free travel: beyond it, an axis is that of the free travel
+
+contains
+
+   !> The range of y: of a span within the noise, and of a constant, the middle; otherwise that of the curves. Poles are cut.
+   pure function range_of(chart) result(range)
+      type(chart_t), intent(in) :: chart
+      character(:), allocatable :: range
+      real(wp) :: low, high, margin, cut
+      logical :: is_cut
+
+      range = '['//str(chart%fixed(1), 6)//' : '//str(chart%fixed(2), 6)//']'
+      if (chart%is_fixed) return
+      cut = cut_of(chart)
+      range = '[*:*]'
+      if (cut > 0.0_wp) range = '['//str(-cut, 6)//' < * : * < '//str(cut, 6)//']'
+      call free_range(chart, low, high, is_cut)
+      if (is_cut) range = '['//str(low, 6)//' : '//str(high, 6)//']'
+      if (is_cut) return
+      call extremes(chart, huge(1.0_wp), low, high)
+      if (low > high) return
+      margin = max(abs(low)/10, 1.0e-6_wp)
+      if (high - low <= 0.0_wp) range = '['//str(low - margin, 6)//' : '//str(low + margin, 6)//']'
+      if (high - low < chart%noise) &
+         range = '[* < '//str((low + high)/2 - chart%noise, 6)//' : '//str((low + high)/2 + chart%noise, 6)//' < *]'
+   end function range_of
+
+   !> The same range as two numbers, for a page that draws the chart itself; low > high: the chart has no value.
+   pure subroutine view_of(chart, low, high)
+      type(chart_t), intent(in) :: chart
+      real(wp), intent(out) :: low, high
+      real(wp) :: cut, middle, half
+      logical :: is_cut
+
+      low = chart%fixed(1)
+      high = chart%fixed(2)
+      if (chart%is_fixed) return
+      call free_range(chart, low, high, is_cut)
+      if (is_cut) return
+      cut = cut_of(chart)
+      if (.not. cut > 0.0_wp) cut = huge(1.0_wp)
+      call extremes(chart, cut, low, high)
+      if (low > high) return
+      half = chart%noise
+      if (.not. half > 0.0_wp) half = max(abs(low)/10, 1.0e-6_wp)
+      if (high - low >= chart%noise .and. high > low) return
+      middle = (low + high)/2
+      low = middle - half
+      high = middle + half
+   end subroutine view_of
+
+   !> The smallest and largest value of all curves, each moved to within ±cut.
+   pure subroutine extremes(chart, cut, low, high)
+      type(chart_t), intent(in) :: chart
+      real(wp), intent(in) :: cut
+      real(wp), intent(out) :: low, high
+      integer :: k
+
+      low = huge(1.0_wp)
+      high = -huge(1.0_wp)
+      do k = 1, size(chart%traces)
+         associate (y => chart%traces(k)%y)
+            if (.not. any(ieee_is_finite(y))) cycle
+            low = min(low, max(-cut, minval(y, mask=ieee_is_finite(y))))
+            high = max(high, min(cut, maxval(y, mask=ieee_is_finite(y))))
+         end associate
+      end do
+   end subroutine extremes
+
+   !> Where the axis ends on both sides of 0: at the cap of the chart or, of a curve through a pole, at a multiple of what it
+   !> usually is. A pole: between two states the value changes sign and jumps by more than half of the whole span. 0: no limit.
+   pure real(wp) function cut_of(chart) result(cut)
+      type(chart_t), intent(in) :: chart
+      real(wp), parameter :: usual = 8.0_wp      ! times the mean of the magnitudes on a logarithmic scale
+      integer, parameter :: least_states = 12
+      real(wp) :: low, high
+      integer :: k, row
+      logical :: has_pole
+
+      cut = chart%cap
+      call extremes(chart, huge(1.0_wp), low, high)
+      has_pole = .false.
+      do k = 1, size(chart%traces)
+         associate (y => chart%traces(k)%y)
+            if (size(y) < least_states) cycle
+            do row = 2, size(y)
+               if (.not. (ieee_is_finite(y(row)) .and. ieee_is_finite(y(row - 1)))) cycle
+               if (y(row) < 0.0_wp .eqv. y(row - 1) < 0.0_wp) cycle
+               has_pole = has_pole .or. abs(y(row)/2 - y(row - 1)/2) > (high/2 - low/2)/2
+            end do
+         end associate
+      end do
+      if (.not. has_pole) return
+      low = 0.0_wp
+      row = 0
+      do k = 1, size(chart%traces)
+         associate (y => chart%traces(k)%y)
+            low = low + sum(log(max(abs(y), 1.0e-9_wp)), mask=ieee_is_finite(y))
+            row = row + count(ieee_is_finite(y))
+         end associate
+      end do
+      high = usual*exp(low/row)
+      if (.not. cut > 0.0_wp .or. high < cut) cut = high
+   end function cut_of
+
+   !> The range of the free travel, with a margin, if the states in contact span more than three times as much. Without such states,
+   !> or if the axis is limited anyway, it is not cut.
+   pure subroutine free_range(chart, low, high, is_cut)
+      type(chart_t), intent(in) :: chart
+      real(wp), intent(out) :: low, high
+      logical, intent(out) :: is_cut
+      real(wp) :: all(2), margin
+      logical, allocatable :: is_free(:)
+      integer :: k
+
+      is_cut = .false.
+      low = huge(1.0_wp)
+      high = -huge(1.0_wp)
+      do k = 1, size(chart%traces)
+         associate (trace => chart%traces(k))
+            if (.not. allocated(trace%in_contact)) return
+            if (size(trace%in_contact) /= size(trace%y)) return
+            is_free = ieee_is_finite(trace%y) .and. .not. trace%in_contact
+            if (.not. any(is_free)) return
+            low = min(low, minval(trace%y, mask=is_free))
+            high = max(high, maxval(trace%y, mask=is_free))
+         end associate
+      end do
+      if (low > high) return
+      call extremes(chart, huge(1.0_wp), all(1), all(2))
+      margin = max(high - low, chart%noise)
+      if (.not. margin > 0.0_wp .or. all(2) - all(1) <= much*margin) return
+      is_cut = .true.
+      low = max(all(1), low - margin/4)
+      high = min(all(2), high + margin/4)
+   end subroutine free_range
+
+   !> The stretches of the abscissa on which a stop is in contact along a curve: (2, stretch), from the last free state to the end.
+   pure function contact_spans(trace) result(spans)
+      type(trace_t), intent(in) :: trace
+      real(wp), allocatable :: spans(:, :)
+      integer :: k, first, n
+
+      allocate (spans(2, size(trace%x)))
+      n = 0
+      first = 0
+      if (allocated(trace%in_contact)) then
+         do k = 1, size(trace%in_contact)
+            if (.not. ieee_is_finite(trace%x(k))) cycle
+            if (trace%in_contact(k) .and. first == 0) then
+               n = n + 1
+               first = k
+               spans(1, n) = trace%x(k)
+            end if
+            if (trace%in_contact(k)) spans(2, n) = trace%x(k)
+            if (.not. trace%in_contact(k)) first = 0
+         end do
+      end if
+      spans = spans(:, :n)
+   end function contact_spans
+
+end module ek_chart_axis

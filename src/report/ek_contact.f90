@@ -1,0 +1,92 @@
+!> Where in a test stops are in contact, from the columns of their gaps.
+module ek_contact
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use ek_kinds, only: wp
+   use ek_table, only: table_t, name_length, row_count
+   use ek_test_result, only: converged_rows
+   implicit none(type, external)
+   private
+   public :: contact_t, states_in_contact, contacts_of
+
+   character(*), parameter :: ending = '_gap_mm'
+
+   !> A stretch of states in which a stop is in contact.
+   type :: contact_t
+      character(name_length) :: stop = ''        !! without its side if both sides have the same stretch
+      integer :: first = 0, last = 0             !! rows of the table
+   end type contact_t
+
+contains
+
+   !> Whether any stop is in contact, for each row. Not allocated if the table has no stop.
+   pure subroutine states_in_contact(table, is_in_contact)
+      type(table_t), intent(in) :: table
+      logical, allocatable, intent(out) :: is_in_contact(:)
+      integer :: c
+
+      do c = 1, size(table%columns)
+         if (.not. is_gap(table%columns(c))) cycle
+         if (.not. allocated(is_in_contact)) allocate (is_in_contact(row_count(table)), source=.false.)
+         is_in_contact = is_in_contact .or. is_closed(table, c)
+      end do
+   end subroutine states_in_contact
+
+   !> The stretches of all stops.
+   pure function contacts_of(table) result(list)
+      type(table_t), intent(in) :: table
+      type(contact_t), allocatable :: list(:)
+      type(contact_t) :: contact
+      logical, allocatable :: closed(:)
+      integer :: c, k
+
+      allocate (list(0))
+      do c = 1, size(table%columns)
+         if (.not. is_gap(table%columns(c))) cycle
+         closed = [.false., is_closed(table, c), .false.]
+         do k = 2, size(closed)
+            if (closed(k) .and. .not. closed(k - 1)) contact%first = k - 1
+            if (closed(k) .or. .not. closed(k - 1)) cycle
+            contact%last = k - 2
+            contact%stop = table%columns(c) (:len_trim(table%columns(c)) - len(ending))
+            call add(list, contact)
+         end do
+      end do
+   end function contacts_of
+
+   !> Appends a stretch, unless the other side has the same.
+   pure subroutine add(list, contact)
+      type(contact_t), allocatable, intent(inout) :: list(:)
+      type(contact_t), intent(in) :: contact
+      integer :: k
+
+      do k = 1, size(list)
+         if (list(k)%first /= contact%first .or. list(k)%last /= contact%last) cycle
+         if (index(list(k)%stop, 'left_') /= 1 .or. index(contact%stop, 'right_') /= 1) cycle
+         if (list(k)%stop(6:) /= contact%stop(7:)) cycle
+         list(k)%stop = contact%stop(7:)
+         return
+      end do
+      list = [list, contact]
+   end subroutine add
+
+   pure logical function is_gap(column)
+      character(*), intent(in) :: column
+      integer :: at
+
+      at = len_trim(column) - len(ending)
+      is_gap = at >= 1
+      if (is_gap) is_gap = column(at + 1:) == ending
+   end function is_gap
+
+   !> The rows in which a gap is closed.
+   pure function is_closed(table, column) result(closed)
+      type(table_t), intent(in) :: table
+      integer, intent(in) :: column
+      logical :: closed(row_count(table))
+
+      closed = converged_rows(table)
+      where (closed) closed = ieee_is_finite(table%values(column, :))
+      where (closed) closed = table%values(column, :) < 0.0_wp
+   end function is_closed
+
+end module ek_contact

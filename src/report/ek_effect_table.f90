@@ -1,0 +1,158 @@
+!> The table of what the factors of a study do to its responses: the strongest first, those without an effect folded.
+module ek_effect_table
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use ek_kinds, only: wp
+   use ek_text, only: str, plural
+   use ek_study_data, only: study_data_t, effects_t, has_indices
+   use ek_effect_figures, only: ranked
+   use ek_page, only: page_t, begin_section, add_text, add_markup, begin_table, add_cell, add_group, end_table, page_number
+   implicit none(type, external)
+   private
+   public :: add_effects
+
+contains
+
+   !> The table of what the factors do, for the kinds that yield it.
+   subroutine add_effects(page, study)
+      type(page_t), intent(inout) :: page
+      type(study_data_t), intent(in) :: study
+      real(wp), allocatable :: sizes(:)
+      integer, allocatable :: order(:)
+      integer :: r, f, k
+
+      select case (study%kind)
+      case ('saltelli', 'list')
+         if (.not. has_indices(study)) return
+         call begin_section(page, 'indices', 'Sobol indices')
+         call begin_table(page, [character(24) :: 'Factor', '>first order', '>± 95 %', '>total', '>± 95 %', &
+            '>base points'])
+      case ('tolerance')
+         if (.not. has_indices(study)) return
+         call begin_section(page, 'shares', 'Share of the variance')
+         call begin_table(page, [character(32) :: 'Factor', '>at the centre', '>standard deviation', '>slope', &
+            '>effect of one deviation', '>share', '>with interactions'])
+      case ('morris')
+         call begin_section(page, 'effects', 'Elementary effects')
+         call begin_table(page, [character(24) :: 'Factor', '>μ*', '>σ', '>effects'])
+      case ('one_at_a_time')
+         call begin_section(page, 'effects', 'One factor at a time')
+         call begin_table(page, [character(24) :: 'Factor', '>at its smallest', '>at its largest', '>span'])
+      case default
+         return
+      end select
+      do r = 1, size(study%responses)
+         call add_group(page, study%responses(r)%label)
+         allocate (sizes, source=effect_sizes(study, r))
+         allocate (order, source=ranked(sizes, size(sizes)))
+         do k = 1, size(order)
+            f = order(k)
+            if (has_no_effect(sizes, f)) cycle
+            call add_cell(page, study%factors(f)%name)
+            associate (effect => study%effects(r))
+               select case (study%kind)
+               case ('saltelli', 'list')
+                  call add_cell(page, page_number(effect%first(f)), 'n')
+                  call add_cell(page, page_number(effect%first_error(f)), 'n')
+                  call add_cell(page, page_number(effect%total(f)), 'n')
+                  call add_cell(page, page_number(effect%total_error(f)), 'n')
+                  call add_cell(page, str(effect%used(f))//' of '//str(effect%planned), 'n')
+               case ('tolerance')
+                  call add_cell(page, page_number(study%centers(f)), 'n')
+                  call add_cell(page, page_number(study%deviations(f)), 'n')
+                  call add_cell(page, page_number(effect%slope(f)), 'n')
+                  call add_cell(page, page_number(effect%effect(f)), 'n')
+                  call add_cell(page, page_number(100.0_wp*effect%first(f))//' %', 'n')
+                  call add_cell(page, page_number(100.0_wp*effect%total(f))//' %', 'n')
+               case ('morris')
+                  call add_cell(page, page_number(effect%mean_size(f)), 'n')
+                  call add_cell(page, page_number(effect%deviation(f)), 'n')
+                  call add_cell(page, str(effect%used(f))//' of '//str(effect%planned), 'n')
+               case default
+                  call add_cell(page, page_number(effect%at_low(f)), 'n')
+                  call add_cell(page, page_number(effect%at_high(f)), 'n')
+                  call add_cell(page, page_number(effect%highest(f) - effect%lowest(f)), 'n')
+               end select
+            end associate
+         end do
+         deallocate (sizes, order)
+      end do
+      call end_table(page)
+      call add_idle(page, study)
+      if (study%failed == 0) return
+      if (study%kind == 'one_at_a_time') call add_text(page, 'p', '–: the design at this end of the factor '// &
+         'failed. The span covers the designs that were solved.')
+      if (study%kind == 'morris') call add_text(page, 'p', 'An effect is the difference of two designs that were both solved.')
+      if (study%kind == 'saltelli' .or. study%kind == 'list') call add_text(page, 'p', &
+         'An index rests on the base points whose designs were all solved.')
+   end subroutine add_effects
+
+   !> By what the factors are sorted for a response: total index, share, μ* or span.
+   function effect_sizes(study, r) result(sizes)
+      type(study_data_t), intent(in) :: study
+      integer, intent(in) :: r
+      real(wp), allocatable :: sizes(:)
+
+      associate (effect => study%effects(r))
+         select case (study%kind)
+         case ('saltelli', 'list', 'tolerance')
+            sizes = effect%total
+         case ('morris')
+            sizes = effect%mean_size
+         case default
+            sizes = effect%highest - effect%lowest
+         end select
+      end associate
+   end function effect_sizes
+
+   !> Whether a factor does nothing to a response: less than a millionth of what the strongest does.
+   pure logical function has_no_effect(sizes, f)
+      real(wp), intent(in) :: sizes(:)
+      integer, intent(in) :: f
+      real(wp), parameter :: rounding = 1.0e-6_wp
+
+      has_no_effect = .false.
+      if (ieee_is_finite(sizes(f))) has_no_effect = abs(sizes(f)) <= rounding*maxval(abs(sizes), mask=ieee_is_finite(sizes))
+   end function has_no_effect
+
+   !> The factors without an effect, folded.
+   subroutine add_idle(page, study)
+      type(page_t), intent(inout) :: page
+      type(study_data_t), intent(in) :: study
+      character(:), allocatable :: names
+      real(wp), allocatable :: sizes(:)
+      integer :: r, f, idle, all
+
+      all = 0
+      do r = 1, size(study%responses)
+         sizes = effect_sizes(study, r)
+         all = all + count([(has_no_effect(sizes, f), f=1, size(sizes))])
+      end do
+      if (all == 0) return
+      call add_markup(page, '<details class="more"><summary>'//plural(all, 'row', 'rows')//' without an effect</summary>')
+      do r = 1, size(study%responses)
+         sizes = effect_sizes(study, r)
+         idle = 0
+         names = ''
+         do f = 1, size(sizes)
+            if (.not. has_no_effect(sizes, f)) cycle
+            idle = idle + 1
+            if (idle > 1) names = names//', '
+            names = names//study%factors(f)%name//rests_on(study%effects(r), f)
+         end do
+         if (idle > 0) call add_text(page, 'p', study%responses(r)%label//' does not depend on '//names//'.')
+      end do
+      call add_markup(page, '</details>')
+   end subroutine add_idle
+
+   !> ' (67 of 256)': base points or effects on which the number of a factor rests, where designs failed.
+   pure function rests_on(effects, f) result(text)
+      type(effects_t), intent(in) :: effects
+      integer, intent(in) :: f
+      character(:), allocatable :: text
+
+      text = ''
+      if (.not. allocated(effects%used)) return
+      if (effects%used(f) < effects%planned) text = ' ('//str(effects%used(f))//' of '//str(effects%planned)//')'
+   end function rests_on
+
+end module ek_effect_table

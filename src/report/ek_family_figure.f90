@@ -1,0 +1,123 @@
+!> The curves of the designs of a study, each panel coloured by the factor that leads what the panel shows.
+module ek_family_figure
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use ek_kinds, only: wp
+   use ek_text, only: str
+   use ek_study_data, only: study_data_t, most_panels, is_geometric, range_of_values
+   use ek_study_sheet, only: sheet_t, new_sheet, begin_data, add_numbers, end_data, begin_panels, begin_panel, end_panels, blues
+   use ek_sample_figures, only: thinned, cut, add_scale
+   implicit none(type, external)
+   private
+   public :: family_script, curve_leader
+
+   integer, parameter :: most_curves = 300           !! of the figure
+
+contains
+
+   !> The script of the figure.
+   function family_script(study, name, subtitle) result(text)
+      type(study_data_t), intent(in) :: study
+      character(*), intent(in) :: name, subtitle
+      character(:), allocatable :: text
+      type(sheet_t) :: sheet
+      integer, allocatable :: leaders(:)
+      logical :: is_common
+      integer :: c, every
+
+      every = (size(study%drawn) + most_curves - 1)/most_curves
+      sheet = new_sheet(name, 'The curves of all designs', '', min(size(study%columns), most_panels))
+      if (size(study%drawn)*every < study%designs .or. every > 1) sheet%title = 'The curves of some designs'
+      allocate (leaders(sheet%panels))
+      do c = 1, sheet%panels
+         leaders(c) = curve_leader(study, c)
+      end do
+      is_common = all(leaders == leaders(1))
+      sheet%has_scale = is_common
+      sheet%subtitle = subtitle// &
+         thinned(every*max(1, study%designs/max(1, size(study%drawn))), study%designs)// &
+         cut(sheet%panels, size(study%columns), 'columns')
+      if (.not. is_common) sheet%subtitle = sheet%subtitle//'; colour: from dark to light the factor above each panel'
+      call add_curves(sheet, study, leaders, every)
+      call begin_panels(sheet)
+      call sheet%text%line(blues)
+      if (is_common) call add_scale(sheet, study%factors(leaders(1))%label, study%x(leaders(1), :))
+      do c = 1, sheet%panels
+         call begin_panel(sheet, c, trim(above(c)), study%swept, study%columns(c)%label)
+         if (c == 2 .or. .not. is_common) call sheet%text%line('unset colorbox')
+         call sheet%text%line('unset logscale cb')
+         if (is_geometric(study%x(leaders(c), :))) call sheet%text%line('set logscale cb')
+         call sheet%text%line('plot $curves using 1:'//str(1 + sheet%panels + c)//':'//str(1 + c)// &
+            ' with lines linewidth 1 linecolor palette notitle')
+      end do
+      text = end_panels(sheet)
+
+   contains
+
+      !> The factor of a panel with its range, where the panels differ.
+      function above(panel) result(words)
+         integer, intent(in) :: panel
+         character(:), allocatable :: words
+         real(wp) :: range(2)
+
+         words = ''
+         if (is_common) return
+         range = range_of_values(study%x(leaders(panel), :))
+         words = study%factors(leaders(panel))%label//' '//str(range(1), 4)//' … '//str(range(2), 4)
+      end function above
+
+   end function family_script
+
+   !> The data: swept value, the factor of each panel, the column of each panel.
+   subroutine add_curves(sheet, study, leaders, every)
+      type(sheet_t), intent(inout) :: sheet
+      type(study_data_t), intent(in) :: study
+      integer, intent(in) :: leaders(:), every
+      integer :: k, j
+
+      call begin_data(sheet, 'curves')
+      do k = 1, size(study%drawn), every
+         do j = 1, size(study%sweep)
+            if (.not. any(ieee_is_finite(study%curves(:, j, k)))) cycle
+            call add_numbers(sheet, [study%sweep(j), study%x(leaders, study%drawn(k)), study%curves(:size(leaders), j, k)])
+         end do
+         call sheet%text%line('')
+      end do
+      call end_data(sheet)
+   end subroutine add_curves
+
+   !> The factor that explains most of the scatter of a column: its squared correlation with the column, over all swept values,
+   !> weighted with the variance of the column there.
+   pure integer function curve_leader(study, column) result(leader)
+      type(study_data_t), intent(in) :: study
+      integer, intent(in) :: column
+      real(wp) :: explained(size(study%factors))
+      integer :: f, j
+
+      explained = 0.0_wp
+      do j = 1, size(study%sweep)
+         do f = 1, size(explained)
+            explained(f) = explained(f) + explained_variance(study%x(f, study%drawn), study%curves(column, j, :))
+         end do
+      end do
+      leader = maxloc(explained, dim=1)
+   end function curve_leader
+
+   !> The part of the variance of y, times the number of designs, that a straight line over x explains; designs without values are
+   !> omitted.
+   pure real(wp) function explained_variance(x, y) result(part)
+      real(wp), intent(in) :: x(:), y(:)
+      logical :: is_used(size(x))
+      real(wp) :: xx, xy, mean(2)
+      integer :: n
+
+      part = 0.0_wp
+      is_used = ieee_is_finite(x) .and. ieee_is_finite(y)
+      n = count(is_used)
+      if (n < 2) return
+      mean = [sum(x, mask=is_used), sum(y, mask=is_used)]/n
+      xx = sum((x - mean(1))**2, mask=is_used)
+      xy = sum((x - mean(1))*(y - mean(2)), mask=is_used)
+      if (xx > 0.0_wp) part = xy**2/xx
+   end function explained_variance
+
+end module ek_family_figure

@@ -1,0 +1,175 @@
+!> The page of a step-size study: the error of each method against the number of increments, as a table and on logarithmic axes.
+module ek_step_page
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
+   use ek_kinds, only: wp
+   use ek_error, only: error_t, message_list_t
+   use ek_text, only: str
+   use ek_version, only: version
+   use ek_decimal, only: get_decimal
+   use ek_file, only: join_path, file_exists, read_whole
+   use ek_text_table, only: text_table_t, cell_of
+   use ek_chart, only: palette
+   use ek_study_sheet, only: sheet_t, new_sheet, begin_data, add_numbers, end_data, begin_panels, begin_panel, end_panels
+   use ek_page, only: page_t, begin_page, begin_section, add_text, add_warnings, add_facts, begin_table, add_cell, add_group, &
+      end_table, add_picture, page_text, page_number
+   implicit none(type, external)
+   private
+   public :: step_page, step_script, figure_ending
+
+   character(*), parameter :: figure_ending = '_steps'     !! of the name of the figure, after that of the study
+
+   !> The errors, and what they are.
+   integer, parameter :: errors = 4
+   character(20), parameter :: columns(errors) = [character(20) :: 'constraint_error', 'travel_error_mm', 'toe_error_deg', &
+      'camber_error_deg']
+   character(32), parameter :: labels(errors) = [character(32) :: 'violation of the joints |Φ|', 'travel error [mm]', &
+      'toe error [deg]', 'camber error [deg]']
+
+contains
+
+   !> The page as text.
+   function step_page(title, name, deck, case, table, folder, message) result(text)
+      character(*), intent(in) :: title, name, deck, case     !! of the study; the title may be ''
+      type(text_table_t), intent(in) :: table                 !! of the study
+      character(*), intent(in) :: folder                      !! of the figure; '': none
+      character(*), intent(in) :: message                     !! why there is no figure; may be ''
+      character(:), allocatable :: text
+      type(page_t) :: page
+      type(message_list_t) :: names, values, trouble
+
+      if (title == '') call begin_page(page, name, name//', a study of '//deck)
+      if (title /= '') call begin_page(page, title, name//', a study of '//deck)
+      call add('Kind', 'step_size')
+      call add('Case', case)
+      call add('Program', 'elastokin '//version)
+      call add_facts(page, names, values)
+      if (message /= '') call trouble%add(message)
+      call add_warnings(page, 'Figures', trouble)
+      call add_errors(page, table)
+      call add_figure(page, name, folder)
+      text = page_text(page)
+
+   contains
+
+      subroutine add(fact, value)
+         character(*), intent(in) :: fact, value
+         call names%add(fact)
+         call values%add(value)
+      end subroutine add
+
+   end function step_page
+
+   !> The table of errors, by method.
+   subroutine add_errors(page, table)
+      type(page_t), intent(inout) :: page
+      type(text_table_t), intent(in) :: table
+      character(:), allocatable :: method
+      integer :: k, e
+
+      call begin_section(page, 'errors', 'Errors at the end of the range')
+      call add_text(page, 'p', 'Travel, toe and camber: deviation from the equilibrium under the same load. '// &
+         'Time: the shortest of five runs on this computer.')
+      call begin_table(page, [character(40) :: '>increments', ('>'//labels(e), e=1, errors), '>time [ms]'])
+      method = ''
+      do k = 1, table%rows
+         if (cell_of(table, k, 'method') /= method) then
+            method = cell_of(table, k, 'method')
+            call add_group(page, method)
+         end if
+         call add_cell(page, cell_of(table, k, 'increments'), 'n')
+         do e = 1, errors
+            call add_cell(page, short(value_of(table, k, columns(e))), 'n')
+         end do
+         call add_cell(page, page_number(1000.0_wp*value_of(table, k, 'seconds')), 'n')
+      end do
+      call end_table(page)
+      if (any([(.not. value_of(table, k, 'reached') > 0.5_wp, k=1, table%rows)])) call add_text(page, 'p', &
+         '–: the method did not reach the end of the range with so many increments.')
+   end subroutine add_errors
+
+   !> The figure, if it was drawn.
+   subroutine add_figure(page, name, folder)
+      type(page_t), intent(inout) :: page
+      character(*), intent(in) :: name, folder
+      type(error_t), allocatable :: unread
+      character(:), allocatable :: svg, path
+
+      if (folder == '') return
+      path = join_path(folder, name//figure_ending//'.svg')
+      if (.not. file_exists(path)) return
+      call read_whole(path, svg, unread)
+      if (allocated(unread)) return
+      call begin_section(page, 'figures', 'Figures')
+      call add_picture(page, svg, 'Errors over the number of increments', 'figures/'//name//figure_ending//'.gp draws this figure.')
+   end subroutine add_figure
+
+   !> The script of the figure: magnitudes of the errors over the increments, both on logarithmic axes.
+   function step_script(name, table) result(text)
+      character(*), intent(in) :: name                        !! of the study
+      type(text_table_t), intent(in) :: table
+      character(:), allocatable :: text, subtitle, line
+      type(sheet_t) :: sheet
+      character(16) :: methods(table%rows)
+      integer :: used, k, m, e
+
+      used = 0
+      do k = 1, table%rows
+         if (any(methods(:used) == cell_of(table, k, 'method'))) cycle
+         used = used + 1
+         methods(used) = cell_of(table, k, 'method')
+      end do
+      subtitle = name//'; magnitudes; errors below 1e-12 are not drawn'
+      sheet = new_sheet(name//figure_ending, 'Errors over the number of increments', subtitle, errors)
+      do m = 1, used
+         call begin_data(sheet, 'method'//str(m))
+         do k = 1, table%rows
+            if (cell_of(table, k, 'method') /= methods(m)) cycle
+            call add_numbers(sheet, [value_of(table, k, 'increments'), (drawn(value_of(table, k, columns(e))), e=1, errors)])
+         end do
+         call end_data(sheet)
+      end do
+      call begin_panels(sheet)
+      call sheet%text%line("set logscale xy; set key bottom left samplen 1.6 textcolor rgb '#404040'")
+      call sheet%text%line("set format y '%.0e'")
+      do e = 1, errors
+         call begin_panel(sheet, e, '', 'increments', trim(labels(e)))
+         line = 'plot '
+         do m = 1, used
+            if (m > 1) line = line//', '
+            line = line//'$method'//str(m)//' using 1:'//str(e + 1)//" with linespoints pointtype 7 pointsize 0.6 linewidth 2 "// &
+               "linecolor rgb '"//palette(modulo(m - 1, size(palette)) + 1)//"' title '"//trim(methods(m))//"'"
+         end do
+         call sheet%text%line(line)
+      end do
+      text = end_panels(sheet)
+   end function step_script
+
+   !> A magnitude that a logarithmic axis can show; what is rounding alone is missing.
+   pure real(wp) function drawn(value)
+      real(wp), intent(in) :: value
+
+      drawn = ieee_value(1.0_wp, ieee_quiet_nan)
+      if (.not. ieee_is_finite(value)) return
+      if (abs(value) >= 1.0e-12_wp) drawn = abs(value)
+   end function drawn
+
+   !> An error with three digits: it may be as small as rounding.
+   function short(value) result(text)
+      real(wp), intent(in) :: value
+      character(:), allocatable :: text
+
+      text = '–'
+      if (ieee_is_finite(value)) text = str(value, 3)
+   end function short
+
+   !> A number of the table; not a number if it has none.
+   pure real(wp) function value_of(table, row, column) result(value)
+      type(text_table_t), intent(in) :: table
+      integer, intent(in) :: row
+      character(*), intent(in) :: column
+      logical :: is_number
+
+      call get_decimal(cell_of(table, row, trim(column)), value, is_number)
+   end function value_of
+
+end module ek_step_page

@@ -1,0 +1,245 @@
+!> The verdict of a report: a line per domain of an axle, with its main numbers and whether they lie inside their bands. A band is
+!> the target of the deck (&target_band), or else the usual range of road vehicles (ek_plausible_range); without either there is no
+!> verdict.
+module ek_verdict
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use ek_kinds, only: wp
+   use ek_text, only: str, plural
+   use ek_key_number, only: key_number_t, has_value
+   use ek_number_words, only: steer_effect, target_verdict, short_name, is_symmetric, is_opposite
+   use ek_plausible_range, only: usual_range
+   use ek_page, only: page_number
+   use ek_report_content, only: report_t
+   implicit none(type, external)
+   private
+   public :: verdict_t, verdict_lines, plain
+
+   !> One line.
+   type :: verdict_t
+      character(24) :: domain = ''
+      character(:), allocatable :: text
+      character(7) :: verdict = ''          !! 'inside': all numbers with a band; 'outside': one of them; '': none has a band
+   end type verdict_t
+
+   !> The numbers of a domain in order; the first `most` that the report has are shown.
+   type :: domain_t
+      character(24) :: name
+      integer :: most
+      character(36) :: numbers(4)
+   end type domain_t
+
+   type(domain_t), parameter :: domains(*) = [ &
+      domain_t('ride', 3, [character(36) :: 'wheel_rate', 'ride_frequency_hz', 'bump_camber', '']), &
+      domain_t('roll', 3, [character(36) :: 'roll_centre_height_mm', 'suspension_roll_rate_nm_per_deg', 'wheel_roll_steer', '']), &
+      domain_t('steer', 3, [character(36) :: 'bump_toe', 'steering_ratio', 'smallest_turning_circle_m', '']), &
+      domain_t('lateral', 2, [character(36) :: 'lateral_force_steer', 'lateral_deflection', '', '']), &
+      domain_t('aligning', 1, [character(36) :: 'aligning_torque_steer', '', '', '']), &
+      domain_t('longitudinal', 2, [character(36) :: 'braking_deflection', 'braking_steer', '', '']), &
+      domain_t('anti-features', 2, [character(36) :: 'anti_dive_percent', 'anti_lift_brake_percent', 'anti_squat_percent', &
+      'anti_lift_drive_percent'])]
+
+   !> Key numbers with a usual range, and the rows of it.
+   character(*), parameter :: numbers_with_range(*) = [character(36) :: 'wheel_rate', 'ride_frequency_hz', 'bump_toe', &
+      'bump_camber']
+   character(*), parameter :: range_rows(*) = [character(28) :: 'wheel rate', 'ride frequency', 'bump toe', 'bump camber']
+
+contains
+
+   !> The lines; domains of which the report has no number are omitted.
+   subroutine verdict_lines(report, lines)
+      type(report_t), intent(in) :: report
+      type(verdict_t), allocatable, intent(out) :: lines(:)
+      type(verdict_t) :: line
+      integer :: d
+
+      allocate (lines(0))
+      line%domain = 'tests'
+      line%text = str(report%incomplete)//' of '//str(size(report%tests))//' incomplete'
+      call append(lines, line)
+      line%domain = 'load state'
+      line%text = load_state(report%numbers)
+      if (line%text /= '') call append(lines, line)
+      do d = 1, size(domains)
+         call judge(report, domains(d), line)
+         if (line%text /= '') call append(lines, line)
+      end do
+      line%domain = 'loads'
+      line%verdict = ''
+      line%text = largest_load(report)
+      if (line%text /= '') call append(lines, line)
+   end subroutine verdict_lines
+
+   subroutine append(lines, line)
+      type(verdict_t), allocatable, intent(inout) :: lines(:)
+      type(verdict_t), intent(in) :: line
+      type(verdict_t), allocatable :: longer(:)
+
+      allocate (longer(size(lines) + 1))
+      longer(:size(lines)) = lines
+      longer(size(longer)) = line
+      call move_alloc(longer, lines)
+   end subroutine append
+
+   !> '3550 N per wheel', 'left 3550 N, right 3400 N', or 'unloaded axle'; '' if it is not known.
+   function load_state(numbers) result(text)
+      type(key_number_t), intent(in) :: numbers(:)
+      character(:), allocatable :: text
+      real(wp), parameter :: nothing = 0.5_wp       ! N
+      real(wp) :: load(2)
+      integer :: k
+
+      text = ''
+      do k = 1, size(numbers)
+         if (numbers(k)%name /= 'vertical_force_n' .or. .not. has_value(numbers(k))) cycle
+         load = numbers(k)%left
+         if (.not. numbers(k)%is_of_axle .and. ieee_is_finite(numbers(k)%right)) load(2) = numbers(k)%right
+         if (.not. ieee_is_finite(load(1))) load(1) = load(2)
+         if (maxval(abs(load)) < nothing) then
+            text = 'unloaded axle'
+         else if (page_number(load(1)) == page_number(load(2))) then
+            text = page_number(load(1))//' N per wheel'
+         else
+            text = 'left '//page_number(load(1))//' N, right '//page_number(load(2))//' N'
+         end if
+         return
+      end do
+   end function load_state
+
+   !> The line of a domain; its text is '' if the report has none of its numbers.
+   subroutine judge(report, domain, line)
+      type(report_t), intent(in) :: report
+      type(domain_t), intent(in) :: domain
+      type(verdict_t), intent(out) :: line
+      character(:), allocatable :: words
+      character(7) :: verdict
+      integer :: n, k, used
+
+      line%domain = domain%name
+      line%text = ''
+      used = 0
+      do n = 1, size(domain%numbers)
+         do k = 1, size(report%numbers)
+            if (domain%numbers(n) == '' .or. used == domain%most) exit
+            if (report%numbers(k)%name /= domain%numbers(n) .or. .not. has_value(report%numbers(k))) cycle
+            call speak(report%numbers(k), report%axle, words, verdict)
+            if (used > 0) line%text = line%text//'; '
+            line%text = line%text//words
+            if (verdict == 'outside' .or. line%verdict == '') line%verdict = verdict
+            used = used + 1
+            exit
+         end do
+      end do
+   end subroutine judge
+
+   !> 'bump camber −13.83 deg/m (inside the target −30 … −20)', 'lateral force steer 0.108 deg/kN: understeer'.
+   subroutine speak(number, axle, words, verdict)
+      type(key_number_t), intent(in) :: number
+      integer, intent(in) :: axle
+      character(:), allocatable, intent(out) :: words
+      character(7), intent(out) :: verdict
+      character(:), allocatable :: band, unit
+      character(48) :: effect
+
+      words = short_name(number)
+      if (words(2:2) < 'A' .or. words(2:2) > 'Z') words(1:1) = lowered(words(1:1))
+      unit = ''
+      if (number%unit /= '–') unit = ' '//number%unit
+      if (number%is_of_axle .or. is_symmetric(number) .or. .not. ieee_is_finite(number%right)) then
+         words = words//' '//page_number(number%left)//unit
+      else if (is_opposite(number)) then
+         words = words//' '//page_number(number%left)//unit//' (left; right wheel opposite)'
+      else
+         words = words//' left '//page_number(number%left)//', right '//page_number(number%right)//unit
+      end if
+      effect = steer_effect(number, axle)
+      if (effect /= '') words = words//': '//trim(effect)
+      call find_band(number, verdict, band)
+      if (verdict /= '') words = words//' ('//trim(verdict)//' '//band//')'
+   end subroutine speak
+
+   !> The band of a number, 'inside' or 'outside', and '' without a band.
+   subroutine find_band(number, verdict, band)
+      type(key_number_t), intent(in) :: number
+      character(7), intent(out) :: verdict
+      character(:), allocatable, intent(out) :: band
+      type(key_number_t) :: judged
+      logical :: is_known
+      integer :: k
+
+      judged = number
+      band = 'the target '
+      verdict = ''
+      if (.not. number%has_target) then
+         band = 'the usual '
+         do k = size(numbers_with_range), 1, -1
+            if (numbers_with_range(k) == number%name) exit
+         end do
+         if (k == 0) return
+         call usual_range(trim(range_rows(k)), judged%target(1), judged%target(2), is_known)
+         if (.not. is_known) return
+         judged%has_target = .true.
+      end if
+      verdict = target_verdict(judged)
+      if (judged%target(1) <= -huge(1.0_wp)) then
+         band = band//'≤ '//short(judged%target(2))
+      else if (judged%target(2) >= huge(1.0_wp)) then
+         band = band//'≥ '//short(judged%target(1))
+      else
+         band = band//short(judged%target(1))//' … '//short(judged%target(2))
+      end if
+   end subroutine find_band
+
+   !> A limit without trailing zeros, with the minus sign of the page.
+   pure function short(limit) result(text)
+      real(wp), intent(in) :: limit
+      character(:), allocatable :: text
+
+      text = str(abs(limit), 4)
+      if (limit < 0.0_wp) text = '−'//text
+   end function short
+
+   !> The largest force on a member, if the loads of the members are wanted; otherwise that on the rack.
+   function largest_load(report) result(text)
+      type(report_t), intent(in) :: report
+      character(:), allocatable :: text
+      integer, parameter :: resultant = 4
+      integer :: e, k
+
+      text = ''
+      if (.not. allocated(report%loads)) then
+         do k = 1, size(report%numbers)
+            if (report%numbers(k)%name /= 'largest_rack_force_n' .or. .not. has_value(report%numbers(k))) cycle
+            text = 'largest rack force '//page_number(report%numbers(k)%left)//' N; --loads adds the members'
+         end do
+         return
+      end if
+      if (size(report%loads%ends) == 0) return
+      e = maxloc(report%loads%peaks(resultant, :size(report%loads%ends)), dim=1)
+      if (report%loads%case(resultant, e) == 0) return
+      text = 'largest force on a member '//page_number(report%loads%peaks(resultant, e))//' N: '// &
+         trim(report%loads%ends(e)%member)//' at '//trim(report%loads%ends(e)%point)//', '// &
+         trim(report%loads%cases(report%loads%case(resultant, e)))
+   end function largest_load
+
+   !> The line for a terminal, with the minus signs of programs.
+   pure function plain(text) result(ascii)
+      character(*), intent(in) :: text
+      character(:), allocatable :: ascii
+      character(*), parameter :: minus = '−'
+      integer :: at
+
+      ascii = text
+      do
+         at = index(ascii, minus)
+         if (at == 0) exit
+         ascii = ascii(:at - 1)//'-'//ascii(at + len(minus):)
+      end do
+   end function plain
+
+   pure character(1) function lowered(letter)
+      character(1), intent(in) :: letter
+      lowered = letter
+      if (letter >= 'A' .and. letter <= 'Z') lowered = achar(iachar(letter) + 32)
+   end function lowered
+
+end module ek_verdict
