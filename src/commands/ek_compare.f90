@@ -97,7 +97,7 @@ contains
       call move_alloc(unprinted, error)
    end subroutine compare
 
-   !> The ten largest changes, on standard error.
+   !> Prints the ten largest changes to standard error.
    subroutine print_largest(is_quiet, this)
       logical, intent(in) :: is_quiet
       type(comparison_t), intent(in) :: this

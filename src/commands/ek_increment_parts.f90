@@ -79,7 +79,7 @@ contains
 
    contains
 
-      !> The time per state of one kind of work, with all work that it needs before.
+      !> Measures the time per state of one kind of work, with all work that it needs before.
       subroutine time_work(work, spent)
          integer, intent(in) :: work
          real(wp), intent(out) :: spent

@@ -272,7 +272,7 @@ contains
          trim(merge(' is ', ' are', failed == 1))//' incomplete; see the warnings at the top of the report')
    end subroutine run_tests
 
-   !> The lines of the summary, on standard error.
+   !> Prints the lines of the verdict to standard error.
    subroutine print_verdicts(is_quiet, page)
       logical, intent(in) :: is_quiet
       type(report_t), intent(in) :: page

@@ -42,7 +42,7 @@ contains
       call write_whole(join_path(report%folder, list_file), text_table_csv(table), error)
    end subroutine renew_list
 
-   !> The files of a report.
+   !> Lists the files of a report.
    subroutine list_files(report, files)
       type(report_t), intent(in) :: report
       type(message_list_t), intent(inout) :: files

@@ -214,7 +214,7 @@ contains
       if (is_usual) is_usual = is_within(ranges(k), value)
    end function is_usual
 
-   !> The usual range of a quantity in the unit of the table (N/mm, Hz, deg/m, …); of its magnitude if `low` is not negative.
+   !> Gives the usual range of a quantity in the unit of the table (N/mm, Hz, deg/m, …); of its magnitude if `low` is not negative.
    pure subroutine usual_range(quantity, low, high, is_known)
       character(*), intent(in) :: quantity     !! of a row of `ranges`
       real(wp), intent(out) :: low, high

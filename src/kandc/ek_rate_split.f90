@@ -62,7 +62,7 @@ contains
       call add_up(suspension, table, parts, shares, is_known)
    end subroutine split_roll_rate
 
-   !> The parts of a compliance as shares of it, by class.
+   !> Adds up the parts of a compliance by class, as shares of it.
    subroutine add_up(suspension, table, parts, shares, is_known)
       type(suspension_t), intent(in) :: suspension
       type(contribution_table_t), intent(in) :: table

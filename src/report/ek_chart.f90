@@ -128,7 +128,7 @@ contains
       end do
    end subroutine add_chart
 
-   !> Grey where a stop is in contact along the first curve.
+   !> Adds grey areas where a stop is in contact along the first curve.
    pure subroutine add_contact(script, chart)
       type(buffer_t), intent(inout) :: script
       type(chart_t), intent(in) :: chart

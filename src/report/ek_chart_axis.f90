@@ -36,7 +36,7 @@ contains
          range = '[* < '//str((low + high)/2 - chart%noise, 6)//' : '//str((low + high)/2 + chart%noise, 6)//' < *]'
    end function range_of
 
-   !> The same range as two numbers, for a page that draws the chart itself; low > high: the chart has no value.
+   !> Gives the range as two numbers, for a page that draws the chart itself; low > high: the chart has no value.
    pure subroutine view_of(chart, low, high)
       type(chart_t), intent(in) :: chart
       real(wp), intent(out) :: low, high
@@ -60,7 +60,7 @@ contains
       high = middle + half
    end subroutine view_of
 
-   !> The smallest and largest value of all curves, each moved to within ±cut.
+   !> Finds the smallest and the largest value of all curves, each moved to within ±cut.
    pure subroutine extremes(chart, cut, low, high)
       type(chart_t), intent(in) :: chart
       real(wp), intent(in) :: cut
@@ -114,7 +114,7 @@ contains
       if (.not. cut > 0.0_wp .or. high < cut) cut = high
    end function cut_of
 
-   !> The range of the free travel, with a margin, if the states in contact span more than three times as much. Without such states,
+   !> Finds the range of the free travel, with a margin, if the states in contact span more than three times as much. Without such states,
    !> or if the axis is limited anyway, it is not cut.
    pure subroutine free_range(chart, low, high, is_cut)
       type(chart_t), intent(in) :: chart

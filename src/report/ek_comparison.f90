@@ -169,7 +169,7 @@ contains
 
    end function results_shown
 
-   !> Keeps one row of an angle that is listed as toe and as steer with the same magnitudes: the first.
+   !> Removes the second row of an angle that is listed as toe and as steer with the same magnitudes.
    subroutine drop_repeated_angles(list)
       type(difference_t), allocatable, intent(inout) :: list(:)
       logical :: is_repeated(size(list))

@@ -18,7 +18,7 @@ module ek_contact
 
 contains
 
-   !> Whether any stop is in contact, for each row. Not allocated if the table has no stop.
+   !> Finds the rows in which a stop is in contact. Not allocated if the table has no stop.
    pure subroutine states_in_contact(table, is_in_contact)
       type(table_t), intent(in) :: table
       logical, allocatable, intent(out) :: is_in_contact(:)

@@ -12,7 +12,7 @@ module ek_effect_table
 
 contains
 
-   !> The table of what the factors do, for the kinds that yield it.
+   !> Adds the table of effects of the factors, for the kinds that yield it.
    subroutine add_effects(page, study)
       type(page_t), intent(inout) :: page
       type(study_data_t), intent(in) :: study
@@ -114,7 +114,7 @@ contains
       if (ieee_is_finite(sizes(f))) has_no_effect = abs(sizes(f)) <= rounding*maxval(abs(sizes), mask=ieee_is_finite(sizes))
    end function has_no_effect
 
-   !> The factors without an effect, folded.
+   !> Adds the factors without an effect, folded.
    subroutine add_idle(page, study)
       type(page_t), intent(inout) :: page
       type(study_data_t), intent(in) :: study

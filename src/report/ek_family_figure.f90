@@ -67,7 +67,7 @@ contains
 
    end function family_script
 
-   !> The data: swept value, the factor of each panel, the column of each panel.
+   !> Adds the data: swept value, the factor of each panel, the column of each panel.
    subroutine add_curves(sheet, study, leaders, every)
       type(sheet_t), intent(inout) :: sheet
       type(study_data_t), intent(in) :: study

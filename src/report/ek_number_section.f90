@@ -47,7 +47,7 @@ contains
       call add_markup(page, '</ul>')
    end subroutine add_summary
 
-   !> A line per domain: its numbers, and whether they lie in their bands.
+   !> Adds a line per domain: its numbers, and whether they lie in their bands.
    subroutine add_verdicts(page, report)
       type(page_t), intent(inout) :: page
       type(report_t), intent(in) :: report

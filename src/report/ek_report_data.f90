@@ -157,7 +157,7 @@ contains
       call json%close('}')
    end subroutine add_test
 
-   !> The stretches of states in which stops are in contact; nothing if there are none.
+   !> Adds the ranges of states in which stops are in contact, if there are any.
    subroutine add_contacts(json, test)
       type(json_t), intent(inout) :: json
       type(test_result_t), intent(in) :: test

@@ -59,7 +59,7 @@ contains
 
    end function step_page
 
-   !> The table of errors, by method.
+   !> Adds the table of errors, by method.
    subroutine add_errors(page, table)
       type(page_t), intent(inout) :: page
       type(text_table_t), intent(in) :: table
@@ -87,7 +87,7 @@ contains
          '–: the method did not reach the end of the range with so many increments.')
    end subroutine add_errors
 
-   !> The figure, if it was drawn.
+   !> Adds the figure, if it was drawn.
    subroutine add_figure(page, name, folder)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: name, folder

@@ -45,7 +45,7 @@ module ek_verdict
 
 contains
 
-   !> The lines; domains of which the report has no number are omitted.
+   !> Lists the lines; domains of which the report has no number are omitted.
    subroutine verdict_lines(report, lines)
       type(report_t), intent(in) :: report
       type(verdict_t), allocatable, intent(out) :: lines(:)
@@ -105,7 +105,7 @@ contains
       end do
    end function load_state
 
-   !> The line of a domain; its text is '' if the report has none of its numbers.
+   !> Makes the line of a domain; its text is '' if the report has none of its numbers.
    subroutine judge(report, domain, line)
       type(report_t), intent(in) :: report
       type(domain_t), intent(in) :: domain
@@ -131,7 +131,7 @@ contains
       end do
    end subroutine judge
 
-   !> 'bump camber −13.83 deg/m (inside the target −30 … −20)', 'lateral force steer 0.108 deg/kN: understeer'.
+   !> Makes the text of a number: 'bump camber −13.83 deg/m (inside the target −30 … −20)', 'lateral force steer 0.108 deg/kN: understeer'.
    subroutine speak(number, axle, words, verdict)
       type(key_number_t), intent(in) :: number
       integer, intent(in) :: axle
@@ -157,7 +157,7 @@ contains
       if (verdict /= '') words = words//' ('//trim(verdict)//' '//band//')'
    end subroutine speak
 
-   !> The band of a number, 'inside' or 'outside', and '' without a band.
+   !> Finds the band of a number, 'inside' or 'outside', and '' without a band.
    subroutine find_band(number, verdict, band)
       type(key_number_t), intent(in) :: number
       character(7), intent(out) :: verdict
