@@ -136,7 +136,7 @@ contains
       integer :: k
 
       call script%line('unset object; unset label 3')
-      spans = contact_spans(chart%traces(1))
+      allocate (spans, source=contact_spans(chart%traces(1)))
       if (size(spans, 2) == 0) return
       do k = 1, size(spans, 2)
          call script%line('set object '//str(k)//' rectangle from '//str(spans(1, k), 7)//', graph 0 to '//str(spans(2, k), 7)// &
