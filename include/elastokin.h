@@ -1,23 +1,25 @@
 /* elastokin.h: the elastokinematics (kinematics and compliance) of a suspension, called from C.
  *
- * A handle (ek_model) holds one deck with its present numbers and its last solution:
+ * A handle (ek_model) contains one deck with its present numbers and its last solution:
  *
  *     ek_model *m;
- *     if (ek_open_file("axle.nml", &m) != EK_OK) puts(ek_message(m));      m exists also after a mistake
+ *     if (ek_open_file("axle.nml", &m) != EK_OK) puts(ek_message(m));      m exists also after an error
  *     ek_set(m, "bushing.lca_front.kt(1)", 500.0);                         in the unit of the deck, as --set
  *     if (ek_solve(m, "parallel_travel", 0, NULL) == EK_OK) ...
  *     ek_close(m);
  *
- * Every function that can fail returns an EK_ code, the exit status of the program `elastokin` for the same fault; ek_message
- * then gives the text, with file, line and remedy. Nothing is printed, the process is never stopped, and no state is shared:
- * each handle may be used by one thread at a time, and different handles by different threads.
+ * Every function that can fail returns an EK_ code, the exit status of the program `elastokin` for the same error.
+ * ek_message then gives the message, with file, line and remedy. Nothing is printed, the process is never stopped, and
+ * no state is shared. Each handle may be used by one thread at a time, and different handles by different threads.
  *
- * Counts and positions are int, and positions begin with 0. Texts are UTF-8 and end with '\0'. A text that a function returns belongs
- * to the handle and stays valid until 16 further texts were returned by it (ek_message: until the next call). Numbers are in the units of the deck (parameters), in the
- * unit that ends the name of their column (results), or SI (compliance); missing numbers are NaN. Signs and frames: input/QUANTITIES.md.
+ * Counts and positions are int, and positions begin with 0. Strings are UTF-8 and end with '\0'. A string that a
+ * function returns belongs to the handle. It stays valid until 16 further strings were returned by the handle
+ * (ek_message: until the next call). Parameters are in the units of the deck. Results are in the unit that ends the
+ * name of their column. Compliances are in SI. Missing numbers are NaN. Signs and frames: input/QUANTITIES.md.
  *
- * Compatibility: functions and codes of this file keep names, arguments and meaning as long as the SONAME (libelastokin.so.0)
- * stays. New functions may be added; their symbols then carry the version in which they were added. */
+ * Compatibility: functions and codes of this file keep names, arguments and meaning as long as the SONAME
+ * (libelastokin.so.0) stays. New functions may be added; their symbols then carry the version in which they were
+ * added. */
 #ifndef ELASTOKIN_H
 #define ELASTOKIN_H
 
@@ -29,108 +31,124 @@ typedef struct ek_model ek_model;
 
 enum {
   EK_OK = 0,
-  EK_USAGE = 1,       /* an unknown name, path, case or column; a position outside the list; a value that is not a finite number or, in
-                         ek_set_text, is of the wrong type; a null pointer where this file does not allow one */
-  EK_DECK = 2,        /* mistakes of the deck, or a number outside its legal range: all of them in the message */
+  EK_USAGE = 1,       /* an unknown name, path, case or column; a position outside the list; a value that is not a
+                         finite number; in ek_set_text a value of the wrong type; a null pointer where this file does
+                         not allow one */
+  EK_DECK = 2,        /* errors of the deck, or a number outside its legal range: all of them in the message */
   EK_MODEL = 3,       /* a mechanism, or redundant constraints: nothing was solved */
-  EK_CONVERGENCE = 4, /* some states did not converge: their rows have converged = 0 and NaN, key numbers that need them are NaN;
-                         the others are good */
+  EK_CONVERGENCE = 4, /* some states did not converge. Their rows have converged = 0 and NaN, and key numbers that need
+                         them are NaN. The others are valid */
   EK_FILE = 5         /* a file cannot be read, or memory does not suffice */
 };
 
 /* ---- the library ---- */
-const char *ek_version(void);                       /* of the library, as "0.1.0" */
-int ek_use_one_thread(void);                          /* sets the OpenBLAS of this process to one thread, if it is the LAPACK: matrices are
-                                                       small here, and threads would only wait. Other users of it are affected */
+const char *ek_version(void);                       /* version of the library, as "0.1.0" */
+/* Sets the OpenBLAS of this process to one thread, if it is the LAPACK. Matrices are small here, and threads would only
+ * wait. Other users of OpenBLAS in this process are affected. */
+int ek_use_one_thread(void);
 
 /* ---- a model ---- */
 int ek_open_file(const char *path, ek_model **model);                       /* reads a deck */
-int ek_open_text(const char *text, const char *name, ek_model **model);     /* name: for messages; its folder is that of included files.
-                                                                               NULL: "deck" */
+/* Reads a deck from a string. name is used in messages, and its folder is that of included files. NULL: "deck" */
+int ek_open_text(const char *text, const char *name, ek_model **model);
 void ek_close(ek_model *model);                     /* NULL is allowed */
-const char *ek_message(ek_model *model);            /* of the last call; "" if it succeeded */
-const char *ek_name(ek_model *model);               /* of the model */
+const char *ek_message(ek_model *model);            /* message of the last call; "" if it succeeded */
+const char *ek_name(ek_model *model);               /* name of the model */
 const char *ek_checksum(ek_model *model);           /* of the deck with its present numbers, 16 hexadecimal digits */
 int ek_wheel_count(ek_model *model);                /* 0, 1 or 2; left before right */
 
-/* ---- copies. A copy is what was opened: no file is read again. ek_copy gives it the same changes, and no solution; *copy exists also
- * after a mistake, as in ek_open_file. The files are the deck, then all that it names (included files, hardpoints, property files, load
- * tables), with their content when the deck was opened; ek_open_files opens a deck from them, for instance in another process. ---- */
+/* ---- copies ----
+ * A copy is the deck as it was opened: no file is read again. ek_copy also copies the changes, but not the solution.
+ * *copy exists also after an error, as in ek_open_file. The files are the deck, then all files that it names (included
+ * files, hardpoints, property files, load tables), with their content when the deck was opened. ek_open_files opens a
+ * deck from them, for instance in another process. */
 int ek_copy(ek_model *model, ek_model **copy);
 int ek_file_count(ek_model *model);
 const char *ek_file_path(ek_model *model, int k);   /* as it was read; NULL outside the list */
 const char *ek_file_text(ek_model *model, int k);
-int ek_open_files(int n, const char *const *paths, const char *const *texts, ek_model **model);     /* the first is the deck */
-/* the deck with its present numbers as one text, which gives the same results: included files, hardpoints, property files, both sides and
- * changes are written out, load tables by their whole paths. NULL with a message if the numbers define no valid model */
+int ek_open_files(int n, const char *const *paths, const char *const *texts, ek_model **model);  /* the first: the deck */
+/* The deck with its present numbers as one string, which gives the same results. Included files, hardpoints, property
+ * files, both sides and changes are written out, load tables by their whole paths. NULL with a message if the numbers
+ * do not define a valid model. */
 const char *ek_deck_as_used(ek_model *model);
 
-/* ---- remarks on the model, as the program prints them before it solves a case: no spring, contact points that are not where the wheel
- * touches the ground, implausible values, connections and responses at design ("plausible? …"), preloads found by balance, or why no case
- * can be solved. ek_model_remarks examines the model with its present numbers, solves no case, and stores how many there are; the list
- * stays until it is called again ---- */
+/* ---- remarks on the model ----
+ * These are the remarks that the program prints before it solves a case: no spring, contact points away from the point
+ * where the wheel touches the ground, implausible values, connections and responses at design ("plausible? …"),
+ * preloads found by balance, or why no case can be solved. ek_model_remarks examines the model with its present
+ * numbers, solves no case, and sets count. The list stays until ek_model_remarks is called again. */
 int ek_model_remarks(ek_model *model, int *count);
 const char *ek_model_remark_text(ek_model *model, int k);
 const char *ek_model_remark_severity(ek_model *model, int k);      /* "note", "warning" or "failure" */
 
-/* ---- parameters: every number of the deck.
- * A number outside its legal range (input/README.md) is refused when it is set: EK_DECK, and no number is changed, in ek_set_all
- * neither. Legal numbers that together define no valid model (two points that coincide, a case from 1 to 1) are kept; ek_solve and
- * ek_numbers report them. ek_set_text reads the deck again and refuses every mistake. ---- */
+/* ---- parameters: every number of the deck ----
+ * A number outside its legal range (input/README.md) is rejected when it is set. The code is EK_DECK, and no number is
+ * changed, also not in ek_set_all. Legal numbers that together do not define a valid model (two points that coincide, a
+ * case from 1 to 1) are stored; ek_solve and ek_numbers report them. ek_set_text reads the deck again and rejects every
+ * error. */
 int ek_parameter_count(ek_model *model);
 const char *ek_parameter_path(ek_model *model, int k);       /* "bushing.lca_front.kt(1)"; NULL outside the range */
 const char *ek_parameter_unit(ek_model *model, int k);       /* "N/mm"; "" without dimension */
 int ek_parameter_is_given(ek_model *model, int k);           /* 1: the deck gives it; 0: it has its default */
-int ek_parameter_twin(ek_model *model, int k);               /* on a mirrored axle: position of the same number on the left side; -1: none */
+int ek_parameter_twin(ek_model *model, int k);               /* mirrored axle: position of the same number on the left
+                                                                side; -1 without one */
 int ek_get_at(ek_model *model, int k, double *value);
 int ek_set_at(ek_model *model, int k, double value);
 int ek_get_all(ek_model *model, int n, double *values);      /* n must be ek_parameter_count */
 int ek_set_all(ek_model *model, int n, const double *values);
-int ek_get(ek_model *model, const char *path, double *value);       /* NaN if the path leads to several different numbers */
-int ek_set(ek_model *model, const char *path, double value);        /* path as --set: both sides of a mirrored axle, * for any letters */
-int ek_set_text(ek_model *model, const char *path, const char *text);  /* "*1.1", "+2", or a word */
-int ek_reset(ek_model *model);                      /* all numbers and texts as opened */
+int ek_get(ek_model *model, const char *path, double *value);    /* NaN if the path leads to several different numbers */
+int ek_set(ek_model *model, const char *path, double value);     /* path as --set: both sides of a mirrored axle,
+                                                                    * for any letters */
+int ek_set_text(ek_model *model, const char *path, const char *text);  /* "*1.1", "+2", or a string */
+int ek_reset(ek_model *model);                      /* resets all numbers and strings as opened */
 
-/* ---- cases: those of the deck, then the standard tests that it does not have (the grid travel_and_steering with a &steering group) ---- */
+/* ---- cases ----
+ * The cases of the deck come first, then the standard tests that it does not have. The grid travel_and_steering is
+ * among these with a &steering group. */
 int ek_case_count(ek_model *model);
 const char *ek_case_name(ek_model *model, int k);
 int ek_case_is_of_deck(ek_model *model, int k);
 
-/* ---- solving; the results stay until the next solution, also when numbers or texts are changed, reset, or key numbers are read ---- */
+/* ---- solving ----
+ * The results stay until the next solution, also when numbers or strings are changed, reset, or key numbers are read.
+ * name NULL or "" is the first case. n_columns 0 computes all columns. Otherwise the columns are `state`, `factor`, the
+ * given ones (in the order of the program's tables), and the last columns on convergence. */
 int ek_solve(ek_model *model, const char *name, int n_columns, const char *const *columns);
-                                                    /* name NULL or "": the first case. n_columns 0: all columns; otherwise `state`,
-                                                       `factor`, these (in the order of the program's tables), and the last columns on convergence */
-int ek_row_count(ek_model *model);                  /* states of the last solution; 0 without */
+int ek_row_count(ek_model *model);                  /* states of the last solution; 0 without one */
 int ek_column_count(ek_model *model);
 const char *ek_column_name(ek_model *model, int k);          /* "left_toe_deg" */
 const char *ek_column_unit(ek_model *model, int k);          /* "deg" */
-const char *ek_column_title(ek_model *model, int k);         /* "Toe"; "" if it has none */
-const char *ek_column_sign(ek_model *model, int k);          /* "+ toe-in"; "" if it has none */
+const char *ek_column_title(ek_model *model, int k);         /* "Toe"; "" if it has no title */
+const char *ek_column_sign(ek_model *model, int k);          /* "+ toe-in"; "" if it has no sign */
 int ek_values(ek_model *model, int n, double *values);       /* n = rows x columns; row after row */
 int ek_column_values(ek_model *model, const char *name, int n, double *values);   /* n = rows */
 int ek_remark_count(ek_model *model);               /* notes, warnings and failures of the last solution */
 const char *ek_remark_text(ek_model *model, int k);
 const char *ek_remark_severity(ek_model *model, int k);      /* "note", "warning" or "failure" */
 
-/* compliance matrix at a state of the last solution: 6 x wheels squared, row after row: rows displacements and rotations of each
- * wheel centre (x y z [m], rx ry rz [rad]), columns the loads there (fx fy fz [N], mx my mz [N m]); frame of the deck;
- * the vertical force on all wheels is held. EK_USAGE after ek_numbers of numbers that were changed since the solution */
+/* Compliance matrix at a state of the last solution: 6 x wheels squared, row after row. Rows are displacements and
+ * rotations of each wheel centre (x y z [m], rx ry rz [rad]), columns the loads there (fx fy fz [N], mx my mz [N m]).
+ * Both are in the frame of the deck. The vertical force on all wheels is held. EK_USAGE after ek_numbers of numbers
+ * that were changed since the solution. */
 int ek_compliance(ek_model *model, int row, int n, double *values);
 
-/* exact derivatives of columns in a row of the last solution with respect to numbers of the deck [unit of the column per unit of the
- * number]: n_columns x n_numbers, a row for each column. Nothing is solved again; the motion of the state, settling and balance are
- * included. columns: of the case, whether asked in ek_solve or not, or entries of the compliance matrix (as in the files of
- * run --compliance). paths: as in ek_set, each of one number, or of both sides of a mirrored axle. errors: estimates of the errors, or
- * NULL. NaN: the state did not converge, the column has no value there, or the number cannot move. Needs method equilibrium. After
- * a first call with these columns and paths a further one, of another design, makes no text and is faster */
+/* Exact derivatives of columns in a row of the last solution with respect to numbers of the deck [unit of the column
+ * per unit of the number]: n_columns x n_numbers, a row for each column. Nothing is solved again. The motion of the
+ * state, static equilibrium and balance are included. Requires method equilibrium.
+ *   columns: columns of the case, whether asked in ek_solve or not, or entries of the compliance matrix (as in the
+ *            files of run --compliance)
+ *   paths:   as in ek_set, each of one number, or of both sides of a mirrored axle
+ *   errors:  estimates of the errors, or NULL
+ * NaN: the state did not converge, the column has no value there, or the number cannot move. A second call with these
+ * columns and paths, of another design, is faster. */
 int ek_derivatives(ek_model *model, int row, int n_columns, const char *const *columns, int n_numbers, const char *const *paths,
                    double *values, double *errors);
 
-/* ---- key numbers, as in key_numbers.csv of the report ---- */
-/* the numbers with these names; only the tests that they need are solved. On an axle a name begins with left_ or right_, unless the
- * number is one of the axle. The last solution (ek_values) is not changed. EK_CONVERGENCE: some are NaN, because they need a state
- * that was not found (states outside the window of a slope do not matter) or because the model does not define them; the message
- * names them. The others are good. */
+/* ---- key numbers, as in key_numbers.csv of the report ----
+ * ek_numbers gives the numbers with these names, and solves only the tests that they need. On an axle a name begins
+ * with left_ or right_, unless the number is one of the axle. The last solution (ek_values) is not changed.
+ * EK_CONVERGENCE: some numbers are NaN, because they need a state that was not found (states outside the window of a
+ * slope do not matter) or because the model does not define them. The message names them. The others are valid. */
 int ek_numbers(ek_model *model, int n, const char *const *names, double *values);
 int ek_number_count(ek_model *model);               /* all names; solves nothing, so one of them may have no value */
 const char *ek_number_name(ek_model *model, int k);
