@@ -26,13 +26,16 @@ contains
       type(command_line_t), intent(in) :: line
       type(error_t), allocatable, intent(out) :: error
       type(opened_study_t) :: this
+      type(message_list_t) :: kinds
 
       call check_kinds(line%values('--kind'), error)
       if (.not. allocated(error)) call check_file(line%files%line(1), error)
       if (.not. allocated(error)) call open_study(line, this, error)
       if (allocated(error)) return
       if (this%study%kind == step_size_kind) then
-         call fail(error, exit_usage, 'plot: a study of kind ''step_size'' has only the figures of its plot script')
+         kinds = line%values('--kind')
+         if (kinds%count() > 0) call fail(error, exit_usage, 'plot: a study of kind ''step_size'' has one figure; omit --kind')
+         if (.not. allocated(error)) call draw_steps(this%study, this%out, line%has('--quiet'), error)
          return
       end if
       call draw_study(this%study, this%deck, join_path(this%home, ''), this%out, line%values('--kind'), line%has('--quiet'), error)
