@@ -40,7 +40,10 @@ api/ek_session.f90 ek_run ek_api
 study/ek_worker.f90 ek_derivatives ek_study
 sensitivity/ek_derivatives.f90 ek_session ek_sensitivity
 export/ek_kandc_map.f90 ek_export_settings ek_export
-report/ek_key_numbers.f90 ek_named_numbers ek_report
+report/ek_page.f90 ek_named_numbers ek_report
+numbers/ek_key_numbers.f90 ek_page ek_numbers
+api/ek_named_numbers.f90 ek_page ek_api
+sensitivity/ek_fit_problem.f90 ek_page ek_sensitivity
 api/ek_named_numbers.f90 ek_load_deck ek_api
 END
 }

@@ -6,7 +6,7 @@ module ek_deck_fragment
    use ek_parameter, only: choice_t
    use ek_reader, only: design_t
    use ek_worker, only: worker_t, put_factor
-   use ek_study_design, only: designer_t
+   use ek_designer, only: designer_t
    implicit none(type, external)
    private
    public :: deck_fragment, records_with

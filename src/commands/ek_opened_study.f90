@@ -8,7 +8,7 @@ module ek_opened_study
    use ek_study, only: study_t, step_size_kind, kind_names
    use ek_study_reader, only: read_study
    use ek_study_each, only: expand_factors, expand_columns
-   use ek_study_design, only: designer_t, new_designer
+   use ek_designer, only: designer_t, new_designer
    use ek_study_plan, only: study_plan_t, new_plan
    use ek_study_run, only: chunk_of_parts
    use ek_study_tables, only: responses_name

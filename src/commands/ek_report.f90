@@ -17,7 +17,8 @@ module ek_report
    use ek_chart, only: chart_t
    use ek_scales, only: read_scales, take_scales
    use ek_gradient, only: test_gradients, write_gradients
-   use ek_report_files, only: write_contents, contents_file, gradients_file, compliance_file, numbers_file, deck_file, test_line
+   use ek_report_files, only: write_contents, contents_file, gradients_file, compliance_file, numbers_file, deck_file, test_line, &
+      name_files
    use ek_deck_file, only: write_deck_file
    use ek_deck, only: deck_t
    use ek_deck_values, only: list_values
@@ -100,6 +101,7 @@ contains
       if (.not. allocated(error)) call balance(suspension, default_tolerance, error)
       if (allocated(error)) return
       call planned_tests(suspension, chosen, page%tests)
+      call name_files(page%tests)
       call find_model_remarks(suspension, cases, chosen, .true., remarks)
       call print_model_remarks(settings%is_quiet, remarks, page%warnings)
       call remove_file(join_path(page%folder, 'report.html'))     ! a page of an earlier report must not be mistaken for this one

@@ -5,7 +5,7 @@ module ek_study_findings
    use ek_study, only: study_t
    use ek_sampler, only: sampler_t, changed_factor
    use ek_sampler_kind, only: one_at_a_time_kind, list_kind, saltelli_kind, morris_kind
-   use ek_study_design, only: designer_t
+   use ek_designer, only: designer_t
    use ek_factor_paths, only: label_of
    use ek_sensitivity, only: sobol_indices_t, sobol_indices, saltelli_block, morris_effects_t, morris_effects, tornado_t, tornado
    use ek_sample_statistics, only: mean_and_deviation, ascending_order, percentile, rank_correlation

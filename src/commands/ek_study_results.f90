@@ -14,7 +14,7 @@ module ek_study_results
    use ek_sampler, only: sampler_t, designs_of
    use ek_sampler_kind, only: sampler_kinds, tolerance_kind
    use ek_sampler_settings, only: sampler_settings_t
-   use ek_study_design, only: designer_t, begin_designer
+   use ek_designer, only: designer_t, begin_designer
    use ek_study_plan, only: plan_sampler
    use ek_study_tables, only: responses_name, curves_name, has_limits
    use ek_study_data, only: study_data_t, study_axis_t, percents

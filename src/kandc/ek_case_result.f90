@@ -38,6 +38,7 @@ module ek_case_result
       logical :: is_compared = .true.              !! a linear method is compared with equilibrium at the ends of the path
       real(wp) :: min_settling = 1.0e-8_wp       !! displacement of a wheel under the constant loads that is noted [m]
       character(name_length), allocatable :: columns(:)   !! quantities that are computed; not allocated: all
+      logical :: defers_kandc = .false.            !! the caller fills the K&C quantities of the table where it reads them (read_states)
       real(wp) :: reach = huge(1.0_wp)             !! swept value beyond which on either side of design no state is needed
       character(:), allocatable :: checksum        !! of the deck, for the header of the table; not allocated: no header
    end type solve_options_t
@@ -117,7 +118,7 @@ contains
          return
       end if
       if (.not. has_path) call sweep(result%suspension, result%case, result%path, result%kkt, progress, options%reach, result%space)
-      call observe(result%suspension, result%case, result%path, result%kkt, tells, result%table)
+      call observe(result%suspension, result%case, result%path, result%kkt, tells, result%table, options%defers_kandc)
       if (any(result%path%failure%state > 0)) result%outcome = partly_solved
       if (options%has_remarks) call add_remarks(options, result)
       if (allocated(options%checksum)) call add_header(result%table, result%suspension, result%case, options%checksum)

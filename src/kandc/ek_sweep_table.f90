@@ -5,6 +5,7 @@
 module ek_sweep_table
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp, i8
+   use ek_contract, only: are_checked, require
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t
    use ek_state, only: state_t, inputs_t, design_state, unpack_state, coordinates
@@ -19,8 +20,8 @@ module ek_sweep_table
    use ek_table, only: table_t, new_table, name_length
    implicit none(type, external)
    private
-   public :: observer_t, make_observer, observe, observe_state, quantity_columns, reads_matrix, &
-      reads_poses_of_wheels, nearly_singular, sweep_table, sweep_columns, &
+   public :: observer_t, make_observer, observe, observe_kandc_at, observe_state, quantity_columns, reads_matrix, &
+      is_kandc_column, reads_poses_of_wheels, nearly_singular, sweep_table, sweep_columns, &
       sweep_bytes
 
    real(wp), parameter :: nearly_singular = 1.0e-12_wp   !! smallest over largest pivot: four digits are left
@@ -96,19 +97,22 @@ contains
    !> marked by converged = 0 and values that are not numbers.
    !>
    !> If the case requests all columns, the K&C quantities precede the last columns, from the compliance matrix
-   !> at every state; it is solved only if one of the columns of the observer needs it.
-   subroutine observe(suspension, case, path, kkt, observer, table)
+   !> at every state; it is solved only if one of the columns of the observer needs it. With defers_kandc the K&C quantities are not
+   !> numbers: observe_kandc_at fills them, at the states where they are read.
+   subroutine observe(suspension, case, path, kkt, observer, table, defers_kandc)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
       type(path_t), intent(in) :: path
       type(kkt_t), intent(inout) :: kkt          !! work space
       type(observer_t), intent(inout) :: observer   !! of make_observer
       type(table_t), intent(out) :: table
+      logical, intent(in), optional :: defers_kandc
       type(state_t) :: state
       type(schedule_t) :: schedule
       type(inputs_t) :: inputs
       type(attitude_t), allocatable :: wheels(:)
       real(wp), allocatable :: values(:)         ! all columns of a row
+      logical :: needs_kandc
       integer :: first, last, k, c, row
 
       call reached_rows(path, first, last)
@@ -117,7 +121,9 @@ contains
       allocate (values(observer%ended), source=ieee_value(1.0_wp, ieee_quiet_nan))
       state = design_state(suspension)
       schedule = new_schedule(suspension, case)
-      if (has_kandc(observer)) call begin_design(suspension, observer%kandc)
+      needs_kandc = has_kandc(observer)
+      if (present(defers_kandc)) needs_kandc = needs_kandc .and. .not. defers_kandc
+      if (needs_kandc) call begin_design(suspension, observer%kandc)
       associate (reported => observer%reported, ended => observer%ended)
          do k = first, last
             row = k - first + 1
@@ -131,7 +137,7 @@ contains
                values(ended - 2) = merge(1.0_wp, 0.0_wp, path%pivot_ratio(k) < nearly_singular)
                call unpack_state(path%packed(:, k), state)
                call inputs_at(schedule, path%value(k), inputs)
-               call fill_quantities(suspension, state, inputs, kkt, observer, observer%has_violation, wheels, values)
+               call fill_quantities(suspension, state, inputs, kkt, observer, observer%has_violation, needs_kandc, wheels, values)
                if (observer%has_violation) then
                   values(ended) = sqrt(dot_product(kkt%values, kkt%values))
                   if (values(ended) > open_joints) values(reported + 1) = 0.0_wp
@@ -143,6 +149,42 @@ contains
          end do
       end associate
    end subroutine observe
+
+   !> Fills the K&C quantities of a table of observe with defers_kandc, at the states where they are read; at all others they stay
+   !> values that are not numbers.
+   subroutine observe_kandc_at(is_read, suspension, case, path, kkt, observer, table)
+      logical, intent(in) :: is_read(:)          !! of each row of the table
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: case
+      type(path_t), intent(in) :: path
+      type(kkt_t), intent(inout) :: kkt          !! work space
+      type(observer_t), intent(inout) :: observer   !! with which the table was made
+      type(table_t), intent(inout) :: table
+      type(state_t) :: state
+      type(schedule_t) :: schedule
+      type(inputs_t) :: inputs
+      type(attitude_t), allocatable :: wheels(:)
+      real(wp), allocatable :: values(:)         ! all columns of a row
+      integer :: first, last, k, c, row
+
+      if (are_checked) call require(size(is_read) == size(table%values, 2), 'observe_kandc_at: the table of another path')
+      if (.not. (has_kandc(observer) .and. any(is_read))) return
+      call reached_rows(path, first, last)
+      allocate (wheels(size(suspension%wheels)), values(observer%ended))
+      state = design_state(suspension)
+      schedule = new_schedule(suspension, case)
+      call begin_design(suspension, observer%kandc)
+      do k = first, last
+         row = k - first + 1
+         if (.not. (is_read(row) .and. path%is_reached(k))) cycle
+         call unpack_state(path%packed(:, k), state)
+         call inputs_at(schedule, path%value(k), inputs)
+         call fill_quantities(suspension, state, inputs, kkt, observer, .false., .true., wheels, values)
+         do c = 1, size(observer%kept)
+            if (is_kandc_column(observer, c)) table%values(c, row) = values(observer%kept(c))
+         end do
+      end do
+   end subroutine observe_kandc_at
 
    !> The values of quantity_columns at one state, an equilibrium or close to one, as observe has them in its table.
    subroutine observe_state(suspension, state, inputs, kkt, observer, wheels, all_values, values)
@@ -158,7 +200,7 @@ contains
 
       if (.not. allocated(all_values)) allocate (all_values(observer%ended), source=0.0_wp)
       if (has_kandc(observer)) call begin_design(suspension, observer%kandc)
-      call fill_quantities(suspension, state, inputs, kkt, observer, .false., wheels, all_values)
+      call fill_quantities(suspension, state, inputs, kkt, observer, .false., has_kandc(observer), wheels, all_values)
       do c = 1, size(values)
          values(c) = all_values(observer%kept(c + 2))
       end do
@@ -177,6 +219,13 @@ contains
       reads_matrix = has_kandc(observer)
    end function reads_matrix
 
+   !> Whether a column of the table is a K&C quantity, which comes with the compliance matrix.
+   pure logical function is_kandc_column(observer, column)
+      type(observer_t), intent(in) :: observer              !! of make_observer
+      integer, intent(in) :: column                         !! of its table
+      is_kandc_column = observer%kept(column) > observer%shown .and. observer%kept(column) <= observer%reported
+   end function is_kandc_column
+
    !> Whether all columns follow from the poses of the wheels and the numbers of the wheels.
    pure logical function reads_poses_of_wheels(observer)
       type(observer_t), intent(in) :: observer              !! of make_observer
@@ -191,13 +240,14 @@ contains
    end function has_kandc
 
    !> The asked quantities of a state. begin_design was called.
-   subroutine fill_quantities(suspension, state, inputs, kkt, observer, needs_violation, wheels, values)
+   subroutine fill_quantities(suspension, state, inputs, kkt, observer, needs_violation, needs_kandc, wheels, values)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
       type(inputs_t), intent(in) :: inputs
       type(kkt_t), intent(inout) :: kkt
       type(observer_t), intent(inout) :: observer
       logical, intent(in) :: needs_violation                !! the constraint violation is wanted, in kkt%values
+      logical, intent(in) :: needs_kandc                    !! so are the K&C quantities; only if has_kandc
       type(attitude_t), intent(inout) :: wheels(:)
       real(wp), intent(inout) :: values(:)                  !! all columns
       logical :: has_matrix, has_attitudes
@@ -205,11 +255,11 @@ contains
 
       has_matrix = .false.
       has_attitudes = has_wheels(observer%list)
-      if (has_kandc(observer)) then
+      if (needs_kandc) then
          has_matrix = observer%kandc%is_matrix_wanted
          has_attitudes = has_attitudes .or. observer%kandc%has_wheels
       end if
-      if (has_kandc(observer)) then
+      if (needs_kandc) then
          call assemble(suspension, state, inputs, merge(whole_tangent, residual_only, has_matrix), kkt)
       else if (needs_violation .or. has_joints(observer%list)) then
          call assemble_rows(suspension, state, inputs, kkt)
@@ -223,7 +273,7 @@ contains
       end if
       associate (shown => observer%shown)
          call state_values(suspension, state, wheels, kkt, observer%list, values(3:shown))
-         if (.not. has_kandc(observer)) return
+         if (.not. needs_kandc) return
          call fill_kandc(suspension, state, inputs, wheels, kkt, observer%kandc)
          do c = 1, size(observer%kandc%values)
             values(shown + c) = observer%kandc%values(c)

@@ -15,7 +15,7 @@ module ek_report_files
    use ek_deck_file, only: deck_record_t, read_deck_file, facts_of_table
    implicit none(type, external)
    private
-   public :: results_t, read_results, read_test, write_contents, test_line, table_file, envelope_file, contents_file, &
+   public :: results_t, read_results, read_test, write_contents, test_line, name_files, table_file, envelope_file, contents_file, &
       gradients_file, compliance_file, numbers_file, deck_file, test_number
 
    character(*), parameter :: contents_file = 'tests.csv', gradients_file = 'gradients.csv', &
@@ -33,6 +33,19 @@ module ek_report_files
    end type results_t
 
 contains
+
+   !> Gives each test the names of its files: its table, and the envelope of its wheels.
+   pure subroutine name_files(tests)
+      type(test_result_t), intent(inout) :: tests(:)
+      integer :: k
+
+      do k = 1, size(tests)
+         tests(k)%file = table_file(tests(k)%name)
+      end do
+      do k = 1, size(tests)
+         tests(k)%envelope = envelope_file(tests, k)
+      end do
+   end subroutine name_files
 
    !> The header line of a table that describes the test.
    pure function test_line(kind, is_anti, factor_size) result(line)

@@ -15,7 +15,7 @@ module ek_study_slopes
    use ek_study, only: study_t
    use ek_response_value, only: reading_t, read_response, is_difference
    use ek_worker, only: worker_t, factor_paths_t, put_factor
-   use ek_study_design, only: designer_t
+   use ek_designer, only: designer_t
    use ek_design_solver, only: design_solver_t, begin_design_solver, put_numbers, solve_case_fully, case_number
    use ek_direction, only: direction_t, factor_direction
    use ek_derivatives, only: begin_derivatives, refuse_case

@@ -11,7 +11,7 @@ module ek_tolerance
    use ek_deck, only: deck_t
    use ek_study, only: study_t, define_factor
    use ek_worker, only: deck_value
-   use ek_study_design, only: designer_t
+   use ek_designer, only: designer_t
    use ek_sampler_settings, only: factor_t
    use ek_standard_factor, only: standard_factor_t, new_standard_factor, value_at, slope_at
    use ek_moments, only: expansion_t, moments_t, find_moments

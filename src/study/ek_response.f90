@@ -15,8 +15,8 @@ module ek_response
    use ek_gradient_definition, only: definition_t, definitions_of, windows_t, fitted
    use ek_gradient, only: gradient_t, test_gradients, noise_of
    use ek_study, only: response_t, of_names
-   use ek_response_value, only: reading_t, read_response, is_slope, find_window, rounded, place_of_column, an_rms, a_gradient, &
-      a_difference, no_fault, column_is_missing, over_is_missing, is_outside, has_no_slope, has_few_states, &
+   use ek_response_value, only: reading_t, read_response, mark_states, is_slope, find_window, rounded, place_of_column, &
+      an_rms, a_gradient, a_difference, no_fault, column_is_missing, over_is_missing, is_outside, has_no_slope, has_few_states, &
       is_undefined
    implicit none(type, external)
    private
@@ -236,7 +236,10 @@ contains
          if (reading%of == an_rms) text = 'a factor of '//reading%asked%file
          text = text//' lies outside the range of the case, '//str(minval(x))//' to '//str(maxval(x))
       case (is_undefined)
-         is_near = .not. ieee_is_finite(table%values(place_of_column(table, reading%asked%column, reading%at_column), :))
+         is_near = .false.
+         call mark_states(reading, table, is_near)
+         is_near = is_near .and. .not. ieee_is_finite(table%values(place_of_column(table, reading%asked%column, &
+            reading%at_column), :))
          first = findloc(is_near, .true., dim=1)
          text = quoted(reading%asked%column)//' has no value at '//plural(count(is_near), 'state', 'states')
          if (first > 0) text = text//', the first at factor '//str(table%values(2, first))

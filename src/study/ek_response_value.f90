@@ -8,7 +8,7 @@ module ek_response_value
    use ek_study, only: response_t
    implicit none(type, external)
    private
-   public :: reading_t, read_response, is_difference, is_slope, find_window, rounded, place_of_column
+   public :: reading_t, read_response, mark_states, reads_all_states, is_difference, is_slope, find_window, rounded, place_of_column
 
    !> A response, prepared for tables with given columns.
    type :: reading_t
@@ -114,6 +114,50 @@ contains
       end select
    end subroutine read_value
 
+   !> Whether a response reads its column at every state. A gradient skips states without a value, so it is given all.
+   pure logical function reads_all_states(reading)
+      type(reading_t), intent(in) :: reading
+      reads_all_states = reading%of == a_span .or. reading%of == a_least .or. reading%of == a_most .or. reading%of == a_gradient
+   end function reads_all_states
+
+   !> Marks the states at which read_response reads the column of a response: the neighbours of a value, those in the window of a
+   !> slope, the neighbours of each point of a curve, or all.
+   pure subroutine mark_states(reading, table, is_read)
+      type(reading_t), intent(in) :: reading
+      type(table_t), intent(in) :: table         !! swept values, and the column over which a slope is taken
+      logical, intent(inout) :: is_read(:)       !! of each state; others keep their mark
+      logical :: is_near(size(is_read))
+      real(wp) :: x(size(is_read)), centre
+      integer :: over, k
+
+      if (is_difference(reading)) return
+      x = table%values(2, :)
+      if (reads_all_states(reading)) then
+         is_read = .true.
+      else if (reading%of == an_rms) then
+         do k = 1, size(reading%curve, 2)
+            call mark_neighbours(x, rounded(reading%curve(1, k), x), is_read)
+         end do
+      else if (reading%of == a_value) then
+         call mark_neighbours(x, rounded(reading%asked%at, x), is_read)
+      else
+         over = place_of_column(table, reading%over, reading%at_over)
+         if (over == 0) return                   ! the model of this design does not define it
+         call find_window(reading, table, over, rounded(reading%asked%at, x), centre, is_near)
+         is_read = is_read .or. is_near
+      end if
+   end subroutine mark_states
+
+   !> Marks the states from which `between` takes the value at x = at.
+   pure subroutine mark_neighbours(x, at, is_read)
+      real(wp), intent(in) :: x(:), at
+      logical, intent(inout) :: is_read(:)
+      integer :: first, last
+
+      call neighbours(x, at, first, last)
+      if (first > 0) is_read(first:last) = .true.
+   end subroutine mark_neighbours
+
    !> Whether a response is the difference of two others and is read from no table.
    pure logical function is_difference(reading)
       type(reading_t), intent(in) :: reading
@@ -154,7 +198,7 @@ contains
    end function is_slope
 
    !> The states in the window of a slope.
-   subroutine find_window(reading, table, over, at, centre, is_near)
+   pure subroutine find_window(reading, table, over, at, centre, is_near)
       type(reading_t), intent(in) :: reading
       type(table_t), intent(in) :: table
       integer, intent(in) :: over                !! column over which the slope is taken
@@ -226,20 +270,36 @@ contains
    !> y at x = at, linear between the rows; NaN outside their range.
    pure real(wp) function between(x, y, at)
       real(wp), intent(in) :: x(:), y(:), at
-      integer :: k
+      integer :: k, next
 
       between = ieee_value(1.0_wp, ieee_quiet_nan)
+      call neighbours(x, at, k, next)
+      if (k == 0) return
+      between = y(k)
+      if (next > k) between = y(k) + (y(next) - y(k))*(at - x(k))/(x(next) - x(k))
+   end function between
+
+   !> The row with x = at, or the two rows on either side of it.
+   pure subroutine neighbours(x, at, first, last)
+      real(wp), intent(in) :: x(:), at
+      integer, intent(out) :: first, last        !! 0: outside the range of x
+      integer :: k
+
+      first = 0
+      last = 0
       do k = 1, size(x)
          if (abs(x(k) - at) <= 0.0_wp) then
-            between = y(k)
+            first = k
+            last = k
             return
          end if
          if (k == size(x)) exit
          if ((x(k) - at)*(x(k + 1) - at) < 0.0_wp) then
-            between = y(k) + (y(k + 1) - y(k))*(at - x(k))/(x(k + 1) - x(k))
+            first = k
+            last = k + 1
             return
          end if
       end do
-   end function between
+   end subroutine neighbours
 
 end module ek_response_value

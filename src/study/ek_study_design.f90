@@ -6,197 +6,25 @@
 module ek_study_design
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
-   use ek_error, only: error_t, message_list_t, fail, exit_deck, exit_file
+   use ek_error, only: error_t, message_list_t, exit_deck, exit_file
    use ek_text, only: str, quoted, replace
    use ek_deck, only: deck_t, set_value
-   use ek_case_result, only: case_result_t, solve_options_t, solve_case, solve_mounted, failure_of, test_of
-   use ek_sweep_table, only: sweep_columns
-   use ek_table, only: table_t, column_index, name_length
-   use ek_quantity, only: head_with_unit
+   use ek_case_result, only: case_result_t, solve_case, solve_mounted, failure_of
+   use ek_table, only: table_t, column_index
    use ek_study, only: study_t, not_given
-   use ek_response, only: needed_columns, no_column, prepare_reading, prepare_difference, fault_text
-   use ek_response_value, only: reading_t, read_response, is_difference
-   use ek_study_pack, only: pack_space_t, begin_packs, walk_case, lanes
-   use ek_worker, only: worker_t, factor_paths_t, make_worker, change_design
-   use ek_factor_unit, only: factor_unit, unit_ending
-   use ek_factor_paths, only: check_paths, check_planes, find_paths, setting_of, shortest
+   use ek_response, only: fault_text
+   use ek_response_value, only: read_response, is_difference
+   use ek_read_states, only: observe_read_states
+   use ek_study_pack, only: walk_case, lanes
+   use ek_worker, only: worker_t, make_worker, change_design
+   use ek_factor_paths, only: setting_of, shortest
    use ek_chunk, only: chunk_t, add_reason, put_error, design_solved, design_incomplete, design_unsolvable, design_invalid
+   use ek_designer, only: designer_t
    implicit none(type, external)
    private
-   public :: designer_t, begin_designer, new_designer, solve_designs
-
-   !> What one thread keeps from design to design.
-   type :: designer_t
-      class(worker_t), allocatable :: worker               !! allocated by begin_designer; a class as in worker_case_t
-      class(pack_space_t), allocatable :: packs                       !! for designs that are solved together
-      type(factor_paths_t), allocatable :: paths(:)        !! of the factors
-      character(name_length), allocatable :: case_names(:) !! of the cases that are solved; '': the first of the deck
-      type(solve_options_t), allocatable :: options(:)     !! of each case: its columns
-      type(reading_t), allocatable :: readings(:)
-      integer, allocatable :: case_of(:)                   !! of each response
-      integer :: increments = 0                            !! of all cases; 0: those of the deck
-      integer :: states = 0                                !! of the first case, in the first design
-      character(name_length), allocatable :: units(:)      !! of the factors, '' if they have none: 'N/mm'
-      character(name_length), allocatable :: heads(:)      !! of the columns of the factors: 'rate_n_per_mm'
-   end type designer_t
+   public :: solve_designs
 
 contains
-
-   !> Reads the deck and finds the numbers that the factors change; nothing is solved.
-   subroutine begin_designer(study, deck, designer, error)
-      type(study_t), intent(in) :: study
-      type(deck_t), intent(in) :: deck
-      type(designer_t), intent(out) :: designer
-      type(error_t), allocatable, intent(out) :: error     !! exit_deck: all mistakes of the paths
-      integer :: k
-
-      call list_cases(study, designer)
-      call check_paths(study, deck, error)
-      if (allocated(error)) return
-      if (allocated(study%increments)) designer%increments = sum(study%increments)       ! one or none
-      allocate (designer%worker)
-      call make_worker(deck, designer%case_names, designer%worker, error, designer%increments)
-      if (allocated(error)) return
-      allocate (designer%paths(size(study%factors)), designer%units(size(study%factors)), designer%heads(size(study%factors)))
-      do k = 1, size(study%factors)
-         call find_paths(study%factors(k), designer%worker%design, designer%paths(k))
-         designer%units(k) = factor_unit(designer%worker%design, designer%paths(k))
-         designer%heads(k) = head_with_unit(study%factors(k)%name, unit_ending(trim(designer%units(k))))
-      end do
-      call check_planes(study, designer%worker%design, designer%paths, error)
-   end subroutine begin_designer
-
-   !> Reads the deck, and checks all paths, columns and responses against it. The design of the deck itself must be sound.
-   subroutine new_designer(study, deck, home, designer, error)
-      type(study_t), intent(in) :: study
-      type(deck_t), intent(in) :: deck
-      character(*), intent(in) :: home                     !! folder of the study with its slash
-      type(designer_t), intent(out) :: designer
-      type(error_t), allocatable, intent(out) :: error     !! exit_deck: all mistakes of the study
-      integer :: k
-
-      call begin_designer(study, deck, designer, error)
-      if (allocated(error)) return
-      allocate (designer%options(size(designer%case_names)))
-      do k = 1, size(designer%case_names)
-         call list_columns(study, designer, k)
-         designer%options(k)%has_remarks = .false.
-         associate (this => designer%worker%cases(k))
-            call solve_case(designer%worker%suspension, this%case, designer%options(k), this%result, observer=this%observer)
-            if (.not. this%result%is_run()) call failure_of(this%result, error)
-         end associate
-         if (allocated(error)) return
-      end do
-      allocate (designer%packs)
-      call begin_packs(designer%worker, designer%packs)
-      designer%states = size(designer%worker%cases(1)%result%table%values, 2)
-      call check_columns(study, home, designer, error)
-   end subroutine new_designer
-
-   !> The cases: that of the study first, then those of its responses.
-   subroutine list_cases(study, designer)
-      type(study_t), intent(in) :: study
-      type(designer_t), intent(inout) :: designer
-      integer :: k
-
-      designer%case_names = [character(name_length) :: study%case]
-      allocate (designer%case_of(size(study%responses)))
-      do k = 1, size(study%responses)
-         if (study%responses(k)%case /= '' .and. .not. any(designer%case_names == study%responses(k)%case)) &
-            designer%case_names = [character(name_length) :: designer%case_names, study%responses(k)%case]
-         designer%case_of(k) = 1
-         if (study%responses(k)%case /= '') &
-            designer%case_of(k) = findloc(designer%case_names == study%responses(k)%case, .true., dim=1)
-      end do
-   end subroutine list_cases
-
-   !> The columns that are computed of a case.
-   subroutine list_columns(study, designer, case)
-      type(study_t), intent(in) :: study
-      type(designer_t), intent(inout) :: designer
-      integer, intent(in) :: case
-      character(name_length), allocatable :: wanted(:)
-      integer :: k
-
-      allocate (wanted(merge(size(study%columns), 0, case == 1)))
-      if (case == 1) wanted(:) = study%columns
-      do k = 1, size(study%responses)
-         if (designer%case_of(k) == case) call needed_columns(study%responses(k), &
-            designer%worker%cases(case)%case%test, wanted)
-      end do
-      designer%options(case)%columns = wanted
-      designer%options(case)%has_violation = any(wanted == 'constraint_error')
-   end subroutine list_columns
-
-   !> Checks that all columns named by the study are in the tables of the first design and that its responses can be read.
-   subroutine check_columns(study, home, designer, error)
-      type(study_t), intent(in) :: study
-      character(*), intent(in) :: home
-      type(designer_t), intent(inout) :: designer
-      type(error_t), allocatable, intent(out) :: error   !! exit_deck, every mistake
-      type(message_list_t) :: mistakes
-      character(name_length), allocatable :: heads(:)    ! all columns of the results
-      character(:), allocatable :: message
-      integer :: k
-
-      associate (first => designer%worker%cases(1)%result)
-         call sweep_columns(first%suspension, first%case, heads)
-         do k = 1, size(study%columns)
-            if (column_index(first%table, trim(study%columns(k))) == 0) &
-               call mistakes%add(study%where//': columns: '//no_column(trim(study%columns(k)), heads))
-         end do
-      end associate
-      allocate (designer%readings(size(study%responses)))
-      do k = 1, size(study%responses)
-         associate (result => designer%worker%cases(designer%case_of(k))%result, readings => designer%readings, &
-            asked => study%responses(k))
-            call sweep_columns(result%suspension, result%case, heads)
-            if (asked%of == 'difference') then
-               call prepare_difference(asked, readings(asked%less(1)), readings(asked%less(2)), readings(k), message)
-            else
-               call prepare_reading(asked, result%table, result%case%unit_name, readings(k), message, heads, home, test_of(result))
-            end if
-            if (message /= '') call mistakes%add(message)
-         end associate
-      end do
-      call check_heads(study, designer, mistakes)
-      if (mistakes%count() > 0) call fail(error, exit_deck, mistakes%text())
-   end subroutine check_columns
-
-   !> No two columns of the table of responses may have the same name.
-   subroutine check_heads(study, designer, mistakes)
-      type(study_t), intent(in) :: study
-      type(designer_t), intent(in) :: designer
-      type(message_list_t), intent(inout) :: mistakes
-      integer :: j, k
-
-      do k = 1, size(study%factors)
-         do j = 1, k - 1
-            if (designer%heads(j) == designer%heads(k)) call add(study%factors(k)%where//': factor '// &
-               quoted(study%factors(k)%name), trim(designer%heads(k)), 'factor '//quoted(study%factors(j)%name))
-         end do
-      end do
-      do k = 1, size(designer%readings)
-         associate (this => designer%readings(k))
-            do j = 1, size(study%factors)
-               if (designer%heads(j) == this%head) call add(this%asked%where//': response '//quoted(this%asked%name), this%head, &
-                  'factor '//quoted(study%factors(j)%name))
-            end do
-            do j = 1, k - 1
-               if (designer%readings(j)%head == this%head) call add(this%asked%where//': response '//quoted(this%asked%name), &
-                  this%head, 'response '//quoted(designer%readings(j)%asked%name))
-            end do
-         end associate
-      end do
-
-   contains
-
-      subroutine add(who, head, other)
-         character(*), intent(in) :: who, head, other
-         call mistakes%add(who//': its column would have the name '//quoted(head)//', like that of '//other//'; rename one')
-      end subroutine add
-
-   end subroutine check_heads
 
    !> Solves some designs of a chunk, at most `lanes`, whose factors the chunk has, and fills their rows.
    subroutine solve_designs(study, deck, designer, first, last, chunk)
@@ -252,6 +80,7 @@ contains
             call solve_mounted(designer%options(c), this%result, observer=this%observer, is_walked=is_walked(c))
          end associate
       end do
+      call complete_tables(designer, worker)
       call take_row(study, designer, worker, k, chunk, faults)
       if (chunk%status(k) == design_solved) return
       !$omp critical (ek_words)
@@ -299,9 +128,22 @@ contains
             call solve_case(worker%suspension, this%case, designer%options(case), this%result, observer=this%observer)
          end associate
       end do
+      call complete_tables(designer, worker)
       call take_row(study, designer, worker, k, chunk, faults)
       if (chunk%status(k) /= design_solved) call explain(designer, worker, k, faults, chunk)
    end subroutine solve_from_text
+
+   !> Observes what solving left open: K&C quantities, at the states where a response reads them.
+   subroutine complete_tables(designer, worker)
+      type(designer_t), intent(in) :: designer
+      type(worker_t), intent(inout) :: worker     !! its cases are solved
+      integer :: c
+
+      do c = 1, size(worker%cases)
+         if (.not. (designer%options(c)%defers_kandc .and. is_whole(worker%cases(c)%result))) cycle
+         call observe_read_states(designer%readings, designer%case_of, c, worker%cases(c)%observer, worker%cases(c)%result)
+      end do
+   end subroutine complete_tables
 
    !> The responses and the curves of a design. A response of a case that lost a state has no value.
    subroutine take_row(study, designer, worker, k, chunk, faults)

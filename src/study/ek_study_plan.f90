@@ -14,7 +14,7 @@ module ek_study_plan
    use ek_sampler_settings, only: sampler_settings_t, factor_t
    use ek_study, only: study_t, define_factor
    use ek_worker, only: deck_value
-   use ek_study_design, only: designer_t
+   use ek_designer, only: designer_t
    use ek_chunk, only: chunk_t, new_chunk
    implicit none(type, external)
    private

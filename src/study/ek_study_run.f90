@@ -17,7 +17,8 @@ module ek_study_run
       renew_scratch, end_scratch
    use ek_deck, only: deck_t
    use ek_study, only: study_t
-   use ek_study_design, only: designer_t, solve_designs
+   use ek_designer, only: designer_t
+   use ek_study_design, only: solve_designs
    use ek_ranks, only: ranks_t, count_up, share, agree, help_others, ticket_counter, done_counter, failed_counter, stopped_counter
    use ek_study_plan, only: study_plan_t, begin_chunk, first_of, designs_in
    use ek_chunk, only: chunk_t, write_chunk, read_chunk, chunk_name

@@ -5,7 +5,7 @@ module ek_small_study
    use ek_file, only: make_folder, join_path, folder_exists
    use ek_table, only: table_t, read_csv
    use ek_study, only: study_t, study_factor_t, not_given, by_value
-   use ek_study_design, only: designer_t, new_designer
+   use ek_designer, only: designer_t, new_designer
    use ek_study_plan, only: study_plan_t, new_plan
    use ek_study_run, only: run_options_t, run_state_t, open_parts, run_chunks
    use ek_ranks, only: ranks_t

@@ -1,4 +1,4 @@
-!> The tests of a report before they are run: name, kind, title, file, from their cases.
+!> The tests of a report before they are run: name, kind, title, from their cases.
 module ek_planned_test
    use ek_kinds, only: wp
    use ek_text, only: spaced
@@ -6,7 +6,6 @@ module ek_planned_test
    use ek_case, only: case_t
    use ek_standard_tests, only: test_title, held_text
    use ek_test_result, only: test_result_t
-   use ek_report_files, only: table_file, envelope_file
    implicit none(type, external)
    private
    public :: planned_tests, kind_of_case
@@ -25,7 +24,6 @@ contains
       do k = 1, size(cases)
          associate (test => tests(k), case => cases(k))
             test%name = case%name
-            test%file = table_file(case%name)
             test%is_iso = suspension%is_iso
             allocate (test%prefixes(0), test%sides(0))
             if (len(case%test) > 0) then
@@ -38,9 +36,6 @@ contains
                test%title = title_of(case%name)
             end if
          end associate
-      end do
-      do k = 1, size(cases)
-         tests(k)%envelope = envelope_file(tests, k)
       end do
    end subroutine planned_tests
 

@@ -1,0 +1,70 @@
+!> The states of a case at which a study reads K&C quantities: these come with the compliance matrix, which costs more than the
+!> state itself, and a response often reads a single state.
+!>
+!> | response | states it reads |
+!> |---|---|
+!> | value | the state at `at`, or its two neighbours |
+!> | slope | those in its window |
+!> | rms | the neighbours of each point of the wanted curve |
+!> | span, least, most, gradient; columns of the curves | all |
+!> | difference | those of its two responses |
+module ek_read_states
+   use ek_table, only: table_t, column_index
+   use ek_sweep_table, only: observer_t, observe_kandc_at, is_kandc_column, reads_matrix
+   use ek_case_result, only: case_result_t
+   use ek_response_value, only: reading_t, mark_states, reads_all_states, is_difference, place_of_column
+   implicit none(type, external)
+   private
+   public :: reads_few_states, observe_read_states
+
+contains
+
+   !> Whether K&C quantities of a case are read, each at some states only.
+   pure logical function reads_few_states(readings, case_of, case, columns, observer, table)
+      type(reading_t), intent(in) :: readings(:)           !! of all cases
+      integer, intent(in) :: case_of(:), case              !! the case that each reads; this case
+      character(*), intent(in) :: columns(:)               !! of the curves of this case, read at every state
+      type(observer_t), intent(in) :: observer             !! of this case
+      type(table_t), intent(in) :: table                   !! of this case, in the first design
+      integer :: j
+
+      reads_few_states = reads_matrix(observer)
+      do j = 1, size(columns)
+         if (is_kandc(column_index(table, trim(columns(j))))) reads_few_states = .false.
+      end do
+      do j = 1, size(readings)
+         if (case_of(j) /= case .or. is_difference(readings(j))) cycle
+         if (reads_all_states(readings(j)) .and. is_kandc(readings(j)%at_column)) reads_few_states = .false.
+         if (is_kandc(readings(j)%at_over)) reads_few_states = .false.        ! the window is known from this column
+      end do
+
+   contains
+
+      pure logical function is_kandc(column)
+         integer, intent(in) :: column                     !! 0: none
+         is_kandc = column > 0
+         if (is_kandc) is_kandc = is_kandc_column(observer, column)
+      end function is_kandc
+
+   end function reads_few_states
+
+   !> Observes the K&C quantities of a case at the states where a response reads them.
+   subroutine observe_read_states(readings, case_of, case, observer, result)
+      type(reading_t), intent(in) :: readings(:)           !! of all cases
+      integer, intent(in) :: case_of(:), case              !! the case that each reads; this case
+      type(observer_t), intent(inout) :: observer          !! of this case
+      type(case_result_t), intent(inout) :: result         !! solved with defers_kandc
+      logical :: is_read(size(result%table%values, 2))
+      integer :: column, j
+
+      is_read = .false.
+      do j = 1, size(readings)
+         if (case_of(j) /= case .or. is_difference(readings(j))) cycle
+         column = place_of_column(result%table, readings(j)%asked%column, readings(j)%at_column)
+         if (column == 0) cycle                            ! the model of this design does not define it
+         if (is_kandc_column(observer, column)) call mark_states(readings(j), result%table, is_read)
+      end do
+      call observe_kandc_at(is_read, result%suspension, result%case, result%path, result%kkt, observer, result%table)
+   end subroutine observe_read_states
+
+end module ek_read_states
