@@ -55,7 +55,7 @@ contains
       call json%close(']')
       call json%open('[', 'tests')
       do k = 1, size(report%tests)
-         if (report%tests(k)%is_run) call add_test(json, report%tests(k), report%charts, k)
+         if (report%tests(k)%is_run) call add_test(json, report%tests(k), report%charts, k, '')
       end do
       call json%close(']')
       if (allocated(report%turntable)) call add_turntable(json, report%turntable)
@@ -77,7 +77,7 @@ contains
       call json%item('format', json_string(comparison_name))
       call json%open('[', 'tests')
       do k = 1, size(tests)
-         if (any(charts%test == k)) call add_test(json, tests(k), charts, k)
+         if (any(charts%test == k)) call add_test(json, tests(k), charts, k, 'A, ')      ! the stops of the first result
       end do
       call json%close(']')
       call json%close('}')
@@ -119,11 +119,12 @@ contains
    end function limit_of
 
    !> Adds a test: its abscissae and columns, each once, and the charts that refer to them by name.
-   subroutine add_test(json, test, charts, number)
+   subroutine add_test(json, test, charts, number, of)
       type(json_t), intent(inout) :: json
       type(test_result_t), intent(in) :: test
       type(chart_t), intent(in) :: charts(:)
       integer, intent(in) :: number                   !! of the test
+      character(*), intent(in) :: of                  !! before the names of stops: the result that they are of
       type(message_list_t) :: written
       integer :: k, l, pass
 
@@ -134,7 +135,7 @@ contains
       call json%item('file', json_string(as_utf8(test%file)))
       call json%item('label', json_string(as_utf8(test%label)))
       call json%item('design', str(design_row(test%table) - 1))
-      call add_contacts(json, test)
+      call add_contacts(json, test, of)
       call json%open('[', 'charts')
       do k = 1, size(charts)
          if (charts(k)%test == number) call add_chart(json, charts(k))
@@ -158,9 +159,10 @@ contains
    end subroutine add_test
 
    !> Adds the ranges of states in which stops are in contact, if there are any.
-   subroutine add_contacts(json, test)
+   subroutine add_contacts(json, test, of)
       type(json_t), intent(inout) :: json
       type(test_result_t), intent(in) :: test
+      character(*), intent(in) :: of
       type(contact_t), allocatable :: contacts(:)
       integer :: k
 
@@ -169,7 +171,7 @@ contains
       call json%open('[', 'contacts')
       do k = 1, size(contacts)
          call json%open('{')
-         call json%item('stop', json_string(as_utf8(trim(contacts(k)%stop))))
+         call json%item('stop', json_string(as_utf8(of//trim(contacts(k)%stop))))
          call json%item('first', str(contacts(k)%first - 1))
          call json%item('last', str(contacts(k)%last - 1))
          call json%close('}')
