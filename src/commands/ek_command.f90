@@ -28,7 +28,7 @@ module ek_command
    character(*), parameter :: exit_status_text = &
       'Exit status: 0 success, 1 usage, 2 deck, 3 model (mechanism or redundant constraint),'//nl// &
       '4 a state did not converge (the converged states are written), 5 files,'//nl// &
-      '6 a study was stopped before its end (the same command resumes it).'
+      '6 a study was stopped (run the same command again to resume).'
 
    type(command_t), parameter :: commands(*) = [ &
       command_t('run', 'run DECK [options]', 'run DECK', 'sweep the cases of a deck; write CSV files (and plots)', &
@@ -41,70 +41,70 @@ module ek_command
       'out a value that no road vehicle has, with a likely cause (disable with plausible = .false. in &model).'//nl// &
       'The last line is OK, or the number of errors, warnings and remarks with the worst of them.'//nl// &
       'Exit status 3 if the model cannot be solved.', ''), &
-      command_t('report', 'report DECK [options]', 'report DECK', 'one page with curves, gradients and key numbers of a deck', &
+      command_t('report', 'report DECK [options]', 'report DECK', 'write a page: curves, gradients, key numbers of a deck', &
       'Runs the tests of a deck and writes into DIR: report.html (one self-contained page), one CSV file per'//nl// &
       'test, key_numbers and gradients as .csv and .json (slopes with window, unit and sign), compliance.csv'//nl// &
       '(the compliance matrix at every state of the first test), picture.png and picture.svg,'//nl// &
       'and figures/ with every chart as SVG, its gnuplot script, and views.svg with the names of the hardpoints.', ''), &
-      command_t('explain', 'explain DECK [options]', 'explain DECK', 'who contributes what to each compliance, and load paths', &
-      'Splits each column that is linear in the compliance matrix into what every axis of every bushing, spring, bar,'//nl// &
-      'stop and every preload adds to it; exactly, at every state. Prints the largest ten at design and writes into DIR:'//nl// &
+      command_t('explain', 'explain DECK [options]', 'explain DECK', 'list contributions to each compliance, and load paths', &
+      'Splits each column that is linear in the compliance matrix into exact contributions of every axis of every bushing,'//nl// &
+      'of every spring, bar, stop and preload, at every state. Prints the largest ten at design and writes into DIR:'//nl// &
       '<model>_<case>_contributions.csv, and <model>_<case>_load_paths.csv: force and moment in every element and joint'//nl// &
       'per newton at a contact point, with shares of strain energy.', exit_status_text), &
       command_t('compare', 'compare A.csv B.csv …   or   elastokin compare REPORT_A REPORT_B …', 'compare A B', &
       'overlay results and list the differences', &
-      'Compares reports (folders written by report), or the results of one case: compare.html lists what was changed'//nl// &
-      'in the deck, the key numbers and gradients sorted by change, and shows each chart with the curves of all results.'//nl// &
+      'Compares reports (folders written by report), or the results of one case: compare.html lists the changes'//nl// &
+      'of the deck, the key numbers and gradients sorted by change, and shows each chart with the curves of all results.'//nl// &
       'The gradients are printed, and the ten largest changes go to standard error.'//nl// &
       'Tables for programs, with change and verdict (changed, same, only in A, only in B,'//nl// &
       'not a number): differences.csv, number-differences.csv, curve-differences.csv, deck-differences.csv.', '', 2), &
-      command_t('study', 'study STUDY.nml [options]', 'study STUDY', 'many designs of a deck, or step-size convergence', &
+      command_t('study', 'study STUDY.nml [options]', 'study STUDY', 'run many designs of a deck, or step-size convergence', &
       'Runs the designs of a study and writes CSV files into DIR; if gnuplot is installed, draws the'//nl// &
       'figures and the page (as plot does) and runs the study''s plot script. A study'//nl// &
       'that was stopped or killed resumes: DIR/<study>.parts stores the finished designs.', &
       'Exit status 4: complete, but a design failed (see the columns status and reason; the others are written; 0 with'//nl// &
-      '--accept-failed). 6: stopped before the end; the same command resumes the study.'), &
-      command_t('merge', 'merge STUDY.nml', 'merge STUDY', 'the tables of a study that ran in shards', &
+      '--accept-failed). 6: stopped before the end; run the same command again to resume.'), &
+      command_t('merge', 'merge STUDY.nml', 'merge STUDY', 'write the tables of a study that ran in shards', &
       'Writes the tables of a study whose shards (study --shard i/n) have all ended, from DIR/<study>.parts.', &
       'Exit status 4: complete, but a design failed (0 with --accept-failed). 6: designs are missing.'), &
-      command_t('plot', 'plot STUDY.nml [options]', 'plot STUDY', 'figures and page of a finished study', &
+      command_t('plot', 'plot STUDY.nml [options]', 'plot STUDY', 'draw figures and page of a finished study', &
       'Reads the tables of a finished study in DIR and solves nothing. Writes DIR/<study>.html (one self-contained'//nl// &
       'page with statistics, figures, best and worst designs) and DIR/figures: every figure as PNG, SVG and gnuplot script.'//nl// &
-      'Which figures there are follows from the kind of the study and from its columns and responses.', ''), &
-      command_t('import', 'import FILE … [options]', 'import FILE', 'files of Adams/Car or IPGKinematics as a deck', &
-      'Writes files of other programs as a deck: a .kin of IPGKinematics as a whole axle (its .gum bushings beside'//nl// &
-      'it), hardpoints (.sub, .asy, CSV) as points, property files (.bus, .spr, .bum, .reb, .gum) as curves;'//nl// &
-      'a .lcf becomes a table of loads. Every mistake in the files is reported with file and line.', '', 0), &
+      'The kind of the study, its columns and its responses determine the figures.', ''), &
+      command_t('import', 'import FILE … [options]', 'import FILE', 'convert Adams/Car or IPGKinematics files to a deck', &
+      'Converts files of other programs to a deck: a .kin of IPGKinematics to a whole axle (its .gum bushings in the same'//nl// &
+      'folder), hardpoints (.sub, .asy, CSV) to points, property files (.bus, .spr, .bum, .reb, .gum) to curves;'//nl// &
+      'a .lcf to a table of loads. Every error in the files is reported with file and line.', '', 0), &
       command_t('export', 'export DECK --to TARGET [options]', 'export DECK', &
-      'tables of kinematics and compliance for other simulators', &
-      'Writes what a simulator takes of the axle of a deck into DIR:'//nl// &
+      'write kinematics and compliance for other simulators', &
+      'Writes the axle of a deck in the format of a simulator into DIR:'//nl// &
       '  carmaker   <model>.skc: kinematics over travel and steer (or the other wheel''s travel), compliance'//nl// &
       '  carsim     <model>_carsim.par: tables over jounce, compliance coefficients'//nl// &
       '  matlab-kc  <model>_kandc.m and .json: parameters of "Independent Suspension - K and C"'//nl// &
       '  csv        <model>_kinematics.csv, _loads.csv, _compliance.csv, and all of it in _tables.json'//nl// &
       'docs/EXPORT.md describes each file: frame, signs, units. If a number cannot be computed, nothing is written.', ''), &
       command_t('derivatives', 'derivatives DECK [options]', 'derivatives DECK', &
-      'how every column changes with every number of a deck', &
+      'differentiate every column by every number of a deck', &
       'Solves one case and writes DIR/<model>_<case>_derivatives.csv: the derivative of every column with respect to every'//nl// &
-      'number of the deck, in the unit of the column per unit of the number, with an estimate of its error. They are exact'//nl// &
-      'but for rounding; nothing is solved again. The motion of the state is included, and so are settling and balance.'//nl// &
-      'A number of a mirrored half deck acts on both sides; one of a side alone has its name: point.left_x.z. With --of,'//nl// &
+      'number of the deck, in the unit of the column per unit of the number, with an estimate of its error. Derivatives are'//nl// &
+      'exact but for rounding. Nothing is solved again. They include the motion of the state, settling and balance.'//nl// &
+      'A number of a mirrored half deck acts on both sides, one with a sided name on one side: point.left_x.z. With --of,'//nl// &
       'the numbers with the largest effects are printed: of 1 mm, of 0.06 deg, of 1 % of a rate or force.', &
       exit_status_text), &
-      command_t('solve', 'solve DECK [options]', 'solve DECK', 'numbers of a deck for which quantities have given values', &
+      command_t('solve', 'solve DECK [options]', 'solve DECK', 'find numbers of a deck at which quantities have values', &
       'Changes the numbers of --vary within their bounds until the quantities of --for have their values. A quantity is'//nl// &
       'a column of a case, an entry of its compliance matrix, or a key number of the report. Derivatives are exact, so that'//nl// &
-      'Newton''s method needs a few sweeps. Says what was reached, what was not and why; prints the changed records and'//nl// &
-      'writes DIR/<model>_solve.set for --set-file. Where several solutions exist, the smallest change is taken.', &
+      'Newton''s method needs a few sweeps. Prints the values reached, the reasons for missed ones, and the changed'//nl// &
+      'records; writes DIR/<model>_solve.set for --set-file. Where several solutions exist, the smallest change is taken.', &
       exit_status_text), &
-      command_t('fit', 'fit FIT.nml [options]', 'fit FIT', 'factors of a deck at which measured or wanted curves are met', &
+      command_t('fit', 'fit FIT.nml [options]', 'fit FIT', 'fit factors of a deck to measured or wanted curves', &
       'Weighted least squares: the factors of a deck within their bounds at which curves, slopes, key numbers and limits of'//nl// &
       'several cases are met best; hardpoints for wanted curves, or bushing rates from measured ones. Prints and draws start,'// &
-      nl//'target and result, the 95 % confidence of each factor, active bounds, and what these tests leave open. Writes'//nl// &
+      nl//'target and result, the 95 % confidence of each factor, active bounds, and factors that stay undetermined. Writes'//nl// &
       'DIR/<fit>_factors.csv, <fit>_points.csv, <fit>.set for --set-file, and the figure <fit>.png and .svg.', &
       exit_status_text), &
       command_t('bench', 'bench DECK   or   elastokin bench --growth N', 'bench DECK', &
-      'time per increment, relative to LAPACK''s solve alone', &
+      'time increments, relative to LAPACK''s solve alone', &
       'Times one complete increment of each method relative to LAPACK''s dsysv alone (factor and solve)'//nl// &
       'on the same matrices in the same run, by LAPACK and by plan, with its parts; packs of four designs; a row of the'//nl// &
       'compliance matrix; a design of 20 increments from numbers to a column (as in a study) relative to its states;'//nl// &
@@ -119,10 +119,10 @@ module ek_command
       option_t('run', '--increments N', 'increments of the whole range; overrides the deck'), &
       option_t('run', '--set path=value', 'replace a value of the deck, with the same checks; may be repeated:'//indent// &
       '--set point.lower_ball_joint.z=-105 --set "bushing.top_mount.kt(1)=500"'), &
-      option_t('run', '--set-file FILE', 'settings from a file, one per line: path = value; mistakes with file and line'), &
+      option_t('run', '--set-file FILE', 'settings from a file, one per line: path = value; errors with file and line'), &
       option_t('run', '--responses a,b', 'only these key numbers of the report (names as in key_numbers.csv), no other files'), &
-      option_t('run', '--results FILE', 'where --responses are written, one `value name` line each (default: -)'), &
-      option_t('run', '--columns a,b,c', 'only these columns, beside state, factor, converged …; left_* stands for many'), &
+      option_t('run', '--results FILE', 'file for --responses, one `value name` line each (default: -)'), &
+      option_t('run', '--columns a,b,c', 'only these columns, and state, factor, converged …; * stands for any letters'), &
       option_t('run', '--json', 'also write DIR/<model>_run.json: tables, remarks and status; with --out - only this'), &
       option_t('run', '--compliance', 'also write DIR/<model>_<case>_compliance.csv: the compliance matrix at every state'), &
       option_t('run', '--loads', 'also write loads.csv (every member at every state) and peak-loads.csv for all cases'), &
@@ -143,7 +143,7 @@ module ek_command
       option_t('report', '--set path=value', 'as for run'), option_t('report', '--set-file FILE', 'as for run'), &
       option_t('report', '--loads', 'also write loads.csv (every member at every state of every test) and peak-loads.csv'), &
       option_t('report', '--no-plots', no_plots_help), &
-      option_t('report', '--scales DIR', 'charts with the axes of the report in DIR, to lay both side by side'), &
+      option_t('report', '--scales DIR', 'charts with the axes of the report in DIR, for comparison'), &
       option_t('report', '--static', 'a page without script: its charts are the pictures drawn by gnuplot'), &
       option_t('report', '--live N', 'sliders on the page for the N rates (1 to 24) that contribute most to the compliances:'// &
       indent//'numbers and curves that are linear in the compliance matrix follow them; not with --static'), &
@@ -153,9 +153,9 @@ module ek_command
       option_t('explain', '--of a,b,c', 'these columns: of forces and torques (lateral_in_load_held_steer_deg_per_kn), or'// &
       indent//'entries of the matrix (patch_z_by_fz_mm_per_kn); * stands for any letters; default: key ones'), &
       option_t('explain', '--at VALUE', 'only the state nearest to this swept value (default: all; design is printed)'), &
-      option_t('explain', '--rigid NAME', 'what the columns would be if this element were rigid (arm_front), or'//indent// &
+      option_t('explain', '--rigid NAME', 'columns with this element rigid (arm_front), or'//indent// &
       'one axis of it (arm_front.x); may be repeated'), &
-      option_t('explain', '--scan', 'where 1 kN/mm more would change the columns most'), &
+      option_t('explain', '--scan', 'locations at which 1 kN/mm more changes the columns most'), &
       option_t('explain', '--json', 'also write DIR/<model>_contributions.json'), &
       option_t('explain', '--increments N', 'as for run'), option_t('explain', '--solver S', 'as for run'), &
       option_t('explain', '--set path=value', 'as for run'), option_t('explain', '--set-file FILE', 'as for run'), &
@@ -174,17 +174,17 @@ module ek_command
       option_t('fit', '--no-plots', no_plots_help), option_t('fit', '--quiet', quiet_help), &
       option_t('compare', '--out DIR', 'output folder (default: out)'), &
       option_t('compare', '--window what=half', 'as for report, if gradients are computed from CSV files'), &
-      option_t('compare', '--threshold P%', 'a change beyond this counts, of A or of the least span of a chart (default: 1%)'), &
+      option_t('compare', '--threshold P%', 'least change, in percent of A or of the least span of a chart (default: 1%)'), &
       option_t('compare', '--no-plots', no_plots_help), &
       option_t('compare', '--static', 'as for report'), &
       option_t('compare', '--quiet', quiet_help), &
       option_t('study', '--out DIR', 'output folder (default: out, next to the study)'), &
       option_t('study', '--jobs N', 'threads (default: the processors, at most OMP_NUM_THREADS and SLURM_CPUS_PER_TASK;'//indent// &
       'under mpirun one per process)'), &
-      option_t('study', '--samples N', 'in place of those of the study, for a trial'), &
-      option_t('study', '--shard i/n', 'only part i of n of the designs, for the tasks of a job array; then elastokin merge'), &
+      option_t('study', '--samples N', 'number of designs instead of that of the study, for a trial'), &
+      option_t('study', '--shard i/n', 'only part i of n of the designs, for a job array; then run elastokin merge'), &
       option_t('study', '--time-limit TIME', 'stop in time: seconds or [hours:]minutes:seconds'), &
-      option_t('study', '--status', 'print how far the study is, and end'), &
+      option_t('study', '--status', 'print the progress of the study, and end'), &
       option_t('study', '--accept-failed', 'exit status 0 also if designs failed'), &
       option_t('study', '--set path=value', 'change the deck of the study'), &
       option_t('study', '--quiet', quiet_help), &
@@ -195,7 +195,7 @@ module ek_command
       option_t('plot', '--kind NAME', 'only this figure; may be repeated: tornado | sobol | morris | line | map | fan |'//indent// &
       'family | histogram | scatter | parallel | convergence'), &
       option_t('plot', '--out DIR', 'folder of the tables (default: out, next to the study)'), &
-      option_t('plot', '--samples N', 'as the study ran'), &
+      option_t('plot', '--samples N', 'as in the study run'), &
       option_t('plot', '--set path=value', 'the change of the deck with which the study ran'), &
       option_t('plot', '--quiet', quiet_help), &
       option_t('export', '--to TARGET', 'carmaker | carsim | matlab-kc | csv'), &
@@ -203,12 +203,12 @@ module ek_command
       option_t('export', '--travel from:to:n', 'wheel travel in mm with n points (default: test parallel_travel, 33 points)'), &
       option_t('export', '--steer from:to:n', 'rack travel in mm, positive to the left (default: test steering, 17 points)'), &
       option_t('export', '--map KIND', 'steer | opposite: second argument of the map (default: steer if the deck steers)'), &
-      option_t('export', '--driver NAME', 'driver joint that steers (default: that of &steering)'), &
-      option_t('export', '--length what=NAME', 'spring, damper, stop or bar of a wheel, where the deck leaves a choice; NAME'// &
+      option_t('export', '--driver NAME', 'driver joint that steers (default: driver of &steering)'), &
+      option_t('export', '--length what=NAME', 'spring, damper, stop or bar of a wheel, where the deck has several; NAME'// &
       indent//'without left_ and right_, or LEFT,RIGHT; may be repeated: --length spring=coil'), &
-      option_t('export', '--vertical WORD', 'what travel is the height of: centre | patch | road (default: patch)'), &
+      option_t('export', '--vertical WORD', 'point whose height defines wheel travel: centre | patch | road (default: patch)'), &
       option_t('export', '--held WORD', 'wheels in the compliance: road | centre | force (default: road with a tyre_rate)'), &
-      option_t('export', '--axle WORD', 'front | rear (default: that of &axle)'), &
+      option_t('export', '--axle WORD', 'front | rear (default: position of &axle)'), &
       option_t('export', '--other DECK', 'matlab-kc: the deck of the other axle'), &
       option_t('export', '--signs WORD', 'csv: iso | sae (default: iso)'), &
       option_t('export', '--loads F:M:n', 'csv: largest force in N and moment in N m, n points (default: 2000:100:21)'), &
@@ -217,17 +217,17 @@ module ek_command
       option_t('export', '--quiet', quiet_help), &
       option_t('import', '--out FILE', 'write this file (default: -, standard output)'), &
       option_t('import', '--quiet', quiet_help), &
-      option_t('derivatives', '--case NAME', 'of this case or standard test (default: the first of the deck)'), &
+      option_t('derivatives', '--case NAME', 'case or standard test (default: the first of the deck)'), &
       option_t('derivatives', '--of a,b,c', 'only these columns, also of the compliance matrix (as in run --compliance); '// &
-      'left_* stands for many'), &
+      '* stands for any letters'), &
       option_t('derivatives', '--with paths', 'only these numbers, as in --set: point.lca_front.z,bushing.*.kt; may be repeated'), &
       option_t('derivatives', '--at a,b,c', 'at the states nearest to these swept values, or all (default: 0, the design state)'), &
       option_t('derivatives', '--out DIR', 'output folder (default: out); - writes the CSV to standard output'), &
       option_t('derivatives', '--set path=value', 'as for run'), option_t('derivatives', '--set-file FILE', 'as for run'), &
       option_t('derivatives', '--quiet', quiet_help), &
       option_t('bench', '--case NAME', ''), option_t('bench', '--increments N', ''), option_t('bench', '--set path=value', ''), &
-      option_t('bench', '--growth N', 'instead of a deck: chains with matrices of 100 to 2000 rows, as far as N'), &
-      option_t('bench', '--derivatives', 'instead: what derivatives cost, in sweeps by LAPACK of the same states'), &
+      option_t('bench', '--growth N', 'instead of a deck: chains with matrices of 100 to 2000 rows, at most N'), &
+      option_t('bench', '--derivatives', 'instead: cost of derivatives, in sweeps by LAPACK of the same states'), &
       option_t('bench', '--json', 'print one JSON object'), option_t('bench', '--quiet', ''), &
       ! of every command
       option_t('', '--log FILE', 'append a record of this run (one line of JSON: arguments, messages, results, exit status)'), &
