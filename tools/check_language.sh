@@ -44,7 +44,6 @@ drafts?  =>  reading
 subjects?(?! to)  =>  (name the item)
 twins?  =>  side
 complaints?|complains?  =>  deck error, message
-(?<!\()(?:in|anti)[- ]phase  =>  parallel, opposed (in brackets: in phase, anti phase)
 roll inclination  =>  camber relative to road in roll
 copy the one that is nearest  =>  start from the closest one
 (?:and )?said to be so  =>  and marked as such
@@ -91,7 +90,6 @@ allowed() {
   cat <<'END'
 takes? (?:the|its) place of  =>  ordinary English: replaces
 of course  =>  ordinary English
-\(in phase, anti phase\)  =>  explains parallel, opposed once
 in other words  =>  ordinary English
 looks? like  =>  a remark names the likely cause
 anti[- ]lift|drive lift|brake lift  =>  names of quantities
