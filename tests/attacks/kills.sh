@@ -65,7 +65,9 @@ check_whole() {
     case $file in
       */.elastokin-*.tmp | */.elastokin-*.tmp/*) ;;
       *.csv | *.gp | *.json) [[ $end == *'\n' ]] || complain "$file has no end after $2" ;;
-      *.parts/study.txt) tail -n 1 "$file" | grep -q '^designs 20 in chunks of 2$' || complain "$file has no end after $2" ;;
+      *.parts/study.txt) [[ $end == *'\n' && $(tail -n 2 "$file") == 'designs 20 in chunks of 2'*'build elastokin '* ]] ||
+        complain "$file has no end after $2" ;;
+      *.nml) tail -n 1 "$file" | grep -q '^/$' || complain "$file has no end after $2" ;;
       *.parts/chunk_*.bin) ;;       # each has a checksum; that the last run has the same bytes shows that they are read well
       *.part) [ ! -s "$file" ] || [[ $end == *'\n' ]] || complain "$file ends within a row after $2" ;;
       *.html) tail -c 20 "$file" | grep -q '</html>' || complain "$file has no end after $2" ;;
