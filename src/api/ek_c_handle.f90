@@ -1,4 +1,4 @@
-!> What the C interface keeps for one ek_model: a session, the last message, and the texts that were returned last.
+!> Data of the C interface for one ek_model: a session, the last message, and the strings returned last.
 module ek_c_handle
    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_double, c_f_pointer, c_int, c_loc, c_null_char, c_ptr, c_size_t
    use ek_error, only: error_t, message_list_t, exit_usage
@@ -170,7 +170,7 @@ contains
       address = c_loc(handle%texts(handle%last)%text)
    end function say
 
-   !> Whether a position from 0 is inside a list; if not, the message says so.
+   !> Whether a position from 0 is inside a list; if not, the message reports this.
    logical function is_position(handle, k, count, code)
       type(handle_t), pointer, intent(in) :: handle
       integer(c_int), intent(in) :: k

@@ -53,7 +53,7 @@ contains
       call reset_numbers(numbers)
    end subroutine begin_numbers
 
-   !> Resets all numbers to those of the deck.
+   !> Resets all numbers to the numbers of the deck.
    pure subroutine reset_numbers(numbers)
       type(design_numbers_t), intent(inout) :: numbers
       integer :: k

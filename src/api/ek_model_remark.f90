@@ -1,4 +1,4 @@
-!> What a user should know of a model before its cases are solved. The commands print this list, and a program that calls elastokin
+!> Remarks on a model before its cases are solved. The commands print this list, and a program that calls elastokin
 !> reads it (ek_session_remarks).
 module ek_model_remark
    use ek_error, only: message_list_t

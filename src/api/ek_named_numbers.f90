@@ -194,7 +194,7 @@ contains
    end subroutine solve
 
    !> Explains which numbers the last read_numbers gave no value, and why: the states that were not found, with their cases; a
-   !> quantity that the model does not define. No error if it gave all. Not for several threads at a time.
+   !> quantity that the model does not define. No error if all quantities have a value. Only one thread at a time may call it.
    subroutine explain_missing(numbers, names, values, defects, error)
       type(named_numbers_t), intent(inout) :: numbers
       character(*), intent(in) :: names(:)

@@ -129,8 +129,8 @@ contains
       call begin_solver(session)
    end subroutine begin_opened
 
-   !> Takes another deck; the session stays as it was if the deck has mistakes. The last solution stays in either case: its solver is
-   !> kept until the next one.
+   !> Takes another deck; the session stays as it was if the deck has errors. The last solution stays in either case: its
+   !> solver is kept until the next one.
    subroutine begin(deck, session, error)
       type(deck_t), intent(in) :: deck
       type(session_t), intent(inout) :: session

@@ -23,8 +23,8 @@ module ek_append_file
 
 contains
 
-   !> Opens a file for appending; a new one is created, empty. A file that begins with anything else than `first` is refused: it
-   !> would be a deck or a table, named by mistake.
+   !> Opens a file for appending; a new one is created, empty. A file that begins with anything else than `first` is rejected: it
+   !> would be a deck or a table, named by error.
    subroutine open_append_file(path, first, file, error)
       character(*), intent(in) :: path
       character(1), intent(in) :: first                      !! with which every text begins

@@ -63,7 +63,7 @@ contains
       words = transfer(letters(:length), words)
    end function universal_time
 
-   !> Reads SOURCE_DATE_EPOCH if it is a whole number of seconds within the years 1970 to 9999.
+   !> Reads SOURCE_DATE_EPOCH if it is an integer of seconds within the years 1970 to 9999.
    subroutine read_set_date(epoch, is_set)
       integer(i8), intent(out) :: epoch
       logical, intent(out) :: is_set

@@ -3,7 +3,7 @@
 !> gfortran's formatted write takes about a microsecond per number; writing a table of 600 states and
 !> 70 columns would take longer than its solution.
 !>
-!> A double is m·2^b with a whole number m < 2^53, so with 10^q = 5^q·2^q
+!> A double is m·2^b with an integer m < 2^53, so with 10^q = 5^q·2^q
 !>
 !>     digits = x·10^q = m·5^q · 2^(b+q)
 !>
@@ -72,7 +72,7 @@ contains
       call put_digits(text, decade, buffer, used)
    end subroutine put_decimal
 
-   !> The same as a separate text.
+   !> The number as a text of its own length, unlike put_decimal.
    pure function decimal(x) result(text)
       real(wp), intent(in) :: x
       character(:), allocatable :: text

@@ -24,7 +24,7 @@ module ek_error
       character(:), allocatable :: text
    end type line_t
 
-   !> Messages collected in order, so that one run reports every mistake.
+   !> Messages collected in order, so that one run reports every error.
    type :: message_list_t
       private
       type(line_t), allocatable :: lines(:)

@@ -62,7 +62,7 @@ contains
 
    !> Reads the whole content of a file, byte for byte.
    !>
-   !> Only a path given by the user may be a pipe. A device is refused, as it may be endless; /dev/null is empty.
+   !> Only a path given by the user may be a pipe. A device is rejected, as it may be endless; /dev/null is empty.
    subroutine read_whole(path, text, error, may_stream)
       character(*), intent(in) :: path
       character(:), allocatable, intent(out) :: text         !! '' when the file is empty or unreadable
@@ -168,7 +168,7 @@ contains
       ignored = c_remove(path//c_null_char)
    end subroutine remove_file
 
-   !> Does a file or folder of this name exist?
+   !> Whether a file or folder of this name exists.
    logical function file_exists(path)
       character(*), intent(in) :: path
       file_exists = c_access(path//c_null_char, may_exist) == 0
@@ -204,7 +204,7 @@ contains
       if (is_program) is_program = c_access(path//c_null_char, may_execute) == 0
    end function is_program
 
-   !> Is standard output (1) or standard error (2) a terminal?
+   !> Whether standard output (1) or standard error (2) is a terminal.
    logical function is_terminal(descriptor)
       integer, intent(in) :: descriptor
       is_terminal = c_isatty(int(descriptor, c_int)) == 1

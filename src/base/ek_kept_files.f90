@@ -83,7 +83,7 @@ contains
       if (.not. allocated(error)) call add_file(files, path, text)
    end subroutine keep_file
 
-   !> Reads the content of a file: the kept one, otherwise that of the file now.
+   !> Reads the content of a file: the stored content, otherwise the present content of the file.
    subroutine read_kept(files, path, text, error)
       type(kept_files_t), intent(in) :: files
       character(*), intent(in) :: path

@@ -31,7 +31,7 @@ contains
       if (c_dladdr(address, facts) /= 0) path = text_at(facts(1))
    end function library_with
 
-   !> What a C function `const char *name(void)` of a loaded library returns; '' if there is none.
+   !> The text that a C function `const char *name(void)` of a loaded library returns; '' without this function.
    function text_from_library(name) result(text)
       character(*), intent(in) :: name
       character(:), allocatable :: text

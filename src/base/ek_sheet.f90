@@ -37,7 +37,7 @@ module ek_sheet
 
 contains
 
-   !> Reads a file; errors in its content are kept in the sheet.
+   !> Reads a file; errors in its content are stored in the sheet.
    subroutine read_sheet(path, sheet, error, files)
       character(*), intent(in) :: path
       type(sheet_t), intent(out) :: sheet

@@ -337,8 +337,8 @@ contains
       has_memory = status == 0
    end function has_memory
 
-   !> How many blocks of this many bytes can be allocated at the same time, at most `most`. Several blocks, as a kernel may refuse one
-   !> large block where the parts, which are never filled, are granted.
+   !> The number of blocks of this many bytes that can be allocated at the same time, at most `most`. Several blocks, as a
+   !> kernel may refuse one large block where the parts, which are never filled, are granted.
    integer function blocks_in_memory(most, bytes) result(blocks)
       integer, intent(in) :: most
       integer(i8), intent(in) :: bytes                        !! of each

@@ -1,4 +1,4 @@
-!> What `bench` measures of a deck, as lines and as a JSON object.
+!> The measurements of `bench` on a deck, as lines and as a JSON object.
 module ek_bench_figures
    use ek_kinds, only: wp
    use ek_text, only: str
@@ -13,7 +13,7 @@ module ek_bench_figures
 
    integer, parameter :: short_sweep = 20     !! increments of a design, like those of a study
 
-   !> What was measured; times are of the processor, so that a busy machine does not change them.
+   !> The measured values; times are of the processor, so that a busy machine does not change them.
    type :: figures_t
       character(:), allocatable :: model, case
       integer :: increments = 0, n = 0       !! of the case; size of the matrix
@@ -92,7 +92,7 @@ contains
       text = trim(adjustl(number))//' us'
    end function microseconds
 
-   !> How many times a time fits into a second.
+   !> The reciprocal of a time [1/s], rounded to the nearest integer.
    function per_second(time) result(text)
       real(wp), intent(in) :: time         !! s
       character(:), allocatable :: text

@@ -179,7 +179,8 @@ contains
       if (group > 0 .and. index(text, '&') /= 1 .and. index(text(min(last, len(text)):), " '") /= 1) group = 0
    end function group_of
 
-   !> The key with which the finding begins: 'rate has 1 element', "'rte' in &spring", 'tyre rate 3 N/mm'; '' if it is no key of the group.
+   !> The key with which the finding begins: 'rate has 1 element', "'rte' in &spring", 'tyre rate 3 N/mm'; '' if it is not a
+   !> key of the group.
    function key_of(text, group) result(name)
       character(*), intent(in) :: text
       integer, intent(in) :: group

@@ -1,4 +1,4 @@
-!> The commands and their options as tables, which define what a command line may say and what --help prints.
+!> The commands and their options as tables, which define the valid command lines and the texts of --help.
 !>
 !> A new command: its own file; here its row in `commands`, its rows in `options`, and its call in `obey`.
 module ek_command

@@ -79,7 +79,7 @@ contains
       end do
    end function all_values
 
-   !> The whole number of an option; 0 if it is not given.
+   !> The integer of an option; 0 if it is not given.
    pure integer function number_of(self, name) result(number)
       class(command_line_t), intent(in) :: self
       character(*), intent(in) :: name

@@ -51,7 +51,7 @@ contains
    end subroutine print_text
 
    !> Prints the path of a result on standard output. If standard output is full or closed the work continues, because the
-   !> result exists. The first such failure is kept; a reader that closes the pipe (`| head`) is no failure.
+   !> result exists. The first such failure is stored; a reader that closes the pipe (`| head`) is not a failure.
    subroutine print_path(path, unprinted)
       character(*), intent(in) :: path
       type(error_t), allocatable, intent(inout) :: unprinted      !! exit_file

@@ -16,7 +16,7 @@ module ek_deck_fragment
 
 contains
 
-   !> The part of a deck that makes a design of a study. '' if a factor is no number of the design space.
+   !> The part of a deck that makes a design of a study. '' if a factor is not a number of the design space.
    function deck_fragment(designer, values) result(text)
       type(designer_t), intent(in) :: designer     !! with the numbers of the deck
       real(wp), intent(in) :: values(:)            !! of the factors

@@ -151,7 +151,7 @@ contains
       end do
    end subroutine choose_quantities
 
-   !> Solves the case. What did not converge is reported, and the states that did are used.
+   !> Solves the case. States that did not converge are reported, and the converged states are used.
    subroutine solve(settings, k, solver, unreached, error)
       type(deck_settings_t), intent(in) :: settings
       integer, intent(in) :: k

@@ -1,4 +1,4 @@
-!> What elastokin explain prints: the largest contributions to a column with bars, and what it would be with rigid elements or an
+!> The output of elastokin explain: the largest contributions to a column with bars, and its value with rigid elements or an
 !> added spring.
 module ek_explain_text
    use ek_kinds, only: wp

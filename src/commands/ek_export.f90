@@ -178,7 +178,7 @@ contains
          size(axle%map%travel), panels)
    end subroutine write_mathworks
 
-   !> Solves the deck of the other axle. Its steer range is that of the deck, and --set, --axle do not concern it.
+   !> Solves the deck of the other axle. Its steer range comes from its deck, and --set and --axle do not apply to it.
    subroutine add_other(settings, place, p, error)
       type(export_settings_t), intent(in) :: settings
       integer, intent(in) :: place                       !! 1 front, 2 rear

@@ -1,4 +1,4 @@
-!> What elastokin export is asked for: target, ranges and choices of the command line, completed from the deck.
+!> The settings of elastokin export: target, ranges and choices of the command line, completed from the deck.
 module ek_export_settings
    use ek_kinds, only: wp, millimetre
    use ek_error, only: error_t, message_list_t, fail, exit_usage, exit_deck
@@ -123,7 +123,7 @@ contains
       end do
    end function list
 
-   !> Makes the request for a model: ranges as in the command line, else those of its tests of travel and steering.
+   !> Makes the request for a model: ranges of the command line, else the ranges of its tests of travel and steering.
    subroutine make_request(settings, suspension, cases, request, error)
       type(export_settings_t), intent(in) :: settings
       type(suspension_t), intent(in) :: suspension

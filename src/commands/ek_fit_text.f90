@@ -163,7 +163,7 @@ contains
       if (pairs > most_pairs) call text%line(str(pairs - most_pairs)//' more correlations above '//str(strong))
    end subroutine add_doubts
 
-   !> What the result of a factor rests on that the tests do not determine.
+   !> The 95 % half width that the tests leave for a factor, and whether its prior determines the result.
    function remains(problem, statistics, f) result(words)
       type(fit_problem_t), intent(in) :: problem
       type(fit_statistics_t), intent(in) :: statistics

@@ -110,7 +110,7 @@ contains
       this%peak(solver) = peak_memory()
    end subroutine time_chain
 
-   !> The largest memory of this process so far [MB]; 0 where the system does not say.
+   !> The largest memory of this process so far [MB]; 0 if the system does not report it.
    real(wp) function peak_memory() result(peak)
       character(80) :: line
       integer(i8) :: kilobytes

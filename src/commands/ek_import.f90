@@ -12,7 +12,7 @@ module ek_import
 
 contains
 
-   !> Writes the deck to standard output, or to the file of --out. Mistakes in all files are reported together.
+   !> Writes the deck to standard output, or to the file of --out. Errors in all files are reported together.
    subroutine import(line, error)
       type(command_line_t), intent(in) :: line
       type(error_t), allocatable, intent(out) :: error

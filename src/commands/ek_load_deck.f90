@@ -20,7 +20,8 @@ module ek_load_deck
    public :: deck_settings_t, read_deck_settings, load_deck, load_session, read_changed, add_asked_test, chosen_cases, &
       examine_chosen
 
-   !> What a command on a deck may say; a command extends it by its own settings. An option that it does not take is not given.
+   !> Options of a command on a deck; a command extends the type by its own settings. An option that it does not accept is not
+   !> given.
    type :: deck_settings_t
       character(:), allocatable :: file          !! '-' is standard input
       character(:), allocatable :: case          !! '' for all
@@ -109,7 +110,7 @@ contains
       if (size(files) > 0 .and. error%code == exit_deck .and. deck%deck_errors%count() == 0) call move_alloc(error, unset)
    end subroutine read_set_deck
 
-   !> Adds the errors of settings to those of the deck, each with the line of its file of settings.
+   !> Adds the errors of settings to the errors of the deck, each with the line of its file of settings.
    subroutine add_unset(files, unset, error)
       type(set_file_t), intent(in) :: files(:)
       type(error_t), allocatable, intent(inout) :: unset, error
@@ -124,7 +125,7 @@ contains
       end do
    end subroutine add_unset
 
-   !> Reads a deck and applies files of settings, then --set path=value, in the order given. All mistakes of a file are reported.
+   !> Reads a deck and applies files of settings, then --set path=value, in the order given. All errors of a file are reported.
    subroutine read_changed(file, changes, deck, error, set_files)
       character(*), intent(in) :: file
       type(message_list_t), intent(in) :: changes

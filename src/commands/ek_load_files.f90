@@ -29,7 +29,7 @@ contains
       if (.not. allocated(error)) call print_path(join_path(folder, peaks_file), unprinted)
    end subroutine write_loads
 
-   !> Removes the files of an earlier run, so that they cannot be mistaken for those of this one.
+   !> Removes the files of an earlier run, so that they cannot be mistaken for files of this run.
    subroutine remove_loads(folder)
       character(*), intent(in) :: folder
 

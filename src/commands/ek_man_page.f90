@@ -96,7 +96,7 @@ contains
       if (index(usage, '[options]') == 0) call page%line('[options]')
    end subroutine add_usage
 
-   !> Adds the options of a command, those of every command last.
+   !> Adds the options of a command; the options of every command are last.
    subroutine add_options(page, command, options)
       type(buffer_t), intent(inout) :: page
       character(*), intent(in) :: command

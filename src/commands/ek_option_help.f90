@@ -1,5 +1,5 @@
-!> What the table of options says of one option, for man pages and completion: its name, its value, and its description, which may
-!> stand in the row of another command.
+!> The entry of one option in the table of options, for man pages and completion: its name, its value, and its description,
+!> which may stand in the row of another command.
 module ek_option_help
    use ek_command_line, only: option_t, option_name
    implicit none(type, external)

@@ -21,7 +21,7 @@ module ek_plot
 
 contains
 
-   !> Reads the tables of DIR, draws the figures that apply (or those of --kind) and writes the page.
+   !> Reads the tables of DIR, draws the figures that apply (or the figures of --kind) and writes the page.
    subroutine run_plot_command(line, error)
       type(command_line_t), intent(in) :: line
       type(error_t), allocatable, intent(out) :: error
@@ -52,7 +52,7 @@ contains
          ' has results; give the study that they are of, and their folder with --out: elastokin plot STUDY.nml --out DIR')
    end subroutine check_file
 
-   !> Checks that every name after --kind is that of a figure.
+   !> Checks that every name after --kind is the name of a figure.
    subroutine check_kinds(kinds, error)
       type(message_list_t), intent(in) :: kinds
       type(error_t), allocatable, intent(out) :: error

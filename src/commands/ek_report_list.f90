@@ -93,7 +93,7 @@ contains
       end do
    end subroutine remove_earlier
 
-   !> Whether a name of the list is that of a file in the folder or in its figures.
+   !> Whether a name of the list is the name of a file in the folder or in its figures.
    pure logical function is_inside(name)
       character(*), intent(in) :: name
       character(*), parameter :: figures = 'figures/'

@@ -16,7 +16,7 @@ module ek_run_columns
 contains
 
    !> Chooses the columns that names, or patterns with *, mean in the results of the cases; also those of targets. All
-   !> quantities may be named, whatever the cases say about them.
+   !> quantities may be named, regardless of the settings of the cases.
    subroutine choose_columns(list, suspension, cases, columns, error, option, others)
       character(*), intent(in) :: list                  !! names with commas between them
       type(suspension_t), intent(in) :: suspension      !! on no rig

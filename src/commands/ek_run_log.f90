@@ -21,7 +21,7 @@ module ek_run_log
 
    character(*), parameter :: log_option = '--log'
 
-   !> What is known of the run.
+   !> The record of the run.
    type :: log_t
       character(20) :: time
       real(wp) :: start = 0.0_wp                     !! of a clock [s]

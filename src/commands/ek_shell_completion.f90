@@ -188,7 +188,7 @@ contains
       text = script%text()
    end function fish_completion
 
-   !> What may follow option number k.
+   !> The values that may follow option number k.
    pure integer function value_kind(options, k) result(kind)
       type(option_t), intent(in) :: options(:)
       integer, intent(in) :: k

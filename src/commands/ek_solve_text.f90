@@ -148,7 +148,7 @@ contains
       end do
    end function has_no_effect
 
-   !> The cosine between the effects on two conditions; 0 where there are none.
+   !> The cosine between the effects on two conditions; 0 if there are no effects.
    pure real(wp) function cosine(found, i, k)
       type(findings_t), intent(in) :: found
       integer, intent(in) :: i, k

@@ -1,4 +1,4 @@
-!> The curves of a finished study for its figures: those of 5,000 designs at most, at common swept values, and their bands.
+!> The curves of a finished study for its figures: curves of 5,000 designs at most, at common swept values, and their bands.
 module ek_study_curves
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp

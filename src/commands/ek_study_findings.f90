@@ -1,4 +1,4 @@
-!> What is computed from the responses of a finished study: statistics, what the factors do, best and worst designs.
+!> Values computed from the responses of a finished study: statistics, effects of the factors, best and worst designs.
 module ek_study_findings
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp, i8

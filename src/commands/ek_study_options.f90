@@ -1,4 +1,4 @@
-!> The options that say how a study is run.
+!> The options that control the run of a study.
 module ek_study_options
    use ek_kinds, only: wp
    use ek_error, only: error_t, fail, exit_usage

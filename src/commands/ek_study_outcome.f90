@@ -1,4 +1,4 @@
-!> What a study leaves behind: its tables or its store, the message about designs that failed, and its figures.
+!> The output of a study: its tables or its store, the message about designs that failed, and its figures.
 module ek_study_outcome
    use ek_error, only: error_t, fail, exit_convergence, message_list_t
    use ek_text, only: str, plural

@@ -1,4 +1,4 @@
-!> How far a study is: a line on the terminal that overwrites itself, a line a minute in a log, and --status.
+!> Progress of a study: a line on the terminal that overwrites itself, a line a minute in a log, and --status.
 module ek_study_progress
    use ek_kinds, only: wp
    use ek_error, only: error_t

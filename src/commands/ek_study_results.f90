@@ -85,7 +85,7 @@ contains
       if (study%kind == tolerance_kind) call read_moments(out, data)
    end subroutine read_results_of
 
-   !> Finds the folder of the tables: that of the results, or a scratch folder with the tables of the store.
+   !> Finds the folder of the tables: the folder of the results, or a scratch folder with the tables of the store.
    subroutine find_tables(study, out, designs, scratch, folder, error)
       type(study_t), intent(in) :: study
       character(*), intent(in) :: out
@@ -245,7 +245,7 @@ contains
       if (unit /= '') axis%label = axis%label//' ['//unit_text(unit)//']'
    end subroutine name_response
 
-   !> Counts a failure with those of the same message.
+   !> Counts a failure together with failures of the same message.
    subroutine count_reason(field, design, reasons)
       character(*), intent(in) :: field              !! of the table, in quotes
       integer, intent(in) :: design

@@ -1,4 +1,4 @@
-!> What a tolerance study has beside its designs: the moments of its responses by derivatives, as tables and as text.
+!> Results of a tolerance study in addition to its designs: the moments of its responses by derivatives, as tables and as text.
 module ek_tolerance_outcome
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp

@@ -1,4 +1,4 @@
-!> What `elastokin --version` prints: the version, how the program was compiled, and with what it runs on this machine.
+!> The output of `elastokin --version`: the version, the compiler and its options, and the libraries in use on this machine.
 module ek_version_text
    use ek_version, only: version
    use ek_text, only: str, plural
@@ -13,8 +13,8 @@ module ek_version_text
    private
    public :: build_t, program_name, version_text, build_text
 
-   !> What CMake knows of a build (src/ek_build_facts.f90.in). It is handed over by the main program, so that a new commit compiles
-   !> nothing else again.
+   !> The facts of a build from CMake (src/ek_build_facts.f90.in). It is handed over by the main program, so that a new commit
+   !> compiles nothing else again.
    type :: build_t
       character(60) :: commit       !! '' if it is unknown
       character(100) :: compiler
@@ -33,7 +33,7 @@ contains
       if (build%commit /= '') text = text//' (commit '//trim(build%commit)//')'
    end function program_name
 
-   !> What makes the numbers of two builds differ: version, commit, compiler and its options, in one line.
+   !> The facts of a build on which its numbers depend: version, commit, compiler and its options, in one line.
    pure function build_text(build) result(text)
       type(build_t), intent(in) :: build
       character(:), allocatable :: text

@@ -1,5 +1,5 @@
-!> What the readers of files that a deck names have in common: the units of the deck, paths, mistakes, and records made from a file.
-!> A record made so has the file and the line from which it is. Mistakes in a file are reported once, however often it is named.
+!> Common parts of the readers of files that a deck names: the units of the deck, paths, errors, and records made from a file.
+!> A record made so has the file and the line from which it is. Errors in a file are reported once, however often it is named.
 module ek_attachment
    use ek_kinds, only: wp, units_t, millimetre, degree
    use ek_error, only: message_list_t
@@ -43,7 +43,7 @@ contains
       if (index(record%file, '/') > 0) path = join_path(folder_name(record%file), trim(name))
    end function path_of
 
-   !> Adds the mistakes in a file to those of the deck, the first time it is read.
+   !> Adds the errors in a file to the errors of the deck, the first time it is read.
    subroutine report(flaws, source, seen, deck_errors)
       type(flaws_t), intent(in) :: flaws
       integer, intent(in) :: source

@@ -1,7 +1,7 @@
 !> A position in a text, with procedures that read from it: blanks, identifiers, subscripts, the rest of a line, and the typing
-!> mistakes between two keys that can be recognised: a missing = sign and a unit after a number.
+!> errors between two keys that can be recognised: a missing = sign and a unit after a number.
 !>
-!> Each `take_…` moves the cursor behind the text it returns. Nothing here can fail; the scanner reports mistakes.
+!> Each `take_…` moves the cursor behind the text it returns. Nothing here can fail; the scanner reports errors.
 module ek_cursor
    use ek_text, only: lower
    use ek_record, only: entry_t
@@ -172,7 +172,7 @@ contains
       end select
    end function is_word_begin
 
-   !> Takes the unit after the last value of an entry, as in `30.0 N/mm` and `30.0N/mm`; '' if there is none.
+   !> Reads the unit after the last value of an entry, as in `30.0 N/mm` and `30.0N/mm`; '' if there is none.
    pure subroutine drop_unit(text, cursor, entry, unit)
       character(*), intent(in) :: text
       type(cursor_t), intent(inout) :: cursor          !! in: after the value; out: after the unit

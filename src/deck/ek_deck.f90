@@ -1,7 +1,7 @@
 !> A deck in memory: read from a file or a text, changed by settings, identified by a checksum.
 !>
-!> A syntax mistake (a group without its end, a key given twice) does not stop the reading: it is
-!> stored here, and `build_model` reports it together with all other mistakes.
+!> A syntax error (a group without its end, a key given twice) does not stop the reading: it is
+!> stored here, and `build_model` reports it together with all other errors.
 !> Therefore `error` is set only if the file cannot be read (exit_file) or is empty (exit_deck).
 !>
 !> Order of processing: text, included files, &hardpoints, settings of records in the deck, property files, &mirror, settings of
@@ -53,7 +53,7 @@ module ek_deck
       character(:), allocatable :: path
    end type file_t
 
-   !> What has been read so far.
+   !> The part of the deck that has been read.
    type :: files_t
       type(file_t) :: open(0:max_nested)     !! from the deck inwards
       integer :: sources = 0, letters = 0     !! files, and their characters
@@ -81,7 +81,7 @@ contains
       if (.not. allocated(error)) call parse_deck(text, name, deck, error, is_study)
    end subroutine read_deck
 
-   !> Parses a deck from a text; `name` is the file name used in messages, and its folder is that of included files.
+   !> Parses a deck from a text; `name` is the file name used in messages, and included files are relative to its folder.
    subroutine parse_deck(text, name, deck, error, is_study, kept)
       character(*), intent(in) :: text, name
       type(deck_t), intent(out) :: deck

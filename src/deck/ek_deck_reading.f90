@@ -2,7 +2,7 @@
 !> and the messages about them. ek_reference looks up the names to which they refer.
 !>
 !> `k` is the record that is being read. Messages have the form `file:line: group 'name': what`. A value that was rejected
-!> counts as not given, with a legal default: one mistake, one message.
+!> counts as not given, with a legal default: one error, one message.
 module ek_deck_reading
    use ek_kinds, only: wp, units_t
    use ek_text, only: str, lower, quoted
@@ -42,7 +42,7 @@ module ek_deck_reading
 
 contains
 
-   !> Reports a mistake in record `at`, by default the one being read, at the line of `key` ('': the line of the record).
+   !> Reports an error in record `at`, by default the one being read, at the line of `key` ('': the line of the record).
    subroutine complain(reading, key, what, at)
       type(deck_reading_t), intent(inout) :: reading
       character(*), intent(in) :: key, what
@@ -67,14 +67,14 @@ contains
       end do
    end subroutine refuse
 
-   !> Reports a mistake of the deck as a whole.
+   !> Reports an error of the deck as a whole.
    subroutine complain_of_all(reading, what)
       type(deck_reading_t), intent(inout) :: reading
       character(*), intent(in) :: what
       call reading%deck_errors%add(place_in(reading%file, 0, 0), what)
    end subroutine complain_of_all
 
-   !> Whether a group that may occur once has occurred before; reports it as a mistake.
+   !> Whether a group that may occur once has occurred before; reports it as an error.
    logical function is_second(reading)
       type(deck_reading_t), intent(inout) :: reading
       integer :: first
@@ -184,7 +184,7 @@ contains
       values = [(number_of(reading, key, 0.0_wp, k), k=1, most)]
    end function numbers_of
 
-   !> A whole number.
+   !> A integer.
    integer function whole_of(reading, key, default, at) result(value)
       type(deck_reading_t), intent(in) :: reading
       character(*), intent(in) :: key
@@ -255,7 +255,7 @@ contains
          imperial_hint(word))
    end subroutine choose
 
-   !> A hint if a word is an imperial unit.
+   !> A hint if a string is an imperial unit, else ''.
    pure function imperial_hint(word) result(hint)
       character(*), intent(in) :: word
       character(:), allocatable :: hint

@@ -14,7 +14,7 @@ module ek_deck_values
 contains
 
    !> Lists the values that the model was built from, in the order of the deck: settings made, property files read, both sides of a
-   !> mirrored deck. A path is that of --set.
+   !> mirrored deck. Paths are written as for --set.
    subroutine list_values(deck, paths, texts)
       type(deck_t), intent(in) :: deck
       type(message_list_t), intent(out) :: paths, texts       !! of the same length

@@ -29,7 +29,7 @@ module ek_deck_writer
 
 contains
 
-   !> Writes a deck, and beside it the load tables that it names: DECK_TABLE.csv.
+   !> Writes a deck, and in the same folder the load tables that it names: DECK_TABLE.csv.
    subroutine write_deck_as_used(deck, path, error)
       type(deck_t), intent(in) :: deck                     !! without mistakes
       character(*), intent(in) :: path
@@ -72,7 +72,7 @@ contains
       end do
    end subroutine refuse_own_files
 
-   !> Writes the text of a deck as it was used. Load tables stay where they are, with their whole paths.
+   !> Writes the text of a deck as it was used. Load tables are not copied; the text has their absolute paths.
    subroutine deck_as_used(deck, text, error)
       type(deck_t), intent(in) :: deck
       character(:), allocatable, intent(out) :: text
@@ -180,7 +180,7 @@ contains
       words = words//"'"
    end function in_quotes
 
-   !> What the written deck calls the table of a case, which is added to the list. Tables of one name in two folders get numbers.
+   !> The name of the table of a case in the written deck; it is added to the list. Tables of one name in two folders get numbers.
    !> One that could not be read keeps its path.
    function table_name(record, kept, prefix, tables) result(name)
       type(record_t), intent(in) :: record

@@ -115,7 +115,7 @@ contains
       end do
    end subroutine check_images
 
-   !> Adds a &point for each hardpoint; without a side those of both, with left_ and right_ before their names.
+   !> Adds a &point for each hardpoint; without a side the hardpoints of both sides, with left_ and right_ before their names.
    subroutine add_points(sheet, side, sign, length, path, source, records, used)
       type(hardpoints_t), intent(in) :: sheet
       character(*), intent(in) :: side, path        !! side: '' or 'both', 'left', 'right'

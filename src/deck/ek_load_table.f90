@@ -32,7 +32,7 @@ module ek_load_table
 
 contains
 
-   !> Reads the tables that cases name. The mistakes in a table, as 'table.csv:7: mistake', stay in its case: only a command that
+   !> Reads the tables that cases name. Errors in a table, as 'table.csv:7: error', are stored in its case: only a command that
    !> uses the case reports them.
    subroutine read_tables(files, cases, suspension, is_whole)
       type(kept_files_t), intent(in) :: files          !! which are not read again

@@ -64,7 +64,7 @@ contains
       end do
    end subroutine mirror_records
 
-   !> Determines which records are duplicated, and reports mistakes of the half deck.
+   !> Determines which records are duplicated, and reports errors of the half deck.
    subroutine survey(records, half, deck_errors)
       type(record_t), intent(in) :: records(:)
       type(half_t), intent(out) :: half
@@ -278,7 +278,7 @@ contains
       end do
    end subroutine keep_single
 
-   !> Replaces every duplicated load by those of both sides.
+   !> Replaces every mirrored load by the loads of both sides.
    subroutine expand(half, role, entry)
       type(half_t), intent(in) :: half
       integer, intent(in) :: role
@@ -365,7 +365,7 @@ contains
       end if
    end subroutine exchange_ends
 
-   !> Reports a mistake at a key of a record, or at the record if the key is ''.
+   !> Reports an error at a key of a record, or at the record if the key is ''.
    subroutine complain(deck_errors, record, key, what)
       type(deck_errors_t), intent(inout) :: deck_errors
       type(record_t), intent(in) :: record

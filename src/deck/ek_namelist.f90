@@ -224,7 +224,7 @@ contains
       if (any([(index(text, trim(quotes(k))) == 1, k=1, size(quotes))])) words = " (write straight quotes: ' or "")"
    end function quote_hint
 
-   !> A hint about common mistakes in numbers.
+   !> A hint about common errors in numbers.
    pure function number_hint(text) result(words)
       character(*), intent(in) :: text
       character(:), allocatable :: words

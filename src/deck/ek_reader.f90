@@ -1,6 +1,6 @@
 !> From a deck to a design: the blueprint, its parameters, and the load cases.
 !>
-!> Here numbers are converted from the deck's units: x is in SI, in the axes of the deck. All mistakes of the deck are
+!> Here numbers are converted from the deck's units: x is in SI, in the axes of the deck. All errors of the deck are
 !> collected; the blueprint is complete only if there are none.
 module ek_reader
    use ek_kinds, only: wp, i8, units_t, millimetre, degree
@@ -168,7 +168,7 @@ contains
       if (reading%deck_errors%count() > 0) call fail(error, exit_deck, reading%deck_errors%text())
    end subroutine read_records
 
-   !> Reads the targets of key numbers. Their errors come after those of the records.
+   !> Reads the targets of key numbers. Their errors come after the errors of the records.
    subroutine read_targets(reading, targets, error)
       type(deck_reading_t), intent(inout) :: reading
       type(target_band_t), allocatable, intent(out) :: targets(:)

@@ -59,7 +59,7 @@ contains
       reading%cards(reading%k)%index = size(reading%plan%bodies)
    end subroutine read_body
 
-   !> Reads &mass: a further mass of a body, in addition to that of &body.
+   !> Reads &mass: a further mass of a body, in addition to the mass of &body.
    subroutine read_mass(reading)
       type(deck_reading_t), intent(inout) :: reading
       type(mass_plan_t) :: plan

@@ -249,7 +249,7 @@ contains
 
    end subroutine read_drive
 
-   !> Reads a test; checks that it has all keys it needs and no others. Every mistake is reported.
+   !> Reads a test; checks that it has all keys it needs and no others. Every error is reported.
    subroutine read_test(reading, from, to, this, unit, steer_unit)
       type(deck_reading_t), intent(inout) :: reading
       real(wp), intent(in) :: from, to       !! in the unit of the deck

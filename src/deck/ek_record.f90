@@ -1,5 +1,5 @@
 !> The parsed content of a deck before interpretation: records (namelist groups) of entries (`key = values`), with the file
-!> and line of each; and the mistakes found in them, with their locations: they are collected and reported together.
+!> and line of each; and the errors found in them, with their locations: they are collected and reported together.
 module ek_record
    use ek_kinds, only: wp
    use ek_text, only: str, lower
@@ -28,9 +28,9 @@ module ek_record
       character(:), allocatable :: text
    end type deck_error_t
 
-   !> Mistakes found so far; reported in the order of files and lines.
+   !> Errors found so far; reported in the order of files and lines.
    !>
-   !> A mistake in an element duplicated by &mirror is reported once, under the name used in the deck: a message about the right
+   !> An error in an element duplicated by &mirror is reported once, under the name used in the deck: a message about the right
    !> side is dropped if there is one about the left side at the same location, and the prefixes are removed from the latter.
    type :: deck_errors_t
       private
@@ -260,7 +260,7 @@ contains
       has_side = index(lower(name), 'left_') == 1 .or. index(lower(name), 'right_') == 1
    end function has_side
 
-   !> Records a mistake. Invisible characters in the message are shown as <U+00A0>.
+   !> Records an error. Invisible characters in the message are shown as <U+00A0>.
    pure subroutine complaints_add(self, place, what)
       class(deck_errors_t), intent(inout) :: self
       type(place_t), intent(in) :: place
@@ -287,20 +287,20 @@ contains
       self%list(self%used)%text = place%words//': '//text
    end subroutine complaints_add
 
-   !> Records that a file is not read to its end, so that the number of mistakes is unknown.
+   !> Records that a file is not read to its end, so that the number of errors is unknown.
    pure subroutine complaints_cut(self)
       class(deck_errors_t), intent(inout) :: self
       self%is_cut = .true.
    end subroutine complaints_cut
 
-   !> The number of recorded mistakes.
+   !> The number of recorded errors.
    pure integer function complaints_count(self)
       class(deck_errors_t), intent(in) :: self
       complaints_count = self%used
    end function complaints_count
 
    !> The messages, one per line, sorted by file and line number; messages about one line keep their order. The list is cut
-   !> at a limit: a file with so many mistakes is probably not a deck.
+   !> at a limit: a file with so many errors is probably not a deck.
    pure function complaints_text(self) result(text)
       class(deck_errors_t), intent(in) :: self
       character(:), allocatable :: text

@@ -293,7 +293,7 @@ contains
       is_driver = reading%cards(k)%group == joint_group .and. lower(element(reading%records(k), 'type', 1)) == 'driver'
    end function is_driver
 
-   !> Finds the driver joint named by a case; reports a mistake if there is none.
+   !> Finds the driver joint named by a case; reports an error if there is none.
    subroutine find_driver(reading, name, others, unit)
       type(deck_reading_t), intent(inout) :: reading
       character(*), intent(in) :: name, others(:)     !! others: other names that may be driven, for suggestions
@@ -311,7 +311,7 @@ contains
          line_of(reading, found)//' is not a driver')
    end subroutine find_driver
 
-   !> Finds the wheel named by a case, if it names one; reports a mistake if there is none, or if the case takes no wheel.
+   !> Finds the wheel named by a case, if it names one; reports an error if there is none, or if the case takes no wheel.
    subroutine find_wheel(reading, may_have_one, which, wheel)
       type(deck_reading_t), intent(inout) :: reading
       logical, intent(in) :: may_have_one

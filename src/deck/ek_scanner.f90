@@ -2,7 +2,7 @@
 !>
 !> The compiler's namelist read silently accepts misspelt groups, text between groups, keys given twice
 !> and records without an end. Therefore this scanner handles groups, keys, subscripts, repeat
-!> counts and line numbers; it continues after every mistake and reports all of them.
+!> counts and line numbers; it continues after every error and reports all of them.
 !>
 !>     &group key = value, value  key(2) = 3*0.0 /     ! a comment
 !>
@@ -179,7 +179,7 @@ contains
       if (is_open) call close_entry(entry, record, deck_errors)
    end subroutine scan_record
 
-   !> Takes a key, its subscript and the = sign.
+   !> Reads a key, its subscript and the = sign.
    subroutine open_entry(text, cursor, record, entry, deck_errors)
       character(*), intent(in) :: text
       type(cursor_t), intent(inout) :: cursor
@@ -313,7 +313,7 @@ contains
 
    end subroutine scan_value
 
-   !> Reports a mistake in a group: '&spring: what'.
+   !> Reports an error in a group: '&spring: what'.
    subroutine complain_of(deck_errors, record, line, what)
       type(deck_errors_t), intent(inout) :: deck_errors
       type(record_t), intent(in) :: record
@@ -322,7 +322,7 @@ contains
       call complain(deck_errors, record, line, '&'//record%group//': '//what)
    end subroutine complain_of
 
-   !> Reports a mistake in a line of the file of a record.
+   !> Reports an error in a line of the file of a record.
    subroutine complain(deck_errors, record, line, what)
       type(deck_errors_t), intent(inout) :: deck_errors
       type(record_t), intent(in) :: record

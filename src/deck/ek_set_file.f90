@@ -5,7 +5,7 @@
 !> | path = value       | as for --set, also *1.1 and +2                                                      |
 !> | path value         | the same                                                                            |
 !> | 105.5 path         | a number before its path                                                            |
-!> | { path = value }   | APREPRO; the names that Dakota adds itself are left out                             |
+!> | { path = value }   | APREPRO; the names that Dakota adds itself are omitted                             |
 !> | 2 variables        | Dakota's parameters file: two lines `number path` follow, the rest belongs to Dakota |
 !> | # comment          | also behind a setting; empty lines                                                  |
 module ek_set_file
@@ -150,7 +150,7 @@ contains
       file%lines(file%used)%where = where
    end subroutine take_line
 
-   !> Applies the settings of a file to a deck, all of them: each mistake is reported with its line.
+   !> Applies the settings of a file to a deck, all of them: each error is reported with its line.
    subroutine apply_set_file(file, deck, error)
       type(set_file_t), intent(in) :: file
       type(deck_t), intent(inout) :: deck

@@ -44,7 +44,7 @@ contains
       value = trim(adjustl(setting(mark + 1:)))
    end subroutine split_setting
 
-   !> Changes the records given by the path; `message` describes a mistake, '' if there is none.
+   !> Changes the records given by the path; `message` describes an error, '' if there is none.
    subroutine apply_setting(records, used, path_text, text, message, is_found)
       type(record_t), intent(inout) :: records(:)
       integer, intent(in) :: used

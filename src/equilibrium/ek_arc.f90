@@ -1,7 +1,7 @@
 !> Follows a path by its arc length across limit points, where the load or the driven value reaches an extremum and the
 !> path turns back.
 !>
-!> The swept value s is an additional unknown beside the bodies z and the reactions λ. Along a step of length Δl
+!> The swept value s is an unknown in addition to the bodies z and the reactions λ. Along a step of length Δl
 !>
 !>     F(z, λ, s) = 0,    t·(Δz, Δs) = Δl        t the unit tangent at the start of the step (pseudo arc length)
 !>

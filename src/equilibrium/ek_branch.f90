@@ -47,7 +47,7 @@ module ek_branch
    real(wp), parameter :: exact = 5.0e-4_wp        !! of the motion: a jump across a gap is more, unless the step is 40 times wider
    real(wp), parameter, public :: long = 0.02_wp   !! of the characteristic length: a motion that may pass over a narrow gap
 
-   !> What is known of a step from a to b.
+   !> Data of a step from a to b.
    type :: step_t
       type(inputs_t) :: inputs_a, inputs_b, rate
       real(wp) :: width = 0.0_wp            !! h: place of b minus place of a
@@ -60,7 +60,7 @@ module ek_branch
       logical :: is_new_at_a = .false.      !! the tangents at a are from new factors there
    end type step_t
 
-   !> What is known of the newest state of a path and of the step compared last.
+   !> Data of the newest state of a path and of the step compared last.
    type :: known_t
       integer :: negative = -1              !! negative eigenvalues of N at the newest state; −1: not known
       real(wp) :: log_determinant = huge(1.0_wp)   !! ln |det N| there; huge: not known
@@ -348,7 +348,7 @@ contains
       call move_as_screw(state, self%twist)
    end subroutine go_along
 
-   !> Records a bifurcation at a swept value; one that is not distinct from the last one within rounding is left out.
+   !> Records a bifurcation at a swept value; one that is not distinct from the last one within rounding is omitted.
    pure subroutine note_crossing(self, place)
       type(branch_t), intent(inout) :: self
       real(wp), intent(in) :: place

@@ -1,4 +1,5 @@
-!> A step past bent laws (a stop comes into contact, a curve turns stiff): is it on the path, and does the path not turn back in it?
+!> A step past bent laws (a stop comes into contact, a curve gets stiffer): whether it is on the path, and the path does not
+!> reverse in it.
 !>
 !> The tangents at the ends of such a step disagree with the motion, as the slopes of the laws change on the way. Two questions
 !> replace that comparison:
@@ -79,7 +80,7 @@ contains
       self%bends = 0
    end subroutine renew_chord
 
-   !> How many laws bend.
+   !> The number of laws that bend.
    pure integer function count_laws(suspension) result(laws)
       type(suspension_t), intent(in) :: suspension
       integer :: k, component

@@ -1,6 +1,6 @@
 !> The linear system of an increment: assembly, and factorisation by LAPACK or by a plan of elimination.
 !>
-!> What it consists of and how it is assembled: ek_kkt_system. Its factors and solutions: ek_kkt_factors. Its plans: ek_kkt_plans.
+!> Its parts and assembly: ek_kkt_system. Its factors and solutions: ek_kkt_factors. Its plans: ek_kkt_plans.
 !> This module makes it for a model, and hands on what callers need.
 module ek_kkt
    use ek_kinds, only: wp

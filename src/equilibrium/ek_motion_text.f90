@@ -23,7 +23,7 @@ contains
       if (len(where) > 0) text = ' ('//where//')'
    end function place
 
-   !> How much of a motion each body has.
+   !> The share of each body in a motion.
    pure function body_parts(motion) result(part)
       real(wp), intent(in) :: motion(:)            !! scaled unknowns
       real(wp) :: part(size(motion)/6)

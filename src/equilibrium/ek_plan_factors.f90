@@ -17,7 +17,7 @@ module ek_plan_factors
 
    integer, parameter :: several = 6       !! right-hand sides solved together: the loads on a body; they stay in registers
 
-   !> What is known of a factorisation.
+   !> Data of a factorisation.
    type :: soundness_t
       real(num) :: negative = zero            !! number of negative eigenvalues (Sylvester's law: of D)
       real(num) :: least = zero, most = zero    !! |eigenvalues| of D
@@ -233,7 +233,7 @@ contains
       end do
    end subroutine substitute_by
 
-   !> Solves for several right-hand sides at a time. Most are loads on one body: a block where all are zero is passed over.
+   !> Solves for several right-hand sides at a time. Most are loads on one body: a block of zeros is skipped.
    pure subroutine substitute_several_by(plan, x, y)
       type(plan_t), intent(in) :: plan
       real(num), intent(in) :: x(plan%length)

@@ -102,7 +102,7 @@ contains
       if (self%trusted == most) self%trusted = depth
    end subroutine judge
 
-   !> How many of the newest states are fit for extrapolation: weights of states older than two nearly coincident ones
+   !> The number of the newest states that are fit for extrapolation: weights of states older than two nearly coincident ones
    !> amplify rounding. A range from 80 to -1e-18 has such states.
    pure integer function usable(self, abscissa)
       type(predictor_t), intent(in) :: self

@@ -77,7 +77,7 @@ contains
       state%reaction(:) = 0.0_wp
    end subroutine return_to_design
 
-   !> Whether a state is that of design, to the bit.
+   !> Whether a state equals the design state, to the bit.
    pure logical function is_design(suspension, state)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state

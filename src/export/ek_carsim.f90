@@ -1,7 +1,7 @@
 !> A map as a parsfile for CarSim (.par): tables of kinematics over jounce, and coefficients of compliance, for both sides.
 !>
-!> Units and signs of jounce, toe, camber, dive, x and y are written beside each table. What is not documented in public, above all
-!> the units of the compliance, has the remark "to be confirmed on a screen" in the file.
+!> Units and signs of jounce, toe, camber, dive, x and y are written above each table. Facts that are not documented in public,
+!> above all the units of the compliance, has the remark "to be confirmed on a screen" in the file.
 module ek_carsim
    use ek_kinds, only: wp, degree, millimetre
    use ek_error, only: error_t

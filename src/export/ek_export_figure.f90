@@ -47,7 +47,7 @@ contains
       end associate
    end subroutine add_panel
 
-   !> Writes the script folder/name.gp and draws name.png and name.svg. Without gnuplot a message says so.
+   !> Writes the script folder/name.gp and draws name.png and name.svg. Without gnuplot a message reports this.
    subroutine draw_export(list, folder, name, title, separator, message, error)
       type(panel_list_t), intent(in) :: list
       character(*), intent(in) :: folder, name, title

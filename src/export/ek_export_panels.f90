@@ -170,7 +170,7 @@ contains
       first = (block - 1)*count + 1
    end subroutine rows_of_load
 
-   !> The numbers behind a key in a text.
+   !> The numbers after a key in a text.
    function numbers_behind(text, key, count) result(values)
       character(*), intent(in) :: text, key
       integer, intent(in) :: count

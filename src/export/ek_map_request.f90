@@ -1,4 +1,4 @@
-!> What a map is to contain: its grid, its second argument, how the wheels stand, and which elements give its lengths.
+!> The request for a map: its grid, its second argument, the support of the wheels, and the elements that give its lengths.
 module ek_map_request
    use ek_kinds, only: wp
    use ek_wheel_motion, only: lengths, length_choice_t
@@ -9,7 +9,7 @@ module ek_map_request
    ! what the second argument of a map is
    integer, parameter :: over_none = 0, over_steer = 1, over_opposite = 2
 
-   !> What is to be computed.
+   !> The map to be computed.
    type :: map_request_t
       real(wp), allocatable :: travel(:)      !! above design, increasing, with 0 [m]
       real(wp), allocatable :: second(:)      !! steer (positive: to the left) or travel of the other wheel, likewise [m, rad]

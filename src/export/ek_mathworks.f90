@@ -306,7 +306,7 @@ contains
       if (ieee_is_finite(value)) text = decimal(value)
    end function matlab_number
 
-   !> The same as JSON: schema/export-matlab-kc.schema.json.
+   !> The parameters as JSON, unlike the script: schema/export-matlab-kc.schema.json.
    function mathworks_json(p) result(text)
       type(kandc_parameters_t), intent(in) :: p
       character(:), allocatable :: text

@@ -80,7 +80,7 @@ contains
       end do
    end function kinematics_table
 
-   !> Makes room for `before` columns and those of both wheels.
+   !> Makes room for `before` columns and the columns of both wheels.
    subroutine wheel_columns(columns, before)
       character(name_length), allocatable, intent(out) :: columns(:)
       integer, intent(in) :: before

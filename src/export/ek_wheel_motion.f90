@@ -37,7 +37,7 @@ module ek_wheel_motion
    real(wp), parameter :: iso_loads(6) = [iso_frame, iso_frame]
    real(wp), parameter :: mirror_signs(6) = [1.0_wp, -1.0_wp, 1.0_wp, -1.0_wp, 1.0_wp, -1.0_wp]
 
-   !> What gives one length of one wheel: a measure of the model, another length, or the travel of the wheel.
+   !> The source of one length of one wheel: a measure of the model, another length, or the travel of the wheel.
    type :: length_choice_t
       logical :: has_measure = .false.
       type(measure_t) :: measure

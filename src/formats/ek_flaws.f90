@@ -1,4 +1,4 @@
-!> The mistakes found in a file of another program, each with its line, in the order in which they were found.
+!> The errors found in a file of another program, each with its line, in the order in which they were found.
 module ek_flaws
    use ek_error, only: message_list_t
    use ek_text, only: str, plural
@@ -40,7 +40,7 @@ contains
       self%lines(self%words%count()) = line
    end subroutine flaws_add
 
-   !> The number of mistakes that were kept.
+   !> The number of errors that were kept.
    pure integer function flaws_count(self)
       class(flaws_t), intent(in) :: self
       flaws_count = self%words%count()
@@ -52,7 +52,7 @@ contains
       flaws_line = self%lines(k)
    end function flaws_line
 
-   !> Mistake number k without its file and line.
+   !> Error number k without its file and line.
    pure function flaws_what(self, k) result(text)
       class(flaws_t), intent(in) :: self
       integer, intent(in) :: k
@@ -63,7 +63,7 @@ contains
          '; is this the right file?)'
    end function flaws_what
 
-   !> All mistakes as lines 'file:line: what'.
+   !> All errors as lines 'file:line: what'.
    pure function flaws_text(self) result(text)
       class(flaws_t), intent(in) :: self
       character(:), allocatable :: text

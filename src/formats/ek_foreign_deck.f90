@@ -27,7 +27,7 @@ module ek_foreign_deck
 
 contains
 
-   !> What a text is. A file that nothing else recognises is read as a table of hardpoints.
+   !> The format of a text. A file in no known format is read as a table of hardpoints.
    pure integer function kind_of_text(text) result(kind)
       character(*), intent(in) :: text
       character(:), allocatable :: folded

@@ -61,7 +61,7 @@ contains
       sheet%points(sheet%used) = point
    end subroutine add_hardpoint
 
-   !> The symmetry that a word names; -1 if none.
+   !> The symmetry that a string names; -1 if it does not name one.
    pure integer function symmetry_of(text)
       character(*), intent(in) :: text
 

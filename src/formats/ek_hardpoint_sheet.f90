@@ -16,7 +16,7 @@ module ek_hardpoint_sheet
 
 contains
 
-   !> Reads a file; mistakes in its content are in `flaws`.
+   !> Reads a file; errors in its content are in `flaws`.
    subroutine read_hardpoints(path, length, sheet, flaws, error, may_stream)
       character(*), intent(in) :: path
       real(wp), intent(in) :: length                       !! m: unit of a column of a CSV file that names none

@@ -1,4 +1,4 @@
-!> What of an axle of IPGKinematics can be imported, and the load on its wheels.
+!> The parts of an axle of IPGKinematics that can be imported, and the load on its wheels.
 module ek_kin_check
    use ek_kinds, only: wp
    use ek_text, only: str

@@ -11,7 +11,7 @@ module ek_kin_cursor
    private
    public :: kin_cursor_t, go_to, take_text, take_real, take_mass, take_choice, take_flag, take_choice_of_two, take_point
 
-   !> How far the file is read.
+   !> The position up to which the file has been read.
    type :: kin_cursor_t
       type(lines_t) :: lines
       integer :: line = 0

@@ -127,7 +127,7 @@ contains
       call move_alloc(grown, values)
    end subroutine grow
 
-   !> The table of loads as CSV. Columns of zeros are left out, except heights.
+   !> The table of loads as CSV. Columns of zeros are omitted, except heights.
    function lcf_table(lcf, driver, source) result(text)
       type(lcf_t), intent(in) :: lcf
       character(*), intent(in) :: driver      !! name of the driver that column 19 moves

@@ -43,7 +43,7 @@ contains
       is_of_rotation = component > 3
    end function is_of_rotation
 
-   !> Reads a file; mistakes in its content are in `flaws`.
+   !> Reads a file; errors in its content are in `flaws`.
    subroutine read_property(path, property, flaws, error, may_stream)
       character(*), intent(in) :: path
       type(property_t), intent(out) :: property
@@ -91,7 +91,7 @@ contains
       end if
    end subroutine parse_property
 
-   !> The kind of a file, from its header if that says one, else from its blocks; 0 if neither does.
+   !> The kind of a file, from its header if this gives a kind, else from its blocks; 0 if neither gives a kind.
    pure integer function kind_of(file) result(kind)
       type(teimorbit_t), intent(in) :: file
       character(*), parameter :: endings(5) = ['bus', 'spr', 'bum', 'reb', 'dpr']

@@ -22,7 +22,7 @@ module ek_teimorbit
    integer, parameter :: name_length = 40
    integer, parameter :: entry_item = 1, row_item = 2, heads_item = 3     !! kinds of an item
 
-   !> A line of a block that says something.
+   !> An entry, a row or the headings of a block.
    type :: item_t
       integer :: kind = 0
       integer :: block = 0                  !! number of the block, from 1

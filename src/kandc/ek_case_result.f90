@@ -30,7 +30,7 @@ module ek_case_result
    integer, parameter :: not_mountable = 3    !! the load table of the case cannot be read
    integer, parameter :: out_of_memory = 4    !! the states would not fit into memory
 
-   !> What is wanted of a solution.
+   !> The requested results of a solution.
    type :: solve_options_t
       character(:), allocatable :: fault           !! defect of the model in this case, which is then not solved; '' for none
       logical :: has_remarks = .true.              !! otherwise failures can be seen in the path only

@@ -72,7 +72,7 @@ module ek_characteristics
 
 contains
 
-   !> What is read of the rotations of a carrier, the same for every load.
+   !> Data for reading the rotations of a carrier, common to all loads.
    pure type(reader_t) function reader_of(stand, place) result(reader)
       type(stand_t), intent(in) :: stand
       integer, intent(in) :: place

@@ -1,4 +1,4 @@
-!> Who contributes what to the compliance matrix of a state: the share of each law of each element, of the geometric stiffness of
+!> Contributions to the compliance matrix of a state: the share of each law of each element, of the geometric stiffness of
 !> each element, joint and load, and of each driver with a stiffness.
 !>
 !> With T u_j + Φᵀμ_j = b_j and Φ u_j = C μ_j, and v_i, ν_i the same of the transpose,
@@ -6,8 +6,8 @@
 !>     C_ij = v_iᵀ T u_j + ν_iᵀ C μ_j
 !>
 !> exactly, and T is a sum: c g gᵀ of a law with slope c and gradient g, F Hess of its force, λ Hess of a row of Φ, the stiffness of
-!> loads that turn with their arms, and the unbalanced force of a state that is no equilibrium. The shares add up to C: no term is
-!> left out. The derivative of C_ij with the logarithm of a rate is the share of that rate with the sign turned.
+!> loads that turn with their arms, and the unbalanced force of a state that is not an equilibrium. The shares add up to C: no
+!> term is omitted. The derivative of C_ij with the logarithm of a rate is the share of that rate with the sign turned.
 module ek_contribution
    use ek_kinds, only: wp
    use ek_contract, only: are_checked, require
@@ -30,7 +30,7 @@ module ek_contribution
    ! its part: 1 to 6 the laws of an element, and
    integer, parameter, public :: geometric = 0, of_stiffness = 7
 
-   !> What a share is of.
+   !> The part of the model to which a share belongs.
    type :: share_t
       integer :: kind = of_element      !! of_element … of_state
       integer :: item = 0               !! number of the element, joint or load

@@ -31,7 +31,7 @@ module ek_contribution_table
       '*braking_load_held_steer_deg_per_kn', 'patch_z_by_fz_mm_per_kn', 'patch_left_z_by_left_fz_mm_per_kn', &
       'patch_right_z_by_right_fz_mm_per_kn']
 
-   !> What a row of the table is of.
+   !> The part of the model to which a row of the table belongs.
    type :: row_name_t
       character(share_length) :: row = ''       !! name of the element, joint or load
       character(20) :: kind = ''                !! 'bushing', 'spring', 'spherical', 'load', 'state'

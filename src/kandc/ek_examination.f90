@@ -1,4 +1,4 @@
-!> Examines the cases of a deck before any solution: the mistakes in what they name, and whether they can be solved.
+!> Examines the cases of a deck before any solution: the errors in what they name, and whether they can be solved.
 !>
 !> The model is examined as given in the deck, before balance: a preload found by balance must not count as a stiffness.
 !> The full diagnosis is made once per topology and case; a further design of the same case costs one factorisation, unless that
@@ -20,7 +20,7 @@ module ek_examination
    private
    public :: examination_t, examine_cases, examine_case, known_case_t, add_distinct, check_inputs
 
-   !> What is known of a case from a design that was examined before; one value for all designs of a case.
+   !> Data of a case from a design that was examined before; one value for all designs of a case.
    type :: known_case_t
       logical :: is_known = .false.          !! a design of the case had no defect
       integer :: unknowns = 0, constraints = 0   !! of that design
@@ -161,7 +161,7 @@ contains
       end do
    end function without_numbers
 
-   !> Collects the mistakes of every table, which was read with the deck, finds the column of every target, compares all heads of
+   !> Collects the errors of every table, which was read with the deck, finds the column of every target, compares all heads of
    !> the results; all errors are reported together.
    !>
    !> A message on a table gives the line in the file and the line of the case in the deck:
@@ -270,7 +270,7 @@ contains
 
    contains
 
-      !> Adds an element whose name begins that of the column.
+      !> Adds an element whose name is the beginning of the column name.
       subroutine add_owner(name, where)
          character(*), intent(in) :: name, where
 

@@ -113,7 +113,7 @@ contains
       where (names == word) windows%half = half
    end subroutine set_window
 
-   !> Finds the window of a gradient; over `factor` it is that of the quantity scaled by the test.
+   !> Finds the window of a gradient; over `factor` it is the window of the quantity scaled by the test.
    pure subroutine window_of(kind, over, windows, half, unit)
       character(*), intent(in) :: kind, over    !! kind of the test; column, without the wheel's name
       type(windows_t), intent(in) :: windows

@@ -37,7 +37,7 @@ module ek_kandc_columns
 
 contains
 
-   !> Fills self%values at an equilibrium: all of them, or those of `choose_kandc`.
+   !> Fills self%values at an equilibrium: all values, or the values chosen by `choose_kandc`.
    subroutine observe_kandc(suspension, state, inputs, kkt, self)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state

@@ -1,4 +1,4 @@
-!> What a state needs so that a reader can compute its columns for other rates, exactly and without the model.
+!> Data of a state from which a page computes its columns for other rates, exactly and without the model.
 !>
 !> Of m rates, each law acts along a deflection gᵀu; with s = √rate, let G be s gᵀu per unit load, A the same per unit load s on the
 !> laws themselves, and E the relative changes of the rates (0.1: 10 % more). The formula of ek_what_if then has no unit:
@@ -6,7 +6,8 @@
 !>     C' = C − G_vᵀ (I + E A)⁻¹ E G
 !>
 !> A column that is linear in C is the reading rᵀC b of a load b, so it changes by −ρᵀ (I + E A)⁻¹ E β with ρ = G_v r and β = G b:
-!> 2m numbers per column beside the m(m + 1)/2 of A. They are found by the kernels that compute the columns, of the matrices
+!> 2m numbers per column in addition to the m(m + 1)/2 of A. They are found by the kernels that compute the columns, of the
+!> matrices
 !> g_v,a g_bᵀ, so a new column needs nothing here. With heights held the same formula holds with G and A of the suspension whose
 !> heights are held. Of a stiffness, which is the inverse of such a column, the inverse changes so.
 module ek_live_state

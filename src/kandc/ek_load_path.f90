@@ -31,7 +31,7 @@ module ek_load_path
       real(wp) :: unbalanced = 0.0_wp               !! largest force [N/N], or moment [N m/N], that a body is out of equilibrium by
    end type load_path_t
 
-   !> What changes at a body.
+   !> The changes of the forces on a body.
    type :: change_t
       real(wp) :: now(12) = 0.0_wp                  !! dV/dz at the state
       real(wp) :: more(12) = 0.0_wp                 !! T_e u
@@ -214,7 +214,7 @@ contains
       end do
    end subroutine add_loads
 
-   !> Takes the unit force at a contact point from the sum.
+   !> Subtracts the unit force at a contact point from the sum.
    subroutine take_load(suspension, state, wheel, axis, sum_of)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state

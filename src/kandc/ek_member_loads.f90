@@ -59,7 +59,7 @@ module ek_member_loads
 
 contains
 
-   !> Lists the ends of all members, in the order elements, joints. Those of the rig are the last.
+   !> Lists the ends of all members, in the order elements, joints. The members of the rig are the last.
    subroutine member_ends(suspension, has_rig, ends)
       type(suspension_t), intent(in) :: suspension
       logical, intent(in) :: has_rig                !! .false.: without joints of the rig

@@ -26,7 +26,7 @@ contains
 
    !> Adds one remark per implausible item, `file:line: item: finding`.
    !>
-   !> In a model without a wheel, which is no suspension, only the elements are checked.
+   !> In a model without a wheel, which is not a suspension, only the elements are checked.
    subroutine doubt(suspension, cases, remarks)
       type(suspension_t), intent(in) :: suspension       !! balanced if possible; not on a rig
       type(case_t), intent(in) :: cases(:)               !! of the deck

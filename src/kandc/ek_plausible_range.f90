@@ -16,7 +16,7 @@ module ek_plausible_range
       acceleration = 9, derived = 10, &         ! a length computed from other values
       frequency = 11, slope = 12, derived_rate = 13
 
-   !> A unit that may have been used by mistake.
+   !> A unit that may have been used by error.
    type :: unit_t
       integer :: dimension
       character(8) :: name

@@ -126,7 +126,7 @@ contains
       end do
    end subroutine find_lock
 
-   !> Takes from the displacements under a load those of the loads that hold the ports.
+   !> Subtracts the displacements under the loads that hold the ports from the displacements under a load.
    !> Equation (C.6) of docs/theory/compliance.md.
    pure subroutine keep_locked(lock, moves)
       type(lock_t), intent(in) :: lock                      !! of find_lock

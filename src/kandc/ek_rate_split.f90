@@ -18,7 +18,7 @@ module ek_rate_split
 
    integer, parameter :: springs = 1, rods = 2, bars = 3, stops = 4, bushings = 5, joints = 6, gas = 7, preloads = 8
 
-   !> What the parts are added up by.
+   !> The classes by which the parts are summed.
    character(*), parameter :: classes(8) = [character(32) :: 'springs', 'elastic rods', 'anti-roll bar, torsion springs', 'stops', &
       'bushings', 'elastic joints and drivers', 'gas springs', 'preloads and loads (geometric)']
 

@@ -16,7 +16,7 @@ module ek_rig_numbers
 
    real(wp), parameter :: up(3) = [0.0_wp, 0.0_wp, 1.0_wp]
 
-   !> What a driver holds: Σ sign × height of wheels, in the order of the terms of its row.
+   !> The sum that a driver holds: Σ sign × height of wheels, in the order of the terms of its row.
    type :: height_t
       integer :: wheels(2) = 0                           !! 0: none
       real(wp) :: signs(2) = 0.0_wp
@@ -32,7 +32,7 @@ module ek_rig_numbers
       logical :: has_trail = .false.                     !! the offset of the case gives a moment
    end type acting_t
 
-   !> What a case adds to a suspension. Its joints, rows, terms and loads count on from those of the suspension.
+   !> Additions of a case to a suspension. Indices of its joints, rows, terms and loads continue after the suspension.
    type :: rig_t
       type(joint_t), allocatable :: joints(:)            !! drivers of heights, one row each
       type(row_t), allocatable :: rows(:)

@@ -14,7 +14,7 @@ module ek_standard_tests
 
 contains
 
-   !> Lists the standard tests of an axle, or those of a single wheel.
+   !> Lists the standard tests of an axle, or the standard tests of a single wheel.
    !>
    !> A test that the deck contains (same test, phase, offset and vertical control) is taken from the deck with its range;
    !> the other cases of the deck follow. A name that the deck uses for another case gets the ending '_test'. Steering
@@ -138,7 +138,7 @@ contains
       if (this%vertical == 'road') title = title//', on the road'
    end function test_title
 
-   !> What holds the wheels in a test, as a condition of its results: 'vertical force held'; '' for a case that is no test.
+   !> The condition of the wheels in a test, for its results: 'vertical force held'; '' for a case that is not a test.
    pure function held_text(this) result(held)
       type(case_t), intent(in) :: this
       character(48) :: held

@@ -127,7 +127,7 @@ contains
       outer = atan2(wheelbase*tan(inner), wheelbase + track*tan(inner))
    end function ideal_outer_steer
 
-   !> Diameter of the circle of the outer front corner of the car: f ahead of the wheels, b/2 beside the middle.
+   !> Diameter of the circle of the outer front corner of the car: f ahead of the wheels, b/2 from the middle.
    !>
    !>     2 √((L/tan δo − t/2 + b/2)² + (L + f)²)        about a point on the line of the rear axle
    pure real(wp) function wall_to_wall(outer, wheelbase, track, overhang, width) result(diameter)

@@ -27,7 +27,7 @@ module ek_sweep_table
    real(wp), parameter :: nearly_singular = 1.0e-12_wp   !! smallest over largest pivot: four digits are left
    real(wp), parameter :: open_joints = 1.0e-2_wp   !! |Φ| [m, rad] above which a state of a linear method is marked converged = 0
 
-   !> What a table of states holds: its columns, and the work space to fill them.
+   !> Layout of a table of states: its columns, and the work space to fill them.
    type :: observer_t
       character(name_length), allocatable :: columns(:)     !! heads of the table
       integer, private :: shown = 0, reported = 0, ended = 0    !! last column of the state, of the quantities, of all

@@ -1,4 +1,4 @@
-!> What the compliance matrix of a state would be with other rates, exactly and without factorising again: the state stays as it is.
+!> The compliance matrix of a state with other rates, exactly and without factorising again: the state stays as it is.
 !>
 !> Each law of an element acts along a deflection gᵀu. With the deflections G per unit load, A per unit load on the laws
 !> themselves, and the changes D of their rates,

@@ -66,7 +66,7 @@ contains
       allocate (search%held(size(start)), source=0)
    end subroutine begin_search
 
-   !> Takes r and its Jacobian at search%x, and sets the next x.
+   !> Stores r and its Jacobian at search%x, and sets the next x.
    subroutine advance_search(r, jacobian, is_valid, search)
       real(wp), intent(in) :: r(:)
       real(wp), intent(in) :: jacobian(:, :)             !! (residual, unknown)

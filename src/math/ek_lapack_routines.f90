@@ -1,4 +1,4 @@
-!> Explicit interfaces to the LAPACK routines in use, so that the compiler detects argument mistakes.
+!> Explicit interfaces to the LAPACK routines in use, so that the compiler detects wrong arguments.
 !>
 !> Call them through ek_lapack, which disables floating-point traps inside the library.
 module ek_lapack_routines

@@ -1,4 +1,4 @@
-!> The numbers of kernels: what differs between designs.
+!> The numbers of kernels: the values that differ between designs.
 !>
 !> A kernel is compiled twice from one source. Here its numbers `real(num)` are reals. The build also makes a copy of it
 !> (src/lanes/make_lanes.cmake) in which they are `type(lanes_t)`, the numbers of four designs, and this module is `ek_lanes`.

@@ -20,7 +20,7 @@ module ek_case
    integer, parameter :: follows_tangent = 2   !! share × tan(swept value): heights of a rolling axle
    integer, parameter :: follows_table = 3     !! the value in a row of a table, the row number being the swept value
 
-   !> How one load or one driver follows the swept value. One of `load` and `drive` is empty.
+   !> The schedule of one load or one driver over the swept value. One of `load` and `drive` is empty.
    type :: actuation_t
       character(:), allocatable :: load       !! name of the load that is scaled
       character(:), allocatable :: drive      !! name of the driver joint
@@ -37,7 +37,7 @@ module ek_case
       real(wp), allocatable :: values(:)      !! N, N m, m or rad
    end type table_column_t
 
-   !> A load table as it was read with the deck; no rows: it has mistakes, or its file cannot be read.
+   !> A load table as it was read with the deck; no rows: it has errors, or its file cannot be read.
    type :: load_table_t
       integer :: rows = 0
       type(table_column_t), allocatable :: columns(:)
@@ -86,7 +86,7 @@ contains
       if (allocated(case%test)) is_mountable = case%test /= 'table' .or. case%table%rows > 0
    end function is_mountable
 
-   !> Takes the plan of elimination where neither deck nor command line gives a solver: for many designs of one deck.
+   !> Selects the plan of elimination if neither deck nor command line gives a solver: for many designs of one deck.
    elemental subroutine prefer_plan(case)
       type(case_t), intent(inout) :: case
       if (.not. case%says_solver) case%uses_plan = .true.

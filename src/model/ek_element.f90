@@ -78,7 +78,7 @@ module ek_element
 
 contains
 
-   !> Takes the numbers of a design, in SI; 0 where the deck gives none.
+   !> Stores the numbers of a design, in SI; 0 where the deck does not give a number.
    pure subroutine set_numbers(element, numbers)
       type(element_t), intent(inout) :: element
       real(num), intent(in) :: numbers(element_numbers)      !! N/m and N, of an angle N m/rad and N m; m

@@ -247,7 +247,7 @@ contains
       end do
    end function driver_row
 
-   !> The unit of the value of a driver in results: mm, deg or '-'; mm for those of the rig.
+   !> The unit of the value of a driver in results: mm, deg or '-'; mm for drivers of the rig.
    pure function driver_unit(self, name) result(unit)
       type(suspension_t), intent(in) :: self
       character(*), intent(in) :: name

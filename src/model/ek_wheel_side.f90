@@ -43,7 +43,7 @@ contains
       track = abs(y(2) - y(1))
    end function design_track
 
-   !> The factors of x, y, z from the frame of the program to that of the deck.
+   !> The factors of x, y, z from the frame of the program to the frame of the deck.
    pure function deck_frame(suspension) result(frame)
       type(suspension_t), intent(in) :: suspension
       real(wp) :: frame(3)

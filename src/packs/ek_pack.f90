@@ -1,7 +1,7 @@
 !> Four designs of one deck as one model: the numbers of each stand in a lane, what they have in common stands once.
 !>
 !> All have the connections, the plan of elimination and the scale of the first design of the study, so the result of a design does not
-!> depend on those beside it.
+!> depend on the other lanes.
 module ek_pack
    use ek_kinds, only: wp
    use ek_lanes, only: lanes_t, lanes
@@ -86,7 +86,7 @@ contains
       pack%slot = [(k, k=1, depth)]
    end subroutine new_pack
 
-   !> Takes the numbers of a design; .false.: it is not of this kind.
+   !> Stores the numbers of a design; .false.: the design is not of this kind.
    subroutine set_design(suspension, lane, pack)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: lane

@@ -1,4 +1,4 @@
-!> What one design of a pack does alone: a state that it does not find together with the others, and checks of a single design.
+!> Steps of one design of a pack alone: a state that it does not find together with the others, and checks of a single design.
 module ek_pack_alone
    use ek_kinds, only: wp
    use ek_lanes, only: lanes_t, lanes
@@ -90,7 +90,7 @@ contains
       end associate
    end subroutine step_alone
 
-   !> Exchanges the scale of the pack and that of a design.
+   !> Exchanges the scale of the pack and the scale of a design.
    pure subroutine exchange_scales(pack, kkt)
       type(pack_t), intent(inout) :: pack
       type(kkt_t), intent(inout) :: kkt
@@ -178,7 +178,7 @@ contains
       end associate
    end subroutine learn
 
-   !> Makes the branch of a lane that of its present design.
+   !> Sets the branch of a lane to the branch of its present design.
    subroutine refresh(self, member, lane)
       type(walker_t), intent(inout) :: self
       type(member_t), intent(in) :: member

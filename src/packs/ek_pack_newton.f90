@@ -141,7 +141,7 @@ contains
       length = largest_motion(pack%rhs(:6*pack%bodies), scale)
    end subroutine find_step
 
-   !> Takes the step of some designs.
+   !> Applies the step of some designs.
    subroutine take(pack, is_taken)
       type(pack_t), intent(inout) :: pack
       logical, intent(in) :: is_taken(lanes)

@@ -99,7 +99,7 @@ contains
       end associate
    end subroutine find_tangents
 
-   !> Predicts the first state: from design along the tangent there. Poses and factors are those of design.
+   !> Predicts the first state: from design along the tangent there. Poses and factors belong to the design state.
    subroutine go_along(self, members, places, is_common, value)
       type(walker_t), intent(inout) :: self
       type(member_t), intent(in) :: members(lanes)

@@ -1,4 +1,4 @@
-!> What packs of designs need on their way: the designs, where each stands, inputs and earlier states, work space.
+!> Data of packs of designs on their paths: the designs, the state of each, inputs and earlier states, work space.
 module ek_walker
    use ek_kinds, only: wp
    use ek_lanes, only: lanes_t, lanes

@@ -1,5 +1,5 @@
 !> When a result has changed: by more than a share of its value, or of the least span that a chart of it has. What is small against
-!> that span is noise: 1e-16 against 1e-17 deg/m is no change, nor is 0 against 1e-7.
+!> that span is noise: 1e-16 against 1e-17 deg/m is not a change, and neither is 0 against 1e-7.
 module ek_change
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
@@ -12,7 +12,7 @@ module ek_change
    character(*), parameter :: changed = 'changed', same = 'same', unknown = 'not a number', only_in = 'only in '
    real(wp), parameter :: rounding = 1.0e-6_wp      !! of the scale: two programs, or two computers, differ by less
 
-   !> What a slope per unit is taken over, where no quantity has the unit of the slope: the usual windows.
+   !> The window of a slope per unit, where no quantity has the unit of the slope: the usual windows.
    type :: width_t
       character(8) :: unit
       real(wp) :: width

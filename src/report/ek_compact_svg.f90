@@ -107,7 +107,7 @@ contains
       end do
    end subroutine copy_coordinates
 
-   !> Appends a colour, rgb(1, 2, 3), as #010203; one of other form as it is.
+   !> Appends a colour, rgb(1, 2, 3), as #010203; a colour of another form is unchanged.
    pure subroutine copy_colour(svg, at, to, used)
       character(*), intent(in) :: svg
       integer, intent(inout) :: at, used

@@ -1,4 +1,5 @@
-!> The charts of a comparison: one per quantity of a test, with the curves of all results, and how far each lies from the first.
+!> The charts of a comparison: one per quantity of a test, with the curves of all results, and the distance of each from the
+!> first.
 module ek_compare_charts
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
@@ -13,7 +14,7 @@ module ek_compare_charts
 
    real(wp), parameter :: invisible = 1.0e-5_wp     !! of the scale: such curves are drawn as one
 
-   !> How far the curves of a chart lie from those of the first result.
+   !> The distances of the curves of a chart from the curves of the first result.
    type :: chart_change_t
       real(wp) :: change = 0.0_wp             !! with its sign, where it is largest, as a share (see ek_change)
       real(wp) :: largest = 0.0_wp            !! the same in the unit of the chart
@@ -300,8 +301,8 @@ contains
       are_near = all(abs(a - b) <= near)
    end function are_near
 
-   !> How far curve b lies from curve a where both have values: state by state if they have the same abscissa, otherwise between
-   !> the states of a. The scale is the largest magnitude of a, or the least span of the chart.
+   !> The distance of curve b from curve a where both have values: state by state if they have the same abscissa, otherwise
+   !> between the states of a. The scale is the largest magnitude of a, or the least span of the chart.
    pure type(chart_change_t) function distance(a, b, chart) result(change)
       type(trace_t), intent(in) :: a, b
       type(chart_t), intent(in) :: chart           !! of a

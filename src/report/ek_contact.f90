@@ -53,7 +53,7 @@ contains
       end do
    end function contacts_of
 
-   !> Appends a stretch, unless the other side has the same.
+   !> Appends a stretch, unless the other side has an equal stretch.
    pure subroutine add(list, contact)
       type(contact_t), allocatable, intent(inout) :: list(:)
       type(contact_t), intent(in) :: contact

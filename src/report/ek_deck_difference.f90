@@ -1,4 +1,4 @@
-!> What differs between the decks of several results: the facts of their making, and the values by their paths.
+!> The differences between the decks of several results: the facts of their runs, and the values by their paths.
 module ek_deck_difference
    use ek_kinds, only: wp
    use ek_error, only: message_list_t
@@ -178,7 +178,7 @@ contains
       list = pack(list, .not. is_twin)
    end subroutine join_sides
 
-   !> Whether all values of the right side are `sign` times those of the left.
+   !> Whether all values of the right side are `sign` times the values of the left side.
    logical function are_alike(a, b, sign)
       type(message_list_t), intent(in) :: a, b
       real(wp), intent(in) :: sign

@@ -1,4 +1,4 @@
-!> deck.csv of a report: what the report was made from, so that a comparison can list what was changed. Rows of kind `fact` say how
+!> deck.csv of a report: the values of its deck, from which a comparison lists the changes. Rows of kind `fact` describe how
 !> it was made (deck, settings, checksum), rows of kind `value` are the values of the deck by their paths.
 module ek_deck_file
    use ek_error, only: error_t, message_list_t
@@ -51,7 +51,7 @@ contains
 
    end subroutine write_deck_file
 
-   !> Reads deck.csv; without the file nothing is known, which is no error: reports of earlier versions do not have it.
+   !> Reads deck.csv; without the file the result is empty, which is not an error: reports of earlier versions do not have it.
    subroutine read_deck_file(path, record, error)
       character(*), intent(in) :: path
       type(deck_record_t), intent(out) :: record

@@ -161,7 +161,7 @@ contains
       sheet%left = name_room(study, 14)
    end function new_bars
 
-   !> What follows the names of a list that is cut.
+   !> The text after the names of a truncated list.
    pure function cut(study) result(words)
       type(study_data_t), intent(in) :: study
       character(:), allocatable :: words

@@ -1,4 +1,4 @@
-!> What makes the rates and the key compliances of a report: the parts of the rates, and of each compliance its largest
+!> The contributions to the rates and the key compliances of a report: the parts of the rates, and of each compliance its largest
 !> contributions at design, as bars.
 module ek_explanation
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite

@@ -1,5 +1,5 @@
 !> A figure as a gnuplot script that the user can read, edit and run again: `gnuplot name.gp` in
-!> its folder draws name.png and name.svg from the data files beside it. The standard figures of one run.
+!> its folder draws name.png and name.svg from the data files in the same folder. The standard figures of one run.
 module ek_gnuplot
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t
@@ -37,7 +37,7 @@ module ek_gnuplot
 contains
 
    !> Writes folder/name.gp of every figure and runs gnuplot once on them. Without gnuplot only the scripts are written; a
-   !> message reports this and it is no error.
+   !> message reports this, and it is not an error.
    subroutine draw_figures(figures, folder, message, error)
       type(figure_t), intent(in) :: figures(:)
       character(*), intent(in) :: folder
@@ -253,7 +253,7 @@ contains
 
    contains
 
-      !> Adds one figure with a panel for every quantity that has a column; a single one of several has its own figure already.
+      !> Adds one figure with a panel for every quantity that has values; no figure if only one of several quantities has values.
       subroutine add_quantities(name, title, columns)
          character(*), intent(in) :: name, title, columns(:)
          type(chart_t), allocatable :: panels(:)

@@ -70,7 +70,7 @@ contains
       if (size(new%column) > 0) live%tests = [live%tests, new]
    end subroutine add_live
 
-   !> Finds the columns of a test among some names, in some rows of its table.
+   !> Finds the columns of a test in a list of names, for a list of rows of its table.
    subroutine find_test(result, test, rates, names, rows, self)
       type(case_result_t), intent(inout) :: result
       type(test_result_t), intent(in) :: test

@@ -112,7 +112,7 @@ contains
       end do
    end subroutine find_columns
 
-   !> Adds a key number that follows the rates, and the number of the page beside which it stands.
+   !> Adds a key number that follows the rates, and the number of the page next to which it is shown.
    subroutine add_number(json, numbers, k, columns, is_used)
       type(json_t), intent(inout) :: json
       type(key_number_t), intent(in) :: numbers(:)
@@ -185,7 +185,7 @@ contains
       text = out%text()
    end function test_text
 
-   !> How far a state would move: A row by row, deflections, and displacements of the wheel centres.
+   !> The data for the motion of a state: A row by row, deflections, and displacements of the wheel centres.
    function end_numbers(state, is_held) result(list)
       type(live_state_t), intent(in) :: state
       logical, intent(in) :: is_held                       !! heights are held

@@ -1,8 +1,8 @@
-!> The numbers of live states, few: what follows from symmetry, or stands twice, is left out.
+!> The numbers of live states, few: what follows from symmetry, or stands twice, is omitted.
 !>
 !> The two laws of a rate of both sides change alike, so their deflections may be replaced by sum and difference (over √2). Where
 !> loads and state are symmetric, the loads touch the sums alone and A does not couple them with the differences, which are then
-!> left out: a quarter of A remains. Columns of one load, or of one reading, share its vector.
+!> omitted: a quarter of A remains. Columns of one load, or of one reading, share its vector.
 module ek_live_small
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp

@@ -1,4 +1,4 @@
-!> The states in which pictures show a suspension moving: those of its travel and of its steering.
+!> The states in which pictures show a suspension moving: states of its travel and of its steering.
 module ek_moving_states
    use ek_suspension, only: suspension_t
    use ek_state, only: state_t, design_state, unpack_state
@@ -29,7 +29,7 @@ contains
       test = 0
    end function moving_test
 
-   !> Reads state k of a path. The reactions of joints added by a case follow those of the suspension and are omitted.
+   !> Reads state k of a path. The reactions of joints that a case adds are last and are omitted.
    subroutine state_of_path(path, k, suspension, state)
       type(path_t), intent(in) :: path
       integer, intent(in) :: k

@@ -66,7 +66,7 @@ contains
       call add_markup(page, '</dl>')
    end subroutine add_verdicts
 
-   !> What makes a rate: its parts in percent; '' for other numbers.
+   !> The parts of a rate in percent; '' for other numbers.
    function taken_apart(report, name) result(html)
       type(report_t), intent(in) :: report
       character(*), intent(in) :: name
@@ -120,7 +120,7 @@ contains
       call add_markup(page, '</tbody></table></div>')
    end subroutine add_other_numbers
 
-   !> Formula and condition, folded, and the numbers that say the same.
+   !> Formula and condition, folded, and the equivalent numbers.
    function details_of(numbers, k) result(html)
       type(key_number_t), intent(in) :: numbers(:)
       integer, intent(in) :: k

@@ -1,4 +1,4 @@
-!> What a key number says to an engineer: understeer or oversteer, inside or outside its target, the same on both sides.
+!> The meaning of a key number for an engineer: understeer or oversteer, inside or outside its target, the same on both sides.
 module ek_number_words
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
@@ -18,7 +18,8 @@ module ek_number_words
 
 contains
 
-   !> What a steer angle in a bend does to the car: a front axle that steers out of the bend understeers, a rear axle oversteers.
+   !> The effect of a steer angle in a bend on the car: a front axle that steers out of the bend understeers, a rear axle
+   !> oversteers.
    pure function steer_effect(number, axle) result(effect)
       type(key_number_t), intent(in) :: number
       integer, intent(in) :: axle                   !! −1 front, 1 rear, 0 not known

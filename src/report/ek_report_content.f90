@@ -1,4 +1,4 @@
-!> What a report contains: its tests, their charts, gradients and key numbers, and the facts at the head of the page.
+!> The content of a report: its tests, their charts, gradients and key numbers, and the facts at the head of the page.
 module ek_report_content
    use ek_error, only: message_list_t
    use ek_path, only: path_t

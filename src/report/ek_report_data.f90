@@ -166,7 +166,7 @@ contains
       type(contact_t), allocatable :: contacts(:)
       integer :: k
 
-      contacts = contacts_of(test%table)
+      allocate (contacts, source=contacts_of(test%table))
       if (size(contacts) == 0) return
       call json%open('[', 'contacts')
       do k = 1, size(contacts)

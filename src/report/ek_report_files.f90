@@ -72,7 +72,7 @@ contains
          file = name//'-case.csv'
    end function table_file
 
-   !> The file of the wheel envelope of a test, different from those of the tables.
+   !> The file of the wheel envelope of a test, different from the files of the tables.
    pure function envelope_file(tests, k) result(file)
       type(test_result_t), intent(in) :: tests(:)      !! with their files
       integer, intent(in) :: k

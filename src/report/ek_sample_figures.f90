@@ -117,7 +117,7 @@ contains
 
    end function fan_script
 
-   !> Whether the band is too narrow to be seen beside its curve: then the deviation from the median is drawn.
+   !> Whether the band is too narrow to be distinguished from its curve: then the deviation from the median is drawn.
    pure logical function is_narrow(study, c)
       type(study_data_t), intent(in) :: study
       integer, intent(in) :: c                       !! column

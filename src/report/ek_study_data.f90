@@ -1,4 +1,4 @@
-!> What the figures and the page of a study show: the rows of its tables and what was computed from them, as plain numbers.
+!> Data for the figures and the page of a study: the rows of its tables and what was computed from them, as plain numbers.
 module ek_study_data
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
@@ -32,7 +32,7 @@ module ek_study_data
       real(wp), allocatable :: running(:), half(:)     !! mean of the first so many, half of its 95 % interval
    end type summary_t
 
-   !> What the factors do to a response; allocated for the kinds that yield it.
+   !> The effects of the factors on a response; allocated for the kinds of study that give them.
    type :: effects_t
       real(wp) :: nominal = 0.0_wp
       real(wp), allocatable :: at_low(:), at_high(:)           !! tornado: at the smallest and the largest value of each factor

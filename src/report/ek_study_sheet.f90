@@ -127,7 +127,7 @@ contains
       call end_data(sheet)
    end subroutine add_point_names
 
-   !> What plots these names, and lines to them: the last parts of a plot command.
+   !> The gnuplot commands for these names, and lines to them: the last parts of a plot command.
    pure function names_plot(panel) result(parts)
       integer, intent(in) :: panel
       character(:), allocatable :: parts, data

@@ -1,4 +1,4 @@
-!> Which key numbers head a report, and which say again what another one says.
+!> The key numbers at the top of a report, and key numbers that repeat another one.
 module ek_summary
    use ek_key_number, only: key_number_t, has_value
    implicit none(type, external)
@@ -56,7 +56,7 @@ contains
       end do
    end function summary_numbers
 
-   !> The place of the number that says the same as number k; 0: none does.
+   !> The index of the number that is equivalent to number k; 0: there is no such number.
    pure integer function kept_number(numbers, k) result(place)
       type(key_number_t), intent(in) :: numbers(:)
       integer, intent(in) :: k

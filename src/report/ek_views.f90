@@ -83,7 +83,7 @@ contains
       text = end_panels(sheet)
    end function views_script
 
-   !> Lists the hardpoints that are used, and are not those of the right side of an axle.
+   !> Lists the hardpoints that are used, without the right side of an axle.
    subroutine half_of(suspension, points)
       type(suspension_t), intent(in) :: suspension
       type(points_t), intent(out) :: points

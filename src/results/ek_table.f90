@@ -139,7 +139,7 @@ contains
       text = line(:filled)
    end function csv_row
 
-   !> The nearest whole number, for values small enough to have a fraction; nan stays nan.
+   !> The nearest integer, for values small enough to have a fraction; nan stays nan.
    elemental real(wp) function whole(value)
       real(wp), intent(in) :: value
 

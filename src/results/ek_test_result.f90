@@ -1,6 +1,6 @@
 !> A test that was run: its table and the data needed to interpret it.
 !>
-!> Charts, gradients and pages are made from this alone; missing columns are omitted.
+!> Charts, gradients and pages are made only from this result; missing columns are omitted.
 module ek_test_result
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
@@ -223,7 +223,7 @@ contains
 
    end function unfolded_rows
 
-   !> The row of the design state, with `factor` = 0; 0 if there is no converged one.
+   !> The row of the design state, with `factor` = 0; 0 if there is no converged row.
    pure integer function design_row(table) result(row)
       type(table_t), intent(in) :: table
       logical :: is_good(size(table%values, 2))

@@ -56,7 +56,7 @@ contains
       end associate
    end subroutine solve_with_slopes
 
-   !> Makes a table with the columns of a case and those of its compliance matrix that were derived.
+   !> Makes a table with the derived columns of a case and the derived entries of its compliance matrix.
    subroutine make_table(table, derivatives, whole, place, row)
       type(table_t), intent(in) :: table
       type(derivatives_t), intent(in) :: derivatives

@@ -87,7 +87,7 @@ contains
       reads_wheels_only = size(self%entries) == 0 .and. reads_poses_of_wheels(self%observer)
    end function reads_wheels_only
 
-   !> The unit loads whose responses are kept: those of the compliance matrix, if it is observed.
+   !> The unit loads whose responses are stored: the loads of the compliance matrix, if it is observed.
    pure integer function kept_loads(self)
       type(column_observer_t), intent(in) :: self
       kept_loads = merge(6*size(self%wheels), 0, size(self%entries) > 0)

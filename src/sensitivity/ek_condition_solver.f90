@@ -2,7 +2,7 @@
 !>
 !> The conditions are scaled by what the unknowns can change within their bounds, the unknowns by the width of these. With fewer
 !> conditions than unknowns the change of the unknowns, in widths, is as small as possible; conditions that cannot all be met
-!> are met in the sense of least squares, and the findings say why.
+!> are met in the sense of least squares, and the findings give the reason.
 module ek_condition_solver
    use ek_kinds, only: wp
    use ek_error, only: error_t, fail, exit_convergence
@@ -22,7 +22,7 @@ module ek_condition_solver
       real(wp) :: lower = 0.0_wp, upper = 0.0_wp     !! in its unit
    end type unknown_t
 
-   !> What was found.
+   !> The result of the search.
    type :: findings_t
       real(wp), allocatable :: x(:)                  !! of the unknowns, in their units
       integer, allocatable :: held(:)                !! −1, +1: an unknown stays at its lower or upper bound; 0: between them

@@ -12,7 +12,7 @@ module ek_fit
       real(wp), allocatable :: weights(:)         !! of the paths: each changes by weight × factor
    end type fit_factor_t
 
-   !> What a result should be: one value, a curve, or a band. Numbers that are not given are not numbers.
+   !> The target of a result: one value, a curve, or a band. Numbers that are not given are NaN.
    type :: fit_target_t
       character(:), allocatable :: name
       character(:), allocatable :: quantity       !! column, entry of the compliance matrix, or key number

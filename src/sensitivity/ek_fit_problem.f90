@@ -46,7 +46,7 @@ module ek_fit_problem
 
 contains
 
-   !> Checks a fit against its deck; reports all mistakes. Nothing is solved.
+   !> Checks a fit against its deck; reports all errors. Nothing is solved.
    subroutine make_problem(fit, home, deck, solver, problem, error)
       type(fit_t), intent(in) :: fit
       character(*), intent(in) :: home                     !! folder of the fit, with its slash

@@ -1,4 +1,5 @@
-!> What a fit knows of its factors: confidence, correlation, rank, and the combinations of factors that its targets do not see.
+!> Statistics of the factors of a fit: confidence, correlation, rank, and combinations of factors that its targets do not
+!> determine.
 module ek_fit_statistics
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_positive_inf, ieee_is_finite
    use ek_kinds, only: wp

@@ -50,7 +50,7 @@ contains
       self%x = solver%x
    end subroutine begin_neighbour
 
-   !> Takes the present design: what does not change in the neighbours is then equal to the bit.
+   !> Stores the present design: numbers that do not change in the neighbours are then equal to the bit.
    subroutine follow_design(solver, self)
       type(design_solver_t), intent(in) :: solver
       type(neighbour_t), intent(inout) :: self

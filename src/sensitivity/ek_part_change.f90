@@ -1,4 +1,4 @@
-!> How the numbers of the parts of a model change with a number of the deck: once for a design, from its neighbours.
+!> The changes of the numbers of the parts of a model with a number of the deck: once for a design, from its neighbours.
 !>
 !> A number of the deck touches a few joints, elements and loads; the derivatives of their numbers are differences of neighbouring
 !> designs. What F makes of them at a state: ek_part_force.
@@ -55,7 +55,7 @@ module ek_part_change
       type(load_t) :: there(4)
    end type load_change_t
 
-   !> What a number of the deck changes.
+   !> The parts that a number of the deck changes.
    type :: change_t
       type(term_change_t), allocatable :: terms(:)
       type(row_change_t), allocatable :: rows(:)

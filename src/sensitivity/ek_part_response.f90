@@ -1,4 +1,4 @@
-!> How the forces of the parts of a model change with the numbers of these parts, at a state where the bodies do not move.
+!> The changes of the forces of the parts of a model with the numbers of these parts, at a state where the bodies do not move.
 !>
 !> Of an element, "force" is the generalised force dV/dz of its two bodies [N, N m]; of a term of a row, the gradient of its
 !> measure. With H the derivative of such a force g by z (the tangent of the element, the Hessian of the measure), a marker that is

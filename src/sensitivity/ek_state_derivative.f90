@@ -1,4 +1,4 @@
-!> How a state of equilibrium moves when a number of the design changes: dz/dp = K⁻¹ ∂F/∂p.
+!> The motion of an equilibrium state when a number of the design changes: dz/dp = K⁻¹ ∂F/∂p.
 !>
 !> F = [f_ext − f_el − Φqᵀλ; c − Φ + Cλ] is the right-hand side of ek_kkt, zero at an equilibrium, K = −∂F/∂z its whole tangent
 !> along screw motions, and z the poses of the bodies and λ. ∂F/∂p: ek_touched_parts.

@@ -130,7 +130,7 @@ contains
 
    end subroutine add_need
 
-   !> How many cases the numbers need.
+   !> The number of cases that the numbers need.
    pure integer function count_cases(wanted) result(many)
       type(wanted_number_t), intent(in) :: wanted(:)
       integer, allocatable :: cases(:)

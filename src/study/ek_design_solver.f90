@@ -45,7 +45,7 @@ module ek_design_solver
 
 contains
 
-   !> Reads a deck and lists its cases; reports all mistakes together.
+   !> Reads a deck and lists its cases; reports all errors together.
    subroutine begin_design_solver(deck, solver, error)
       type(deck_t), intent(in) :: deck
       type(design_solver_t), intent(out) :: solver
@@ -116,7 +116,7 @@ contains
       end if
    end subroutine read_checked
 
-   !> Takes new numbers; the next solution has them.
+   !> Stores new numbers, which the next solution uses.
    pure subroutine put_numbers(x, solver)
       real(wp), intent(in) :: x(:)                      !! of all parameters [SI, axes of the deck]
       type(design_solver_t), intent(inout) :: solver
@@ -278,7 +278,7 @@ contains
       end if
    end subroutine settle_fully
 
-   !> Examines a case, and adds its defects to those of others.
+   !> Examines a case, and adds its defects to the defects of other cases.
    subroutine examine_fully(k, solver, defects)
       integer, intent(in) :: k
       type(design_solver_t), intent(inout) :: solver

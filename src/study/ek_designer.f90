@@ -1,5 +1,5 @@
-!> What a study keeps of its deck from design to design: the numbers that its factors change, the cases that are solved, and the
-!> responses that are read from them, checked against the design of the deck itself.
+!> Data of the deck that a study stores from design to design: the numbers that its factors change, the cases that are solved,
+!> and the responses that are read from them, checked against the design of the deck itself.
 module ek_designer
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t, fail, exit_deck
@@ -21,7 +21,7 @@ module ek_designer
    private
    public :: designer_t, begin_designer, new_designer
 
-   !> What one thread keeps from design to design.
+   !> Data that one thread stores from design to design.
    type :: designer_t
       class(worker_t), allocatable :: worker               !! allocated by begin_designer; a class as in worker_case_t
       class(pack_space_t), allocatable :: packs                       !! for designs that are solved together
@@ -96,7 +96,7 @@ contains
       end do
    end subroutine new_designer
 
-   !> Lists the cases: that of the study first, then those of its responses.
+   !> Lists the cases: the case of the study first, then the cases of its responses.
    subroutine list_cases(study, designer)
       type(study_t), intent(in) :: study
       type(designer_t), intent(inout) :: designer

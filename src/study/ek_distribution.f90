@@ -1,6 +1,6 @@
 !> Distributions of a factor: uniform, normal, log-normal and triangular, each with optional bounds.
 !>
-!> A distribution is read through its quantile function x = F⁻¹(u), 0 < u < 1. Bounds truncate: what lies outside is left out, and
+!> A distribution is read through its quantile function x = F⁻¹(u), 0 < u < 1. Bounds truncate: what lies outside is omitted, and
 !> the rest is scaled up to a probability of one (they do not collect what lies outside).
 !>
 !> `nominal ± tolerance` (`from_tolerance`): the tolerance is the half-width of a uniform or triangular distribution, and three

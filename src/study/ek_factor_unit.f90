@@ -1,4 +1,5 @@
-!> The unit of a factor: that of the numbers of the deck which it changes, in texts ('N/mm') and at the end of a heading ('n_per_mm').
+!> The unit of a factor, which is the unit of the numbers that it changes, in texts ('N/mm') and at the end of a heading
+!> ('n_per_mm').
 !>
 !> A parameter knows the size of its unit in SI only; which unit this is follows from its group and key, here in one table.
 module ek_factor_unit

@@ -19,7 +19,7 @@ module ek_moments
       real(wp), allocatable :: curvatures(:, :)    !! b, symmetric; zero if only the slopes are known
    end type expansion_t
 
-   !> What follows for the response; in its unit.
+   !> The moments of the response, in its unit.
    type :: moments_t
       real(wp) :: mean = 0.0_wp
       real(wp) :: linear = 0.0_wp                  !! standard deviation by the slopes alone
@@ -90,7 +90,7 @@ contains
    end function trace_of_cube
 
    !> The share of designs between two limits, if the response is nearly normal: the distribution function to the first term of
-   !> Edgeworth's series. Without skewness, that of the normal distribution.
+   !> Edgeworth's series. Without skewness it is the share of the normal distribution.
    !>
    !> Equation (D.17) of docs/theory/sampling.md.
    pure real(wp) function normal_yield(mean, deviation, skewness, lower, upper) result(share)

@@ -32,7 +32,7 @@ module ek_ranks
    ! what is counted over all ranks
    integer, parameter :: ticket_counter = 1, done_counter = 2, failed_counter = 3, stopped_counter = 4, counters = 4
 
-   !> This process among those of the study.
+   !> The rank of this process among the processes of the study.
    type :: ranks_t
       integer :: rank = 0, count = 1              !! 0 … count − 1
       logical :: is_first = .true.                !! rank 0: it prints, and writes the tables

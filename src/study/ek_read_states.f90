@@ -7,7 +7,7 @@
 !> | slope | those in its window |
 !> | rms | the neighbours of each point of the wanted curve |
 !> | span, least, most, gradient; columns of the curves | all |
-!> | difference | those of its two responses |
+!> | difference | the states of its two responses |
 module ek_read_states
    use ek_table, only: table_t, column_index
    use ek_sweep_table, only: observer_t, observe_kandc_at, is_kandc_column, reads_matrix

@@ -114,7 +114,7 @@ contains
       if (message /= '') message = asked%where//': response '//quoted(asked%name)//': '//message
    end subroutine prepare_reading
 
-   !> Prepares the reading of a difference, after those of its two responses.
+   !> Prepares the reading of a difference, after the reading of its two responses.
    subroutine prepare_difference(asked, first, second, reading, message)
       type(response_t), intent(in) :: asked
       type(reading_t), intent(in) :: first, second
@@ -187,7 +187,7 @@ contains
       if (words /= '') words = '; this gradient belongs to'//words//': give the case of such a test in `case`'
    end function of_other_test
 
-   !> Reads the curve from which a column deviates: a CSV with the columns `factor` and that of the response.
+   !> Reads the curve from which a column deviates: a CSV with the columns `factor` and the column of the response.
    subroutine read_curve(asked, home, curve, message)
       type(response_t), intent(in) :: asked
       character(*), intent(in), optional :: home

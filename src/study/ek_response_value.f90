@@ -242,7 +242,7 @@ contains
       end do
    end subroutine find_ends
 
-   !> The same with the ends.
+   !> The swept value; a value within rounding of an end of the range is replaced by this end.
    pure real(wp) function nearest_end(at, low, high) result(rounded)
       real(wp), intent(in) :: at, low, high
       real(wp), parameter :: rounding = 1.0e-9_wp      ! of the range of a case, after conversion to SI

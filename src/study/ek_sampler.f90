@@ -13,7 +13,7 @@
 !> | saltelli | n (k + 2) | A, AB₁ … AB_k, B from Sobol' points of 2k coordinates, for sensitivity indices (ek_sensitivity) |
 !> | monte_carlo | n | u independent |
 !> | morris | n (k + 1) | n trajectories, on which each factor changes once by p/2 of its p levels (Morris 1991) |
-!> | tolerance | n | those of monte_carlo, beside the moments by derivatives (ek_tolerance) |
+!> | tolerance | n | designs of monte_carlo, in addition to the moments by derivatives (ek_tolerance) |
 !>
 !> A factor with `values` takes these only: as levels, or at random each with the same probability. Correlations (ek_copula) apply
 !> to latin_hypercube, sobol and monte_carlo. A latin_hypercube keeps its intervals: which one each design has is computed once for all
@@ -67,7 +67,7 @@ module ek_sampler
 
 contains
 
-   !> Makes a sampler. All mistakes that a deck can make are errors (exit_deck).
+   !> Makes a sampler. All errors that a deck can make are errors (exit_deck).
    pure subroutine new_sampler(settings, factors, sampler, error)
       type(sampler_settings_t), intent(in) :: settings
       type(factor_t), intent(in) :: factors(:)
@@ -159,7 +159,7 @@ contains
       factors = size(sampler%factors)
    end function factors_of
 
-   !> Is the sampler of this kind?
+   !> Whether the sampler is of this kind.
    pure logical function is_kind(sampler, kind)
       type(sampler_t), intent(in) :: sampler
       integer, intent(in) :: kind                  !! one of *_kind

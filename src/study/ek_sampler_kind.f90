@@ -9,7 +9,7 @@ module ek_sampler_kind
    integer, parameter :: grid_kind = 1, one_at_a_time_kind = 2, list_kind = 3, latin_hypercube_kind = 4, sobol_kind = 5, &
       saltelli_kind = 6, monte_carlo_kind = 7, morris_kind = 8, tolerance_kind = 9
 
-   !> What a deck may give for a kind.
+   !> The settings that a study may give for a kind.
    type :: sampler_kind_t
       character(15) :: name
       logical :: has_size          !! n: designs, base points or trajectories

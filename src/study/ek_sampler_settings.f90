@@ -1,4 +1,4 @@
-!> What a study gives to a sampler: its factors and settings.
+!> The input of a sampler from a study: its factors and settings.
 module ek_sampler_settings
    use ek_kinds, only: wp, i8
    use ek_error, only: error_t, fail, exit_deck

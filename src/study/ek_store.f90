@@ -1,5 +1,5 @@
 !> The results of a large study as one NetCDF-4 file: decides whether there is to be one, describes it, and has it written by the
-!> program elastokin-netcdf, which is installed beside elastokin if it was built with NetCDF-Fortran.
+!> program elastokin-netcdf, which is in the same folder as elastokin if it was built with NetCDF-Fortran.
 module ek_store
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t, fail, exit_file

@@ -1,7 +1,7 @@
-!> What the program elastokin-netcdf must know to write the store of a study from its chunks: sizes, names, units, texts.
+!> The input of the program elastokin-netcdf, which writes the store of a study from its chunks: sizes, names, units, texts.
 !>
 !> elastokin writes the description into the folder of the chunks; the file is a list of records, each a line with word, name and
-!> length, then so many characters and a line end. A description of another version is refused.
+!> length, then so many characters and a line end. A description of another version is rejected.
 module ek_store_description
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp

@@ -56,7 +56,7 @@ module ek_study
       character(:), allocatable :: where          !! 'file:line', for messages
    end type response_t
 
-   !> What a response reads of a case.
+   !> The data that a response reads from a case.
    character(*), parameter, public :: of_names(8) = [character(10) :: 'value', 'slope', 'span', 'min', 'max', 'rms', &
       'gradient', 'difference']
 

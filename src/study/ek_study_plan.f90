@@ -26,7 +26,7 @@ module ek_study_plan
    integer, parameter :: chunks_of_a_shard = 4    !! at least, so that shards have equal numbers of designs but for a quarter
    integer, parameter :: most_numbers = 4000000   !! of the curves of a chunk: 32 MB in each thread
 
-   !> What all workers of a study share.
+   !> Data that all workers of a study share.
    type :: study_plan_t
       type(sampler_t) :: sampler
       integer :: designs = 0, chunk = 1, chunks = 0          !! designs in all, per chunk; chunks

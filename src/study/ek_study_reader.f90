@@ -26,7 +26,7 @@ module ek_study_reader
 
 contains
 
-   !> Reads a study file; all its mistakes are reported in one error.
+   !> Reads a study file; all its errors are reported in one error.
    subroutine read_study(path, study, error)
       character(*), intent(in) :: path
       type(study_t), intent(out) :: study

@@ -4,7 +4,7 @@
 !> study that was stopped, or killed at any moment, resumes. Which thread computes a chunk has no influence on it.
 !> Several runs may use one folder: each holds a locked scratch folder in it, and the chunks are removed by the last one only. The
 !> locks of other machines may be invisible, so a run renews its scratch folder every hour; one of another machine that was not
-!> renewed for a day is that of a dead run.
+!> renewed for a day belongs to a dead run.
 module ek_study_run
    use ek_kinds, only: wp, i8
    use ek_error, only: error_t, fail, exit_file
@@ -34,7 +34,7 @@ module ek_study_run
    character(*), parameter :: line_end = new_line('a')
    integer(i8), parameter :: of_a_design = 2_i8**25         !! bytes: work space of a thread
 
-   !> How a study is run.
+   !> The options of a run of a study.
    type :: run_options_t
       integer :: jobs = 1                         !! threads
       integer :: shard = 1, shards = 1            !! this run computes the chunks shard, shard + shards, …
@@ -42,7 +42,7 @@ module ek_study_run
       logical :: is_quiet = .false.
    end type run_options_t
 
-   !> How far a run is.
+   !> The progress of a run.
    type :: run_state_t
       integer :: wanted = 0                       !! designs of this run
       integer :: before = 0                       !! of these, done before it began
@@ -64,7 +64,7 @@ module ek_study_run
       end subroutine report_procedure
    end interface
 
-   !> What the threads of a run share.
+   !> Data that the threads of a run share.
    type :: shared_t
       character(:), allocatable :: folder         !! of the chunks
       integer, allocatable :: pending(:)          !! numbers of the chunks that are missing
@@ -85,7 +85,7 @@ contains
       folder = join_path(out, study%name//'.parts')
    end function parts_folder
 
-   !> Opens the folder of the chunks. One that holds another study is refused.
+   !> Opens the folder of the chunks. A folder with another study is rejected.
    subroutine open_parts(study, plan, out, hold, error)
       type(study_t), intent(in) :: study
       type(study_plan_t), intent(in) :: plan
@@ -136,7 +136,7 @@ contains
       end if
    end subroutine check_parts
 
-   !> What identifies the chunks of a folder.
+   !> The identification of the chunks in a folder.
    function content_of(study, plan) result(lines)
       type(study_t), intent(in) :: study
       type(study_plan_t), intent(in) :: plan
@@ -203,7 +203,8 @@ contains
       call remove_empty_folder(folder)
    end subroutine remove_parts
 
-   !> Computes the chunks that are missing, or as many as there is time for. All ranks: their state is that of all.
+   !> Computes the chunks that are missing, or as many as there is time for. All ranks: `state` covers
+   !> all ranks.
    subroutine run_chunks(study, plan, deck, out, hold, options, designer, ranks, state, report, error)
       type(study_t), intent(in) :: study
       type(study_plan_t), intent(in) :: plan
@@ -321,7 +322,7 @@ contains
       end do
    end subroutine work
 
-   !> Takes the next chunk; 0 if there is none, or no time for it.
+   !> Chooses the next chunk; 0 if there is no further chunk, or no time for it.
    subroutine take_chunk(options, ranks, shared, number)
       type(run_options_t), intent(in) :: options
       type(ranks_t), intent(inout) :: ranks

@@ -1,4 +1,4 @@
-!> How far a study is, from the chunks in its folder: for --status, while another process may be running it.
+!> Progress of a study, from the chunks in its folder: for --status, while another process may be running it.
 module ek_study_survey
    use ek_kinds, only: wp, i8
    use ek_file, only: join_path, file_exists, folder_exists
@@ -14,7 +14,7 @@ module ek_study_survey
 
    integer(i8), parameter :: least_time = 20        !! s; file times are whole seconds
 
-   !> What is found in the folder of the chunks.
+   !> The content of the folder of the chunks.
    type :: survey_t
       integer :: done = 0, failed = 0                !! designs; of these, those that failed
       logical :: is_at_work = .false.                !! a run has the folder

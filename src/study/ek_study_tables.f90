@@ -24,7 +24,7 @@ module ek_study_tables
    integer, parameter :: max_reasons = 10        !! that are printed; all are in the table
    integer, parameter :: most_repeated = 10      !! factors that the table of states repeats in each row
 
-   !> How the designs of a study ended.
+   !> Counts of the designs of a study by their status.
    type :: study_counts_t
       integer :: designs(0:design_invalid) = 0                !! per status
       integer :: within = 0                                  !! designs that keep all limits of the responses
@@ -46,7 +46,7 @@ contains
       if (number == 1) name = study_name//'_responses.csv'
    end function tables_of
 
-   !> How many of these factors the table of states repeats in each row: all, or, as it would consist of them, none.
+   !> The number of factors that the table of states repeats in each row: all, or 0 if there are more than the limit.
    pure integer function repeated_factors(factors)
       integer, intent(in) :: factors
       repeated_factors = merge(factors, 0, factors <= most_repeated)
@@ -59,7 +59,7 @@ contains
       name = tables_of(study%name, 1)
    end function responses_name
 
-   !> That of the states.
+   !> The name of the table of states.
    pure function curves_name(study) result(name)
       type(study_t), intent(in) :: study
       character(:), allocatable :: name

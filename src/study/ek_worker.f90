@@ -148,7 +148,8 @@ contains
 
    !> Changes to the design with these values of the factors, from the numbers alone, with its cases on the rig. is_done is
    !> .false. if it must be
-   !> read from the text: a factor is no number of the design space, a value is outside its range, or the design may have a defect.
+   !> read from the text: a factor is not a number of the design space, a value is outside its range, or the design may have a
+   !> defect.
    subroutine change_design(factors, values, worker, is_done)
       type(factor_paths_t), intent(in) :: factors(:)
       real(wp), intent(in) :: values(:)                    !! in the units of the deck
@@ -178,8 +179,8 @@ contains
       end do
    end subroutine change_design
 
-   !> Takes the numbers of a case from a design and examines the design on the rig of the case. is_sound is .false. if the case cannot be
-   !> put on the rig, or if the design may have a defect: it must then be read from the text.
+   !> Copies the numbers of a case from a design and examines the design on the rig of the case. is_sound is .false. if the
+   !> case cannot be put on the rig, or if the design may have a defect: it must then be read from the text.
    subroutine examine_design(suspension, design, this, is_sound)
       type(suspension_t), intent(in) :: suspension         !! realised, not balanced
       type(design_t), intent(in) :: design                 !! with the cases of these numbers
@@ -196,7 +197,7 @@ contains
       is_sound = .not. is_in_doubt
    end subroutine examine_design
 
-   !> Renews the numbers of a case at a design: those of the deck, or of the standard test.
+   !> Renews the numbers of a case at a design: the numbers of the deck, or of the standard test.
    subroutine refresh_case(suspension, design, this)
       type(suspension_t), intent(in) :: suspension
       type(design_t), intent(in) :: design                 !! with the cases of these numbers
