@@ -113,7 +113,7 @@ contains
       call respond(reader, slope, is)
    end subroutine respond_per
 
-   !> Computes the groups of quantities of one wheel that are asked. Ride and hop rate and the roll with tyres are defined only
+   !> Computes the groups of quantities of one wheel that are requested. Ride and hop rate and the roll with tyres are defined only
    !> with tyre rates, roll only with two wheels, anti-dive, anti-lift and anti-squat only with data of the axle.
    !> Equation (C.12) of docs/theory/compliance.md.
    pure subroutine wheel_characteristics(loaded, stand, place, axle, is_asked, is)
