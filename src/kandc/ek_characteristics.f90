@@ -63,7 +63,7 @@ module ek_characteristics
       real(wp) :: stiffness(6) = 0.0_wp        !! 1/C(i,i), parallel loads, at the wheel centre [N/m, N m/rad]
    end type wheel_characteristics_t
 
-   !> The patch of a wheel, and how its angles change with small rotations of its carrier about x, y, z.
+   !> The contact point of a wheel, and the slopes of its angles under small rotations of its carrier about x, y, z.
    type :: reader_t
       real(wp) :: arm(3) = 0.0_wp
       integer :: side = -1
