@@ -29,7 +29,7 @@ module ek_session
       type(solve_options_t) :: options
    end type prepared_t
 
-   !> Derivatives that were asked last: the same of another design make no text.
+   !> Derivatives that were requested last: the same derivatives of another design create no strings.
    type :: derived_t
       type(derivatives_t) :: derivatives
       character(name_length), allocatable :: columns(:), paths(:)      !! as the caller wrote them

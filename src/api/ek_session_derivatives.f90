@@ -71,7 +71,7 @@ contains
 
    end subroutine find_slopes
 
-   !> Whether the same columns and numbers were asked last, of the same case of the same solver.
+   !> Whether the same columns and numbers were requested last, of the same case of the same solver.
    pure logical function is_prepared(session, columns, paths)
       type(session_t), intent(in) :: session
       character(*), intent(in) :: columns(:), paths(:)

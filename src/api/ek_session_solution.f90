@@ -110,7 +110,7 @@ contains
       call fail(error, exit_usage, 'no case '//quoted(name)//' in '//file//did_you_mean(name, names))
    end subroutine find_case
 
-   !> Prepares the columns that a case is to have: names with * become those that they fit.
+   !> Prepares the columns that a case is to have: names with * are replaced by the names that match.
    subroutine prepare(solver, k, asked, prepared, error)
       type(design_solver_t), intent(in) :: solver
       integer, intent(in) :: k

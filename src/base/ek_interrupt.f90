@@ -1,5 +1,5 @@
 !> SIGINT (Ctrl-C), SIGTERM (a batch system at its time limit), SIGHUP (a terminal that was closed), SIGUSR1, SIGUSR2 and SIGXCPU
-!> (warnings of batch systems) and SIGQUIT as a question that a long run asks now and then.
+!> (warnings of batch systems) and SIGQUIT as a condition that a long run reads repeatedly.
 module ek_interrupt
    use, intrinsic :: iso_c_binding, only: c_funloc, c_funptr, c_int, c_intptr_t, c_null_funptr
    use ek_posix, only: c_signal

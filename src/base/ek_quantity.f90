@@ -2,7 +2,7 @@
 !>
 !> A row stands at the place of its column in the table of results, section by section. The kernel of a section returns the
 !> values in SI, in the same order: ek_state_columns (wheel_position, steer_axis), ek_kandc_columns (wheel_now to of_rack) with
-!> ek_wheel_columns and ek_geometry_columns. A section is computed as a whole, and only if one of its columns is asked. So a new
+!> ek_wheel_columns and ek_geometry_columns. A section is computed as a whole, and only if one of its columns is requested. So a new
 !> quantity is a row here and its value there, at the same place; its unit is the end of its name. Heads, charts, key numbers and
 !> reserved names follow from the row. input/QUANTITIES.md defines each of them.
 module ek_quantity
@@ -206,7 +206,7 @@ module ek_quantity
 
    character(*), parameter :: conditions(2) = [character(11) :: 'load_held', 'height_held']
 
-   !> Endings of the columns of elements, measures and joints behind the name in the deck.
+   !> Endings of the columns of elements, measures and joints after the name in the deck.
    character(*), parameter, public :: element_endings(*) = [character(15) :: '_mm', '_deg', '_cosine', '_length_mm', '_force_n', &
       '_angle_deg', '_moment_nm', '_motion_ratio', '_gap_mm', '_travel_left_mm', '_reaction_n', '_reaction_nm', '_fx_n', '_mx_nm']
 

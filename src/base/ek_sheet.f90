@@ -1,8 +1,8 @@
 !> A table of numbers written by hand or by a spreadsheet; the reader collects all errors in it.
 !>
 !> Lines with # are comments, empty lines (and lines of separators alone) are skipped, and the first other line has the
-!> heads. Columns are separated by commas, or by semicolons or tabs if the line of heads has one. Also accepted are a
-!> byte order mark, a first line `sep=;`, line ends of Windows and old Macs, heads and numbers in double quotes,
+!> headings. Columns are separated by commas, or by semicolons or tabs if the line of headings has one. Also accepted are a
+!> byte order mark, a first line `sep=;`, line ends of Windows and old Macs, headings and numbers in double quotes,
 !> empty cells behind the last head, and decimal commas if commas do not separate columns.
 module ek_sheet
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
@@ -105,7 +105,7 @@ contains
       if (sheet%untold > 0) call mistakes%add(sheet%file//': and '//plural(sheet%untold, 'more error', 'more errors'))
    end subroutine mistakes_of
 
-   !> 'table.csv:1: ', for a message about the heads.
+   !> 'table.csv:1: ', for a message about the headings.
    pure function head_place(sheet) result(words)
       type(sheet_t), intent(in) :: sheet
       character(:), allocatable :: words
@@ -125,7 +125,7 @@ contains
       is_comment = .not. any([(index(content(:min(9, len(content))), trim(cell_errors(k))) > 0, k=1, size(cell_errors))])
    end function is_comment
 
-   !> Reads the line of heads, which also defines the separator of the columns.
+   !> Reads the line of headings, which also defines the separator of the columns.
    subroutine take_heads(content, sheet)
       character(*), intent(in) :: content
       type(sheet_t), intent(inout) :: sheet
@@ -264,7 +264,7 @@ contains
       end if
    end subroutine read_number
 
-   !> Checks the heads, and that there are rows.
+   !> Checks the headings, and that there are rows.
    subroutine judge_heads(sheet, rows, is_unnamed)
       type(sheet_t), intent(inout) :: sheet
       integer, intent(in) :: rows

@@ -23,7 +23,7 @@ module ek_explain_text
 
 contains
 
-   !> Adds the largest contributions to each asked column, and the rest.
+   !> Adds the largest contributions to each requested column, and the rest.
    subroutine add_largest(table, text)
       type(contribution_table_t), intent(in) :: table
       type(buffer_t), intent(inout) :: text
@@ -62,7 +62,7 @@ contains
          repeat(merge('+', '-', value > 0.0_wp), letters))
    end subroutine add_bar
 
-   !> Adds each asked column with some laws rigid, or 1 kN/mm more in one of them.
+   !> Adds each requested column with some laws rigid, or 1 kN/mm more in one of them.
    subroutine add_rigid(suspension, name, laws, kkt, table, text)
       type(suspension_t), intent(in) :: suspension
       character(*), intent(in) :: name                 !! what is rigid
@@ -144,7 +144,7 @@ contains
       text = name//repeat(' ', max(width - len(name), 1))
    end function padded
 
-   !> A number with seven digits behind the point.
+   !> A number with seven digits after the point.
    function number(value) result(text)
       real(wp), intent(in) :: value
       character(14) :: text

@@ -99,7 +99,7 @@ contains
       end associate
    end subroutine take_ranges
 
-   !> A row of what is nearly normal.
+   !> A row of moments of a nearly normal response.
    pure function row_of(mean, deviation, skewness, axis) result(row)
       real(wp), intent(in) :: mean, deviation, skewness
       type(study_axis_t), intent(in) :: axis

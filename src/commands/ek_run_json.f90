@@ -31,7 +31,7 @@ contains
       call json%open('[', 'cases')
    end subroutine begin_run_json
 
-   !> Adds one case: how it ended, its remarks, and its table column by column; no columns if it was not solved.
+   !> Adds one case: its status, its remarks, and its table column by column; no columns if it was not solved.
    subroutine add_run_json(result, case, json)
       type(case_result_t), intent(in) :: result
       type(case_t), intent(in) :: case             !! as in the deck

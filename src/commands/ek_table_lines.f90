@@ -79,7 +79,7 @@ contains
       end do
    end subroutine next_line
 
-   !> Reads the first numbers of a line; other content becomes NaN. `rest` is where the field behind them begins.
+   !> Reads the first numbers of a line; other content becomes NaN. `rest` is where the field after them begins.
    pure subroutine take_numbers(content, values, rest)
       character(*), intent(in) :: content
       real(wp), intent(out) :: values(:)

@@ -1,7 +1,7 @@
 !> A position in a text, with procedures that read from it: blanks, identifiers, subscripts, the rest of a line, and the typing
 !> errors between two keys that can be recognised: a missing = sign and a unit after a number.
 !>
-!> Each `take_…` moves the cursor behind the text it returns. Nothing here can fail; the scanner reports errors.
+!> Each `take_…` moves the cursor after the text it returns. Nothing here can fail; the scanner reports errors.
 module ek_cursor
    use ek_text, only: lower
    use ek_record, only: entry_t
@@ -99,7 +99,7 @@ contains
       next = next_character(text, ahead)
    end subroutine look_past_key
 
-   !> Reads the text between ( and ), blanks removed; the cursor moves behind the ).
+   !> Reads the text between ( and ), blanks removed; the cursor moves after the ).
    pure subroutine take_subscript(text, cursor, content)
       character(*), intent(in) :: text
       type(cursor_t), intent(inout) :: cursor

@@ -129,7 +129,7 @@ contains
       if (.not. is_angle .and. head(mark:) == '_mm') unit = millimetre
    end subroutine find_meaning
 
-   !> Adds errors to the sheet: heads unknown in a model, and too many columns.
+   !> Adds errors to the sheet: headings unknown in a model, and too many columns.
    subroutine judge_columns(sheet, suspension, wheels, is_unknown)
       type(sheet_t), intent(inout) :: sheet
       type(suspension_t), intent(in) :: suspension

@@ -7,7 +7,7 @@
 !> | 105.5 path         | a number before its path                                                            |
 !> | { path = value }   | APREPRO; the names that Dakota adds itself are omitted                             |
 !> | 2 variables        | Dakota's parameters file: two lines `number path` follow, the rest belongs to Dakota |
-!> | # comment          | also behind a setting; empty lines                                                  |
+!> | # comment          | also after a setting; empty lines                                                  |
 module ek_set_file
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t, fail, exit_deck

@@ -1,7 +1,7 @@
 !> Which elements of a model are spring, damper, bump stop and bar of a wheel.
 !>
 !> Without a choice of the user: the only spring, damper and bump stop of the wheel, by its name left_… or right_…, as &mirror makes
-!> them; of a model with one wheel the only one. A damper that a deck does not have is as long as its spring, a stop as its
+!> them; with one wheel the only element. A damper that a deck does not have is as long as its spring, a stop as its
 !> damper. A wheel without a spring on two points, or without a bar, has the travel of the wheel instead: the length of a spring
 !> of ratio 1 (which shortens in bump), and for the bar tz itself: its rate in the simulator is then that at the wheel.
 module ek_length_choice

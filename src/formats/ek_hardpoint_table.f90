@@ -97,7 +97,7 @@ contains
       if (separator /= ',' .and. comma > 0 .and. index(number, '.') == 0) number(comma:comma) = '.'
    end function with_point
 
-   !> Whether a line without heads is a row already: a word, then three numbers.
+   !> Whether a line without headings is a row already: a word, then three numbers.
    logical function is_row(cells, separator)
       type(message_list_t), intent(in) :: cells
       character, intent(in) :: separator

@@ -5,9 +5,9 @@
 !>     (PART)                          a part of the block, with entries and rows of its own
 !>     {first second third}            the column headings of the rows that follow
 !>     value value value               a row
-!>     $ text                          a comment, also behind values; ! at the begin of a line as well
+!>     $ text                          a comment, also after values; ! at the begin of a line as well
 !>
-!> Case does not matter in names of blocks, keys and heads.
+!> Case does not matter in names of blocks, keys and headings.
 module ek_teimorbit
    use ek_kinds, only: wp
    use ek_text, only: lower
@@ -186,7 +186,7 @@ contains
       end associate
    end subroutine add_item
 
-   !> The first block of a name behind block `after`; 0 if there is none.
+   !> The first block of a name after block `after`; 0 if there is none.
    pure integer function find_block(file, name, after)
       type(teimorbit_t), intent(in) :: file
       character(*), intent(in) :: name                !! lower case

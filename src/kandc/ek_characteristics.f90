@@ -63,7 +63,7 @@ module ek_characteristics
       real(wp) :: stiffness(6) = 0.0_wp        !! 1/C(i,i), parallel loads, at the wheel centre [N/m, N m/rad]
    end type wheel_characteristics_t
 
-   !> The patch of a wheel, and how its angles change with small rotations of its carrier about x, y, z.
+   !> The contact point of a wheel, and the slopes of its angles under small rotations of its carrier about x, y, z.
    type :: reader_t
       real(wp) :: arm(3) = 0.0_wp
       integer :: side = -1
@@ -113,7 +113,7 @@ contains
       call respond(reader, slope, is)
    end subroutine respond_per
 
-   !> Computes the groups of quantities of one wheel that are asked. Ride and hop rate and the roll with tyres are defined only
+   !> Computes the groups of quantities of one wheel that are requested. Ride and hop rate and the roll with tyres are defined only
    !> with tyre rates, roll only with two wheels, anti-dive, anti-lift and anti-squat only with data of the axle.
    !> Equation (C.12) of docs/theory/compliance.md.
    pure subroutine wheel_characteristics(loaded, stand, place, axle, is_asked, is)

@@ -125,7 +125,7 @@ contains
       end if
    end subroutine fill_block
 
-   !> Chooses the columns that are filled. Blocks without a wanted column are passed over, and the matrix is solved only for a
+   !> Chooses the columns that are filled. Blocks without a wanted column are skipped, and the matrix is solved only for a
    !> column that needs it.
    pure subroutine choose(list, is_wanted)
       class(column_list_t), intent(inout) :: list

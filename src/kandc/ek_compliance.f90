@@ -213,7 +213,7 @@ contains
    end subroutine solve_symmetric
 
    !> Moves every load to the column of its own number, zeros between: the last digits of LAPACK's column depend on its number
-   !> and on the number of columns, by the kernels of the processor. A quantity is the same whatever else is asked.
+   !> and on the number of columns, by the kernels of the processor. A quantity is the same whatever else is requested.
    pure subroutine spread(self)
       type(compliance_t), intent(inout) :: self
       integer :: j, k
@@ -321,7 +321,7 @@ contains
       end associate
    end subroutine read_ports
 
-   !> Change of a measure of two bodies under a load that was asked and solved.
+   !> Change of a measure of two bodies under a load that was requested and solved.
    pure real(wp) function move_of(self, load, gradient, body_i, body_j) result(change)
       type(compliance_t), intent(in) :: self
       integer, intent(in) :: load

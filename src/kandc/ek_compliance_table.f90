@@ -27,7 +27,8 @@ contains
    !> A column is called <place>_<displacement>_by_<load>_<unit>: displacement and load begin with the wheel (`left_`, `right_`),
    !> then x, y, z (displacements), rx, ry, rz (rotations), fx, fy, fz (forces), mx, my, mz (moments), in the frame of the deck.
    !> `centre`: loads and displacements at the wheel centres; `patch`: at the contact points of the deck. Loads keep their
-   !> direction; the vertical force on all wheels is held, heights held by the rig are released (ek_compliance). No wheel: none.
+   !> direction; the vertical force on all wheels is held, heights held by the rig are released (ek_compliance). Without a
+   !> wheel there are no columns.
    subroutine compliance_table(suspension, case, path, kkt, table)
       type(suspension_t), intent(in) :: suspension      !! on the rig
       type(case_t), intent(in) :: case

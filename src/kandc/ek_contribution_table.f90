@@ -53,7 +53,7 @@ module ek_contribution_table
 
 contains
 
-   !> Lists columns and rows; all columns are asked.
+   !> Lists columns and rows; all columns are requested.
    subroutine start_contributions(suspension, self)
       type(suspension_t), intent(in) :: suspension          !! on the rig
       type(contribution_table_t), intent(out) :: self

@@ -161,7 +161,7 @@ contains
       end do
    end function without_numbers
 
-   !> Collects the errors of every table, which was read with the deck, finds the column of every target, compares all heads of
+   !> Collects the errors of every table, which was read with the deck, finds the column of every target, compares all headings of
    !> the results; all errors are reported together.
    !>
    !> A message on a table gives the line in the file and the line of the case in the deck:

@@ -1,7 +1,7 @@
 !> The values of the K&C quantities at a state.
 !>
 !> The sections of ek_quantity give names, units and conditions; the values of each section are computed in SI, in the same order,
-!> if one of its columns is asked: here, in ek_wheel_columns and in ek_geometry_columns. A quantity
+!> if one of its columns is requested: here, in ek_wheel_columns and in ek_geometry_columns. A quantity
 !> without a value at a state is not a number.
 !>
 !> The ending of a column names the quantity whose slope it is: `…_steer`, `…_toe`, `…_camber`, `…_caster` are the

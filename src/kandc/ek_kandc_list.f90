@@ -1,4 +1,4 @@
-!> The K&C quantities that a model defines, as a list of columns, and what is computed for those that are asked: sections of
+!> The K&C quantities that a model defines, as a list of columns, and what is computed for those that are requested: sections of
 !> quantities, loads of the compliance matrix, ports that are held.
 module ek_kandc_list
    use ek_kinds, only: wp
@@ -58,7 +58,7 @@ module ek_kandc_list
 
 contains
 
-   !> Lists all columns that a model defines, and all are asked.
+   !> Lists all columns that a model defines, and all are requested.
    subroutine start_kandc(suspension, self)
       type(suspension_t), intent(in) :: suspension
       type(kandc_t), intent(out) :: self
@@ -72,7 +72,7 @@ contains
 
    !> Lists the names of all columns that a model defines: self%names(:self%used). In the order of the table: each wheel, the axle
    !> with its steering, the geometry of each wheel, that of the axle, elements, springs. Before they are filled, choose_kandc
-   !> says which are asked.
+   !> says which are requested.
    subroutine list_kandc(suspension, self)
       type(suspension_t), intent(in) :: suspension
       type(kandc_t), intent(out) :: self

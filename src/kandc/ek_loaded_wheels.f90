@@ -1,5 +1,5 @@
 !> The responses of one or two wheels to loads at their centres and at their contact points, with vertical loads or heights held:
-!> what their characteristics are computed from. Only what is asked is set.
+!> what their characteristics are computed from. Only what is requested is set.
 !>
 !> No suspension is stiffer than a block of steel (about 1e10 N/m), so a compliance below 1e-12 m/N is rounding.
 module ek_loaded_wheels

@@ -3,9 +3,10 @@
 !> `rig_of` makes the rig of a case as a value of its own; it cannot fail, reads no file and changes nothing. The tests are in
 !> ek_rig_test.
 !>
-!> `put_on` makes one flat model of a suspension and a rig, its rows and loads after those of the suspension: an increment needs
+!> `put_on` makes one flat model of a suspension and a rig, with its rows and loads after the rows and loads of the suspension:
+!> an increment needs
 !> one list of rows, one of loads and one reaction vector λ. The split is by number: `own_rows` of the suspension come first in Φ
-!> and in λ, and "released" means without the rows behind them. In the same way the case on the rig is the case with the
+!> and in λ, and "released" means without the rows after them. In the same way the case on the rig is the case with the
 !> actuations of its rig: a rig carried beside both would be one more argument of every procedure and split nothing else.
 !>
 !> A wheel held by height has a driver on its centre, or on its patch (vertical = 'patch'); on the road (vertical =

@@ -33,7 +33,7 @@ module ek_state_columns
 
 contains
 
-   !> Lists the columns of a model. All are asked.
+   !> Lists the columns of a model. All are requested.
    subroutine state_columns(suspension, list)
       type(suspension_t), intent(in) :: suspension
       type(column_list_t), intent(out) :: list
@@ -44,7 +44,7 @@ contains
       call choose(list, is_wanted)
    end subroutine state_columns
 
-   !> Lists the names of the columns of a model: list%names(:list%used). Before they are filled, `choose` sets which are asked.
+   !> Lists the names of the columns of a model: list%names(:list%used). Before they are filled, `choose` sets which are requested.
    subroutine list_state(suspension, list)
       type(suspension_t), intent(in) :: suspension
       type(column_list_t), intent(out) :: list
@@ -104,25 +104,25 @@ contains
 
    end subroutine list_state
 
-   !> Whether a column of a wheel is asked.
+   !> Whether a column of a wheel is requested.
    pure logical function has_wheels(list)
       type(column_list_t), intent(in) :: list
       has_wheels = any(list%section(list%blocks) <= of_axis)
    end function has_wheels
 
-   !> Whether columns of wheels alone are asked, which follow from their attitudes.
+   !> Whether columns of wheels alone are requested, which follow from their attitudes.
    pure logical function has_only_wheels(list)
       type(column_list_t), intent(in) :: list
       has_only_wheels = all(list%section(list%blocks) <= of_axis)
    end function has_only_wheels
 
-   !> Whether a column of a joint is asked.
+   !> Whether a column of a joint is requested.
    pure logical function has_joints(list)
       type(column_list_t), intent(in) :: list
       has_joints = any(list%section(list%blocks) == of_joint)
    end function has_joints
 
-   !> Computes the values of the asked columns at a state.
+   !> Computes the values of the requested columns at a state.
    pure subroutine state_values(suspension, state, wheels, kkt, list, row)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state

@@ -232,7 +232,7 @@ contains
       reads_poses_of_wheels = .not. has_kandc(observer) .and. has_only_wheels(observer%list)
    end function reads_poses_of_wheels
 
-   !> Whether K&C quantities are asked.
+   !> Whether K&C quantities are requested.
    pure logical function has_kandc(observer)
       type(observer_t), intent(in) :: observer
       has_kandc = observer%has_all
@@ -310,7 +310,7 @@ contains
       call list_columns(suspension, case, columns, list, kandc)
    end subroutine sweep_columns
 
-   !> Lists the headings, and prepares the K&C columns if the case requests them. Which are asked is set afterwards.
+   !> Lists the headings, and prepares the K&C columns if the case requests them. Which are requested is set afterwards.
    subroutine list_columns(suspension, case, columns, list, kandc)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case

@@ -1,4 +1,4 @@
-!> Conditions on numbers of four designs, and what depends on them.
+!> Conditions on numbers of four designs, and functions of them.
 !>
 !> A condition is kept as 1 or 0 in a real: SSE2 has no comparison of 64-bit integers.
 module ek_lane_conditions

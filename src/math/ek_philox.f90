@@ -73,7 +73,7 @@ contains
       call philox(key, counter, words)
    end subroutine words_of
 
-   !> A multiple of 2⁻⁵³ in (0, 1) from two random integers; 2⁻⁵⁴ takes the place of 0. Exact, thus the same on every machine.
+   !> A multiple of 2⁻⁵³ in (0, 1) from two random integers; 2⁻⁵⁴ replaces 0. Exact, thus the same on every machine.
    !>
    !> Equation (D.1) of docs/theory/sampling.md.
    pure real(wp) function fraction_of(first, second) result(u)

@@ -83,7 +83,7 @@ contains
       end do
    end subroutine set_directions
 
-   !> Scrambles one dimension. Digit i of a number (i = 1 is the first behind the point) becomes the sum modulo 2 of itself and of a
+   !> Scrambles one dimension. Digit i of a number (i = 1 is the first after the point) becomes the sum modulo 2 of itself and of a
    !> random choice of the digits before it. The shift is random.
    !>
    !> Equation (D.5) of docs/theory/sampling.md.

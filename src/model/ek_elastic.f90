@@ -3,7 +3,7 @@
 !>     V = ½ dᵀK_t d + ½ θᵀK_r θ − f0·d − m0·θ
 !>
 !> d is the gap from marker I to marker J and θ the relative rotation vector, both in the axes of marker I (fixed in body i).
-!> A component may have a curve c instead of a rate; ∫c then takes the place of ½ k d².
+!> A component may have a curve c instead of a rate; ∫c then replaces ½ k d².
 !>
 !> "Pull" below means the generalised force dV/dz, the gradient of the energy; the force ON the bodies is −dV/dz.
 module ek_elastic

@@ -127,7 +127,7 @@ contains
       self%steering%driver = ''
    end subroutine allocate_lists
 
-   !> Copies the numbers of a suspension to another one, which has the same parts, and may have those of a rig behind them (ek_rig):
+   !> Copies the numbers of a suspension to another one, which has the same parts, and may have those of a rig after them (ek_rig):
    !> rows, terms and loads. Every number that realise, settle_design or balance sets is copied; nothing is allocated.
    pure subroutine copy_numbers(from, to)
       type(suspension_t), intent(in) :: from

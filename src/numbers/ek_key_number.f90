@@ -1,6 +1,6 @@
 !> A key number of a suspension: what it is, in which columns of which tests it stands, and how its value is read from them.
 !>
-!> ek_key_numbers lists the numbers that tests can have, from the heads of their tables alone; read_source reads one of them when
+!> ek_key_numbers lists the numbers that tests can have, from the headings of their tables alone; read_source reads one of them when
 !> the tests are solved. It makes no text, so that several threads can read at the same time.
 module ek_key_number
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan

@@ -302,7 +302,7 @@ contains
       end do
    end subroutine from_tables
 
-   !> '; + top outward' behind a definition; nothing without a sign.
+   !> '; + top outward' after a definition; nothing without a sign.
    function sign_of(sign) result(text)
       character(*), intent(in) :: sign
       character(:), allocatable :: text

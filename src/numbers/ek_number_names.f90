@@ -92,7 +92,7 @@ contains
    end subroutine list_numbers
 
    !> Lists the tests with the headings of their tables, and the numbers that they may have. The rig adds nothing to what key
-   !> numbers are read from, so that all tests have the heads of the first.
+   !> numbers are read from, so that all tests have the headings of the first.
    subroutine list_all(suspension, cases, tests, listed, names, wanted)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: cases(:)

@@ -179,7 +179,7 @@ contains
       call append(number, numbers)
    end subroutine add_rack_force
 
-   !> Inserts a number behind the last of its group.
+   !> Inserts a number after the last of its group.
    subroutine append(number, list)
       type(key_number_t), intent(in) :: number
       type(number_list_t), intent(inout) :: list

@@ -15,7 +15,7 @@ module ek_pack_tangents
 contains
 
    !> Finds the error of the trapezoidal rule in the step to the present states, as `compare` of ek_branch does from the last
-   !> factors and the state before the last. Where they do not explain the step, the tangent at its beginning takes the place of
+   !> factors and the state before the last. Where they do not explain the step, the tangent at its beginning replaces
    !> that state.
    subroutine compare_tangents(self, members, places, is_common, is_asked, value, rest)
       type(walker_t), intent(inout) :: self

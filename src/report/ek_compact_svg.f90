@@ -79,7 +79,7 @@ contains
       used = used + len(text)
    end subroutine copy
 
-   !> Appends coordinates, up to the quotation mark behind them, with one digit behind the point: a tenth of a pixel.
+   !> Appends coordinates, up to the quotation mark after them, with one digit after the point: a tenth of a pixel.
    pure subroutine copy_coordinates(svg, at, to, used)
       character(*), intent(in) :: svg
       integer, intent(inout) :: at, used
@@ -150,7 +150,7 @@ contains
       at = k + 1
    end subroutine copy_colour
 
-   !> Moves `at` behind a group that has an id alone and nothing but line ends in it.
+   !> Moves `at` after a group that has an id alone and nothing but line ends in it.
    pure subroutine skip_empty_group(svg, at)
       character(*), intent(in) :: svg
       integer, intent(inout) :: at
@@ -166,7 +166,7 @@ contains
       if (svg(last:min(last + len(tail) - 1, len(svg))) == tail) at = last + len(tail)
    end subroutine skip_empty_group
 
-   !> The next position of a word, at `at` or behind it; behind the text if there is none.
+   !> The next position of a word, at `at` or after it; after the text if there is none.
    pure integer function next_of(text, at, word) result(place)
       character(*), intent(in) :: text, word
       integer, intent(in) :: at

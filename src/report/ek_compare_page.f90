@@ -139,7 +139,7 @@ contains
       call begin_table(page, heads, 'numbers')
    end subroutine begin_rows
 
-   !> Ends a table and begins a folded one with the same heads.
+   !> Ends a table and begins a folded one with the same headings.
    subroutine fold_rows(page, heads, rows, what)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: heads(:), what

@@ -104,7 +104,7 @@ contains
       end associate
    end function effect_sizes
 
-   !> Whether a factor does nothing to a response: less than a millionth of what the strongest does.
+   !> Whether a factor has no effect on a response: less than a millionth of the largest effect.
    pure logical function has_no_effect(sizes, f)
       real(wp), intent(in) :: sizes(:)
       integer, intent(in) :: f

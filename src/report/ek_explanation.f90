@@ -83,7 +83,8 @@ contains
       list = [rates_of(result, table), found]
    end subroutine find_explanations
 
-   !> The wheel rate of the left or single wheel and the roll rate, taken apart; those that the table of the case has at design.
+   !> The wheel rate of the left or single wheel and the roll rate, with their parts, as far as the table of the case gives
+   !> them at design.
    function rates_of(result, table) result(list)
       type(case_result_t), intent(in) :: result
       type(contribution_table_t), intent(in) :: table

@@ -140,7 +140,7 @@ contains
       call script%add(indent//'set '//y//'range '//range_of(panel))
    end subroutine add_axes
 
-   !> The text of a label; its sign, '(+ …)' behind a gap, is placed on a separate line in a small panel.
+   !> The text of a label; its sign, '(+ …)' after a gap, is placed on a separate line in a small panel.
    pure function label(text, is_folded) result(words)
       character(*), intent(in) :: text
       logical, intent(in) :: is_folded

@@ -202,7 +202,7 @@ contains
       call end_more(page, shown, principal)
    end subroutine add_live_charts
 
-   !> Begins the block of charts before a chart, and folds those behind the first `most`.
+   !> Begins the block of charts before a chart, and folds those after the first `most`.
    subroutine begin_more(page, charts, test, shown, most)
       type(page_t), intent(inout) :: page
       type(chart_t), intent(in) :: charts(:)
@@ -258,7 +258,7 @@ contains
       if (abs(value) < 1.0e-4_wp*span) value = 0.0_wp
    end function level_of
 
-   !> Adds the charts of a test drawn by gnuplot; those behind the first few are folded.
+   !> Adds the charts of a test drawn by gnuplot; those after the first few are folded.
    subroutine add_charts(page, charts, test, folder)
       type(page_t), intent(inout) :: page
       type(chart_t), intent(in) :: charts(:)

@@ -99,7 +99,7 @@ contains
       call run_gnuplot(scripts, pictures, join_path(report%folder, 'figures'), message, error)
    end subroutine draw_pictures
 
-   !> The rest of a text behind its first letters.
+   !> The rest of a text after its first letters.
    pure function after(text, first) result(rest)
       character(*), intent(in) :: text, first
       character(:), allocatable :: rest

@@ -99,7 +99,7 @@ contains
    end subroutine add_words
 
    !> Adds a tag with its ids and references to ids renamed, its mouse events and gnuplot's default style dropped; `at` is then
-   !> behind. An empty group is omitted with its end: gnuplot writes many.
+   !> after. An empty group is omitted with its end: gnuplot writes many.
    pure subroutine add_tag(out, symbols, text, prefix, at)
       type(buffer_t), intent(inout) :: out
       type(symbols_t), intent(inout) :: symbols

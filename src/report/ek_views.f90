@@ -1,7 +1,7 @@
 !> Three views of a suspension at design with the names of its hardpoints: from the left, from the front and from above.
 !>
-!> Of an axle the left half is drawn, names without 'left_'. Axes are those of the deck [mm]; seen from the left and from above, the
-!> front of the car is at the left.
+!> Of an axle the left half is drawn, names without 'left_'. Axes are the axes of the deck [mm]; seen from the left and from
+!> above, the front of the car is at the left.
 module ek_views
    use ek_kinds, only: wp, millimetre
    use ek_text, only: str

@@ -1,4 +1,4 @@
-!> The derivatives of columns by the unknowns of a state, where the design does not change: for the adjoint way.
+!> The derivatives of columns with respect to the unknowns of a state, at a fixed design: for the adjoint method.
 !>
 !>     dy/dp = ∂y/∂z dz/dp + ∂y/∂p = aᵀ ∂F/∂p + ∂y/∂p,   Nᵀ a = ∂y/∂z
 !>

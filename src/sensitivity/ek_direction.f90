@@ -17,7 +17,7 @@ module ek_direction
    private
    public :: direction_t, all_directions, find_directions, factor_direction, move_along
 
-   !> A number of the deck, and what moves with it.
+   !> A number of the deck, and the numbers that change with it.
    type :: direction_t
       character(:), allocatable :: path, unit        !! as --set takes it; 'N/mm', '' where there is none
       type(choice_t), allocatable :: found(:)        !! the parameters, with their signs

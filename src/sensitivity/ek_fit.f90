@@ -1,4 +1,4 @@
-!> A fit: factors of a deck, and what the results should be, as its file gives them (ek_fit_reader).
+!> A fit: factors of a deck, and targets of the results, as its file gives them (ek_fit_reader).
 module ek_fit
    use ek_kinds, only: wp
    use ek_quantity, only: name_length

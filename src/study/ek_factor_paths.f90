@@ -122,7 +122,7 @@ contains
       end do
    end subroutine find_paths
 
-   !> The setting of a factor, as --set takes it behind the path and =: 5, +5 or *5.
+   !> The setting of a factor, as --set takes it after the path and =: 5, +5 or *5.
    function setting_of(change, value) result(text)
       integer, intent(in) :: change
       real(wp), intent(in) :: value

@@ -1,7 +1,7 @@
 !> The unit of a factor, which is the unit of the numbers that it changes, in texts ('N/mm') and at the end of a heading
 !> ('n_per_mm').
 !>
-!> A parameter knows the size of its unit in SI only; which unit this is follows from its group and key, here in one table.
+!> A parameter contains only the size of its unit in SI; which unit this is follows from its group and key, here in one table.
 module ek_factor_unit
    use ek_kinds, only: wp, millimetre, degree
    use ek_record, only: is_given

@@ -1,5 +1,5 @@
 !> Correlated factors of a latin hypercube: which of the n equal intervals each design has, so that every interval of every factor is
-!> filled once and the ranks of the factors have the correlations that are asked.
+!> filled once and the ranks of the factors have the correlations that are requested.
 !>
 !> The method of Iman and Conover (Commun. Stat. Simul. Comput. 11 (1982) 311–334): the intervals of the factors, each in a random
 !> order of its own, become normal scores; their accidental correlations are removed, z ← Q⁻¹ z with Q Qᵀ the matrix of the sample;

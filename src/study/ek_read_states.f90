@@ -4,7 +4,7 @@
 !> | response | states it reads |
 !> |---|---|
 !> | value | the state at `at`, or its two neighbours |
-!> | slope | those in its window |
+!> | slope | the states in its window |
 !> | rms | the neighbours of each point of the wanted curve |
 !> | span, least, most, gradient; columns of the curves | all |
 !> | difference | the states of its two responses |

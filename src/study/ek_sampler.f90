@@ -383,7 +383,7 @@ contains
       end select
    end function changed_factor
 
-   !> By which fraction of its range the factor changed from the design before: ±p/(2(p − 1)).
+   !> The change of the factor from the previous design, as a fraction of its range: ±p/(2(p − 1)).
    pure real(wp) function morris_change(sampler, design, factor) result(change)
       type(sampler_t), intent(in) :: sampler
       integer(i8), intent(in) :: design            !! not the first of its trajectory

@@ -1,6 +1,7 @@
 !> The designs of a study in packs: their numbers are changed one after the other, their paths are walked together.
 !>
-!> The plan of elimination, the scale and the places of the states are those of the deck's own design, so that the result of a design
+!> The plan of elimination, the scale and the swept values of the states come from the deck's own design, so that the result of
+!> a design
 !> does not depend on those beside it. A case that packs cannot walk (linear methods, along an arc, tables, paths that do not go
 !> through design), LAPACK as solver, and compilers whose lanes are slow leave every design to its own sweep.
 module ek_study_pack

@@ -257,7 +257,7 @@ contains
 
    end subroutine add_rows
 
-   !> The columns behind the responses.
+   !> The columns after the responses.
    pure function last_columns(study) result(names)
       type(study_t), intent(in) :: study
       character(name_length), allocatable :: names(:)

@@ -45,7 +45,7 @@ module ek_worker
                                                   !! writes out the copy at each use, and the program grows
    end type worker_case_t
 
-   !> One design after the other of a deck.
+   !> A worker, which solves the designs of a deck one after the other.
    type :: worker_t
       type(suspension_t) :: suspension            !! of the present design, balanced
       type(worker_case_t), allocatable :: cases(:)
