@@ -82,7 +82,7 @@ contains
    end function short_name
 
    !> Both wheels have the same number to the digits shown.
-   logical function is_symmetric(number)
+   pure logical function is_symmetric(number)
       type(key_number_t), intent(in) :: number
 
       is_symmetric = .false.
@@ -91,7 +91,7 @@ contains
    end function is_symmetric
 
    !> Left and right differ by their sign alone.
-   logical function is_opposite(number)
+   pure logical function is_opposite(number)
       type(key_number_t), intent(in) :: number
 
       is_opposite = .false.

@@ -139,15 +139,12 @@ contains
       character(7), intent(out) :: verdict
       character(:), allocatable :: band, unit
       character(48) :: effect
-      logical :: is_one                          ! number for both sides
 
       words = short_name(number)
       if (words(2:2) < 'A' .or. words(2:2) > 'Z') words(1:1) = lowered(words(1:1))
       unit = ''
       if (number%unit /= '–') unit = ' '//number%unit
-      is_one = is_symmetric(number)
-      is_one = is_one .or. number%is_of_axle .or. .not. ieee_is_finite(number%right)
-      if (is_one) then
+      if (number%is_of_axle .or. is_symmetric(number) .or. .not. ieee_is_finite(number%right)) then
          words = words//' '//page_number(number%left)//unit
       else if (is_opposite(number)) then
          words = words//' '//page_number(number%left)//unit//' (left; right wheel opposite)'
