@@ -87,8 +87,8 @@ module ek_command
       'differentiate every column by every number of a deck', &
       'Solves one case and writes DIR/<model>_<case>_derivatives.csv: the derivative of every column with respect to every'//nl// &
       'number of the deck, in the unit of the column per unit of the number, with an estimate of its error. Derivatives are'//nl// &
-      'exact but for rounding. Nothing is solved again. They include the motion of the state, settling and balance.'//nl// &
-      'A number of a mirrored half deck acts on both sides, one with a sided name on one side: point.left_x.z. With --of,'//nl// &
+      'exact except for rounding. Nothing is solved again. They include the motion of the state, settling and balance.'//nl// &
+      'A number of a mirrored half deck acts on both sides; the name point.left_x.z selects one side. With --of,'//nl// &
       'the numbers with the largest effects are printed: of 1 mm, of 0.06 deg, of 1 % of a rate or force.', &
       exit_status_text), &
       command_t('solve', 'solve DECK [options]', 'solve DECK', 'find numbers of a deck at which quantities have values', &
@@ -99,7 +99,7 @@ module ek_command
       exit_status_text), &
       command_t('fit', 'fit FIT.nml [options]', 'fit FIT', 'fit factors of a deck to measured or wanted curves', &
       'Weighted least squares: the factors of a deck within their bounds at which curves, slopes, key numbers and limits of'//nl// &
-      'several cases are met best; hardpoints for wanted curves, or bushing rates from measured ones. Prints and draws start,'// &
+      'several cases are fitted; hardpoints for wanted curves, or bushing rates from measured ones. Prints and draws start,'// &
       nl//'target and result, the 95 % confidence of each factor, active bounds, and factors that stay undetermined. Writes'//nl// &
       'DIR/<fit>_factors.csv, <fit>_points.csv, <fit>.set for --set-file, and the figure <fit>.png and .svg.', &
       exit_status_text), &
@@ -108,7 +108,7 @@ module ek_command
       'Times one complete increment of each method relative to LAPACK''s dsysv alone (factor and solve)'//nl// &
       'on the same matrices in the same run, by LAPACK and by plan, with its parts; packs of four designs; a row of the'//nl// &
       'compliance matrix; a design of 20 increments from numbers to a column (as in a study) relative to its states;'//nl// &
-      'and all steps from deck to CSV. --quiet omits the latter; --json prints one object.', '', alone='--growth')]
+      'and all steps from deck to CSV (omitted with --quiet). --json prints one object.', '', alone='--growth')]
 
    ! In the order of the help; neighbours with the same help share a line
    type(option_t), parameter :: options(*) = [ &
@@ -119,11 +119,11 @@ module ek_command
       option_t('run', '--increments N', 'increments of the whole range; overrides the deck'), &
       option_t('run', '--set path=value', 'replace a value of the deck, with the same checks; may be repeated:'//indent// &
       '--set point.lower_ball_joint.z=-105 --set "bushing.top_mount.kt(1)=500"'), &
-      option_t('run', '--set-file FILE', 'settings from a file, one per line: path = value; errors with file and line'), &
+      option_t('run', '--set-file FILE', 'settings from a file, one line each: path = value'), &
       option_t('run', '--responses a,b', 'only these key numbers of the report (names as in key_numbers.csv), no other files'), &
       option_t('run', '--results FILE', 'file for --responses, one `value name` line each (default: -)'), &
       option_t('run', '--columns a,b,c', 'only these columns, and state, factor, converged …; * stands for any letters'), &
-      option_t('run', '--json', 'also write DIR/<model>_run.json: tables, remarks and status; with --out - only this'), &
+      option_t('run', '--json', 'also write DIR/<model>_run.json: tables, remarks and status; alone with --out -'), &
       option_t('run', '--compliance', 'also write DIR/<model>_<case>_compliance.csv: the compliance matrix at every state'), &
       option_t('run', '--loads', 'also write loads.csv (every member at every state) and peak-loads.csv for all cases'), &
       option_t('run', '--plot', 'also write gnuplot scripts, and PNG and SVG figures if gnuplot is installed'), &
@@ -181,10 +181,10 @@ module ek_command
       option_t('study', '--out DIR', 'output folder (default: out, next to the study)'), &
       option_t('study', '--jobs N', 'threads (default: the processors, at most OMP_NUM_THREADS and SLURM_CPUS_PER_TASK;'//indent// &
       'under mpirun one per process)'), &
-      option_t('study', '--samples N', 'number of designs instead of that of the study, for a trial'), &
+      option_t('study', '--samples N', 'number of designs instead of `samples` of the study, for a trial'), &
       option_t('study', '--shard i/n', 'only part i of n of the designs, for a job array; then run elastokin merge'), &
-      option_t('study', '--time-limit TIME', 'stop in time: seconds or [hours:]minutes:seconds'), &
-      option_t('study', '--status', 'print the progress of the study, and end'), &
+      option_t('study', '--time-limit TIME', 'stop before this time has passed: seconds or [hours:]minutes:seconds'), &
+      option_t('study', '--status', 'print the progress of the study and exit'), &
       option_t('study', '--accept-failed', 'exit status 0 also if designs failed'), &
       option_t('study', '--set path=value', 'change the deck of the study'), &
       option_t('study', '--quiet', quiet_help), &
@@ -195,7 +195,7 @@ module ek_command
       option_t('plot', '--kind NAME', 'only this figure; may be repeated: tornado | sobol | morris | line | map | fan |'//indent// &
       'family | histogram | scatter | parallel | convergence'), &
       option_t('plot', '--out DIR', 'folder of the tables (default: out, next to the study)'), &
-      option_t('plot', '--samples N', 'as in the study run'), &
+      option_t('plot', '--samples N', 'number of designs of the study run'), &
       option_t('plot', '--set path=value', 'the change of the deck with which the study ran'), &
       option_t('plot', '--quiet', quiet_help), &
       option_t('export', '--to TARGET', 'carmaker | carsim | matlab-kc | csv'), &

@@ -80,27 +80,27 @@ contains
       end do
    end subroutine add_up
 
-   pure integer function class_of(suspension, share) result(class)
+   pure integer function class_of(suspension, share) result(group)
       type(suspension_t), intent(in) :: suspension
       type(share_t), intent(in) :: share
 
-      class = preloads
-      if (share%kind == of_joint .and. share%part == of_stiffness) class = joints
+      group = preloads
+      if (share%kind == of_joint .and. share%part == of_stiffness) group = joints
       if (share%kind /= of_element .or. share%part == geometric) return
       associate (element => suspension%elements(share%item))
          select case (element%kind)
          case (bushing_element)
-            class = bushings
+            group = bushings
          case (axial_spring)
-            class = merge(rods, springs, is_rod(suspension%elements, share%item))
+            group = merge(rods, springs, is_rod(suspension%elements, share%item))
          case (measure_spring)
-            class = springs
+            group = springs
          case (torsion_spring)
-            class = bars
+            group = bars
          case (stop_spring)
-            class = stops
+            group = stops
          case default
-            class = gas
+            group = gas
          end select
       end associate
    end function class_of
