@@ -300,7 +300,7 @@ two_runs_in_one_folder() {
   diff -r out wanted && clean out
 }
 reader_that_goes_away() {
-  "$program" report "$tiny" --no-plots --out out 2>said.txt | head -n 1 >out.txt
+  "$program" report "$tiny" --no-plots --quiet --out out 2>said.txt | head -n 1 >out.txt
   [ "${PIPESTATUS[0]}" -eq 0 ] && [ ! -s said.txt ] && [ -s out/report.html ] && [ -s out/gradients.json ] || { cat said.txt; return 1; }
   "$program" run "$mcpherson" --case vertical_sweep --increments 3000 --quiet --out - 2>said.txt | head -n 1 >out.txt
   [ "${PIPESTATUS[0]}" -eq 5 ] && [ ! -s said.txt ]
