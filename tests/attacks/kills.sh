@@ -45,9 +45,9 @@ command_of() {
 }
 names=(run long_run report compare study step_size)
 
-# Everything in a folder but times of the clock, and the pictures that show them
+# Everything in a folder but times of the clock, and the pictures and the page that show them
 digest() {
-  (cd "$1" && find . \( -type f -o -type l \) ! -name 'convergence.*' ! -name 'work_precision.*' | sort | while read -r file; do
+  (cd "$1" && find . \( -type f -o -type l \) ! -name 'convergence.*' ! -name 'work_precision.*' ! -name step_size.html | sort | while read -r file; do
     case $file in
       */step_size.csv) cut -d, -f1-6,8- "$file" ;;
       # gnuplot 5.4 writes two lines of one colour as one path or as two, at random
