@@ -22,7 +22,7 @@ module ek_check_messages
 contains
 
    !> 'OK', or '1 warning, 3 remarks, the worst: text': the first of the worst severity.
-   pure function last_line(messages) result(text)
+   function last_line(messages) result(text)
       type(check_messages_t), intent(in) :: messages
       character(:), allocatable :: text
       integer, parameter :: longest = 240      ! characters of the message; it stands above in full
@@ -46,13 +46,13 @@ contains
 
    contains
 
-      pure subroutine count(list, one, many)
+      subroutine count(list, one, many)
          type(message_list_t), intent(in) :: list
          character(*), intent(in) :: one, many
          if (list%count() > 0) text = text//', '//plural(list%count(), one, many)
       end subroutine count
 
-      pure subroutine add_first(list)
+      subroutine add_first(list)
          type(message_list_t), intent(in) :: list
          character(:), allocatable :: first
          first = list%line(1)
