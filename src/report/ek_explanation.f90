@@ -42,8 +42,9 @@ contains
       type(explanation_t), allocatable :: found(:)
       logical, allocatable :: is_wanted(:)
       integer, allocatable :: order(:)
+      type(explanation_t) :: rates(3)
       type(quantity_t) :: quantity
-      integer :: k, c
+      integer :: k, c, used
 
       allocate (list(0))
       call start_contributions(result%suspension, table)
@@ -80,27 +81,35 @@ contains
             this%rest = this%value - sum(this%part)
          end associate
       end do
-      list = [rates_of(result, table), found]
+      call find_rates(result, table, rates, used)
+      deallocate (list)
+      allocate (list(used + size(found)))           ! gfortran 12 loses the texts of [rates, found]
+      do c = 1, used
+         list(c) = rates(c)
+      end do
+      do c = 1, size(found)
+         list(used + c) = found(c)
+      end do
    end subroutine find_explanations
 
-   !> The wheel rate of the left or single wheel and the roll rate, with their parts, as far as the table of the case gives
+   !> Finds the wheel rate of the left or single wheel and the roll rate, with their parts, as far as the table of the case gives
    !> them at design.
-   function rates_of(result, table) result(list)
+   subroutine find_rates(result, table, found, used)
       type(case_result_t), intent(in) :: result
       type(contribution_table_t), intent(in) :: table
-      type(explanation_t), allocatable :: list(:)
+      type(explanation_t), intent(out) :: found(3)
+      integer, intent(out) :: used
       character(*), parameter :: names(3) = [character(32) :: 'left_wheel_rate_n_per_mm', 'wheel_rate_n_per_mm', &
          'suspension_roll_rate_nm_per_deg']
       real(wp) :: shares(size(classes))
-      type(explanation_t) :: rate
       logical :: is_known
       integer :: k, column, row
 
-      allocate (list(0))
+      used = 0
       row = design_row(result%table)
-      if (row == 0) return
       do k = 1, size(names)
-         column = column_index(result%table, names(k))
+         column = 0
+         if (row > 0) column = column_index(result%table, names(k))
          if (column == 0) cycle
          if (k == size(names)) then
             call split_roll_rate(result%suspension, table, shares, is_known)
@@ -108,10 +117,10 @@ contains
             call split_wheel_rate(result%suspension, table, 1, shares, is_known)
          end if
          if (.not. is_known .or. .not. ieee_is_finite(result%table%values(column, row))) cycle
-         rate = split_of(trim(names(k)), result%table%values(column, row), shares)
-         list = [list, rate]
+         used = used + 1
+         found(used) = split_of(trim(names(k)), result%table%values(column, row), shares)
       end do
-   end function rates_of
+   end subroutine find_rates
 
    !> A rate with the parts that do not read 0.
    function split_of(column, value, shares) result(rate)
