@@ -14,7 +14,7 @@ module ek_key_numbers
    use ek_place_numbers, only: number_list_t, new_number, add_source, append, numbers_of, place_numbers
    implicit none(type, external)
    private
-   public :: key_number_t, key_numbers, list_key_numbers, number_heads, wanted_gradients
+   public :: key_number_t, key_numbers, list_key_numbers, number_heads, wanted_gradients, without_side
 
    !> One number: its group, what it is of, and how it is read.
    type :: entry_t
@@ -312,7 +312,7 @@ contains
    end function sign_of
 
    !> A column without the name of its wheel.
-   function without_side(column) result(name)
+   pure function without_side(column) result(name)
       character(*), intent(in) :: column
       character(:), allocatable :: name
 

@@ -9,6 +9,7 @@ module ek_sparkline
    use ek_test_result, only: test_result_t, wheel_column, unfolded_rows, design_row
    use ek_quantity, only: quantity_t, quantity_named
    use ek_key_number, only: key_number_t
+   use ek_key_numbers, only: without_side
    implicit none(type, external)
    private
    public :: sparkline
@@ -106,15 +107,5 @@ contains
 
       text = decimal(anint(100.0_wp*coordinate)/100.0_wp)
    end function pixels
-
-   !> A column without the name of its wheel.
-   pure function without_side(column) result(name)
-      character(*), intent(in) :: column
-      character(:), allocatable :: name
-
-      name = column
-      if (index(column, 'left_') == 1) name = column(6:)
-      if (index(column, 'right_') == 1) name = column(7:)
-   end function without_side
 
 end module ek_sparkline

@@ -22,7 +22,7 @@ module ek_step_page
    integer, parameter :: errors = 4
    character(20), parameter :: columns(errors) = [character(20) :: 'constraint_error', 'travel_error_mm', 'toe_error_deg', &
       'camber_error_deg']
-   character(32), parameter :: labels(errors) = [character(32) :: 'violation of the joints |Φ|', 'travel error [mm]', &
+   character(32), parameter :: labels(errors) = [character(32) :: '|Φ| of the joints [m, rad]', 'travel error [mm]', &
       'toe error [deg]', 'camber error [deg]']
 
 contains
