@@ -47,7 +47,7 @@ else()
 endif()
 
 if(NOT ek_fault)
-  set(ek_finished_library "${ek_library}")
+  get_filename_component(ek_finished_library "${ek_library}" REALPATH)     # CMake installs a link as a link
   message(STATUS "Library: that of the finished build ${ek_folder}")
 elseif(ek_wish)
   message(FATAL_ERROR "EK_FINISHED_BUILD=${ek_wish} cannot be used: ${ek_fault}. Build it (tools/build.sh release), or unset the variable to compile")
