@@ -37,7 +37,9 @@ results/ek_table.f90 ek_rig ek_results
 kandc/ek_plausible_shape.f90 ek_reader ek_kandc
 study/ek_response.f90 ek_run ek_study
 api/ek_session.f90 ek_run ek_api
-study/ek_worker.f90 ek_derivatives ek_study
+engine/ek_workspace.f90 ek_factor_numbers ek_engine
+kandc/ek_rig.f90 ek_workspace ek_kandc
+study/ek_study_design.f90 ek_derivatives ek_study
 sensitivity/ek_derivatives.f90 ek_session ek_sensitivity
 export/ek_kandc_map.f90 ek_export_settings ek_export
 report/ek_page.f90 ek_named_numbers ek_report

@@ -118,7 +118,7 @@ contains
       handle => open_handle(model)
       address = c_null_ptr
       if (.not. associated(handle)) return
-      address = say(handle, handle%session%solver%raw%name)
+      address = say(handle, handle%session%workspace%raw%name)
    end function ek_name
 
    type(c_ptr) function ek_checksum(model) bind(c) result(address)
@@ -140,7 +140,7 @@ contains
 
       handle => open_handle(model)
       count = 0
-      if (associated(handle)) count = int(size(handle%session%solver%raw%wheels), c_int)
+      if (associated(handle)) count = int(size(handle%session%workspace%raw%wheels), c_int)
    end function ek_wheel_count
 
    integer(c_int) function ek_case_count(model) bind(c) result(count)
@@ -149,7 +149,7 @@ contains
 
       handle => open_handle(model)
       count = 0
-      if (associated(handle)) count = int(size(handle%session%solver%cases), c_int)
+      if (associated(handle)) count = int(size(handle%session%workspace%cases), c_int)
    end function ek_case_count
 
    type(c_ptr) function ek_case_name(model, k) bind(c) result(address)
@@ -160,8 +160,8 @@ contains
       handle => open_handle(model)
       address = c_null_ptr
       if (.not. associated(handle)) return
-      if (is_position(handle, k, size(handle%session%solver%cases))) &
-         address = say(handle, handle%session%solver%cases(k + 1)%case%name)
+      if (is_position(handle, k, size(handle%session%workspace%cases))) &
+         address = say(handle, handle%session%workspace%cases(k + 1)%case%name)
    end function ek_case_name
 
    integer(c_int) function ek_case_is_of_deck(model, k) bind(c) result(answer)
@@ -172,8 +172,8 @@ contains
       handle => open_handle(model)
       answer = 0
       if (.not. associated(handle)) return
-      if (is_position(handle, k, size(handle%session%solver%cases))) &
-         answer = merge(1_c_int, 0_c_int, handle%session%solver%cases(k + 1)%number > 0)
+      if (is_position(handle, k, size(handle%session%workspace%cases))) &
+         answer = merge(1_c_int, 0_c_int, handle%session%workspace%cases(k + 1)%number > 0)
    end function ek_case_is_of_deck
 
 end module ek_c_model

@@ -4,7 +4,7 @@ module ek_c_numbers
    use ek_error, only: error_t
    use ek_case, only: case_t
    use ek_table, only: name_length
-   use ek_design_solver, only: report_cases
+   use ek_workspace_cases, only: report_cases
    use ek_number_names, only: list_numbers
    use ek_session_numbers, only: read_key_numbers
    use ek_c_handle, only: handle_t, open_handle, take_handle, take_names, finish, refuse, say, is_position, ek_ok
@@ -70,8 +70,8 @@ contains
       type(case_t), allocatable :: cases(:)
 
       !$omp critical (ek_words)
-      call report_cases(handle%session%solver, cases)
-      call list_numbers(handle%session%solver%raw, cases, handle%number_names, handle%number_units, handle%number_definitions)
+      call report_cases(handle%session%workspace, cases)
+      call list_numbers(handle%session%workspace%raw, cases, handle%number_names, handle%number_units, handle%number_definitions)
       !$omp end critical (ek_words)
    end subroutine list
 

@@ -49,7 +49,7 @@ contains
       handle => handle_at(model, k)
       address = c_null_ptr
       if (.not. associated(handle)) return
-      associate (design => handle%session%solver%design)
+      associate (design => handle%session%workspace%design)
          !$omp critical (ek_words)
          address = say(handle, parameter_path(design%parameters%list(k + 1), design%records))
          !$omp end critical (ek_words)
@@ -65,7 +65,7 @@ contains
       address = c_null_ptr
       if (.not. associated(handle)) return
       !$omp critical (ek_words)
-      address = say(handle, parameter_unit(handle%session%solver%design, k + 1))
+      address = say(handle, parameter_unit(handle%session%workspace%design, k + 1))
       !$omp end critical (ek_words)
    end function ek_parameter_unit
 
@@ -76,7 +76,7 @@ contains
 
       handle => handle_at(model, k)
       answer = 0
-      if (associated(handle)) answer = merge(1_c_int, 0_c_int, handle%session%solver%design%parameters%list(k + 1)%is_given)
+      if (associated(handle)) answer = merge(1_c_int, 0_c_int, handle%session%workspace%design%parameters%list(k + 1)%is_given)
    end function ek_parameter_is_given
 
    integer(c_int) function ek_parameter_twin(model, k) bind(c) result(twin)
@@ -86,7 +86,7 @@ contains
 
       handle => handle_at(model, k)
       twin = -1_c_int
-      if (associated(handle)) twin = int(handle%session%solver%design%parameters%list(k + 1)%tied, c_int) - 1_c_int
+      if (associated(handle)) twin = int(handle%session%workspace%design%parameters%list(k + 1)%tied, c_int) - 1_c_int
    end function ek_parameter_twin
 
    integer(c_int) function ek_get_at(model, k, value) bind(c) result(code)

@@ -1,4 +1,4 @@
-!> The numbers of a design space as a caller has set them: in SI for the solver, in the units of the deck for the caller, and as the
+!> The numbers of a design space as a caller has set them: in SI for the workspace, in the units of the deck for the caller, and as the
 !> settings (as for --set) with which the deck gives the same design when it is read as text.
 !>
 !> After begin_numbers and add_path nothing here makes a text, except apply_settings.
@@ -28,7 +28,7 @@ module ek_design_numbers
    type :: design_numbers_t
       real(wp), allocatable :: x(:)                 !! of all parameters [SI, axes of the deck]
       real(wp), allocatable :: value(:)             !! the same in the units of the deck, as the deck or the caller wrote them
-      logical :: is_new = .false.                   !! changed since the solver took them
+      logical :: is_new = .false.                   !! changed since the workspace took them
       real(wp), allocatable, private :: unit(:), first_x(:), first_value(:)
       integer, allocatable, private :: turn(:)      !! of numbers set by their position
       type(path_setting_t), allocatable, private :: settings(:)

@@ -13,14 +13,15 @@ module ek_session
    use ek_table, only: name_length
    use ek_design_numbers, only: design_numbers_t, begin_numbers, reset_numbers, place_number, add_path, put_path, put_at, &
       is_legal_path, is_legal_at, apply_settings
-   use ek_design_solver, only: design_solver_t, begin_design_solver, put_numbers
+   use ek_workspace, only: workspace_t, put_numbers
+   use ek_workspace_cases, only: open_workspace
    use ek_named_numbers, only: named_numbers_t
    use ek_derivatives, only: derivatives_t
    implicit none(type, external)
    private
    public :: session_t, prepared_t, derived_t, open_file, open_text, open_deck, take_deck, set_number, set_text
    public :: get_number, set_all, reset
-   public :: take_new_numbers, changed_deck, checksum_of, without_option, begin_opened, begin_solver, empty_session
+   public :: take_new_numbers, changed_deck, checksum_of, without_option, begin_opened, begin_workspace, empty_session
 
    !> A case that was solved with these columns: a further solution makes no text.
    type :: prepared_t
@@ -40,13 +41,13 @@ module ek_session
    type :: session_t
       type(deck_t) :: original                      !! as opened
       type(deck_t) :: deck                          !! with the settings of set_text
-      class(design_solver_t), allocatable :: solver !! of this deck; allocated when opened. A class as in worker_case_t
+      class(workspace_t), allocatable :: workspace !! of this deck; allocated when opened. A class as in case_work_t
       type(design_numbers_t) :: numbers             !! changed since
       logical :: is_text_changed = .false.
       ! ek_session_solution
       integer :: solved = 0                         !! case of the last solution; 0: there is none
       type(prepared_t), allocatable :: prepared(:)  !! of each case
-      class(design_solver_t), allocatable :: other  !! has the last solution if `solver` has not: of the deck with the numbers as text,
+      class(workspace_t), allocatable :: other  !! has the last solution if `workspace` has not: of the deck with its numbers as text,
       !!                                               or of the deck before set_text or reset
       real(wp), allocatable :: solved_x(:)          !! the numbers of the last solution
       class(derived_t), allocatable :: derived      !! ek_session_derivatives
@@ -122,41 +123,41 @@ contains
       type(session_t), intent(inout) :: session
       type(error_t), allocatable, intent(out) :: error
 
-      allocate (session%solver)
-      call begin_design_solver(session%original, session%solver, error)
+      allocate (session%workspace)
+      call open_workspace(session%original, session%workspace, error)
       if (allocated(error)) return
       session%deck = session%original
-      call begin_solver(session)
+      call begin_workspace(session)
    end subroutine begin_opened
 
    !> Takes another deck; the session stays as it was if the deck has errors. The last solution stays in either case: its
-   !> solver is kept until the next one.
+   !> workspace is kept until the next one.
    subroutine begin(deck, session, error)
       type(deck_t), intent(in) :: deck
       type(session_t), intent(inout) :: session
       type(error_t), allocatable, intent(out) :: error
-      class(design_solver_t), allocatable :: solver
+      class(workspace_t), allocatable :: workspace
 
-      allocate (solver)
-      call begin_design_solver(deck, solver, error)
+      allocate (workspace)
+      call open_workspace(deck, workspace, error)
       if (allocated(error)) return
       session%deck = deck
-      if (session%solved > 0 .and. .not. allocated(session%other)) call move_alloc(session%solver, session%other)
-      call move_alloc(solver, session%solver)
-      call begin_solver(session)
+      if (session%solved > 0 .and. .not. allocated(session%other)) call move_alloc(session%workspace, session%other)
+      call move_alloc(workspace, session%workspace)
+      call begin_workspace(session)
    end subroutine begin
 
-   !> Begins the parts of a session that depend on its solver's deck.
-   subroutine begin_solver(session)
+   !> Begins the parts of a session that depend on its workspace's deck.
+   subroutine begin_workspace(session)
       type(session_t), intent(inout) :: session
 
       if (allocated(session%prepared)) deallocate (session%prepared)
-      allocate (session%prepared(size(session%solver%cases)))
-      call begin_numbers(session%solver%design, session%numbers)
-      session%numbers%is_new = .false.                     ! the solver was made with them
+      allocate (session%prepared(size(session%workspace%cases)))
+      call begin_numbers(session%workspace%design, session%numbers)
+      session%numbers%is_new = .false.                     ! the workspace was made with them
       session%is_named_ready = .false.
-      if (allocated(session%derived)) session%derived%derivatives%case = 0      ! of another solver: kept as room
-   end subroutine begin_solver
+      if (allocated(session%derived)) session%derived%derivatives%case = 0      ! of another workspace: kept as room
+   end subroutine begin_workspace
 
    !> Sets all numbers to which a path leads, as --set path=value: both sides of a mirrored axle, and * in names. Legal numbers that
    !> together define no valid model are kept, and the next solution reports them.
@@ -174,7 +175,7 @@ contains
          !$omp end critical (ek_words)
       end if
       if (allocated(error) .or. setting == 0) return
-      if (is_legal_path(session%numbers, setting, value, session%solver%design%parameters)) then
+      if (is_legal_path(session%numbers, setting, value, session%workspace%design%parameters)) then
          call put_path(session%numbers, setting, value)
       else
          !$omp critical (ek_words)
@@ -232,7 +233,7 @@ contains
       call set_value(trial, path, shortest(merge(value, 1.0_wp, abs(value) < number_limit)), error)
       call without_option(error)
       if (allocated(error)) return
-      call find_parameters(session%solver%design%parameters, session%solver%design%records, path, found)
+      call find_parameters(session%workspace%design%parameters, session%workspace%design%records, path, found)
       if (size(found) == 0) then
          call take_text(session, path, shortest(value), error)
       else
@@ -279,7 +280,7 @@ contains
       value = 0.0_wp
       is_one = .true.
       !$omp critical (ek_words)
-      call find_parameters(session%solver%design%parameters, session%solver%design%records, path, found)
+      call find_parameters(session%workspace%design%parameters, session%workspace%design%records, path, found)
       if (size(found) == 0) then
          trial = session%deck
          call set_value(trial, path, '1', error)           ! its message says what is wrong with the path
@@ -314,7 +315,7 @@ contains
       end if
       is_legal = .true.
       do k = 1, size(values)
-         is_legal = is_legal .and. is_legal_at(session%numbers, before + k, values(k), session%solver%design%parameters)
+         is_legal = is_legal .and. is_legal_at(session%numbers, before + k, values(k), session%workspace%design%parameters)
       end do
       if (is_legal) then
          do k = 1, size(values)
@@ -336,7 +337,7 @@ contains
       type(message_list_t) :: lines
       integer :: k
 
-      associate (design => session%solver%design)
+      associate (design => session%workspace%design)
          do k = 1, size(values)
             if (is_legal_at(session%numbers, before + k, values(k), design%parameters)) cycle
             call lines%add(range_message(session, parameter_path(design%parameters%list(before + k), design%records), values(k)))
@@ -360,11 +361,11 @@ contains
       end if
    end subroutine reset
 
-   !> Gives the solver the numbers that were changed since.
+   !> Gives the workspace the numbers that were changed since.
    subroutine take_new_numbers(session)
       type(session_t), intent(inout) :: session
 
-      if (session%numbers%is_new) call put_numbers(session%numbers%x, session%solver)
+      if (session%numbers%is_new) call put_numbers(session%numbers%x, session%workspace)
       session%numbers%is_new = .false.
    end subroutine take_new_numbers
 
@@ -375,7 +376,7 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       deck = session%deck
-      call apply_settings(session%numbers, session%solver%design, deck, error)
+      call apply_settings(session%numbers, session%workspace%design, deck, error)
    end subroutine changed_deck
 
    !> Removes the option of the command line from a message on a setting, which then names its path alone.

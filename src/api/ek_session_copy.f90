@@ -6,8 +6,8 @@ module ek_session_copy
    use ek_kept_files, only: kept_files_t
    use ek_deck, only: deck_t, parse_deck
    use ek_deck_writer, only: deck_as_used
-   use ek_design_solver, only: begin_design_solver
-   use ek_session, only: session_t, begin_opened, begin_solver, empty_session, changed_deck, without_option
+   use ek_workspace_cases, only: open_workspace
+   use ek_session, only: session_t, begin_opened, begin_workspace, empty_session, changed_deck, without_option
    implicit none(type, external)
    private
    public :: copy_session, opened_files, open_files, used_deck
@@ -24,10 +24,10 @@ contains
       !$omp critical (ek_words)
       to%original = from%original
       to%deck = from%deck
-      allocate (to%solver)
-      call begin_design_solver(to%deck, to%solver, error)
+      allocate (to%workspace)
+      call open_workspace(to%deck, to%workspace, error)
       if (.not. allocated(error)) then
-         call begin_solver(to)
+         call begin_workspace(to)
          to%numbers = from%numbers
          to%numbers%is_new = .true.
          to%is_text_changed = from%is_text_changed

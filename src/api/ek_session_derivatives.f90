@@ -9,7 +9,8 @@ module ek_session_derivatives
    use ek_table, only: name_length
    use ek_direction, only: direction_t, find_directions
    use ek_derivatives, only: derivatives_t, begin_derivatives, find_derivatives, refuse_case
-   use ek_design_solver, only: design_solver_t, heads_of_case
+   use ek_workspace, only: workspace_t
+   use ek_workspace_cases, only: heads_of_case
    use ek_session, only: session_t, derived_t
    use ek_session_solution, only: result_of, state_of_row, refuse_other_numbers
    implicit none(type, external)
@@ -50,17 +51,17 @@ contains
       if (allocated(session%other)) then
          call find(session%other, session%derived)
       else
-         call find(session%solver, session%derived)
+         call find(session%workspace, session%derived)
       end if
 
    contains
 
-      subroutine find(solver, derived)
-         class(design_solver_t), intent(inout) :: solver
+      subroutine find(workspace, derived)
+         class(workspace_t), intent(inout) :: workspace
          class(derived_t), intent(inout) :: derived
          integer :: c, p
 
-         call find_derivatives(solver, [state_of_row(result, row)], derived%derivatives)
+         call find_derivatives(workspace, [state_of_row(result, row)], derived%derivatives)
          do p = 1, size(paths)
             do c = 1, size(columns)
                slopes(c, p) = derived%derivatives%slopes(derived%column(c), derived%direction(p), 1)
@@ -71,7 +72,7 @@ contains
 
    end subroutine find_slopes
 
-   !> Whether the same columns and numbers were requested last, of the same case of the same solver.
+   !> Whether the same columns and numbers were requested last, of the same case of the same workspace.
    pure logical function is_prepared(session, columns, paths)
       type(session_t), intent(in) :: session
       character(*), intent(in) :: columns(:), paths(:)
@@ -92,25 +93,25 @@ contains
       type(error_t), allocatable, intent(out) :: error
       type(direction_t), allocatable :: directions(:)
       type(message_list_t) :: mistakes
-      class(design_solver_t), pointer :: solver
+      class(workspace_t), pointer :: workspace
       character(name_length), allocatable :: heads(:)
       integer :: c
 
-      solver => session%solver
-      if (allocated(session%other)) solver => session%other
-      call refuse_case(solver%cases(session%solved)%case, error)
+      workspace => session%workspace
+      if (allocated(session%other)) workspace => session%other
+      call refuse_case(workspace%cases(session%solved)%case, error)
       if (allocated(error)) return
       if (.not. allocated(session%derived)) allocate (session%derived)
       associate (derived => session%derived)
-         call place_paths(solver, session, paths, directions, derived%direction, mistakes)
-         if (mistakes%count() == 0) call begin_derivatives(solver, session%solved, columns, directions, derived%derivatives)
+         call place_paths(workspace, session, paths, directions, derived%direction, mistakes)
+         if (mistakes%count() == 0) call begin_derivatives(workspace, session%solved, columns, directions, derived%derivatives)
          derived%column = spread(0, 1, size(columns))
          do c = 1, size(columns)
             if (mistakes%count() > 0) exit
             derived%column(c) = findloc(derived%derivatives%columns == columns(c), .true., dim=1)
          end do
          if (mistakes%count() == 0 .and. any(derived%column == 0)) then
-            call heads_of_case(session%solved, solver, heads)
+            call heads_of_case(session%solved, workspace, heads)
             do c = 1, size(columns)
                if (derived%column(c) > 0) cycle
                if (any(heads == columns(c))) then
@@ -129,8 +130,8 @@ contains
    end subroutine prepare
 
    !> Finds the direction of each path; a path that leads to several is an error.
-   subroutine place_paths(solver, session, paths, directions, place, mistakes)
-      class(design_solver_t), intent(in) :: solver
+   subroutine place_paths(workspace, session, paths, directions, place, mistakes)
+      class(workspace_t), intent(in) :: workspace
       type(session_t), intent(in) :: session
       character(*), intent(in) :: paths(:)
       type(direction_t), allocatable, intent(out) :: directions(:)
@@ -146,7 +147,7 @@ contains
       do p = 1, size(paths)
          one = message_list_t()
          call one%add(trim(paths(p)))
-         call find_directions(solver%design, session%deck, one, these, error)
+         call find_directions(workspace%design, session%deck, one, these, error)
          if (allocated(error)) then
             call mistakes%add(error%message)
          else if (size(these) /= 1) then

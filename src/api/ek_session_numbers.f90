@@ -6,7 +6,8 @@ module ek_session_numbers
    use ek_deck, only: deck_t
    use ek_case, only: case_t
    use ek_named_numbers, only: named_numbers_t, prepare_numbers, read_numbers, needed_tests, explain_missing
-   use ek_design_solver, only: design_solver_t, begin_design_solver, settle_fully, settle_again, report_cases
+   use ek_workspace, only: workspace_t, settle_fully, settle_again
+   use ek_workspace_cases, only: open_workspace, report_cases
    use ek_session, only: session_t, without_option, take_new_numbers, changed_deck
    implicit none(type, external)
    private
@@ -35,10 +36,10 @@ contains
       do k = 1, size(names)
          if (is_done) is_done = session%names(k) == names(k)
       end do
-      if (is_done) call settle_again(needed_tests(session%named), session%solver, is_done)
+      if (is_done) call settle_again(needed_tests(session%named), session%workspace, is_done)
       if (is_done) then
-         call report_cases(session%solver, cases)
-         call read_numbers(session%named, session%solver%suspension, cases, values, is_whole)
+         call report_cases(session%workspace, cases)
+         call read_numbers(session%named, session%workspace%suspension, cases, values, is_whole)
          if (is_whole) return
       end if
       !$omp critical (ek_words)
@@ -56,7 +57,7 @@ contains
       character(*), intent(in) :: names(:)
       real(wp), intent(inout) :: values(:)
       type(error_t), allocatable, intent(out) :: error
-      class(design_solver_t), allocatable :: other
+      class(workspace_t), allocatable :: other
       class(named_numbers_t), allocatable :: named
       type(deck_t) :: changed
       logical :: is_done
@@ -64,33 +65,33 @@ contains
       session%is_named_ready = .false.
       session%names = names
       if (.not. allocated(session%named)) allocate (session%named)
-      call read_of(session%solver, session%named, is_done)
+      call read_of(session%workspace, session%named, is_done)
       if (allocated(error)) return
       session%is_named_ready = is_done
       if (is_done) return
       allocate (other, named)
       call changed_deck(session, changed, error)
-      if (.not. allocated(error)) call begin_design_solver(changed, other, error)
+      if (.not. allocated(error)) call open_workspace(changed, other, error)
       if (.not. allocated(error)) call read_of(other, named, is_done)
       call without_option(error)
 
    contains
 
-      subroutine read_of(solver, numbers, is_done)
-         type(design_solver_t), intent(inout) :: solver
+      subroutine read_of(workspace, numbers, is_done)
+         type(workspace_t), intent(inout) :: workspace
          type(named_numbers_t), intent(inout) :: numbers
          logical, intent(out) :: is_done
          type(case_t), allocatable :: cases(:)
          type(message_list_t) :: defects
-         logical :: is_solvable(size(solver%report_order)), is_whole
+         logical :: is_solvable(size(workspace%report_order)), is_whole
 
-         call report_cases(solver, cases)
-         call prepare_numbers(names, solver%raw, cases, numbers, error)
+         call report_cases(workspace, cases)
+         call prepare_numbers(names, workspace%raw, cases, numbers, error)
          is_done = .false.
-         if (.not. allocated(error)) call settle_fully(needed_tests(numbers), solver, is_solvable, defects, is_done, error)
+         if (.not. allocated(error)) call settle_fully(needed_tests(numbers), workspace, is_solvable, defects, is_done, error)
          if (allocated(error) .or. .not. is_done) return
-         call report_cases(solver, cases)                 ! with the present numbers
-         call read_numbers(numbers, solver%suspension, cases, values, is_whole, is_solvable)
+         call report_cases(workspace, cases)                 ! with the present numbers
+         call read_numbers(numbers, workspace%suspension, cases, values, is_whole, is_solvable)
          if (.not. is_whole) call explain_missing(numbers, names, values, defects, error)
       end subroutine read_of
 

@@ -3,7 +3,8 @@ module ek_session_remarks
    use ek_error, only: error_t
    use ek_deck, only: deck_t
    use ek_case, only: case_t
-   use ek_design_solver, only: design_solver_t, begin_design_solver, settle_model, report_cases
+   use ek_workspace, only: workspace_t, settle_model
+   use ek_workspace_cases, only: open_workspace, report_cases
    use ek_model_remark, only: model_remarks_t, find_model_remarks
    use ek_session, only: session_t, without_option, take_new_numbers, changed_deck
    implicit none(type, external)
@@ -19,39 +20,39 @@ contains
       type(session_t), intent(inout) :: session
       type(model_remarks_t), intent(out) :: remarks
       type(error_t), allocatable, intent(out) :: error     !! exit_usage, exit_deck: a number is outside its range
-      class(design_solver_t), allocatable :: other
+      class(workspace_t), allocatable :: other
       type(deck_t) :: changed
       logical :: is_done
 
       call take_new_numbers(session)
       !$omp critical (ek_words)
-      call find_of(session%solver, remarks, is_done)
+      call find_of(session%workspace, remarks, is_done)
       if (.not. is_done) then
          allocate (other)
          call changed_deck(session, changed, error)
-         if (.not. allocated(error)) call begin_design_solver(changed, other, error)
+         if (.not. allocated(error)) call open_workspace(changed, other, error)
          if (.not. allocated(error)) call find_of(other, remarks, is_done)
          call without_option(error)
       end if
       !$omp end critical (ek_words)
    end subroutine find_remarks
 
-   !> Finds the remarks at the numbers of a solver. is_done is .false. if the design must be read from the text.
-   subroutine find_of(solver, remarks, is_done)
-      type(design_solver_t), intent(inout) :: solver
+   !> Finds the remarks at the numbers of a workspace. is_done is .false. if the design must be read from the text.
+   subroutine find_of(workspace, remarks, is_done)
+      type(workspace_t), intent(inout) :: workspace
       type(model_remarks_t), intent(out) :: remarks
       logical, intent(out) :: is_done
       type(case_t), allocatable :: cases(:)
       type(error_t), allocatable :: fault
       logical :: is_balanced
 
-      call settle_model(solver, is_balanced, is_done, fault)
+      call settle_model(workspace, is_balanced, is_done, fault)
       if (.not. is_done) return
-      call report_cases(solver, cases)
+      call report_cases(workspace, cases)
       if (is_balanced) then
-         call find_model_remarks(solver%suspension, solver%design%cases, cases, .true., remarks)
+         call find_model_remarks(workspace%suspension, workspace%design%cases, cases, .true., remarks)
       else
-         call find_model_remarks(solver%raw, solver%design%cases, cases, .false., remarks)
+         call find_model_remarks(workspace%raw, workspace%design%cases, cases, .false., remarks)
       end if
       if (allocated(fault)) call remarks%faults%add(fault%message)
    end subroutine find_of

@@ -13,7 +13,8 @@ module ek_session_solution
    use ek_schedule, only: new_schedule
    use ek_compliance_table, only: state_compliance
    use ek_wheel_side, only: deck_frame
-   use ek_design_solver, only: design_solver_t, begin_design_solver, solve_case_fully, solve_case_again, heads_of_case, case_number
+   use ek_workspace, only: workspace_t, solve_case_fully, solve_case_again
+   use ek_workspace_cases, only: open_workspace, heads_of_case, case_number
    use ek_session, only: session_t, without_option, prepared_t, take_new_numbers, changed_deck
    implicit none(type, external)
    private
@@ -40,12 +41,12 @@ contains
       end if
       allocate (asked(0))
       if (present(columns)) asked = columns
-      k = case_number(name, session%solver)
+      k = case_number(name, session%workspace)
       is_done = .false.
       call take_new_numbers(session)
       if (k > 0) then
          if (is_ready(session%prepared(k), asked)) then
-            call solve_case_again(k, session%prepared(k)%options, session%solver, is_done)
+            call solve_case_again(k, session%prepared(k)%options, session%workspace, is_done)
             if (is_done) session%solved = k
          end if
       end if
@@ -76,15 +77,15 @@ contains
       logical :: is_done
       integer :: k
 
-      call find_case(name, session%solver, session%deck%file, k, error)
-      if (.not. allocated(error)) call prepare(session%solver, k, asked, session%prepared(k), error)
-      if (.not. allocated(error)) call solve_case_fully(k, session%prepared(k)%options, session%solver, is_done, error)
+      call find_case(name, session%workspace, session%deck%file, k, error)
+      if (.not. allocated(error)) call prepare(session%workspace, k, asked, session%prepared(k), error)
+      if (.not. allocated(error)) call solve_case_fully(k, session%prepared(k)%options, session%workspace, is_done, error)
       if (allocated(error)) return
       session%prepared(k)%is_ready = is_done
       if (.not. is_done) then
          allocate (session%other)
          call changed_deck(session, changed, error)
-         if (.not. allocated(error)) call begin_design_solver(changed, session%other, error)
+         if (.not. allocated(error)) call open_workspace(changed, session%other, error)
          if (.not. allocated(error)) call find_case(name, session%other, session%deck%file, k, error)
          if (.not. allocated(error)) call prepare(session%other, k, asked, prepared, error)
          if (.not. allocated(error)) call solve_case_fully(k, prepared%options, session%other, is_done, error)
@@ -94,25 +95,25 @@ contains
       session%solved = k
    end subroutine solve_with_words
 
-   subroutine find_case(name, solver, file, k, error)
+   subroutine find_case(name, workspace, file, k, error)
       character(*), intent(in) :: name, file
-      type(design_solver_t), intent(in) :: solver
+      type(workspace_t), intent(in) :: workspace
       integer, intent(out) :: k
       type(error_t), allocatable, intent(out) :: error
-      character(name_length) :: names(size(solver%cases))
+      character(name_length) :: names(size(workspace%cases))
       integer :: j
 
-      k = case_number(name, solver)
+      k = case_number(name, workspace)
       if (k > 0) return
       do j = 1, size(names)
-         names(j) = solver%cases(j)%case%name
+         names(j) = workspace%cases(j)%case%name
       end do
       call fail(error, exit_usage, 'no case '//quoted(name)//' in '//file//did_you_mean(name, names))
    end subroutine find_case
 
    !> Prepares the columns that a case is to have: names with * are replaced by the names that match.
-   subroutine prepare(solver, k, asked, prepared, error)
-      type(design_solver_t), intent(in) :: solver
+   subroutine prepare(workspace, k, asked, prepared, error)
+      type(workspace_t), intent(in) :: workspace
       integer, intent(in) :: k
       character(name_length), intent(in) :: asked(:)
       type(prepared_t), intent(out) :: prepared
@@ -125,11 +126,12 @@ contains
       prepared%options%has_remarks = .false.
       prepared%asked = asked
       if (size(asked) == 0) return
-      call heads_of_case(k, solver, heads)
+      call heads_of_case(k, workspace, heads)
       allocate (is_wanted(size(heads)), source=.false.)
       do j = 1, size(asked)
          fits = [(is_like(trim(heads(h)), trim(asked(j))), h=1, size(heads))]
-         if (.not. any(fits)) call mistakes%add('case '//quoted(solver%cases(k)%case%name)//': '//no_column(trim(asked(j)), heads))
+         if (.not. any(fits)) call mistakes%add('case '//quoted(workspace%cases(k)%case%name)//': '// &
+            no_column(trim(asked(j)), heads))
          is_wanted = is_wanted .or. fits
       end do
       if (mistakes%count() > 0) call fail(error, exit_usage, mistakes%text())
@@ -150,7 +152,7 @@ contains
       if (allocated(session%other)) then
          session%solved_x = session%other%x
       else
-         session%solved_x = session%solver%x
+         session%solved_x = session%workspace%x
       end if
    end subroutine end_solution
 
@@ -165,7 +167,7 @@ contains
       if (allocated(session%other)) then
          last => session%other%cases(session%solved)%result
       else
-         last => session%solver%cases(session%solved)%result
+         last => session%workspace%cases(session%solved)%result
       end if
    end function result_of
 
@@ -199,7 +201,7 @@ contains
       if (allocated(session%other)) then
          is_other = any(abs(session%other%x - session%solved_x) > 0.0_wp)
       else
-         is_other = any(abs(session%solver%x - session%solved_x) > 0.0_wp)
+         is_other = any(abs(session%workspace%x - session%solved_x) > 0.0_wp)
       end if
       if (is_other) call fail(error, exit_usage, &
          'key numbers were read of changed numbers since the last solution: solve again before its compliance matrix or '// &

@@ -13,7 +13,7 @@ module ek_bench
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t, is_mountable, method_names
    use ek_kkt, only: kkt_t, new_kkt
-   use ek_balance, only: balance
+   use ek_workspace, only: workspace_t, balance_once
    use ek_path, only: path_t, sweep
    use ek_rig, only: mount
    use ek_examination, only: examination_t
@@ -120,21 +120,21 @@ contains
       type(suspension_t), intent(out) :: suspension
       type(case_t), intent(out) :: case
       type(error_t), allocatable, intent(out) :: error
-      type(suspension_t) :: base
-      type(case_t), allocatable :: cases(:), chosen(:)
+      type(workspace_t) :: workspace
+      type(case_t), allocatable :: chosen(:)
       type(examination_t) :: found
       character(:), allocatable :: checksum
 
-      call load_deck(settings, base, cases, checksum, error)
-      if (.not. allocated(error)) call chosen_cases(settings, cases, chosen, error)
-      if (.not. allocated(error)) call examine_chosen(settings%file, base, chosen(1:1), found, error)
-      if (.not. allocated(error)) call balance(base, chosen(1)%tolerance, error)
+      call load_deck(settings, workspace, checksum, error)
+      if (.not. allocated(error)) call chosen_cases(settings, workspace%design%cases, chosen, error)
+      if (.not. allocated(error)) call examine_chosen(settings%file, workspace%raw, chosen(1:1), found, error)
+      if (.not. allocated(error)) call balance_once(chosen(1)%tolerance, .false., workspace, error)
       if (allocated(error)) return
       if (.not. is_mountable(chosen(1))) then
          call fail(error, exit_file, chosen(1)%table%fault)
          return
       end if
-      call mount(base, chosen(1), suspension, case)
+      call mount(workspace%suspension, chosen(1), suspension, case)
    end subroutine load_case
 
    !> The largest distance between bodies of two sweeps [m].

@@ -17,7 +17,8 @@ module ek_bench_derivatives
    use ek_compliance_table, only: compliance_columns
    use ek_wheel_side, only: prefix_of
    use ek_case_result, only: solve_options_t
-   use ek_design_solver, only: design_solver_t, solve_case_fully, case_number
+   use ek_workspace, only: workspace_t, solve_case_fully
+   use ek_workspace_cases, only: case_number
    use ek_session, only: session_t
    use ek_column_observer, only: column_observer_t, new_column_observer, observe_columns
    use ek_direction, only: direction_t, all_directions
@@ -56,31 +57,31 @@ contains
       call read_deck_settings(line, settings)
       call load_session(settings, session, error)
       if (allocated(error)) return
-      associate (solver => session%solver)
-         k = case_number(settings%case, solver)
+      associate (workspace => session%workspace)
+         k = case_number(settings%case, workspace)
          if (k == 0) call fail(error, exit_usage, '--case: no case '//quoted(settings%case)//' in '//settings%file)
          if (allocated(error)) return
-         call refuse_case(solver%cases(k)%case, error)
+         call refuse_case(workspace%cases(k)%case, error)
          if (allocated(error)) return
-         if (settings%increments > 0) solver%cases(k)%case%increments = settings%increments
-         if (settings%increments > 0) solver%design%cases%increments = settings%increments
+         if (settings%increments > 0) workspace%cases(k)%case%increments = settings%increments
+         if (settings%increments > 0) workspace%design%cases%increments = settings%increments
          allocate (options%columns(0))
-         call solve_case_fully(k, options, solver, is_done, error)
+         call solve_case_fully(k, options, workspace, is_done, error)
          if (allocated(error)) return
          if (.not. is_done) then
             call fail(error, exit_model, settings%file//': its numbers give no model')
-         else if (.not. all(solver%cases(k)%result%path%is_reached)) then
-            call fail(error, exit_convergence, 'case '//quoted(solver%cases(k)%case%name)// &
+         else if (.not. all(workspace%cases(k)%result%path%is_reached)) then
+            call fail(error, exit_convergence, 'case '//quoted(workspace%cases(k)%case%name)// &
                ' does not converge at every state and cannot be timed')
          else
-            call time_uses(solver, k, line%has('--json'), error)
+            call time_uses(workspace, k, line%has('--json'), error)
          end if
       end associate
    end subroutine bench_derivatives
 
    !> Times all uses in turn.
-   subroutine time_uses(solver, k, is_json, error)
-      type(design_solver_t), intent(inout) :: solver
+   subroutine time_uses(workspace, k, is_json, error)
+      type(workspace_t), intent(inout) :: workspace
       integer, intent(in) :: k
       logical, intent(in) :: is_json
       type(error_t), allocatable, intent(out) :: error
@@ -89,46 +90,46 @@ contains
       integer, allocatable :: states(:)
       integer :: u, round, s
 
-      allocate (uses(5), states(solver%cases(k)%result%path%states))
-      call list_uses(solver, k, uses)
+      allocate (uses(5), states(workspace%cases(k)%result%path%states))
+      call list_uses(workspace, k, uses)
       do s = 1, size(states)
          states(s) = s
       end do
       walk = huge(walk)
       row = huge(row)
       do u = 1, size(uses)
-         call begin_derivatives(solver, k, uses(u)%columns, uses(u)%directions, uses(u)%derivatives)
+         call begin_derivatives(workspace, k, uses(u)%columns, uses(u)%directions, uses(u)%derivatives)
       end do
       do round = 1, rounds
-         call time_sweep(solver, k, walk)
-         call time_columns(solver, k, uses(3)%columns, row)
+         call time_sweep(workspace, k, walk)
+         call time_columns(workspace, k, uses(3)%columns, row)
          do u = 1, size(uses)
-            call time_use(solver, states, uses(u))
+            call time_use(workspace, states, uses(u))
          end do
       end do
       if (is_json) then
-         call print_text(json_of(solver, k, uses, walk, row)//nl, error)
+         call print_text(json_of(workspace, k, uses, walk, row)//nl, error)
       else
-         call print_text(table_of(solver, k, uses, walk, row), error)
+         call print_text(table_of(workspace, k, uses, walk, row), error)
       end if
    end subroutine time_uses
 
    !> Lists motions of the states with all coordinates of points; all columns of the state; the compliance matrix; one response
    !> with all numbers; all motions.
-   subroutine list_uses(solver, k, uses)
-      type(design_solver_t), intent(in) :: solver
+   subroutine list_uses(workspace, k, uses)
+      type(workspace_t), intent(in) :: workspace
       integer, intent(in) :: k
       type(use_t), intent(inout) :: uses(5)
       type(direction_t), allocatable :: all(:), points(:)
       type(column_list_t) :: list
       integer :: p
 
-      call all_directions(solver%design, all)
+      call all_directions(workspace%design, all)
       allocate (points(0))
       do p = 1, size(all)
          if (index(all(p)%path, 'point.') == 1) points = [points, all(p)]
       end do
-      associate (suspension => solver%cases(k)%result%suspension)
+      associate (suspension => workspace%cases(k)%result%suspension)
          call state_columns(suspension, list)
          uses(1)%name = 'motion of the states, '//str(size(points))//' coordinates'
          uses(2)%name = 'all '//str(list%used)//' columns of the state, '//str(size(points))//' coordinates'
@@ -149,8 +150,8 @@ contains
    end subroutine list_uses
 
    !> Times the sweep of the case by LAPACK.
-   subroutine time_sweep(solver, k, time)
-      type(design_solver_t), intent(in) :: solver
+   subroutine time_sweep(workspace, k, time)
+      type(workspace_t), intent(in) :: workspace
       integer, intent(in) :: k
       real(wp), intent(inout) :: time
       type(path_t) :: path
@@ -158,7 +159,7 @@ contains
       real(wp) :: start, now
       integer :: round
 
-      associate (result => solver%cases(k)%result)
+      associate (result => workspace%cases(k)%result)
          kkt = new_kkt(result%suspension)
          do round = 1, 5
             call cpu_time(start)
@@ -170,8 +171,8 @@ contains
    end subroutine time_sweep
 
    !> Times columns at all states.
-   subroutine time_columns(solver, k, columns, time)
-      type(design_solver_t), intent(inout) :: solver
+   subroutine time_columns(workspace, k, columns, time)
+      type(workspace_t), intent(inout) :: workspace
       integer, intent(in) :: k
       character(*), intent(in) :: columns(:)
       real(wp), intent(inout) :: time
@@ -183,7 +184,7 @@ contains
       real(wp) :: start, now
       integer :: s
 
-      associate (result => solver%cases(k)%result)
+      associate (result => workspace%cases(k)%result)
          call new_column_observer(result%suspension, result%case, columns, observer)
          allocate (values(size(observer%columns)), source=0.0_wp)
          schedule = new_schedule(result%suspension, result%case)
@@ -199,21 +200,21 @@ contains
       end associate
    end subroutine time_columns
 
-   subroutine time_use(solver, states, this)
-      type(design_solver_t), intent(inout) :: solver
+   subroutine time_use(workspace, states, this)
+      type(workspace_t), intent(inout) :: workspace
       integer, intent(in) :: states(:)
       type(use_t), intent(inout) :: this
       real(wp) :: start, now
 
       call cpu_time(start)
-      call find_derivatives(solver, states, this%derivatives)
+      call find_derivatives(workspace, states, this%derivatives)
       call cpu_time(now)
       this%time = min(this%time, now - start)
    end subroutine time_use
 
    !> The ratios as lines.
-   function table_of(solver, k, uses, walk, row) result(text)
-      type(design_solver_t), intent(in) :: solver
+   function table_of(workspace, k, uses, walk, row) result(text)
+      type(workspace_t), intent(in) :: workspace
       integer, intent(in) :: k
       type(use_t), intent(in) :: uses(:)
       real(wp), intent(in) :: walk, row          !! the sweep by LAPACK, the compliance matrix at all its states [s]
@@ -221,7 +222,7 @@ contains
       character(200) :: line
       integer :: u
 
-      associate (result => solver%cases(k)%result)
+      associate (result => workspace%cases(k)%result)
          text = 'derivatives of model '//result%suspension%name//', case '//result%case%name//', '//str(result%path%states)// &
             ' states, matrix '//str(result%kkt%n)//' x '//str(result%kkt%n)//nl
       end associate
@@ -246,8 +247,8 @@ contains
    end function of_one
 
    !> The ratios as a JSON object.
-   function json_of(solver, k, uses, walk, row) result(text)
-      type(design_solver_t), intent(in) :: solver
+   function json_of(workspace, k, uses, walk, row) result(text)
+      type(workspace_t), intent(in) :: workspace
       integer, intent(in) :: k
       type(use_t), intent(in) :: uses(:)
       real(wp), intent(in) :: walk, row
@@ -255,7 +256,7 @@ contains
       type(json_t) :: json
 
       call json%open('{')
-      associate (result => solver%cases(k)%result)
+      associate (result => workspace%cases(k)%result)
          call json%item('model', json_string(result%suspension%name))
          call json%item('case', json_string(result%case%name))
          call json%item('states', str(result%path%states))

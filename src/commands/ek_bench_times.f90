@@ -20,7 +20,9 @@ module ek_bench_times
    use ek_load_deck, only: deck_settings_t, read_changed
    use ek_deck, only: deck_t
    use ek_parameter, only: choice_t
-   use ek_worker, only: worker_t, factor_paths_t, make_worker, change_design
+   use ek_workspace, only: workspace_t
+   use ek_workspace_cases, only: open_cases
+   use ek_factor_numbers, only: factor_paths_t, change_design
    use ek_case_result, only: solve_options_t, solve_mounted
    use ek_wheel_side, only: prefix_of
    use ek_bench_figures, only: figures_t, short_sweep
@@ -186,7 +188,7 @@ contains
       type(figures_t), intent(inout) :: figures
       type(error_t), allocatable, intent(out) :: error
       type(deck_t) :: deck
-      type(worker_t) :: worker
+      type(workspace_t) :: workspace
       type(factor_paths_t) :: paths(1)
       type(solve_options_t) :: options
       real(wp) :: start, value, time
@@ -194,38 +196,38 @@ contains
       integer :: k, d
 
       call read_changed(settings%file, settings%changes, deck, error)
-      if (.not. allocated(error)) call make_worker(deck, [case_name], worker, error)
+      if (.not. allocated(error)) call open_cases(deck, [case_name], workspace, error)
       if (allocated(error)) return
-      associate (list => worker%design%parameters%list, x => worker%design%parameters%x)
-         do k = 1, worker%design%parameters%used
+      associate (list => workspace%design%parameters%list, x => workspace%design%parameters%x)
+         do k = 1, workspace%design%parameters%used
             if (list(k)%is_given .and. abs(x(k)) > 0.0_wp) exit
          end do
          paths(1)%found = [choice_t(k, 1.0_wp)]
          value = x(k)/list(k)%unit
       end associate
-      worker%design%cases%increments = short_sweep
+      workspace%design%cases%increments = short_sweep
       options%has_remarks = .false.
       allocate (options%columns(1))
       options%columns = 'toe_deg'
-      if (size(worker%suspension%wheels) > 1) options%columns = prefix_of(worker%suspension, 1)//'toe_deg'
+      if (size(workspace%suspension%wheels) > 1) options%columns = prefix_of(workspace%suspension, 1)//'toe_deg'
       figures%design = huge(time)
       figures%states = huge(time)
       do k = 1, rounds/2
          start = processor_seconds()
          do d = 1, designs
-            call change_design(paths, [value*(1.0_wp + 1.0e-10_wp*d)], worker, is_done)
+            call change_design(paths, [value*(1.0_wp + 1.0e-10_wp*d)], workspace, is_done)
             if (.not. is_done) then      ! such a model has no design from numbers
                figures%design = 0.0_wp
                return
             end if
-            call solve_mounted(options, worker%cases(1)%result, observer=worker%cases(1)%observer)
+            call solve_mounted(options, workspace%cases(1)%result, observer=workspace%cases(1)%observer)
          end do
          figures%design = min(figures%design, (processor_seconds() - start)/designs)
          start = processor_seconds()
          do d = 1, designs
-            associate (this => worker%cases(1)%result)
+            associate (this => workspace%cases(1)%result)
                call sweep(this%suspension, this%case, this%path, this%kkt, space=this%space)
-               call observe(this%suspension, this%case, this%path, this%kkt, worker%cases(1)%observer, this%table)
+               call observe(this%suspension, this%case, this%path, this%kkt, workspace%cases(1)%observer, this%table)
             end associate
          end do
          figures%states = min(figures%states, (processor_seconds() - start)/designs)

@@ -14,7 +14,7 @@ module ek_check
    use ek_examination, only: add_distinct, examine_case
    use ek_state, only: design_state
    use ek_kkt, only: kkt_t, new_kkt
-   use ek_balance, only: balance
+   use ek_workspace, only: workspace_t, balance_once
    use ek_diagnosis, only: diagnosis_t, diagnose
    use ek_model_remark, only: model_remarks_t, find_model_remarks
    use ek_check_messages, only: check_messages_t, check_json, last_line
@@ -63,8 +63,8 @@ contains
       character(:), allocatable, intent(out) :: model, checksum      !! '' if the deck cannot be read
       type(error_t), allocatable, intent(out) :: error
       type(deck_t) :: deck
-      type(suspension_t) :: base
-      type(case_t), allocatable :: cases(:), chosen(:)
+      type(workspace_t) :: workspace
+      type(case_t), allocatable :: chosen(:)
       type(mounted_case_t) :: mounted
       type(diagnosis_t) :: diagnosis
       type(error_t), allocatable :: trouble
@@ -73,24 +73,24 @@ contains
       integer :: k
 
       model = ''
-      call load_deck(settings, base, cases, checksum, error, needs_tables=.true., used_deck=deck)
+      call load_deck(settings, workspace, checksum, error, needs_tables=.true., used_deck=deck)
       if (.not. allocated(checksum)) checksum = ''
       if (.not. allocated(error) .and. deck_path /= '') call write_deck_as_used(deck, deck_path, error)
       allocate (chosen(0))
       if (.not. allocated(error)) then
-         model = base%name
-         if (size(cases) > 0) call chosen_cases(settings, cases, chosen, error)
+         model = workspace%raw%name
+         if (size(workspace%design%cases) > 0) call chosen_cases(settings, workspace%design%cases, chosen, error)
       end if
       if (allocated(error)) then
          call add_lines(error%message, messages%errors)
          return
       end if
 
-      kkt = new_kkt(base)
-      call diagnose(base, design_state(base), kkt, diagnosis)
-      call add_model(base, diagnosis, checksum, findings)
+      kkt = new_kkt(workspace%raw)
+      call diagnose(workspace%raw, design_state(workspace%raw), kkt, diagnosis)
+      call add_model(workspace%raw, diagnosis, checksum, findings)
       do k = 1, size(chosen)
-         call examine_case(base, chosen(k), diagnosis, mounted=mounted)
+         call examine_case(workspace%raw, chosen(k), diagnosis, mounted=mounted)
          call add_case(mounted%case, diagnosis, findings)
          if (diagnosis%is_solvable()) cycle
          ! the message on one defect may differ in the last digit between two drives
@@ -101,7 +101,7 @@ contains
       end if
       call add(findings, 'warnings', diagnosis%warnings%text())
       call add_lines(diagnosis%warnings%text(), messages%warnings)
-      call add_remarks(base, cases, chosen, found%count() == 0, diagnosis%warnings%count() > 0, findings, messages, trouble)
+      call add_remarks(workspace, chosen, found%count() == 0, diagnosis%warnings%count() > 0, findings, messages, trouble)
       call add_lines(found%text(), messages%errors)
       if (allocated(trouble) .and. size(chosen) > 0) call add_lines(trouble%message, messages%errors)
       if (found%count() > 0) then
@@ -126,26 +126,27 @@ contains
    end subroutine add_lines
 
    !> Adds the remarks on the model, balanced if balance succeeds. The preloads that balance finds are results, not findings.
-   subroutine add_remarks(base, cases, chosen, is_solvable, has_warnings, findings, messages, error)
-      type(suspension_t), intent(in) :: base
-      type(case_t), intent(in) :: cases(:), chosen(:)
+   subroutine add_remarks(workspace, chosen, is_solvable, has_warnings, findings, messages, error)
+      type(workspace_t), intent(inout) :: workspace
+      type(case_t), intent(in) :: chosen(:)
       logical, intent(in) :: is_solvable, has_warnings
       type(buffer_t), intent(inout) :: findings
       type(check_messages_t), intent(inout) :: messages
       type(error_t), allocatable, intent(out) :: error    !! of balance
-      type(suspension_t) :: balanced
       type(model_remarks_t) :: remarks
       real(wp) :: tolerance
       integer :: k
 
-      balanced = base
-      if (is_solvable) then
+      associate (cases => workspace%design%cases)
          tolerance = default_tolerance
          if (size(cases) > 0) tolerance = cases(1)%tolerance
-         call balance(balanced, tolerance, error)
-         if (allocated(error)) balanced = base
-      end if
-      call find_model_remarks(balanced, cases, chosen, is_solvable .and. .not. allocated(error), remarks)
+         if (is_solvable) call balance_once(tolerance, .false., workspace, error)
+         if (is_solvable .and. .not. allocated(error)) then
+            call find_model_remarks(workspace%suspension, cases, chosen, .true., remarks)
+         else
+            call find_model_remarks(workspace%raw, cases, chosen, .false., remarks)
+         end if
+      end associate
       if (remarks%warnings%count() > 0) call findings%line(remarks%warnings%text())
       call add_lines(remarks%warnings%text(), messages%warnings)
       do k = 1, remarks%doubts%count()

@@ -5,7 +5,7 @@ module ek_deck_fragment
    use ek_record, only: element, own_name
    use ek_parameter, only: choice_t
    use ek_reader, only: design_t
-   use ek_worker, only: worker_t, put_factor
+   use ek_factor_numbers, only: put_factor
    use ek_designer, only: designer_t
    implicit none(type, external)
    private
@@ -21,20 +21,19 @@ contains
       type(designer_t), intent(in) :: designer     !! with the numbers of the deck
       real(wp), intent(in) :: values(:)            !! of the factors
       character(:), allocatable :: text
-      type(worker_t) :: worker
+      real(wp), allocatable :: x(:)
       type(choice_t), allocatable :: found(:)
       integer :: f
 
       text = ''
-      worker%design = designer%worker%design
-      worker%x = worker%design%parameters%x
+      x = designer%workspace%design%parameters%x
       allocate (found(0))
       do f = 1, size(values)
          if (size(designer%paths(f)%found) == 0) return
-         call put_factor(designer%paths(f), values(f), worker)
+         call put_factor(designer%paths(f), values(f), designer%workspace%design%parameters, x)
          found = [found, designer%paths(f)%found]
       end do
-      text = records_with(worker%design, worker%x, found)
+      text = records_with(designer%workspace%design, x, found)
    end function deck_fragment
 
    !> Lines such as `&bushing name = 'lca_front', kt = 8000, 2000, 8000 /`: one per key, all numbers of the key. Where the numbers

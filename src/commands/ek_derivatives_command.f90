@@ -12,7 +12,7 @@ module ek_derivatives_command
    use ek_path_states, only: nearest_state
    use ek_compliance_table, only: compliance_columns
    use ek_table, only: name_length
-   use ek_design_solver, only: design_solver_t, solve_case_fully
+   use ek_workspace, only: workspace_t, solve_case_fully
    use ek_session, only: session_t
    use ek_direction, only: direction_t, all_directions, find_directions
    use ek_derivatives, only: derivatives_t, begin_derivatives, find_derivatives, refuse_case
@@ -46,40 +46,40 @@ contains
       call read_deck_settings(line, settings)
       call load_session(settings, session, error)
       if (allocated(error)) return
-      associate (solver => session%solver)
-         call choose_case(settings, solver, k, error)
+      associate (workspace => session%workspace)
+         call choose_case(settings, workspace, k, error)
          if (allocated(error)) return
          call choose_numbers(line, session, directions, error)
-         if (.not. allocated(error)) call choose_quantities(line, solver, k, columns, error)
-         if (.not. allocated(error)) call solve(settings, k, solver, unreached, error)
-         if (.not. allocated(error)) call choose_states(line, solver, k, states, error)
+         if (.not. allocated(error)) call choose_quantities(line, workspace, k, columns, error)
+         if (.not. allocated(error)) call solve(settings, k, workspace, unreached, error)
+         if (.not. allocated(error)) call choose_states(line, workspace, k, states, error)
          if (allocated(error)) return
-         call begin_derivatives(solver, k, columns, directions, derivatives)
-         call find_derivatives(solver, states, derivatives)
-         call write_results(line, settings, solver, derivatives, error)
-         call warn(settings, solver, derivatives)
+         call begin_derivatives(workspace, k, columns, directions, derivatives)
+         call find_derivatives(workspace, states, derivatives)
+         call write_results(line, settings, workspace, derivatives, error)
+         call warn(settings, workspace, derivatives)
       end associate
       if (.not. allocated(error)) call move_alloc(unreached, error)
    end subroutine derive
 
    !> Chooses the case of --case, or the first.
-   subroutine choose_case(settings, solver, k, error)
+   subroutine choose_case(settings, workspace, k, error)
       type(deck_settings_t), intent(in) :: settings
-      type(design_solver_t), intent(in) :: solver
+      type(workspace_t), intent(in) :: workspace
       integer, intent(out) :: k
       type(error_t), allocatable, intent(out) :: error
-      character(name_length) :: names(size(solver%cases))
+      character(name_length) :: names(size(workspace%cases))
       integer :: j
 
-      do k = 1, size(solver%cases)
-         if (settings%case == '' .or. solver%cases(k)%case%name == settings%case) exit
+      do k = 1, size(workspace%cases)
+         if (settings%case == '' .or. workspace%cases(k)%case%name == settings%case) exit
       end do
-      if (k <= size(solver%cases)) then
-         call refuse_case(solver%cases(k)%case, error)
+      if (k <= size(workspace%cases)) then
+         call refuse_case(workspace%cases(k)%case, error)
          return
       end if
       do j = 1, size(names)
-         names(j) = solver%cases(j)%case%name
+         names(j) = workspace%cases(j)%case%name
       end do
       if (size(names) == 0) then
          call fail(error, exit_usage, settings%file//': no &case group and no wheel, so there is no case to run')
@@ -99,14 +99,14 @@ contains
       integer :: k
 
       if (.not. line%has('--with')) then
-         call all_directions(session%solver%design, directions)
+         call all_directions(session%workspace%design, directions)
          return
       end if
       given = line%values('--with')
       do k = 1, given%count()
          call split(given%line(k), paths)
       end do
-      call find_directions(session%solver%design, session%deck, paths, directions, error)
+      call find_directions(session%workspace%design, session%deck, paths, directions, error)
       if (allocated(error)) error%message = '--with: '//error%message
    end subroutine choose_numbers
 
@@ -125,9 +125,9 @@ contains
    end subroutine split
 
    !> Chooses the columns of --of, or all quantities of the case.
-   subroutine choose_quantities(line, solver, k, columns, error)
+   subroutine choose_quantities(line, workspace, k, columns, error)
       type(command_line_t), intent(in) :: line
-      type(design_solver_t), intent(in) :: solver
+      type(workspace_t), intent(in) :: workspace
       integer, intent(in) :: k
       character(name_length), allocatable, intent(out) :: columns(:)
       type(error_t), allocatable, intent(out) :: error
@@ -137,13 +137,13 @@ contains
       type(case_t) :: case(1)
       integer :: c
 
-      case(1) = solver%cases(k)%case
+      case(1) = workspace%cases(k)%case
       if (.not. line%has('--of')) then
-         call choose_columns('*', solver%raw, case, columns, error)
+         call choose_columns('*', workspace%raw, case, columns, error)
          return
       end if
-      call compliance_columns(solver%raw, entries)
-      call choose_columns(line%value('--of'), solver%raw, case, columns, error, '--of', entries)
+      call compliance_columns(workspace%raw, entries)
+      call choose_columns(line%value('--of'), workspace%raw, case, columns, error, '--of', entries)
       if (allocated(error)) return
       do c = 1, size(columns)
          if (any(no_quantities == columns(c)) .and. .not. allocated(error)) call fail(error, exit_usage, '--of: '// &
@@ -152,23 +152,23 @@ contains
    end subroutine choose_quantities
 
    !> Solves the case. States that did not converge are reported, and the converged states are used.
-   subroutine solve(settings, k, solver, unreached, error)
+   subroutine solve(settings, k, workspace, unreached, error)
       type(deck_settings_t), intent(in) :: settings
       integer, intent(in) :: k
-      type(design_solver_t), intent(inout) :: solver
+      type(workspace_t), intent(inout) :: workspace
       type(error_t), allocatable, intent(out) :: unreached     !! some states were not reached
       type(error_t), allocatable, intent(out) :: error         !! nothing was solved
       type(solve_options_t) :: options
       logical :: is_done
 
       allocate (options%columns(0))
-      call solve_case_fully(k, options, solver, is_done, error)
+      call solve_case_fully(k, options, workspace, is_done, error)
       if (allocated(error)) return
       if (.not. is_done) then
          call fail(error, exit_model, settings%file//': its numbers give no model')
          return
       end if
-      associate (result => solver%cases(k)%result)
+      associate (result => workspace%cases(k)%result)
          call print_remarks(settings%is_quiet, result%remarks)
          call failure_of(result, unreached)
          if (.not. result%is_run()) call move_alloc(unreached, error)
@@ -176,9 +176,9 @@ contains
    end subroutine solve
 
    !> Chooses the states of --at: the nearest to each swept value, or all; otherwise that nearest to design.
-   subroutine choose_states(line, solver, k, states, error)
+   subroutine choose_states(line, workspace, k, states, error)
       type(command_line_t), intent(in) :: line
-      type(design_solver_t), intent(in) :: solver
+      type(workspace_t), intent(in) :: workspace
       integer, intent(in) :: k
       integer, allocatable, intent(out) :: states(:)
       type(error_t), allocatable, intent(out) :: error
@@ -187,7 +187,7 @@ contains
       logical :: is_number
       integer :: j
 
-      associate (path => solver%cases(k)%result%path, case => solver%cases(k)%result%case)
+      associate (path => workspace%cases(k)%result%path, case => workspace%cases(k)%result%case)
          if (line%value('--at') == 'all') then
             states = [(j, j=1, path%states)]
             return
@@ -215,10 +215,10 @@ contains
    end subroutine choose_states
 
    !> Writes the table, and what has the most effect on the requested columns.
-   subroutine write_results(line, settings, solver, found, error)
+   subroutine write_results(line, settings, workspace, found, error)
       type(command_line_t), intent(in) :: line
       type(deck_settings_t), intent(in) :: settings
-      type(design_solver_t), intent(in) :: solver
+      type(workspace_t), intent(in) :: workspace
       type(derivatives_t), intent(in) :: found
       type(error_t), allocatable, intent(out) :: error
       type(error_t), allocatable :: unprinted
@@ -231,7 +231,7 @@ contains
          call write_standard_output(csv%text(), error)
          return
       end if
-      associate (result => solver%cases(found%case)%result)
+      associate (result => workspace%cases(found%case)%result)
          path = join_path(settings%out, result%suspension%name//'_'//result%case%name//'_derivatives.csv')
          call make_folder(settings%out, error)
          if (.not. allocated(error)) call write_whole(path, csv%text(), error)
@@ -310,16 +310,16 @@ contains
    end subroutine add_list
 
    !> Warns of columns and numbers without a derivative, with the reason.
-   subroutine warn(settings, solver, found)
+   subroutine warn(settings, workspace, found)
       type(deck_settings_t), intent(in) :: settings
-      type(design_solver_t), intent(in) :: solver
+      type(workspace_t), intent(in) :: workspace
       type(derivatives_t), intent(in) :: found
       type(buffer_t) :: names
       integer :: p, s, lost
 
       lost = 0
       do s = 1, size(found%states)
-         if (.not. solver%cases(found%case)%result%path%is_reached(found%states(s))) lost = lost + 1
+         if (.not. workspace%cases(found%case)%result%path%is_reached(found%states(s))) lost = lost + 1
       end do
       if (lost > 0) call print_note(settings%is_quiet, plural(lost, 'state', 'states')//' did not converge: no derivatives there')
       do p = 1, size(found%directions)

@@ -8,7 +8,7 @@ module ek_explain
    use ek_file, only: make_folder, join_path, write_whole
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t
-   use ek_balance, only: balance
+   use ek_workspace, only: workspace_t, balance_once
    use ek_examination, only: examination_t
    use ek_schedule, only: new_schedule
    use ek_path_states, only: nearest_reached
@@ -43,8 +43,8 @@ contains
       type(command_line_t), intent(in) :: line
       type(error_t), allocatable, intent(out) :: error
       type(settings_t) :: settings
-      type(suspension_t) :: suspension
-      type(case_t), allocatable :: cases(:), chosen(:)
+      type(workspace_t) :: workspace
+      type(case_t), allocatable :: chosen(:)
       type(examination_t) :: found
       type(model_remarks_t) :: remarks
       type(explain_files_t) :: files
@@ -53,18 +53,18 @@ contains
       integer :: k
 
       call read_settings(line, settings, error)
-      if (.not. allocated(error)) call load_deck(settings, suspension, cases, checksum, error)
-      if (.not. allocated(error)) call chosen_cases(settings, cases, chosen, error)
-      if (.not. allocated(error)) call examine_chosen(settings%file, suspension, chosen, found, error)
+      if (.not. allocated(error)) call load_deck(settings, workspace, checksum, error)
+      if (.not. allocated(error)) call chosen_cases(settings, workspace%design%cases, chosen, error)
+      if (.not. allocated(error)) call examine_chosen(settings%file, workspace%raw, chosen, found, error)
       if (.not. allocated(error)) call make_folder(settings%out, error)
-      if (.not. allocated(error)) call balance(suspension, chosen(1)%tolerance, error)
+      if (.not. allocated(error)) call balance_once(chosen(1)%tolerance, .false., workspace, error)
       if (allocated(error)) return
-      call find_model_remarks(suspension, cases, chosen, .true., remarks)
+      call find_model_remarks(workspace%suspension, workspace%design%cases, chosen, .true., remarks)
       call print_model_remarks(settings%is_quiet, remarks)
       files%has_json = settings%has_json
-      if (files%has_json) call begin_explain_json(suspension%name, checksum, files%json)
+      if (files%has_json) call begin_explain_json(workspace%suspension%name, checksum, files%json)
       do k = 1, size(chosen)
-         call explain_case(settings, suspension, chosen(k), found%faults%line(k), checksum, files, unprinted, trouble)
+         call explain_case(settings, workspace%suspension, chosen(k), found%faults%line(k), checksum, files, unprinted, trouble)
          if (.not. allocated(trouble)) cycle
          if (allocated(error)) call print_error(error%message)
          call move_alloc(trouble, error)
@@ -72,7 +72,7 @@ contains
       end do
       if (files%has_json) then
          call end_explain_json(files%json)
-         path = join_path(settings%out, suspension%name//'_contributions.json')
+         path = join_path(settings%out, workspace%suspension%name//'_contributions.json')
          call write_whole(path, files%json%text(), trouble)
          if (.not. allocated(trouble)) call print_path(path, unprinted)
          if (allocated(trouble) .and. .not. allocated(error)) call move_alloc(trouble, error)

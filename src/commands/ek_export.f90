@@ -5,7 +5,7 @@ module ek_export
    use ek_file, only: make_folder, write_whole, join_path
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t, default_tolerance
-   use ek_balance, only: balance
+   use ek_workspace, only: workspace_t, balance_once
    use ek_table, only: table_t
    use ek_model_remark, only: model_remarks_t, find_model_remarks
    use ek_command_line, only: command_line_t
@@ -90,16 +90,17 @@ contains
       type(export_settings_t), intent(in) :: settings
       type(axle_map_t), intent(out) :: axle
       type(error_t), allocatable, intent(out) :: error
-      type(case_t), allocatable :: cases(:)
+      type(workspace_t) :: workspace
       type(model_remarks_t) :: remarks
 
-      call load_deck(settings, axle%suspension, cases, axle%checksum, error)
-      if (.not. allocated(error)) call make_request(settings, axle%suspension, cases, axle%request, error)
+      call load_deck(settings, workspace, axle%checksum, error)
+      if (.not. allocated(error)) call make_request(settings, workspace%raw, workspace%design%cases, axle%request, error)
       if (.not. allocated(error) .and. (settings%target == 'carmaker' .or. settings%target == 'matlab-kc')) &
-         call front_of(settings, axle%suspension, axle%is_front, error)
-      if (.not. allocated(error)) call balance(axle%suspension, default_tolerance, error)
+         call front_of(settings, workspace%raw, axle%is_front, error)
+      if (.not. allocated(error)) call balance_once(default_tolerance, .false., workspace, error)
       if (allocated(error)) return
-      call find_model_remarks(axle%suspension, cases, cases, .true., remarks)
+      axle%suspension = workspace%suspension
+      call find_model_remarks(axle%suspension, workspace%design%cases, workspace%design%cases, .true., remarks)
       call print_model_remarks(settings%is_quiet, remarks)
       call solve_map(axle%suspension, axle%request, axle%map, error)
    end subroutine solve_axle

@@ -44,15 +44,15 @@ contains
       call read_fit(line%files%line(1), fit, error)
       if (.not. allocated(error)) call read_changed(join_path(home, fit%deck), line%values('--set'), deck, error)
       if (.not. allocated(error)) call open_deck(deck, session, error)
-      if (.not. allocated(error)) call make_problem(fit, join_path(home, ''), deck, session%solver, problem, error)
+      if (.not. allocated(error)) call make_problem(fit, join_path(home, ''), deck, session%workspace, problem, error)
       if (.not. allocated(error)) call make_folder(out, error)
-      if (.not. allocated(error)) call solve_fit(problem, fit%iterations, session%solver, found, error)
+      if (.not. allocated(error)) call solve_fit(problem, fit%iterations, session%workspace, found, error)
       if (allocated(error)) return
       call find_statistics(problem, found, statistics)
-      call write_fit_files(fit, session%solver, problem, found, statistics, out, .not. line%has('--no-plots'), message, error)
+      call write_fit_files(fit, session%workspace, problem, found, statistics, out, .not. line%has('--no-plots'), message, error)
       if (allocated(error)) return
       if (message /= '') call print_note(line%has('--quiet'), message)
-      call add_fit_findings(fit, session%solver, problem, found, statistics, text)
+      call add_fit_findings(fit, session%workspace, problem, found, statistics, text)
       call print_text(text%text(), error)
       if (.not. allocated(error) .and. found%ended == 0) call fail(error, exit_convergence, 'the fit has not ended after '// &
          plural(found%steps, 'iteration', 'iterations')//'; the factors reached were written. Give more iterations in &fit')

@@ -8,7 +8,7 @@ module ek_fit_files
    use ek_buffer, only: buffer_t
    use ek_file, only: join_path, write_whole
    use ek_version, only: version
-   use ek_design_solver, only: design_solver_t
+   use ek_workspace, only: workspace_t
    use ek_drawing, only: run_gnuplot
    use ek_gnuplot_text, only: gnuplot_text, gnuplot_comment
    use ek_parameter, only: choice_t, parameter_path
@@ -28,9 +28,9 @@ module ek_fit_files
 contains
 
    !> Writes all files and prints their paths.
-   subroutine write_fit_files(fit, solver, problem, found, statistics, out, draws, message, error)
+   subroutine write_fit_files(fit, workspace, problem, found, statistics, out, draws, message, error)
       type(fit_t), intent(in) :: fit
-      type(design_solver_t), intent(in) :: solver          !! with the numbers found
+      type(workspace_t), intent(in) :: workspace          !! with the numbers found
       type(fit_problem_t), intent(in) :: problem
       type(fit_result_t), intent(in) :: found
       type(fit_statistics_t), intent(in) :: statistics
@@ -43,9 +43,9 @@ contains
 
       message = ''
       call write_one('_factors.csv', factors_csv(problem, found, statistics))
-      call write_one('_points.csv', points_csv(fit, solver, problem, found))
-      call write_one('.set', settings(fit, solver, problem))
-      call write_one('.gp', script(fit, solver, problem))
+      call write_one('_points.csv', points_csv(fit, workspace, problem, found))
+      call write_one('.set', settings(fit, workspace, problem))
+      call write_one('.gp', script(fit, workspace, problem))
       if (draws .and. .not. allocated(error)) then
          call scripts%add(fit%name//'.gp')
          call pictures%add(fit%name//'.png')
@@ -110,9 +110,9 @@ contains
    end subroutine add_number
 
    !> One row per point: what was wanted, at the start, now.
-   function points_csv(fit, solver, problem, found) result(text)
+   function points_csv(fit, workspace, problem, found) result(text)
       type(fit_t), intent(in) :: fit
-      type(design_solver_t), intent(in) :: solver
+      type(workspace_t), intent(in) :: workspace
       type(fit_problem_t), intent(in) :: problem
       type(fit_result_t), intent(in) :: found
       character(:), allocatable :: text
@@ -123,7 +123,7 @@ contains
       do k = 1, size(problem%points)
          associate (point => problem%points(k), wanted => problem%wanted(k), target => fit%targets(problem%points(k)%target))
             call csv%add(target%name//',')
-            if (wanted%case > 0) call csv%add(solver%cases(wanted%case)%case%name)
+            if (wanted%case > 0) call csv%add(workspace%cases(wanted%case)%case%name)
             call csv%add(','//wanted%name//','//trim(wanted%over))
             call add_number(wanted%at, csv)
             call add_number(point%value, csv)
@@ -152,9 +152,9 @@ contains
    end subroutine changed_numbers
 
    !> The numbers found as settings.
-   function settings(fit, solver, problem) result(text)
+   function settings(fit, workspace, problem) result(text)
       type(fit_t), intent(in) :: fit
-      type(design_solver_t), intent(in) :: solver
+      type(workspace_t), intent(in) :: workspace
       type(fit_problem_t), intent(in) :: problem
       character(:), allocatable :: text
       type(buffer_t) :: list
@@ -163,8 +163,8 @@ contains
       integer :: j
 
       call changed_numbers(problem, changed)
-      call list%line('# elastokin '//version//' fit '//fit%name//': numbers of '//solver%raw%name//' for --set-file')
-      associate (numbers => solver%design%parameters)
+      call list%line('# elastokin '//version//' fit '//fit%name//': numbers of '//workspace%raw%name//' for --set-file')
+      associate (numbers => workspace%design%parameters)
          ! a number of both sides has the path of the half deck, if both sides changed
          allocate (is_tied(numbers%used), source=.false.)
          do j = 1, size(changed)
@@ -177,7 +177,7 @@ contains
                   if (is_tied(this%tied)) cycle
                end if
                call list%line(path_of(changed(j)%number, is_tied(changed(j)%number))//' = '// &
-                  decimal(solver%x(changed(j)%number)/this%unit))
+                  decimal(workspace%x(changed(j)%number)/this%unit))
             end associate
          end do
       end associate
@@ -189,15 +189,15 @@ contains
          integer, intent(in) :: number
          logical, intent(in) :: is_of_pair
          character(:), allocatable :: path
-         path = parameter_path(solver%design%parameters%list(number), solver%design%records, is_of_pair)
+         path = parameter_path(workspace%design%parameters%list(number), workspace%design%records, is_of_pair)
       end function path_of
 
    end function settings
 
    !> A panel for each curve: start, target and result, from the file of the points.
-   function script(fit, solver, problem) result(text)
+   function script(fit, workspace, problem) result(text)
       type(fit_t), intent(in) :: fit
-      type(design_solver_t), intent(in) :: solver
+      type(workspace_t), intent(in) :: workspace
       type(fit_problem_t), intent(in) :: problem
       character(:), allocatable :: text
       type(buffer_t) :: gp
@@ -256,7 +256,7 @@ contains
 
          label = trim(problem%wanted(t)%over)
          if (label /= 'factor' .or. problem%wanted(t)%case == 0) return
-         associate (case => solver%cases(problem%wanted(t)%case)%case)
+         associate (case => workspace%cases(problem%wanted(t)%case)%case)
             label = case%name//', swept value'
          end associate
       end function abscissa

@@ -6,7 +6,7 @@ module ek_fit_text
    use ek_buffer, only: buffer_t
    use ek_bounded_search, only: gain_is_small, step_is_small
    use ek_parameter, only: choice_t
-   use ek_design_solver, only: design_solver_t
+   use ek_workspace, only: workspace_t
    use ek_deck_fragment, only: records_with
    use ek_study, only: is_given, by_value
    use ek_fit, only: fit_t
@@ -26,9 +26,9 @@ module ek_fit_text
 contains
 
    !> Adds all findings.
-   subroutine add_fit_findings(fit, solver, problem, found, statistics, text)
+   subroutine add_fit_findings(fit, workspace, problem, found, statistics, text)
       type(fit_t), intent(in) :: fit
-      type(design_solver_t), intent(in) :: solver          !! with the numbers found
+      type(workspace_t), intent(in) :: workspace          !! with the numbers found
       type(fit_problem_t), intent(in) :: problem
       type(fit_result_t), intent(in) :: found
       type(fit_statistics_t), intent(in) :: statistics
@@ -44,7 +44,7 @@ contains
       call add_doubts(problem, found, statistics, text)
       call text%line('as records of the deck:')
       call changed_numbers(problem, changed)
-      call text%line(records_with(solver%design, solver%x, changed))
+      call text%line(records_with(workspace%design, workspace%x, changed))
    end subroutine add_fit_findings
 
    !> Adds how the fit ended, and its quality.

@@ -5,9 +5,8 @@ module ek_load_deck
    use ek_deck, only: deck_t, read_deck, set_value, deck_checksum
    use ek_setting, only: split_setting
    use ek_set_file, only: set_file_t, read_set_file, apply_set_file, show_set_file
-   use ek_reader, only: design_t
-   use ek_target_band, only: target_band_t
-   use ek_design_solver, only: read_checked
+   use ek_workspace, only: workspace_t
+   use ek_workspace_cases, only: open_model
    use ek_session, only: session_t, take_deck
    use ek_suspension, only: suspension_t
    use ek_standard_tests, only: standard_tests
@@ -52,25 +51,20 @@ contains
    end subroutine read_deck_settings
 
    !> Reads a deck, applies --set, builds the model, and checks the tables and targets of its cases; reports all errors together.
-   subroutine load_deck(settings, suspension, cases, checksum, error, needs_tables, targets, used_deck)
+   subroutine load_deck(settings, workspace, checksum, error, needs_tables, used_deck)
       class(deck_settings_t), intent(in) :: settings
-      type(suspension_t), intent(out) :: suspension
-      type(case_t), allocatable, intent(out) :: cases(:)
+      type(workspace_t), intent(out) :: workspace            !! without cases: the command chooses among those of the design
       character(:), allocatable, intent(out), optional :: checksum     !! of the deck as it was used
       type(error_t), allocatable, intent(out) :: error
       logical, intent(in), optional :: needs_tables          !! if .true., a missing table is an error, also of a case not run
-      type(target_band_t), allocatable, intent(out), optional :: targets(:)    !! of key numbers
       type(deck_t), intent(out), optional :: used_deck       !! with the settings made
       type(deck_t) :: deck
-      type(design_t) :: design
       type(set_file_t), allocatable :: files(:)
       type(error_t), allocatable :: unset
 
       call read_set_deck(settings, deck, files, unset, error)
       if (allocated(error)) return
-      call read_checked(deck, design, suspension, error, needs_tables)
-      call move_alloc(design%cases, cases)
-      if (present(targets)) call move_alloc(design%targets, targets)
+      call open_model(deck, workspace, error, needs_tables)
       call add_unset(files, unset, error)
       if (allocated(error)) return
       if (present(checksum)) checksum = deck_checksum(deck)

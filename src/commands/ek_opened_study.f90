@@ -71,8 +71,8 @@ contains
       if (.not. allocated(error)) call new_plan(this%study, this%deck, join_path(this%home, ''), this%designer, this%plan, error, &
          n, chunk_of_parts(this%study, this%out), this%build)
       if (allocated(error)) return
-      this%texts%swept = this%designer%worker%cases(1)%result%case%place_name
-      this%texts%swept_unit = this%designer%worker%cases(1)%result%case%unit_name
+      this%texts%swept = this%designer%workspace%cases(1)%result%case%place_name
+      this%texts%swept_unit = this%designer%workspace%cases(1)%result%case%unit_name
    end subroutine plan_study
 
    !> The file of the results: the store, or the table of the designs.

@@ -7,7 +7,7 @@ module ek_report
    use ek_file, only: make_folder, write_whole, join_path, remove_file
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t, default_tolerance
-   use ek_balance, only: balance
+   use ek_workspace, only: workspace_t, balance_once
    use ek_examination, only: examination_t
    use ek_standard_tests, only: standard_tests
    use ek_table, only: table_t, new_table
@@ -38,7 +38,6 @@ module ek_report
    use ek_model_remark, only: model_remarks_t, find_model_remarks
    use ek_command_line, only: command_line_t, refuse_stream, read_windows
    use ek_number_targets, only: set_targets
-   use ek_target_band, only: target_band_t
    use ek_load_deck, only: deck_settings_t, read_deck_settings, load_deck, chosen_cases, examine_chosen
    use ek_console, only: print_note, print_error, print_path, print_model_remarks, write_table
    use ek_kinds, only: wp, millimetre
@@ -72,37 +71,36 @@ contains
       type(error_t), allocatable, intent(out) :: error
       type(settings_t) :: settings
       type(report_t) :: page
-      type(suspension_t) :: suspension
+      type(workspace_t) :: workspace
       type(deck_t) :: deck
-      type(case_t), allocatable :: cases(:), all_cases(:), chosen(:)      ! of the deck; those of this report
+      type(case_t), allocatable :: cases(:), chosen(:)                  ! with the tests; those of this report
       type(examination_t) :: found
       type(model_remarks_t) :: remarks
       type(message_list_t) :: warnings
       type(chart_t), allocatable :: scales(:)                           ! of another report
-      type(target_band_t), allocatable :: targets(:)
       type(error_t), allocatable :: undrawn, unprinted, incomplete
       character(:), allocatable :: checksum, message
 
       call read_settings(line, settings, error)
       if (.not. allocated(error) .and. line%has('--scales')) &
          call read_scales(line%value('--scales'), settings%windows, scales, error)
-      if (.not. allocated(error)) call load_deck(settings, suspension, cases, checksum, error, targets=targets, used_deck=deck)
+      if (.not. allocated(error)) call load_deck(settings, workspace, checksum, error, used_deck=deck)
       if (allocated(error)) return
-      all_cases = cases                                     ! of a model without a wheel
-      if (size(suspension%wheels) > 0) call standard_tests(suspension, cases, all_cases, settings%case)
-      call chosen_cases(settings, all_cases, chosen, error)
-      if (.not. allocated(error)) call examine_chosen(settings%file, suspension, chosen, found, error)
+      cases = workspace%design%cases                        ! of a model without a wheel
+      if (size(workspace%raw%wheels) > 0) call standard_tests(workspace%raw, workspace%design%cases, cases, settings%case)
+      call chosen_cases(settings, cases, chosen, error)
+      if (.not. allocated(error)) call examine_chosen(settings%file, workspace%raw, chosen, found, error)
       if (allocated(error)) return
       page%folder = settings%out
       page%is_static = settings%is_static
-      if (suspension%axle%has_axle) page%axle = merge(-1, 1, suspension%axle%is_front)
+      if (workspace%raw%axle%has_axle) page%axle = merge(-1, 1, workspace%raw%axle%is_front)
       call make_folder(page%folder, error)
       if (.not. allocated(error)) call make_folder(join_path(page%folder, 'figures'), error)
-      if (.not. allocated(error)) call balance(suspension, default_tolerance, error)
+      if (.not. allocated(error)) call balance_once(default_tolerance, .false., workspace, error)
       if (allocated(error)) return
-      call planned_tests(suspension, chosen, page%tests)
+      call planned_tests(workspace%suspension, chosen, page%tests)
       call name_files(page%tests)
-      call find_model_remarks(suspension, cases, chosen, .true., remarks)
+      call find_model_remarks(workspace%suspension, workspace%design%cases, chosen, .true., remarks)
       call print_model_remarks(settings%is_quiet, remarks, page%warnings)
       call remove_file(join_path(page%folder, 'report.html'))     ! a page of an earlier report must not be mistaken for this one
       call remove_file(join_path(page%folder, contents_file))
@@ -113,13 +111,13 @@ contains
 
       if (settings%has_loads) then
          allocate (page%loads)
-         call begin_loads(suspension, suspension%name, checksum, page%loads)
+         call begin_loads(workspace%suspension, workspace%suspension%name, checksum, page%loads)
       end if
       if (settings%live > 0) then
          allocate (page%live)
          page%live%most = settings%live
       end if
-      call run_tests(settings%windows, suspension, chosen, found, checksum, page, unprinted, incomplete, error)
+      call run_tests(settings%windows, workspace%suspension, chosen, found, checksum, page, unprinted, incomplete, error)
       if (.not. allocated(error) .and. allocated(page%loads)) call write_loads(page%loads, page%folder, unprinted, error)
       if (allocated(error)) return
       if (allocated(page%live)) then
@@ -127,14 +125,14 @@ contains
             'a design state at which a bushing, spring or bar with a constant rate contributes to a key compliance')
       end if
       if (allocated(scales)) call take_scales(scales, page%charts)
-      call write_gradients(page%gradients, suspension%name, checksum, join_path(page%folder, gradients_file), &
+      call write_gradients(page%gradients, workspace%suspension%name, checksum, join_path(page%folder, gradients_file), &
          join_path(page%folder, 'gradients.json'), error)
       if (allocated(error)) return
       call print_path(join_path(page%folder, gradients_file), unprinted)
       call print_path(join_path(page%folder, 'gradients.json'), unprinted)
       call key_numbers(page%tests, page%gradients, page%numbers)
-      call set_targets(targets, page%numbers, page%warnings)
-      call write_key_numbers(page%numbers, size(suspension%wheels) > 1, suspension%name, checksum, &
+      call set_targets(workspace%design%targets, page%numbers, page%warnings)
+      call write_key_numbers(page%numbers, size(workspace%suspension%wheels) > 1, workspace%suspension%name, checksum, &
          join_path(page%folder, numbers_file), join_path(page%folder, 'key_numbers.json'), error)
       if (allocated(error)) return
       call print_path(join_path(page%folder, numbers_file), unprinted)
@@ -142,8 +140,8 @@ contains
       call write_contents(page%tests, join_path(page%folder, contents_file), error)
       if (allocated(error)) return
 
-      if (.not. page%is_static) call make_turntable(suspension, page%tests, page%paths, page%turntable)
-      call set_head(settings, suspension, checksum, page)
+      if (.not. page%is_static) call make_turntable(workspace%suspension, page%tests, page%paths, page%turntable)
+      call set_head(settings, workspace%suspension, checksum, page)
       call list_values(deck, page%deck_paths, page%deck_texts)
       call write_deck_file(join_path(page%folder, deck_file), page%names, page%values, page%deck_paths, &
          page%deck_texts, error)
@@ -163,7 +161,7 @@ contains
          if (allocated(error)) return
          page%warnings = warnings
       end if
-      call draw_pictures(page, suspension, settings%has_plots, settings%is_animated, message, undrawn)
+      call draw_pictures(page, workspace%suspension, settings%has_plots, settings%is_animated, message, undrawn)
       if (allocated(undrawn)) then
          call print_error(undrawn%message)
          call page%warnings%add('The page lacks pictures: '//undrawn%message)

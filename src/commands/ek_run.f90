@@ -7,7 +7,7 @@ module ek_run
    use ek_rig_test, only: rig_test, lifts, is_scattered
    use ek_suspension, only: suspension_t, load_number
    use ek_case, only: case_t
-   use ek_balance, only: balance
+   use ek_workspace, only: workspace_t, balance_once
    use ek_examination, only: examination_t
    use ek_case_result, only: case_result_t, solve_options_t, solve_case, failure_of, add_header
    use ek_compliance_table, only: compliance_table
@@ -43,7 +43,7 @@ contains
       type(command_line_t), intent(in) :: line
       type(error_t), allocatable, intent(out) :: error
       type(settings_t) :: settings
-      type(suspension_t) :: suspension
+      type(workspace_t) :: workspace
       type(case_t), allocatable :: cases(:), chosen(:)
       type(error_t), allocatable :: trouble, unprinted
       type(examination_t) :: found
@@ -58,11 +58,13 @@ contains
          call run_numbers(line, settings, error)
          return
       end if
-      if (.not. allocated(error)) call load_deck(settings, suspension, cases, checksum, error)
-      if (.not. allocated(error)) call add_asked_test(settings, suspension, cases)
-      if (.not. allocated(error)) call chosen_cases(settings, cases, chosen, error)
+      if (.not. allocated(error)) call load_deck(settings, workspace, checksum, error)
+      if (allocated(error)) return
+      cases = workspace%design%cases
+      call add_asked_test(settings, workspace%raw, cases)
+      call chosen_cases(settings, cases, chosen, error)
       if (.not. allocated(error) .and. line%has('--columns')) &
-         call choose_columns(line%value('--columns'), suspension, chosen, settings%columns, error)
+         call choose_columns(line%value('--columns'), workspace%raw, chosen, settings%columns, error)
       if (allocated(error)) return
       if (settings%out == '-' .and. size(chosen) > 1 .and. .not. settings%has_json) then
          call fail(error, exit_usage, '--out - writes one table, but '//settings%file//' has '//str(size(chosen))// &
@@ -70,23 +72,23 @@ contains
          return
       end if
       if (settings%has_compliance) call refuse_double_files(chosen, error)
-      if (.not. allocated(error)) call examine_chosen(settings%file, suspension, chosen, found, error)
+      if (.not. allocated(error)) call examine_chosen(settings%file, workspace%raw, chosen, found, error)
       if (.not. allocated(error) .and. settings%out /= '-') call make_folder(settings%out, error)
-      if (.not. allocated(error)) call balance(suspension, chosen(1)%tolerance, error)
+      if (.not. allocated(error)) call balance_once(chosen(1)%tolerance, .false., workspace, error)
       if (allocated(error)) return
-      call find_model_remarks(suspension, cases, chosen, .true., remarks)
+      call find_model_remarks(workspace%suspension, cases, chosen, .true., remarks)
       call print_model_remarks(settings%is_quiet, remarks)
 
       failed = 0
       code = exit_convergence
-      call begin_run_json(suspension%name, checksum, json)
+      call begin_run_json(workspace%suspension%name, checksum, json)
       if (settings%has_loads) then
          call remove_loads(settings%out)
          allocate (loads)
-         call begin_loads(suspension, suspension%name, checksum, loads)
+         call begin_loads(workspace%suspension, workspace%suspension%name, checksum, loads)
       end if
       do k = 1, size(chosen)
-         call run_case(settings, suspension, chosen(k), found%faults%line(k), checksum, json, loads, unprinted, trouble)
+         call run_case(settings, workspace%suspension, chosen(k), found%faults%line(k), checksum, json, loads, unprinted, trouble)
          if (.not. allocated(trouble)) cycle
          failed = failed + 1
          if (code == exit_convergence) code = trouble%code     ! the first other than lack of convergence
@@ -107,7 +109,8 @@ contains
       else
          call fail(error, code, words//' failed (see above); the others were written')
       end if
-      if (settings%has_json) call write_run_json(json, merge(code, 0, failed > 0), settings%out, suspension%name, error)
+      if (settings%has_json) call write_run_json(json, merge(code, 0, failed > 0), settings%out, &
+         workspace%suspension%name, error)
    end subroutine run
 
    subroutine read_settings(line, settings, error)

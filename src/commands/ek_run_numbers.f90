@@ -8,7 +8,7 @@ module ek_run_numbers
    use ek_file, only: write_whole, write_standard_output
    use ek_case, only: case_t
    use ek_table, only: name_length
-   use ek_design_solver, only: report_cases, restrict_cases
+   use ek_workspace_cases, only: report_cases, restrict_cases
    use ek_session, only: session_t
    use ek_session_numbers, only: read_key_numbers
    use ek_session_remarks, only: find_remarks
@@ -84,11 +84,11 @@ contains
 
       call load_session(settings, session, error)
       if (allocated(error)) return
-      call report_cases(session%solver, cases)
+      call report_cases(session%workspace, cases)
       if (size(cases) > 0) then
          call chosen_cases(settings, cases, chosen, error)
          if (allocated(error)) return
-         call restrict_cases(chosen, session%solver)
+         call restrict_cases(chosen, session%workspace)
       end if
       call read_key_numbers(session, names, values, error)
       if (allocated(error)) then

@@ -8,7 +8,8 @@ module ek_solve_command
    use ek_file, only: make_folder, join_path, write_whole
    use ek_table, only: name_length
    use ek_parameter, only: choice_t
-   use ek_design_solver, only: design_solver_t, case_number
+   use ek_workspace, only: workspace_t
+   use ek_workspace_cases, only: case_number
    use ek_session, only: session_t
    use ek_direction, only: direction_t, find_directions
    use ek_wanted_number, only: wanted_number_t, find_wanted
@@ -49,11 +50,11 @@ contains
       call load_session(settings, session, error)
       if (allocated(error)) return
       call read_unknowns(line%values('--vary'), session, unknowns, error)
-      call read_conditions(line, settings, session%solver, wanted, targets, fault)
+      call read_conditions(line, settings, session%workspace, wanted, targets, fault)
       if (allocated(error) .and. allocated(fault)) error%message = error%message//new_line('a')//fault%message
       if (allocated(fault) .and. .not. allocated(error)) call move_alloc(fault, error)
       if (allocated(error)) return
-      call solve_conditions(unknowns, wanted, targets, max_sweeps, session%solver, found, error)
+      call solve_conditions(unknowns, wanted, targets, max_sweeps, session%workspace, found, error)
       if (allocated(error)) return
       call write_results(settings, session, unknowns, wanted, targets, found, error)
       if (allocated(error)) return
@@ -99,7 +100,7 @@ contains
          end if
          path = message_list_t()
          call path%add(trim(adjustl(text(:equals - 1))))
-         call find_directions(session%solver%design, session%deck, path, directions, fault)
+         call find_directions(session%workspace%design, session%deck, path, directions, fault)
          if (allocated(fault)) then
             call mistakes%add('--vary '//fault%message)
          else if (size(directions) > 1) then
@@ -135,10 +136,10 @@ contains
    end function shares_number
 
    !> Reads the conditions of --for, each [case:]quantity[@swept value]=value; reports all errors.
-   subroutine read_conditions(line, settings, solver, wanted, targets, error)
+   subroutine read_conditions(line, settings, workspace, wanted, targets, error)
       type(command_line_t), intent(in) :: line
       type(deck_settings_t), intent(in) :: settings
-      type(design_solver_t), intent(in) :: solver
+      type(workspace_t), intent(in) :: workspace
       type(wanted_number_t), allocatable, intent(out) :: wanted(:)
       real(wp), allocatable, intent(out) :: targets(:)
       type(error_t), allocatable, intent(out) :: error
@@ -180,12 +181,12 @@ contains
                size_hint(place))
             cycle
          end if
-         c = case_number(case, solver)
+         c = case_number(case, workspace)
          if (c == 0) then
-            call mistakes%add(unknown_case(case, settings%file, solver))
+            call mistakes%add(unknown_case(case, settings%file, workspace))
             cycle
          end if
-         call find_wanted(solver, c, text, at, wanted(k), fault)
+         call find_wanted(workspace, c, text, at, wanted(k), fault)
          if (allocated(fault)) call mistakes%add('--for '//fault%message)
          if (allocated(fault)) cycle
          do j = 1, k - 1
@@ -198,15 +199,15 @@ contains
    end subroutine read_conditions
 
    !> The message on a case that the deck does not have.
-   function unknown_case(name, file, solver) result(text)
+   function unknown_case(name, file, workspace) result(text)
       character(*), intent(in) :: name, file
-      type(design_solver_t), intent(in) :: solver
+      type(workspace_t), intent(in) :: workspace
       character(:), allocatable :: text
-      character(name_length) :: names(size(solver%cases))
+      character(name_length) :: names(size(workspace%cases))
       integer :: j
 
       do j = 1, size(names)
-         names(j) = solver%cases(j)%case%name
+         names(j) = workspace%cases(j)%case%name
       end do
       text = 'no case '//quoted(name)//' in '//file//', and no standard test of this name'//suggestion(name, names)
       if (size(names) == 0) text = file//': no &case group and no wheel, so there is no case to solve'
@@ -228,8 +229,8 @@ contains
       integer :: j
 
       allocate (changed(0))
-      call add_findings(session%solver, unknowns, wanted, targets, found, text)
-      call file%line('# elastokin '//version//' solve: numbers of '//session%solver%raw%name//' for --set-file')
+      call add_findings(session%workspace, unknowns, wanted, targets, found, text)
+      call file%line('# elastokin '//version//' solve: numbers of '//session%workspace%raw%name//' for --set-file')
       do j = 1, size(targets)
          call file%line('# '//wanted(j)%name//' = '//str(found%after(j), 9)//', wanted '//str(targets(j), 9))
       end do
@@ -238,8 +239,8 @@ contains
          changed = [changed, unknowns(j)%direction%found]
       end do
       call text%line('as records of the deck:')
-      call text%line(records_with(session%solver%design, session%solver%x, changed))
-      path = join_path(settings%out, session%solver%raw%name//'_solve.set')
+      call text%line(records_with(session%workspace%design, session%workspace%x, changed))
+      path = join_path(settings%out, session%workspace%raw%name//'_solve.set')
       call make_folder(settings%out, error)
       if (.not. allocated(error)) call write_whole(path, file%text(), error)
       if (allocated(error)) return

@@ -3,7 +3,7 @@ module ek_solve_text
    use ek_kinds, only: wp
    use ek_text, only: str, quoted, plural
    use ek_buffer, only: buffer_t
-   use ek_design_solver, only: design_solver_t
+   use ek_workspace, only: workspace_t
    use ek_wanted_number, only: wanted_number_t
    use ek_condition_solver, only: unknown_t, findings_t
    implicit none(type, external)
@@ -17,8 +17,8 @@ module ek_solve_text
 contains
 
    !> Adds all findings.
-   subroutine add_findings(solver, unknowns, wanted, targets, found, text)
-      type(design_solver_t), intent(in) :: solver
+   subroutine add_findings(workspace, unknowns, wanted, targets, found, text)
+      type(workspace_t), intent(in) :: workspace
       type(unknown_t), intent(in) :: unknowns(:)
       type(wanted_number_t), intent(in) :: wanted(:)
       real(wp), intent(in) :: targets(:)
@@ -27,7 +27,7 @@ contains
       integer :: j
 
       do j = 1, size(targets)
-         call text%line(trim(merge('reached:    ', 'not reached:', found%is_reached(j)))//' '//label_of(solver, wanted(j))// &
+         call text%line(trim(merge('reached:    ', 'not reached:', found%is_reached(j)))//' '//label_of(workspace, wanted(j))// &
             ' = '//quantity(found%after(j), wanted(j)%unit)//trim(wanted_text(j))//' (before '//quantity(found%before(j), '')//')')
       end do
       do j = 1, size(unknowns)
@@ -55,14 +55,14 @@ contains
    end subroutine add_findings
 
    !> 'left_toe_deg of parallel_travel at 20 mm'.
-   function label_of(solver, wanted) result(label)
-      type(design_solver_t), intent(in) :: solver
+   function label_of(workspace, wanted) result(label)
+      type(workspace_t), intent(in) :: workspace
       type(wanted_number_t), intent(in) :: wanted
       character(:), allocatable :: label
 
       label = wanted%name
       if (allocated(wanted%key)) return
-      associate (case => solver%cases(wanted%case)%result%case)
+      associate (case => workspace%cases(wanted%case)%result%case)
          label = label//' of '//case%name//' at '//str(wanted%at, 9)//' '//case%unit_name
       end associate
    end function label_of

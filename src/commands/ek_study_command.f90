@@ -85,9 +85,9 @@ contains
       type(message_list_t) :: words
       integer :: k
 
-      associate (worker => this%designer%worker)
-         call factor_remarks(this%study, worker%design, this%designer%paths, words)
-         call find_model_remarks(worker%suspension, worker%design%cases, worker%cases%case, .true., remarks)
+      associate (workspace => this%designer%workspace)
+         call factor_remarks(this%study, workspace%design, this%designer%paths, words)
+         call find_model_remarks(workspace%suspension, workspace%design%cases, workspace%cases%case, .true., remarks)
       end associate
       do k = 1, words%count()
          call print_warning(words%line(k))

@@ -60,7 +60,7 @@ contains
       data%title = study%title
       data%kind = trim(sampler_kinds(study%kind)%name)
       data%deck = study%deck
-      data%case = trim(designer%worker%cases(1)%case%name)
+      data%case = trim(designer%workspace%cases(1)%case%name)
       data%designs = int(designs_of(sampler))
       call name_axes(study, designer, data)
       call find_tables(study, out, data%designs, scratch, folder, error)
@@ -150,7 +150,7 @@ contains
       do k = 1, size(study%columns)
          call name_column(trim(study%columns(k)), data%columns(k))
       end do
-      rig = rig_of(designer%worker%suspension, designer%worker%cases(1)%case)
+      rig = rig_of(designer%workspace%suspension, designer%workspace%cases(1)%case)
       data%swept = rig%place_name
       if (rig%unit /= '-') data%swept = data%swept//' ['//rig%unit//']'
    end subroutine name_axes

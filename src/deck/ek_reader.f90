@@ -28,7 +28,7 @@ module ek_reader
    use ek_case, only: case_t
    implicit none(type, external)
    private
-   public :: design_t, read_design, realise_deck, build_model
+   public :: design_t, read_design, build_design, build_model
 
    !> The order of reading: what others refer to comes first.
    integer, parameter :: reading_order(*) = [model_group, point_group, curve_group, body_group, mass_group, measure_group, &
@@ -53,33 +53,30 @@ contains
       type(error_t), allocatable, intent(out) :: error
       logical, intent(out), optional :: is_whole             !! the suspension is complete: all mistakes are in cases
       type(design_t) :: design
-      type(error_t), allocatable :: fault
       logical :: is_complete
 
-      call read_design(deck, design, error, is_complete)
+      call build_design(deck, design, suspension, error, is_complete)
       call move_alloc(design%cases, cases)
-      if (is_complete) call realise_deck(deck%file, design, suspension, fault)
-      if (allocated(fault)) then
-         is_complete = .false.
-         if (.not. allocated(error)) call move_alloc(fault, error)
-      end if
       if (present(is_whole)) is_whole = is_complete
    end subroutine build_model
 
-   !> Computes the suspension with the numbers of the deck. The reader has found no error in them; should it have missed one,
-   !> nobody gets the unfinished model.
-   subroutine realise_deck(file, design, suspension, error)
-      character(*), intent(in) :: file                       !! of the deck
-      type(design_t), intent(in) :: design                   !! complete
+   !> Reads the design of a deck and realises its suspension. The reader has found no error in its numbers; should it have missed
+   !> one, nobody gets the unfinished model.
+   subroutine build_design(deck, design, suspension, error, is_whole)
+      type(deck_t), intent(in) :: deck
+      type(design_t), intent(out) :: design
       type(suspension_t), intent(out) :: suspension
-      type(error_t), allocatable, intent(out) :: error       !! exit_deck
-      logical :: is_good
+      type(error_t), allocatable, intent(out) :: error       !! exit_deck: all errors of the deck
+      logical, intent(out) :: is_whole                       !! the suspension is complete: all mistakes are in cases
 
+      call read_design(deck, design, error, is_whole)
+      if (.not. is_whole) return
       call new_design(design%plan, suspension)
-      call realise(design%plan, design%parameters%x, suspension, is_good)
-      if (.not. is_good) call fail(error, exit_deck, file//': its numbers give no model (an axis without length, a point on '// &
-         'the wrong side, or a number outside its range); please report this deck, as a message should name the line')
-   end subroutine realise_deck
+      call realise(design%plan, design%parameters%x, suspension, is_whole)
+      if (.not. (is_whole .or. allocated(error))) call fail(error, exit_deck, deck%file//': its numbers give no model (an axis '// &
+         'without length, a point on the wrong side, or a number outside its range); please report this deck, as a message '// &
+         'should name the line')
+   end subroutine build_design
 
    !> Reads the design space of a deck, or all errors of the deck.
    subroutine read_design(deck, design, error, is_whole)

@@ -7,16 +7,16 @@ module ek_case_slopes
    use ek_table, only: table_t, new_table, name_length, column_index
    use ek_case_result, only: solve_options_t
    use ek_number_reach, only: lacks_state
-   use ek_design_solver, only: design_solver_t, solve_case_fully, solve_case_again
+   use ek_workspace, only: workspace_t, solve_case_fully, solve_case_again
    use ek_derivatives, only: derivatives_t, find_derivatives
    implicit none(type, external)
    private
    public :: case_slopes_t, solve_with_slopes, move_table
 
    type :: case_slopes_t
-      integer :: case = 0                                    !! in the solver
+      integer :: case = 0                                    !! in the workspace
       type(solve_options_t) :: options                       !! its columns, and how far from design
-      class(derivatives_t), allocatable :: derivatives       !! of the columns at the states. A class as in worker_case_t
+      class(derivatives_t), allocatable :: derivatives       !! of the columns at the states. A class as in case_work_t
       type(table_t) :: table                                 !! of the last design: quantities and entries of the compliance matrix
       type(table_t) :: moved                                 !! the same along a direction
       integer, allocatable :: place(:)                       !! of a column of the derivatives in the table
@@ -26,26 +26,26 @@ module ek_case_slopes
 contains
 
    !> Solves a case again, with the derivatives of its columns.
-   subroutine solve_with_slopes(is_solved, this, solver, is_valid)
-      logical, intent(in) :: is_solved                       !! the solver has its solution already
+   subroutine solve_with_slopes(is_solved, this, workspace, is_valid)
+      logical, intent(in) :: is_solved                       !! the workspace has its solution already
       type(case_slopes_t), intent(inout) :: this
-      type(design_solver_t), intent(inout) :: solver
+      type(workspace_t), intent(inout) :: workspace
       logical, intent(out) :: is_valid
       type(error_t), allocatable :: error
       integer, allocatable :: states(:)
       integer :: c, k, s
 
       is_valid = is_solved
-      if (.not. is_valid) call solve_case_again(this%case, this%options, solver, is_valid)
+      if (.not. is_valid) call solve_case_again(this%case, this%options, workspace, is_valid)
       if (.not. is_valid) then
-         call solve_case_fully(this%case, this%options, solver, is_valid, error)      ! with another proof that it is sound
+         call solve_case_fully(this%case, this%options, workspace, is_valid, error)      ! with another proof that it is sound
          is_valid = is_valid .and. .not. allocated(error)
       end if
-      if (is_valid) is_valid = .not. lacks_state(solver%cases(this%case)%result, this%options%reach)
+      if (is_valid) is_valid = .not. lacks_state(workspace%cases(this%case)%result, this%options%reach)
       if (.not. is_valid) return
-      associate (result => solver%cases(this%case)%result, derivatives => this%derivatives)
+      associate (result => workspace%cases(this%case)%result, derivatives => this%derivatives)
          states = pack([(k, k=1, result%path%states)], result%path%is_reached)
-         call find_derivatives(solver, states, derivatives)
+         call find_derivatives(workspace, states, derivatives)
          call make_table(result%table, derivatives, this%table, this%place, this%row)
          do s = 1, size(states)
             do c = 1, size(derivatives%columns)

@@ -21,7 +21,7 @@ module ek_column_observer
       character(name_length), allocatable :: columns(:)    !! quantities, then entries
       integer, private :: quantities = 0
       integer, allocatable, private :: entries(:)          !! their numbers among compliance_columns
-      class(observer_t), allocatable, private :: observer      !! a class as in worker_case_t
+      class(observer_t), allocatable, private :: observer      !! a class as in case_work_t
       type(compliance_t), private :: compliance
       type(attitude_t), allocatable, private :: wheels(:)
       real(wp), allocatable, private :: work(:), matrix(:)

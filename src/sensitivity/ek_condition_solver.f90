@@ -8,7 +8,7 @@ module ek_condition_solver
    use ek_error, only: error_t, fail, exit_convergence
    use ek_singular_values, only: singular_values_t, decompose
    use ek_bounded_search, only: bounded_search_t, begin_search, advance_search
-   use ek_design_solver, only: design_solver_t
+   use ek_workspace, only: workspace_t
    use ek_direction, only: direction_t
    use ek_wanted_number, only: wanted_number_t
    use ek_wanted_values, only: wanted_values_t, begin_values, find_values
@@ -40,13 +40,13 @@ module ek_condition_solver
 
 contains
 
-   !> Solves the conditions, and leaves the solver with the numbers found. Makes texts.
-   subroutine solve_conditions(unknowns, wanted, targets, max_sweeps, solver, found, error)
+   !> Solves the conditions, and leaves the workspace with the numbers found. Makes texts.
+   subroutine solve_conditions(unknowns, wanted, targets, max_sweeps, workspace, found, error)
       type(unknown_t), intent(in) :: unknowns(:)
       type(wanted_number_t), intent(in) :: wanted(:)
       real(wp), intent(in) :: targets(:)                    !! their values, in their units
       integer, intent(in) :: max_sweeps
-      type(design_solver_t), intent(inout) :: solver
+      type(workspace_t), intent(inout) :: workspace
       type(findings_t), intent(out) :: found
       type(error_t), allocatable, intent(out) :: error      !! a number has no value at the start
       type(bounded_search_t) :: search
@@ -62,15 +62,15 @@ contains
          start(j) = unknowns(j)%direction%value
          width(j) = unknowns(j)%upper - unknowns(j)%lower
       end do
-      call begin_values(wanted, directions, solver, values, error)
+      call begin_values(wanted, directions, workspace, values, error)
       if (allocated(error)) return
       call begin_search(start, unknowns%lower, unknowns%upper, width, search)
       if (any(abs(search%x - start) > 0.0_wp)) then          ! the search begins at a bound: the design before it
-         call find_values(0.0_wp*start, solver, values, is_valid)
+         call find_values(0.0_wp*start, workspace, values, is_valid)
          found%before = values%values
       end if
       do
-         call find_values(search%x - start, solver, values, is_valid)
+         call find_values(search%x - start, workspace, values, is_valid)
          if (is_valid .and. .not. allocated(scale)) then
             if (.not. allocated(found%before)) found%before = values%values
             scale = max(matmul(abs(values%jacobian), width), no_effect*max(abs(targets), abs(values%values)), tiny(1.0_wp))
@@ -100,7 +100,7 @@ contains
          if (is_valid) is_valid = all(abs(missing) <= closest)
          if (.not. is_valid) then
             found%x = search%best
-            call find_values(search%best - start, solver, values, is_valid)
+            call find_values(search%best - start, workspace, values, is_valid)
             missing = (values%values - targets)/scale
          end if
          found%sweeps = values%sweeps

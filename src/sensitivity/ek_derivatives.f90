@@ -1,7 +1,7 @@
 !> Derivatives of the columns of a case with respect to numbers of the deck, at states of its path. No solution is repeated.
 !>
-!>     call begin_derivatives(solver, k, columns, directions, self)        once per deck, case, columns and numbers; makes texts
-!>     call find_derivatives(solver, states, self)                         at each design: of the case as the solver has solved it
+!>     call begin_derivatives(workspace, k, columns, directions, self)        once per deck, case, columns and numbers; makes texts
+!>     call find_derivatives(workspace, states, self)                         at each design: of the case as the workspace has solved it
 !>
 !> Two steps at every state:
 !>
@@ -28,7 +28,7 @@ module ek_derivatives
    use ek_state, only: state_t, inputs_t, design_state
    use ek_table, only: name_length
    use ek_case_result, only: case_result_t
-   use ek_design_solver, only: design_solver_t
+   use ek_workspace, only: workspace_t
    use ek_state_derivative, only: solve_motions, displace
    use ek_part_change, only: change_t, draft_t
    use ek_part_force, only: part_forces_t, choose_parts, find_responses, add_force
@@ -47,7 +47,7 @@ module ek_derivatives
 
    !> The derivatives of a case at some states.
    type :: derivatives_t
-      integer :: case = 0                                  !! number of the case in the solver
+      integer :: case = 0                                  !! number of the case in the workspace
       character(name_length), allocatable :: columns(:)
       type(direction_t), allocatable :: directions(:)
       integer, allocatable :: states(:)                    !! of the path of the case
@@ -62,9 +62,9 @@ module ek_derivatives
 
 contains
 
-   !> Prepares the derivatives of a case that is solved by `solver`. Makes texts.
-   subroutine begin_derivatives(solver, k, columns, directions, self)
-      type(design_solver_t), intent(in) :: solver          !! the case was solved at its present numbers (solve_case_fully)
+   !> Prepares the derivatives of a case that is solved by `workspace`. Makes texts.
+   subroutine begin_derivatives(workspace, k, columns, directions, self)
+      type(workspace_t), intent(in) :: workspace          !! the case was solved at its present numbers (solve_case_fully)
       integer, intent(in) :: k                             !! the case, not refused by refuse_case
       character(*), intent(in) :: columns(:)               !! of the table of the case, or of that of its compliance matrix
       type(direction_t), intent(in) :: directions(:)
@@ -72,8 +72,8 @@ contains
 
       self%case = k
       self%directions = directions
-      call begin_neighbour(solver, k, self%neighbour)
-      associate (result => solver%cases(k)%result)
+      call begin_neighbour(workspace, k, self%neighbour)
+      associate (result => workspace%cases(k)%result)
          call new_column_observer(result%suspension, result%case, columns, self%observer)
       end associate
       self%columns = self%observer%columns
@@ -94,26 +94,26 @@ contains
       end if
    end subroutine refuse_case
 
-   !> Computes derivatives at states of the path that the solver has found for the case. No text is made.
-   subroutine find_derivatives(solver, states, self)
-      type(design_solver_t), intent(inout) :: solver       !! the case is solved at its present numbers; its work space is used
+   !> Computes derivatives at states of the path that the workspace has found for the case. No text is made.
+   subroutine find_derivatives(workspace, states, self)
+      type(workspace_t), intent(inout) :: workspace       !! the case is solved at its present numbers; its work space is used
       integer, intent(in) :: states(:)
       type(derivatives_t), intent(inout) :: self           !! of begin_derivatives
       integer :: first, last, many
 
-      if (are_checked) call require(self%case > 0 .and. size(self%neighbour%x) == size(solver%x), &
+      if (are_checked) call require(self%case > 0 .and. size(self%neighbour%x) == size(workspace%x), &
          'find_derivatives: call begin_derivatives first')
       call allocate_results(size(states), self)
       self%states = states
-      call follow_design(solver, self%neighbour)
-      associate (result => solver%cases(self%case)%result)
+      call follow_design(workspace, self%neighbour)
+      associate (result => workspace%cases(self%case)%result)
          self%factor = result%path%value(states)/result%case%unit
          ! motions are kept for as many states as fit
          many = max(1, max_numbers/max(1, (size(self%directions) + kept_loads(self%observer) + 4)*result%kkt%n, &
             6*size(self%columns)))
          do first = 1, size(states), many
             last = min(first + many - 1, size(states))
-            call derive(solver%x, result, first, last, self)
+            call derive(workspace%x, result, first, last, self)
          end do
       end associate
    end subroutine find_derivatives
@@ -322,7 +322,7 @@ contains
             if (.not. has_inputs) inputs = here
             do s = 1, size(points)
                if (.not. points(s)%is_regular) cycle
-               associate (there => self%neighbour%solver%cases(self%case)%result)
+               associate (there => self%neighbour%workspace%cases(self%case)%result)
                   if (present(motions)) then
                      call displace(points(s)%state, motions(:, s), self%directions(p)%step*stencils(kind)%at(k), step, moved)
                      call observe_columns(there%suspension, moved, inputs(s), there%kkt, self%observer, y(:, k, s), kept(:, :, s))

@@ -10,7 +10,7 @@ module ek_direction
    use ek_parameter, only: parameter_t, choice_t, find_parameters, parameter_path
    use ek_reader, only: design_t
    use ek_study, only: by_scale
-   use ek_worker, only: factor_paths_t
+   use ek_factor_numbers, only: factor_paths_t
    use ek_factor_paths, only: is_held_in_plane
    use ek_factor_unit, only: parameter_unit
    implicit none(type, external)

@@ -9,7 +9,8 @@ module ek_fit_problem
    use ek_deck, only: deck_t
    use ek_study, only: by_value, by_scale, is_given, not_given
    use ek_key_number, only: key_number_t, key_source_t, slope
-   use ek_design_solver, only: design_solver_t, case_number
+   use ek_workspace, only: workspace_t
+   use ek_workspace_cases, only: case_number
    use ek_direction, only: direction_t, find_directions
    use ek_wanted_number, only: wanted_number_t, find_wanted, find_column
    use ek_fit, only: fit_t, fit_factor_t, fit_target_t
@@ -47,11 +48,11 @@ module ek_fit_problem
 contains
 
    !> Checks a fit against its deck; reports all errors. Nothing is solved.
-   subroutine make_problem(fit, home, deck, solver, problem, error)
+   subroutine make_problem(fit, home, deck, workspace, problem, error)
       type(fit_t), intent(in) :: fit
       character(*), intent(in) :: home                     !! folder of the fit, with its slash
       type(deck_t), intent(in) :: deck
-      type(design_solver_t), intent(in) :: solver          !! of the deck
+      type(workspace_t), intent(in) :: workspace          !! of the deck
       type(fit_problem_t), intent(out) :: problem
       type(error_t), allocatable, intent(out) :: error     !! exit_deck
       type(message_list_t) :: mistakes
@@ -59,20 +60,20 @@ contains
 
       allocate (problem%variables(0), problem%points(0), problem%wanted(0))
       do k = 1, size(fit%factors)
-         call add_factor(fit%factors(k), deck, solver, problem%variables, mistakes)
+         call add_factor(fit%factors(k), deck, workspace, problem%variables, mistakes)
       end do
       problem%knows_deviation = any(is_given(fit%targets%deviation))
       do k = 1, size(fit%targets)
-         call add_target(fit, k, home, solver, problem, mistakes)
+         call add_target(fit, k, home, workspace, problem, mistakes)
       end do
       if (mistakes%count() > 0) call fail(error, exit_deck, mistakes%text())
    end subroutine make_problem
 
    !> Adds a factor, or with each = .true. as many as its paths lead to numbers.
-   subroutine add_factor(factor, deck, solver, variables, mistakes)
+   subroutine add_factor(factor, deck, workspace, variables, mistakes)
       type(fit_factor_t), intent(in) :: factor
       type(deck_t), intent(in) :: deck
-      type(design_solver_t), intent(in) :: solver
+      type(workspace_t), intent(in) :: workspace
       type(fit_variable_t), allocatable, intent(inout) :: variables(:)
       type(message_list_t), intent(inout) :: mistakes
       type(direction_t), allocatable :: found(:)
@@ -88,7 +89,7 @@ contains
       do k = 1, size(factor%paths)
          path = message_list_t()
          call path%add(trim(factor%paths(k)))
-         call find_directions(solver%design, deck, path, found, error)
+         call find_directions(workspace%design, deck, path, found, error)
          if (allocated(error)) then
             call mistakes%add(head//error%message)
             return
@@ -122,7 +123,7 @@ contains
          this%deviation = factor%deviation
          if (is_given(factor%tolerance)) this%deviation = factor%tolerance/3.0_wp
          this%is_positive = factor%change == by_scale
-         associate (list => solver%design%parameters%list)
+         associate (list => workspace%design%parameters%list)
             if (factor%change == by_value) this%is_positive = .not. is_inside(list(this%direction%found(1)%number)%range, -1.0_wp)
          end associate
          this%scale = steps*this%direction%step
@@ -176,11 +177,11 @@ contains
    end subroutine join
 
    !> Adds the points of a target.
-   subroutine add_target(fit, k, home, solver, problem, mistakes)
+   subroutine add_target(fit, k, home, workspace, problem, mistakes)
       type(fit_t), intent(in) :: fit
       integer, intent(in) :: k
       character(*), intent(in) :: home
-      type(design_solver_t), intent(in) :: solver
+      type(workspace_t), intent(in) :: workspace
       type(fit_problem_t), intent(inout) :: problem
       type(message_list_t), intent(inout) :: mistakes
       type(wanted_number_t) :: wanted
@@ -197,21 +198,21 @@ contains
          head = this%where//': target '//quoted(this%name)//': '
          case = this%case
          if (case == '') case = fit%case
-         c = case_number(case, solver)
+         c = case_number(case, workspace)
          if (c == 0) then
             call mistakes%add(head//'the deck has no case '//quoted(case)//', and there is no standard test of this name')
             return
          end if
          if (this%over /= 'factor' .or. this%is_slope) then
-            call find_column(solver, c, this%quantity, trim(this%over), this%at, wanted, heads)
+            call find_column(workspace, c, this%quantity, trim(this%over), this%at, wanted, heads)
             if (wanted%case == 0) then
-               call mistakes%add(head//'case '//quoted(solver%cases(c)%case%name)//' has no columns '//quoted(this%quantity)// &
+               call mistakes%add(head//'case '//quoted(workspace%cases(c)%case%name)//' has no columns '//quoted(this%quantity)// &
                   ' and '//quoted(trim(this%over)))
                return
             end if
             if (this%is_slope) call make_slope(this, wanted)
          else
-            call find_wanted(solver, c, this%quantity, this%at, wanted, error)
+            call find_wanted(workspace, c, this%quantity, this%at, wanted, error)
             if (allocated(error)) then
                call mistakes%add(head//error%message)
                return

@@ -6,7 +6,7 @@ module ek_fit_solver
    use ek_kinds, only: wp
    use ek_error, only: error_t, fail, exit_convergence
    use ek_bounded_search, only: bounded_search_t, begin_search, advance_search
-   use ek_design_solver, only: design_solver_t
+   use ek_workspace, only: workspace_t
    use ek_direction, only: direction_t
    use ek_study, only: is_given
    use ek_wanted_values, only: wanted_values_t, begin_values, find_values
@@ -27,11 +27,11 @@ module ek_fit_solver
 
 contains
 
-   !> Solves a fit; the solver keeps the design found. Makes texts.
-   subroutine solve_fit(problem, iterations, solver, found, error)
+   !> Solves a fit; the workspace keeps the design found. Makes texts.
+   subroutine solve_fit(problem, iterations, workspace, found, error)
       type(fit_problem_t), intent(in) :: problem
       integer, intent(in) :: iterations                    !! at most
-      type(design_solver_t), intent(inout) :: solver
+      type(workspace_t), intent(inout) :: workspace
       type(fit_result_t), intent(out) :: found
       type(error_t), allocatable, intent(out) :: error
       type(wanted_values_t) :: values
@@ -46,14 +46,14 @@ contains
          do f = 1, size(variables)
             directions(f) = variables(f)%direction
          end do
-         call begin_values(problem%wanted, directions, solver, values, error)
+         call begin_values(problem%wanted, directions, workspace, values, error)
          if (allocated(error)) return
          allocate (r(size(problem%points) + size(variables)))
          allocate (jacobian(size(r), size(variables)))
          call begin_search(variables%start, variables%lower, variables%upper, variables%scale, search)
          do
             tried = search%x
-            call find_values(tried - variables%start, solver, values, is_valid)
+            call find_values(tried - variables%start, workspace, values, is_valid)
             call find_residuals(problem, tried, values, r, jacobian)
             call advance_search(r, jacobian, is_valid, search)
             if (.not. allocated(search%residuals)) exit
@@ -71,7 +71,7 @@ contains
             call fail(error, exit_convergence, 'the targets have no value or no derivative where the search begins')
             return
          end if
-         if (any(abs(search%best - tried) > 0.0_wp)) call find_values(search%best - variables%start, solver, values, is_valid)
+         if (any(abs(search%best - tried) > 0.0_wp)) call find_values(search%best - variables%start, workspace, values, is_valid)
          found%x = search%best
          found%held = search%held
          where (found%x > variables%lower .and. found%x < variables%upper) found%held = 0

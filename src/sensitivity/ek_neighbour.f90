@@ -8,7 +8,7 @@ module ek_neighbour
    use ek_schedule, only: schedule_t, make_schedule, inputs_at, same_schedule
    use ek_path, only: path_t, new_path
    use ek_case_result, only: case_result_t
-   use ek_design_solver, only: design_solver_t, put_numbers, mount_numbers
+   use ek_workspace, only: workspace_t, put_numbers, mount_numbers
    use ek_direction, only: direction_t, move_along
    use ek_stencil, only: stencil_t, stencils, close_pair, close_four
    use ek_part_change, only: change_t, draft_t, begin_draft, learn_neighbour, finish_draft
@@ -20,8 +20,8 @@ module ek_neighbour
 
    !> A design close to another one.
    type :: neighbour_t
-      integer :: case = 0                                  !! number of the case in the solver
-      class(design_solver_t), allocatable :: solver        !! the same deck, at the numbers of the neighbour (a class as in worker_case_t)
+      integer :: case = 0                                  !! number of the case in the workspace
+      class(workspace_t), allocatable :: workspace         !! the same deck, at the numbers of the neighbour; a class as in case_work_t
       real(wp), allocatable :: x(:)
       type(schedule_t), private :: here, schedule          !! of the design, of the neighbour
       type(path_t), private :: path
@@ -37,27 +37,27 @@ module ek_neighbour
 contains
 
    !> Prepares the neighbours of a design. Makes texts.
-   subroutine begin_neighbour(solver, k, self)
-      type(design_solver_t), intent(in) :: solver          !! the case was solved at its present numbers
+   subroutine begin_neighbour(workspace, k, self)
+      type(workspace_t), intent(in) :: workspace          !! the case was solved at its present numbers
       integer, intent(in) :: k                             !! the case
       type(neighbour_t), intent(inout) :: self
 
       self%case = k
-      if (allocated(self%solver)) deallocate (self%solver)
-      allocate (self%solver, source=solver)
+      if (allocated(self%workspace)) deallocate (self%workspace)
+      allocate (self%workspace, source=workspace)
       ! they keep the reference points of the design, also of bodies for which the deck names a point that moves
-      self%solver%design%plan%bodies%origin = 0
-      self%x = solver%x
+      self%workspace%design%plan%bodies%origin = 0
+      self%x = workspace%x
    end subroutine begin_neighbour
 
    !> Stores the present design: numbers that do not change in the neighbours are then equal to the bit.
-   subroutine follow_design(solver, self)
-      type(design_solver_t), intent(in) :: solver
+   subroutine follow_design(workspace, self)
+      type(workspace_t), intent(in) :: workspace
       type(neighbour_t), intent(inout) :: self
 
-      call copy_numbers(solver%raw, self%solver%raw)
-      self%solver%raw%bodies%has_origin = .true.
-      call keep_choices(solver%raw, self%solver%raw)
+      call copy_numbers(workspace%raw, self%workspace%raw)
+      self%workspace%raw%bodies%has_origin = .true.
+      call keep_choices(workspace%raw, self%workspace%raw)
    end subroutine follow_design
 
    !> Gives the neighbours the directions that the rows of joints take across an axis. The free choice is the global axis with the
@@ -152,7 +152,7 @@ contains
       do k = 1, stencil%points
          call go_to(x, direction, stencil%at(k), result, points, self, there, has_inputs, can_move)
          if (.not. can_move) return
-         call learn_neighbour(result%suspension, self%solver%cases(self%case)%result%suspension, k, change, draft)
+         call learn_neighbour(result%suspension, self%workspace%cases(self%case)%result%suspension, k, change, draft)
          if (has_inputs) call add_rates(points, here, there, change%weight(k), change%rates)
       end do
       call finish_draft(direction%step, draft, change)
@@ -196,11 +196,11 @@ contains
 
       self%x(:) = x
       call move_along(direction, steps*direction%step, self%x)
-      call put_numbers(self%x, self%solver)
-      call mount_numbers(self%case, balance_tolerance, self%solver, is_done)
+      call put_numbers(self%x, self%workspace)
+      call mount_numbers(self%case, balance_tolerance, self%workspace, is_done)
       has_inputs = .false.
       if (.not. is_done) return
-      associate (there => self%solver%cases(self%case)%result, path => result%path)
+      associate (there => self%workspace%cases(self%case)%result, path => result%path)
          is_done = has_same_axes(result%suspension, there%suspension)
          if (.not. is_done) return
          call make_schedule(there%suspension, there%case, self%schedule)

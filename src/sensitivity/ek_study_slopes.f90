@@ -14,9 +14,10 @@ module ek_study_slopes
    use ek_table, only: column_index, name_length
    use ek_study, only: study_t
    use ek_response_value, only: reading_t, read_response, is_difference
-   use ek_worker, only: worker_t, factor_paths_t, put_factor
+   use ek_workspace, only: workspace_t, put_numbers, solve_case_fully
+   use ek_factor_numbers, only: factor_paths_t, put_factor
    use ek_designer, only: designer_t
-   use ek_design_solver, only: design_solver_t, begin_design_solver, put_numbers, solve_case_fully, case_number
+   use ek_workspace_cases, only: open_workspace, case_number
    use ek_direction, only: direction_t, factor_direction
    use ek_derivatives, only: begin_derivatives, refuse_case
    use ek_case_slopes, only: case_slopes_t, solve_with_slopes, move_table
@@ -36,8 +37,7 @@ module ek_study_slopes
       type(case_slopes_t), allocatable, private :: cases(:)
       type(direction_t), allocatable, private :: directions(:)
       type(factor_paths_t), allocatable, private :: paths(:)
-      class(worker_t), allocatable, private :: worker        !! makes the numbers of a design (a class as in worker_case_t)
-      class(design_solver_t), allocatable, private :: solver
+      class(workspace_t), allocatable, private :: workspace
    end type study_slopes_t
 
 contains
@@ -53,34 +53,32 @@ contains
       logical :: is_done
       integer :: c, f, k
 
-      allocate (self%worker, self%solver)
-      call begin_design_solver(deck, self%solver, error)
+      allocate (self%workspace)
+      call open_workspace(deck, self%workspace, error)
       if (allocated(error)) return
       self%readings = designer%readings
       self%case_of = designer%case_of
       self%paths = designer%paths
-      self%worker%design = designer%worker%design
-      self%worker%x = designer%worker%design%parameters%x
       allocate (self%directions(size(study%factors)))
       do f = 1, size(study%factors)
          if (size(self%paths(f)%found) == 0) then
             call mistakes%add(study%factors(f)%where//': factor '//quoted(study%factors(f)%name)// &
                ': its paths lead to a whole number, a name or a switch, which has no derivative; use kind = ''monte_carlo''')
          else
-            self%directions(f) = factor_direction(self%solver%design, study%factors(f)%name, self%paths(f))
+            self%directions(f) = factor_direction(self%workspace%design, study%factors(f)%name, self%paths(f))
          end if
       end do
       allocate (self%cases(size(designer%options)))
       do c = 1, size(self%cases)
-         associate (this => self%cases(c), solver => self%solver)
-            k = case_number(designer%case_names(c), solver)
+         associate (this => self%cases(c), workspace => self%workspace)
+            k = case_number(designer%case_names(c), workspace)
             this%case = k
-            call refuse_case(solver%cases(k)%case, error)
+            call refuse_case(workspace%cases(k)%case, error)
             if (allocated(error)) call mistakes%add(study%where//': '//error%message)
             if (allocated(error)) cycle
-            if (designer%increments > 0) solver%cases(k)%case%increments = designer%increments
-            if (designer%increments > 0 .and. solver%cases(k)%number > 0) &
-               solver%design%cases(solver%cases(k)%number)%increments = designer%increments
+            if (designer%increments > 0) workspace%cases(k)%case%increments = designer%increments
+            if (designer%increments > 0 .and. workspace%cases(k)%number > 0) &
+               workspace%design%cases(workspace%cases(k)%number)%increments = designer%increments
             this%options = designer%options(c)
          end associate
       end do
@@ -90,12 +88,12 @@ contains
          return
       end if
       do c = 1, size(self%cases)
-         associate (this => self%cases(c), solver => self%solver)
-            call solve_case_fully(this%case, this%options, solver, is_done, error)
+         associate (this => self%cases(c), workspace => self%workspace)
+            call solve_case_fully(this%case, this%options, workspace, is_done, error)
             if (.not. allocated(error) .and. .not. is_done) call fail(error, exit_model, deck%file//': its numbers give no model')
             if (allocated(error)) return
             allocate (this%derivatives)
-            call begin_derivatives(solver, this%case, this%options%columns, self%directions, this%derivatives)
+            call begin_derivatives(workspace, this%case, this%options%columns, self%directions, this%derivatives)
          end associate
       end do
       call place_curves(study, self)
@@ -107,7 +105,7 @@ contains
       type(study_slopes_t), intent(inout) :: self
       integer :: c
 
-      associate (result => self%solver%cases(self%cases(1)%case)%result, names => self%cases(1)%derivatives%columns)
+      associate (result => self%workspace%cases(self%cases(1)%case)%result, names => self%cases(1)%derivatives%columns)
          self%columns = [(findloc(names == study%columns(c), .true., dim=1), c=1, size(study%columns))]
          allocate (self%sweep(merge(size(result%table%values, 2), 0, size(study%columns) > 0)))
          if (size(self%sweep) > 0) self%sweep(:) = result%table%values(2, :)
@@ -123,16 +121,18 @@ contains
       real(wp), intent(in) :: values(:)                      !! of the factors
       type(study_slopes_t), intent(inout) :: self
       logical, intent(out) :: is_valid
-      real(wp) :: y(self%responses, 4), errors(self%responses), h
+      real(wp) :: y(self%responses, 4), errors(self%responses), x(size(self%workspace%x)), h
       integer :: c, f, k
 
-      self%worker%x(:) = self%worker%design%parameters%x
-      do f = 1, size(values)
-         call put_factor(self%paths(f), values(f), self%worker)
-      end do
-      call put_numbers(self%worker%x(:size(self%solver%x)), self%solver)
+      associate (parameters => self%workspace%design%parameters)
+         x = parameters%x(:parameters%used)
+         do f = 1, size(values)
+            call put_factor(self%paths(f), values(f), parameters, x)
+         end do
+      end associate
+      call put_numbers(x, self%workspace)
       do c = 1, size(self%cases)
-         call solve_with_slopes(.false., self%cases(c), self%solver, is_valid)
+         call solve_with_slopes(.false., self%cases(c), self%workspace, is_valid)
          if (.not. is_valid) return
       end do
       call read_values(.false., self, self%values(:self%responses))

@@ -10,7 +10,7 @@ module ek_tolerance
    use ek_text, only: quoted
    use ek_deck, only: deck_t
    use ek_study, only: study_t, define_factor
-   use ek_worker, only: deck_value
+   use ek_factor_numbers, only: deck_value
    use ek_designer, only: designer_t
    use ek_sampler_settings, only: factor_t
    use ek_standard_factor, only: standard_factor_t, new_standard_factor, value_at, slope_at
@@ -50,7 +50,8 @@ contains
 
       allocate (tolerance%factors(size(study%factors)))
       do f = 1, size(study%factors)
-         call define_factor(study%factors(f), study%kind, deck_value(designer%worker, designer%paths(f)), factor, error)
+         call define_factor(study%factors(f), study%kind, &
+            deck_value(designer%workspace%design%parameters, designer%paths(f)), factor, error)
          if (allocated(error)) return
          call new_standard_factor(factor, tolerance%factors(f))
       end do

@@ -13,7 +13,8 @@ module ek_wanted_number
    use ek_number_names, only: list_all, find_number, stems_of
    use ek_number_reach, only: reach_of
    use ek_compliance_table, only: compliance_columns
-   use ek_design_solver, only: design_solver_t, heads_of_case, report_cases
+   use ek_workspace, only: workspace_t
+   use ek_workspace_cases, only: heads_of_case, report_cases
    implicit none(type, external)
    private
    public :: wanted_number_t, find_column, find_key_number, find_wanted, read_number
@@ -22,14 +23,14 @@ module ek_wanted_number
    type :: wanted_number_t
       character(:), allocatable :: name          !! as the user gave it
       character(:), allocatable :: unit          !! 'deg', '' without one
-      integer :: case = 0                        !! in the solver; of a key number: that of the first source that has a value
+      integer :: case = 0                        !! in the workspace; of a key number: that of the first source that has a value
       character(name_length) :: column = ''      !! '': a key number
       character(name_length) :: over = 'factor'  !! the column in which `at` is meant
       real(wp) :: at = 0.0_wp                    !! where the column is read, in the unit of `over`
       type(key_number_t), allocatable :: key     !! the key number, with its sources
       integer :: wheel = 1                       !! of the key number: 1 left or single wheel, or axle; 2 right
       integer :: source = 0                      !! of the key number: which has the value; 0: not yet known, or all of them
-      integer, allocatable :: cases(:)           !! of the sources, in the solver
+      integer, allocatable :: cases(:)           !! of the sources, in the workspace
       real(wp), allocatable :: reach(:)          !! swept value [SI] beyond which it needs no state of these
    end type wanted_number_t
 
@@ -39,8 +40,8 @@ module ek_wanted_number
 contains
 
    !> Finds a column, an entry of the compliance matrix, or a key number, in this order.
-   subroutine find_wanted(solver, k, name, at, wanted, error)
-      type(design_solver_t), intent(in) :: solver
+   subroutine find_wanted(workspace, k, name, at, wanted, error)
+      type(workspace_t), intent(in) :: workspace
       integer, intent(in) :: k                             !! the case of a column
       character(*), intent(in) :: name
       real(wp), intent(in) :: at                           !! swept value, in the unit of the case
@@ -49,19 +50,19 @@ contains
       character(name_length), allocatable :: heads(:), known(:)
       character(:), allocatable :: hint
 
-      call find_column(solver, k, name, 'factor', at, wanted, heads)
+      call find_column(workspace, k, name, 'factor', at, wanted, heads)
       if (wanted%case > 0) return
-      call find_key_number(solver, name, wanted, known)
+      call find_key_number(workspace, name, wanted, known)
       if (allocated(wanted%key)) return
       hint = suggestion(name, [character(name_length) :: heads, known])
       if (any(no_quantities == name)) hint = '; it describes the solution and is no quantity of the suspension'
-      call fail(error, exit_usage, quoted(name)//' is no column of case '//quoted(solver%cases(k)%case%name)// &
+      call fail(error, exit_usage, quoted(name)//' is no column of case '//quoted(workspace%cases(k)%case%name)// &
          ', no entry of its compliance matrix and no key number'//hint)
    end subroutine find_wanted
 
    !> Finds a column of a case, at a value of another one; wanted%case is 0 if the case has no such quantity.
-   subroutine find_column(solver, k, name, over, at, wanted, heads)
-      type(design_solver_t), intent(in) :: solver
+   subroutine find_column(workspace, k, name, over, at, wanted, heads)
+      type(workspace_t), intent(in) :: workspace
       integer, intent(in) :: k                             !! the case
       character(*), intent(in) :: name, over
       real(wp), intent(in) :: at                           !! in the unit of `over`
@@ -69,8 +70,8 @@ contains
       character(name_length), allocatable, intent(out) :: heads(:)     !! all columns and entries, for suggestions
       character(name_length), allocatable :: entries(:)
 
-      call heads_of_case(k, solver, heads)
-      call compliance_columns(solver%raw, entries)
+      call heads_of_case(k, workspace, heads)
+      call compliance_columns(workspace%raw, entries)
       heads = [character(name_length) :: heads, entries]
       wanted%name = name
       wanted%unit = unit_text(unit_of(name))
@@ -86,8 +87,8 @@ contains
    end subroutine find_column
 
    !> Finds a key number; wanted%key is not allocated if the report has no key number of this name.
-   subroutine find_key_number(solver, name, wanted, known)
-      type(design_solver_t), intent(in) :: solver
+   subroutine find_key_number(workspace, name, wanted, known)
+      type(workspace_t), intent(in) :: workspace
       character(*), intent(in) :: name
       type(wanted_number_t), intent(out) :: wanted
       character(name_length), allocatable, intent(out) :: known(:)     !! all names, for suggestions; only if there is none
@@ -98,11 +99,11 @@ contains
       integer :: number, k
 
       allocate (known(0))
-      call report_cases(solver, cases)
-      call list_all(solver%raw, cases, tests, listed, heads, stems_of([name]))
+      call report_cases(workspace, cases)
+      call list_all(workspace%raw, cases, tests, listed, heads, stems_of([name]))
       call find_number(name, heads, number, wanted%wheel)
       if (number == 0) then
-         call list_all(solver%raw, cases, tests, listed, heads)
+         call list_all(workspace%raw, cases, tests, listed, heads)
          known = pack(heads, heads /= '')
          return
       end if
@@ -112,8 +113,8 @@ contains
       associate (sources => wanted%key%sources)
          allocate (wanted%cases(size(sources)), wanted%reach(size(sources)))
          do k = 1, size(sources)
-            wanted%cases(k) = solver%report_order(sources(k)%test)
-            wanted%reach(k) = reach_of(wanted%key%how, solver%raw, cases(sources(k)%test), sources(k), tests(sources(k)%test))
+            wanted%cases(k) = workspace%report_order(sources(k)%test)
+            wanted%reach(k) = reach_of(wanted%key%how, workspace%raw, cases(sources(k)%test), sources(k), tests(sources(k)%test))
          end do
       end associate
    end subroutine find_key_number

@@ -1,9 +1,9 @@
 !> The values of wanted numbers of a design, and their derivatives with respect to factors: what `solve` and `fit` work with.
 !>
-!>     call begin_values(wanted, directions, solver, self, error)          once; solves the cases that are needed
-!>     call find_values(distances, solver, self, is_valid)                 at each design: self%values, self%jacobian
+!>     call begin_values(wanted, directions, workspace, self, error)          once; solves the cases that are needed
+!>     call find_values(distances, workspace, self, is_valid)                 at each design: self%values, self%jacobian
 !>
-!> A factor is a direction of ek_direction: the design moves by a distance along each of them from the numbers that the solver has
+!> A factor is a direction of ek_direction: the design moves by a distance along each of them from the numbers that the workspace has
 !> when begin_values is called.
 !>
 !> All numbers are differentiated in one way. ek_derivatives gives the derivative of every column at every state; the tables of the
@@ -19,7 +19,7 @@ module ek_wanted_values
    use ek_case_result, only: failure_of
    use ek_key_number, only: nothing, largest_of_all
    use ek_number_reach, only: lacks_state
-   use ek_design_solver, only: design_solver_t, put_numbers, solve_case_fully
+   use ek_workspace, only: workspace_t, put_numbers, solve_case_fully
    use ek_direction, only: direction_t, move_along
    use ek_derivatives, only: begin_derivatives, refuse_case
    use ek_case_slopes, only: case_slopes_t, solve_with_slopes, move_table
@@ -49,11 +49,11 @@ module ek_wanted_values
 
 contains
 
-   !> Solves the needed cases at the present numbers of the solver and prepares their derivatives. Makes texts.
-   subroutine begin_values(wanted, directions, solver, self, error)
+   !> Solves the needed cases at the present numbers of the workspace and prepares their derivatives. Makes texts.
+   subroutine begin_values(wanted, directions, workspace, self, error)
       type(wanted_number_t), intent(in) :: wanted(:)
       type(direction_t), intent(in) :: directions(:)
-      type(design_solver_t), intent(inout) :: solver
+      type(workspace_t), intent(inout) :: workspace
       type(wanted_values_t), intent(out) :: self
       type(error_t), allocatable, intent(out) :: error       !! exit_usage, exit_model, exit_convergence: a number has no value
       type(message_list_t) :: mistakes
@@ -61,7 +61,7 @@ contains
 
       self%wanted = wanted
       self%directions = directions
-      self%start = solver%x
+      self%start = workspace%x
       allocate (self%needed(count_cases(wanted)))
       allocate (self%values(size(wanted)), self%jacobian(size(wanted), size(directions)))
       allocate (self%can_move(size(directions)), source=.true.)
@@ -72,7 +72,7 @@ contains
       end do
       code = exit_model
       do n = 1, size(wanted)
-         call settle(self%wanted(n), self%needed, solver, error)
+         call settle(self%wanted(n), self%needed, workspace, error)
          if (.not. allocated(error)) cycle
          code = error%code
          call mistakes%add(quoted(wanted(n)%name)//': '//error%message)
@@ -89,7 +89,7 @@ contains
          associate (this => self%needed(j))
             if (.not. this%is_used) cycle
             allocate (this%derivatives)
-            call begin_derivatives(solver, this%case, this%options%columns, directions, this%derivatives)
+            call begin_derivatives(workspace, this%case, this%options%columns, directions, this%derivatives)
          end associate
       end do
    end subroutine begin_values
@@ -156,10 +156,10 @@ contains
    end function needed_number
 
    !> Finds the case from which a number is read, and solves it. A key number is read in the first test that has a value.
-   subroutine settle(wanted, needed, solver, error)
+   subroutine settle(wanted, needed, workspace, error)
       type(wanted_number_t), intent(inout) :: wanted
       type(needed_t), intent(inout) :: needed(:)
-      type(design_solver_t), intent(inout) :: solver
+      type(workspace_t), intent(inout) :: workspace
       type(error_t), allocatable, intent(out) :: error
       real(wp) :: value
       integer :: j, n
@@ -168,8 +168,8 @@ contains
       do j = 1, size(wanted%cases)
          n = needed_number(wanted%cases(j), needed)
          if (allocated(error)) deallocate (error)
-         call refuse_case(solver%cases(wanted%cases(j))%case, error)
-         if (.not. allocated(error)) call solve_first(needed(n), wanted%reach(j), solver, error)
+         call refuse_case(workspace%cases(wanted%cases(j))%case, error)
+         if (.not. allocated(error)) call solve_first(needed(n), wanted%reach(j), workspace, error)
          if (allocated(error)) cycle
          wanted%case = wanted%cases(j)
          call read_number(wanted, j, needed(n)%table, value)
@@ -177,7 +177,7 @@ contains
             ! an entry of the compliance matrix is no column of the table of the case
             if (.not. ieee_is_finite(value) .and. column_index(needed(n)%table, trim(wanted%column)) > 0) &
                call fail(error, exit_model, 'no value at '//trim(wanted%over)//' = '//str(wanted%at)//' in case '// &
-               quoted(solver%cases(wanted%case)%case%name))
+               quoted(workspace%cases(wanted%case)%case%name))
             return
          end if
          if (.not. ieee_is_finite(value)) cycle
@@ -193,20 +193,20 @@ contains
    end subroutine settle
 
    !> Solves a case for the first time, unless this was done.
-   subroutine solve_first(this, reach, solver, error)
+   subroutine solve_first(this, reach, workspace, error)
       type(needed_t), intent(inout) :: this
       real(wp), intent(in) :: reach                          !! as far as this number needs the path
-      type(design_solver_t), intent(inout) :: solver
+      type(workspace_t), intent(inout) :: workspace
       type(error_t), allocatable, intent(out) :: error
       logical :: is_done
 
       if (.not. allocated(this%table%columns)) then
-         call solve_case_fully(this%case, this%options, solver, is_done, error)
+         call solve_case_fully(this%case, this%options, workspace, is_done, error)
          if (.not. allocated(error) .and. .not. is_done) call fail(error, exit_model, 'its numbers give no model')
          if (allocated(error)) return
-         if (solver%cases(this%case)%result%is_run()) this%table = solver%cases(this%case)%result%table
+         if (workspace%cases(this%case)%result%is_run()) this%table = workspace%cases(this%case)%result%table
       end if
-      associate (result => solver%cases(this%case)%result)
+      associate (result => workspace%cases(this%case)%result)
          if (.not. lacks_state(result, reach)) return
          call failure_of(result, error)
          if (.not. allocated(error)) call fail(error, exit_convergence, 'case '//quoted(result%case%name)// &
@@ -230,9 +230,9 @@ contains
 
    !> Computes values and derivatives of a design. is_valid is .false. where a number has no value: the design has a defect, a
    !> number of the deck is outside its range, or a state that is needed was not found.
-   subroutine find_values(distances, solver, self, is_valid)
+   subroutine find_values(distances, workspace, self, is_valid)
       real(wp), intent(in) :: distances(:)                   !! along the directions, in their units
-      type(design_solver_t), intent(inout) :: solver
+      type(workspace_t), intent(inout) :: workspace
       type(wanted_values_t), intent(inout) :: self
       logical, intent(out) :: is_valid
       real(wp) :: x(size(self%start))
@@ -245,13 +245,13 @@ contains
          do p = 1, size(distances)
             call move_along(self%directions(p), distances(p), x)
          end do
-         call put_numbers(x, solver)
+         call put_numbers(x, workspace)
       end if
       self%values = nothing()
       self%jacobian = nothing()
       do j = 1, size(self%needed)
          if (.not. self%needed(j)%is_used) cycle
-         call solve_with_slopes(self%is_fresh, self%needed(j)%case_slopes_t, solver, is_valid)
+         call solve_with_slopes(self%is_fresh, self%needed(j)%case_slopes_t, workspace, is_valid)
          if (.not. is_valid) return
       end do
       self%is_fresh = .false.

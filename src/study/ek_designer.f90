@@ -14,7 +14,9 @@ module ek_designer
    use ek_response_value, only: reading_t
    use ek_read_states, only: reads_few_states
    use ek_study_pack, only: pack_space_t, begin_packs
-   use ek_worker, only: worker_t, factor_paths_t, make_worker
+   use ek_workspace, only: workspace_t
+   use ek_workspace_cases, only: open_cases
+   use ek_factor_numbers, only: factor_paths_t
    use ek_factor_unit, only: factor_unit, unit_ending
    use ek_factor_paths, only: check_paths, check_planes, find_paths
    implicit none(type, external)
@@ -23,7 +25,7 @@ module ek_designer
 
    !> Data that one thread stores from design to design.
    type :: designer_t
-      class(worker_t), allocatable :: worker               !! allocated by begin_designer; a class as in worker_case_t
+      class(workspace_t), allocatable :: workspace               !! allocated by begin_designer; a class as in case_work_t
       class(pack_space_t), allocatable :: packs                       !! for designs that are solved together
       type(factor_paths_t), allocatable :: paths(:)        !! of the factors
       character(name_length), allocatable :: case_names(:) !! of the cases that are solved; '': the first of the deck
@@ -50,16 +52,16 @@ contains
       call check_paths(study, deck, error)
       if (allocated(error)) return
       if (allocated(study%increments)) designer%increments = sum(study%increments)       ! one or none
-      allocate (designer%worker)
-      call make_worker(deck, designer%case_names, designer%worker, error, designer%increments)
+      allocate (designer%workspace)
+      call open_cases(deck, designer%case_names, designer%workspace, error, designer%increments)
       if (allocated(error)) return
       allocate (designer%paths(size(study%factors)), designer%units(size(study%factors)), designer%heads(size(study%factors)))
       do k = 1, size(study%factors)
-         call find_paths(study%factors(k), designer%worker%design, designer%paths(k))
-         designer%units(k) = factor_unit(designer%worker%design, designer%paths(k))
+         call find_paths(study%factors(k), designer%workspace%design, designer%paths(k))
+         designer%units(k) = factor_unit(designer%workspace%design, designer%paths(k))
          designer%heads(k) = head_with_unit(study%factors(k)%name, unit_ending(trim(designer%units(k))))
       end do
-      call check_planes(study, designer%worker%design, designer%paths, error)
+      call check_planes(study, designer%workspace%design, designer%paths, error)
    end subroutine begin_designer
 
    !> Reads the deck, and checks all paths, columns and responses against it. The design of the deck itself must be sound.
@@ -77,19 +79,19 @@ contains
       do k = 1, size(designer%case_names)
          call list_columns(study, designer, k)
          designer%options(k)%has_remarks = .false.
-         associate (this => designer%worker%cases(k))
-            call solve_case(designer%worker%suspension, this%case, designer%options(k), this%result, observer=this%observer)
+         associate (this => designer%workspace%cases(k))
+            call solve_case(designer%workspace%suspension, this%case, designer%options(k), this%result, observer=this%observer)
             if (.not. this%result%is_run()) call failure_of(this%result, error)
          end associate
          if (allocated(error)) return
       end do
       allocate (designer%packs)
-      call begin_packs(designer%worker, designer%packs)
-      designer%states = size(designer%worker%cases(1)%result%table%values, 2)
+      call begin_packs(designer%workspace, designer%packs)
+      designer%states = size(designer%workspace%cases(1)%result%table%values, 2)
       call check_columns(study, home, designer, error)
       if (allocated(error)) return
       do k = 1, size(designer%options)
-         associate (this => designer%worker%cases(k))
+         associate (this => designer%workspace%cases(k))
             designer%options(k)%defers_kandc = reads_few_states(designer%readings, designer%case_of, k, &
                study%columns(:merge(size(study%columns), 0, k == 1)), this%observer, this%result%table)
          end associate
@@ -125,7 +127,7 @@ contains
       if (case == 1) wanted(:) = study%columns
       do k = 1, size(study%responses)
          if (designer%case_of(k) == case) call needed_columns(study%responses(k), &
-            designer%worker%cases(case)%case%test, wanted)
+            designer%workspace%cases(case)%case%test, wanted)
       end do
       designer%options(case)%columns = wanted
       designer%options(case)%has_violation = any(wanted == 'constraint_error')
@@ -142,7 +144,7 @@ contains
       character(:), allocatable :: message
       integer :: k
 
-      associate (first => designer%worker%cases(1)%result)
+      associate (first => designer%workspace%cases(1)%result)
          call sweep_columns(first%suspension, first%case, heads)
          do k = 1, size(study%columns)
             if (column_index(first%table, trim(study%columns(k))) == 0) &
@@ -151,7 +153,7 @@ contains
       end associate
       allocate (designer%readings(size(study%responses)))
       do k = 1, size(study%responses)
-         associate (result => designer%worker%cases(designer%case_of(k))%result, readings => designer%readings, &
+         associate (result => designer%workspace%cases(designer%case_of(k))%result, readings => designer%readings, &
             asked => study%responses(k))
             call sweep_columns(result%suspension, result%case, heads)
             if (asked%of == 'difference') then

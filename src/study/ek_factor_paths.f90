@@ -11,7 +11,7 @@ module ek_factor_paths
    use ek_reader, only: design_t
    use ek_sampler_kind, only: list_kind
    use ek_study, only: study_t, study_factor_t, by_delta, by_scale
-   use ek_worker, only: factor_paths_t
+   use ek_factor_numbers, only: factor_paths_t
    implicit none(type, external)
    private
    public :: check_paths, check_planes, find_paths, is_held_in_plane, setting_of, label_of, shortest

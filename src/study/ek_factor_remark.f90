@@ -8,7 +8,7 @@ module ek_factor_remark
    use ek_group, only: group_names, point_group
    use ek_reader, only: design_t
    use ek_study, only: study_t
-   use ek_worker, only: factor_paths_t
+   use ek_factor_numbers, only: factor_paths_t
    implicit none(type, external)
    private
    public :: factor_remarks

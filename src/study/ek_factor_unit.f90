@@ -7,7 +7,7 @@ module ek_factor_unit
    use ek_record, only: is_given
    use ek_reader, only: design_t
    use ek_study, only: by_scale
-   use ek_worker, only: factor_paths_t
+   use ek_factor_numbers, only: factor_paths_t
    implicit none(type, external)
    private
    public :: factor_unit, parameter_unit, unit_ending

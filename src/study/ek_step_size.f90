@@ -21,7 +21,8 @@ module ek_step_size
    use ek_table, only: new_table, csv_head, csv_row
    use ek_writer, only: writer_t
    use ek_study, only: study_t
-   use ek_worker, only: worker_t, make_worker
+   use ek_workspace, only: workspace_t
+   use ek_workspace_cases, only: open_cases
    implicit none(type, external)
    private
    public :: step_size_text
@@ -40,7 +41,7 @@ contains
       character(:), allocatable, intent(out) :: text
       type(error_t), allocatable, intent(out) :: error
       type(writer_t), intent(inout), optional :: writer
-      type(worker_t) :: worker
+      type(workspace_t) :: workspace
       type(suspension_t) :: suspension
       type(case_t) :: case
       type(kkt_t) :: kkt
@@ -49,9 +50,9 @@ contains
       logical :: is_reached
       integer :: m, k
 
-      call make_worker(deck, [study%case], worker, error)
+      call open_cases(deck, [study%case], workspace, error)
       if (allocated(error)) return
-      call mount(worker%suspension, worker%cases(1)%case, suspension, case)
+      call mount(workspace%suspension, workspace%cases(1)%case, suspension, case)
       kkt = new_kkt(suspension)
       if (size(suspension%wheels) == 0) then
          call fail(error, exit_deck, deck%file//': a step-size study needs a wheel, but the deck has none')

@@ -16,7 +16,9 @@ module ek_study_design
    use ek_response_value, only: read_response, is_difference
    use ek_read_states, only: observe_read_states
    use ek_study_pack, only: walk_case, lanes
-   use ek_worker, only: worker_t, make_worker, change_design
+   use ek_workspace, only: workspace_t
+   use ek_workspace_cases, only: open_cases
+   use ek_factor_numbers, only: change_design
    use ek_factor_paths, only: setting_of, shortest
    use ek_chunk, only: chunk_t, add_reason, put_error, design_solved, design_incomplete, design_unsolvable, design_invalid
    use ek_designer, only: designer_t
@@ -40,14 +42,14 @@ contains
       do k = first, last
          l = k - first + 1
          if (l == 1) then
-            call change_design(designer%paths, chunk%factors(:, k), designer%worker, is_done(l))
+            call change_design(designer%paths, chunk%factors(:, k), designer%workspace, is_done(l))
          else
-            call change_design(designer%paths, chunk%factors(:, k), designer%packs%workers(l - 1), is_done(l))
+            call change_design(designer%paths, chunk%factors(:, k), designer%packs%workspaces(l - 1), is_done(l))
          end if
       end do
       is_walked = .false.
       do c = 1, size(designer%options)
-         if (any(is_done)) call walk_case(c, designer%worker, is_done, designer%packs, is_walked(:, c))
+         if (any(is_done)) call walk_case(c, designer%workspace, is_done, designer%packs, is_walked(:, c))
       end do
       do k = first, last
          l = k - first + 1
@@ -57,38 +59,38 @@ contains
             call solve_from_text(study, deck, designer, k, chunk)
             !$omp end critical (ek_words)
          else if (l == 1) then
-            call finish_design(study, designer, is_walked(l, :), k, designer%worker, chunk)
+            call finish_design(study, designer, is_walked(l, :), k, designer%workspace, chunk)
          else
-            call finish_design(study, designer, is_walked(l, :), k, designer%packs%workers(l - 1), chunk)
+            call finish_design(study, designer, is_walked(l, :), k, designer%packs%workspaces(l - 1), chunk)
          end if
       end do
    end subroutine solve_designs
 
    !> Solves the cases of a design whose paths were not walked in a pack, and fills its row.
-   subroutine finish_design(study, designer, is_walked, k, worker, chunk)
+   subroutine finish_design(study, designer, is_walked, k, workspace, chunk)
       type(study_t), intent(in) :: study
       type(designer_t), intent(in) :: designer
       logical, intent(in) :: is_walked(:)         !! of each case
       integer, intent(in) :: k
-      type(worker_t), intent(inout) :: worker     !! with the numbers of the design
+      type(workspace_t), intent(inout) :: workspace     !! with the numbers of the design
       type(chunk_t), intent(inout) :: chunk
       integer :: faults(size(designer%readings)), c
 
       chunk%responses(:, k) = not_given()
-      do c = 1, size(worker%cases)
-         associate (this => worker%cases(c))
+      do c = 1, size(workspace%cases)
+         associate (this => workspace%cases(c))
             call solve_mounted(designer%options(c), this%result, observer=this%observer, is_walked=is_walked(c))
          end associate
       end do
-      call complete_tables(designer, worker)
-      call take_row(study, designer, worker, k, chunk, faults)
+      call complete_tables(designer, workspace)
+      call take_row(study, designer, workspace, k, chunk, faults)
       if (chunk%status(k) == design_solved) return
       !$omp critical (ek_words)
-      call explain(designer, worker, k, faults, chunk)
+      call explain(designer, workspace, k, faults, chunk)
       !$omp end critical (ek_words)
    end subroutine finish_design
 
-   !> Solves a design that is read from the deck with its factors as settings, with a worker of its own.
+   !> Solves a design that is read from the deck with its factors as settings, with a workspace of its own.
    subroutine solve_from_text(study, deck, designer, k, chunk)
       type(study_t), intent(in) :: study
       type(deck_t), intent(in) :: deck
@@ -96,7 +98,7 @@ contains
       integer, intent(in) :: k
       type(chunk_t), intent(inout) :: chunk
       type(deck_t) :: changed
-      type(worker_t) :: worker
+      type(workspace_t) :: workspace
       type(error_t), allocatable :: error
       integer :: faults(size(designer%readings)), f, j, case
 
@@ -107,7 +109,7 @@ contains
                setting_of(study%factors(f)%change, chunk%factors(f, k)), error)
          end do
       end do
-      if (.not. allocated(error)) call make_worker(changed, designer%case_names, worker, error, designer%increments)
+      if (.not. allocated(error)) call open_cases(changed, designer%case_names, workspace, error, designer%increments)
       if (allocated(error)) then
          if (error%code == exit_file) call put_error(chunk, error)
          chunk%status(k) = merge(design_invalid, design_unsolvable, error%code == exit_deck)
@@ -123,44 +125,44 @@ contains
          call add_reason(chunk, k, error%message)
          return
       end if
-      do case = 1, size(worker%cases)
-         associate (this => worker%cases(case))
-            call solve_case(worker%suspension, this%case, designer%options(case), this%result, observer=this%observer)
+      do case = 1, size(workspace%cases)
+         associate (this => workspace%cases(case))
+            call solve_case(workspace%suspension, this%case, designer%options(case), this%result, observer=this%observer)
          end associate
       end do
-      call complete_tables(designer, worker)
-      call take_row(study, designer, worker, k, chunk, faults)
-      if (chunk%status(k) /= design_solved) call explain(designer, worker, k, faults, chunk)
+      call complete_tables(designer, workspace)
+      call take_row(study, designer, workspace, k, chunk, faults)
+      if (chunk%status(k) /= design_solved) call explain(designer, workspace, k, faults, chunk)
    end subroutine solve_from_text
 
    !> Observes what solving left open: K&C quantities, at the states where a response reads them.
-   subroutine complete_tables(designer, worker)
+   subroutine complete_tables(designer, workspace)
       type(designer_t), intent(in) :: designer
-      type(worker_t), intent(inout) :: worker     !! its cases are solved
+      type(workspace_t), intent(inout) :: workspace     !! its cases are solved
       integer :: c
 
-      do c = 1, size(worker%cases)
-         if (.not. (designer%options(c)%defers_kandc .and. is_whole(worker%cases(c)%result))) cycle
-         call observe_read_states(designer%readings, designer%case_of, c, worker%cases(c)%observer, worker%cases(c)%result)
+      do c = 1, size(workspace%cases)
+         if (.not. (designer%options(c)%defers_kandc .and. is_whole(workspace%cases(c)%result))) cycle
+         call observe_read_states(designer%readings, designer%case_of, c, workspace%cases(c)%observer, workspace%cases(c)%result)
       end do
    end subroutine complete_tables
 
    !> Reads the responses and the curves of a design. A response of a case that did not reach all states has no value.
-   subroutine take_row(study, designer, worker, k, chunk, faults)
+   subroutine take_row(study, designer, workspace, k, chunk, faults)
       type(study_t), intent(in) :: study
       type(designer_t), intent(in) :: designer
-      type(worker_t), intent(in) :: worker        !! with the results of its cases
+      type(workspace_t), intent(in) :: workspace        !! with the results of its cases
       integer, intent(in) :: k
       type(chunk_t), intent(inout) :: chunk
       integer, intent(out) :: faults(:)           !! of each response, see read_response
       integer :: j
 
-      do j = 1, size(worker%cases)
-         if (.not. is_whole(worker%cases(j)%result)) chunk%status(k) = design_incomplete
+      do j = 1, size(workspace%cases)
+         if (.not. is_whole(workspace%cases(j)%result)) chunk%status(k) = design_incomplete
       end do
       faults = 0
       do j = 1, size(designer%readings)
-         associate (result => worker%cases(designer%case_of(j))%result, less => designer%readings(j)%asked%less)
+         associate (result => workspace%cases(designer%case_of(j))%result, less => designer%readings(j)%asked%less)
             if (is_difference(designer%readings(j))) then
                chunk%responses(j, k) = chunk%responses(less(1), k) - chunk%responses(less(2), k)
             else if (is_whole(result)) then
@@ -169,7 +171,7 @@ contains
             if (.not. ieee_is_finite(chunk%responses(j, k))) chunk%status(k) = design_incomplete
          end associate
       end do
-      if (worker%cases(1)%result%is_run()) call take_curves(study, worker%cases(1)%result%table, k, chunk)
+      if (workspace%cases(1)%result%is_run()) call take_curves(study, workspace%cases(1)%result%table, k, chunk)
    end subroutine take_row
 
    !> Whether all states of a case converged.
@@ -214,17 +216,17 @@ contains
    end subroutine take_curves
 
    !> Explains why a design is incomplete.
-   subroutine explain(designer, worker, k, faults, chunk)
+   subroutine explain(designer, workspace, k, faults, chunk)
       type(designer_t), intent(in) :: designer
-      type(worker_t), intent(in) :: worker        !! with the results of its cases
+      type(workspace_t), intent(in) :: workspace        !! with the results of its cases
       integer, intent(in) :: k, faults(:)
       type(chunk_t), intent(inout) :: chunk
       type(message_list_t) :: words
       type(error_t), allocatable :: error
       integer :: j, side
 
-      do j = 1, size(worker%cases)
-         associate (result => worker%cases(j)%result, path => worker%cases(j)%result%path)
+      do j = 1, size(workspace%cases)
+         associate (result => workspace%cases(j)%result, path => workspace%cases(j)%result%path)
             if (.not. result%is_run()) then
                call failure_of(result, error)
                call words%add(error%message)
@@ -239,7 +241,7 @@ contains
       end do
       do j = 1, size(faults)
          if (faults(j) /= 0) call words%add('response '//quoted(designer%readings(j)%asked%name)//': '// &
-            fault_text(designer%readings(j), worker%cases(designer%case_of(j))%result%table, faults(j)))
+            fault_text(designer%readings(j), workspace%cases(designer%case_of(j))%result%table, faults(j)))
       end do
       if (words%count() == 0) call words%add('a response has no value')
       call add_reason(chunk, k, words%text())

@@ -10,7 +10,8 @@ module ek_study_each
    use ek_reader, only: design_t, read_design
    use ek_study, only: study_t, study_factor_t, by_scale
    use ek_factor_paths, only: is_held_in_plane
-   use ek_worker, only: worker_t, make_worker
+   use ek_workspace, only: workspace_t
+   use ek_workspace_cases, only: open_cases
    use ek_sweep_table, only: sweep_columns
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t
@@ -61,8 +62,8 @@ contains
    subroutine expand_columns(study, deck, error)
       type(study_t), intent(inout) :: study
       type(deck_t), intent(in) :: deck
-      type(error_t), allocatable, intent(out) :: error     !! exit_deck, or as make_worker
-      type(worker_t) :: worker
+      type(error_t), allocatable, intent(out) :: error     !! exit_deck, or as open_cases
+      type(workspace_t) :: workspace
       type(suspension_t) :: suspension
       type(case_t) :: case
       character(name_length), parameter :: never(3) = [character(name_length) :: 'state', 'factor', 'converged']
@@ -71,9 +72,9 @@ contains
       integer :: c, k, before
 
       if (.not. any(index(study%columns, '*') > 0)) return
-      call make_worker(deck, [study%case], worker, error)
+      call open_cases(deck, [study%case], workspace, error)
       if (allocated(error)) return
-      call mount(worker%suspension, worker%cases(1)%case, suspension, case)
+      call mount(workspace%suspension, workspace%cases(1)%case, suspension, case)
       call sweep_columns(suspension, case, heads)
       allocate (columns(0))
       do c = 1, size(study%columns)

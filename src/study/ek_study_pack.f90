@@ -10,7 +10,7 @@ module ek_study_pack
    use ek_pack, only: new_pack
    use ek_pack_walk, only: walker_t, member_t, walk_pack, can_walk
    use ek_path_states, only: new_path
-   use ek_worker, only: worker_t
+   use ek_workspace, only: workspace_t
    implicit none(type, external)
    private
    public :: pack_space_t, begin_packs, walk_case, lanes, are_lanes_fast
@@ -20,36 +20,36 @@ module ek_study_pack
 
    !> Work space of a thread.
    type :: pack_space_t
-      ! classes for the reason given at worker_case_t
-      class(worker_t), allocatable :: workers(:)     !! the designs of a pack but the first, whose worker the study has
+      ! classes for the reason given at case_work_t
+      class(workspace_t), allocatable :: workspaces(:)     !! the designs of a pack but the first, whose workspace the study has
       class(walker_t), allocatable :: walkers(:)     !! of each case
       logical, allocatable :: is_used(:)             !! packs walk this case
    end type pack_space_t
 
 contains
 
-   !> Prepares packs for the cases of a worker, whose design was solved.
-   subroutine begin_packs(worker, space)
-      type(worker_t), intent(in) :: worker
+   !> Prepares packs for the cases of a workspace, whose design was solved.
+   subroutine begin_packs(workspace, space)
+      type(workspace_t), intent(in) :: workspace
       type(pack_space_t), intent(out) :: space
       integer :: c
 
-      allocate (space%walkers(size(worker%cases)), space%is_used(size(worker%cases)))
-      do c = 1, size(worker%cases)
-         associate (result => worker%cases(c)%result)
+      allocate (space%walkers(size(workspace%cases)), space%is_used(size(workspace%cases)))
+      do c = 1, size(workspace%cases)
+         associate (result => workspace%cases(c)%result)
             space%is_used(c) = are_lanes_fast .and. result%kkt%has_plan .and. can_walk(result%case, result%path)
             if (space%is_used(c)) call new_pack(result%suspension, result%kkt, result%path, space%walkers(c)%pack)
          end associate
       end do
-      allocate (space%workers(merge(lanes - 1, 0, any(space%is_used))), source=worker)
+      allocate (space%workspaces(merge(lanes - 1, 0, any(space%is_used))), source=workspace)
    end subroutine begin_packs
 
    !> Walks the paths of case c of several designs together; is_walked: whose path is complete.
-   subroutine walk_case(c, worker, is_wanted, space, is_walked)
+   subroutine walk_case(c, workspace, is_wanted, space, is_walked)
       integer, intent(in) :: c
-      type(worker_t), intent(inout), target :: worker        !! of the first design
+      type(workspace_t), intent(inout), target :: workspace        !! of the first design
       logical, intent(in) :: is_wanted(lanes)                !! its case is on the rig; .false.: there is no such design
-      type(pack_space_t), intent(inout), target :: space     !! with the workers of the other designs
+      type(pack_space_t), intent(inout), target :: space     !! with the workspaces of the other designs
       logical, intent(out) :: is_walked(lanes)
       type(member_t) :: members(lanes)
       integer :: l, filler
@@ -60,9 +60,9 @@ contains
       do l = 1, lanes
          members(l)%is_wanted = is_wanted(l)
          if (merge(l, filler, is_wanted(l)) == 1) then
-            call point_to(worker, members(l))
+            call point_to(workspace, members(l))
          else
-            call point_to(space%workers(merge(l, filler, is_wanted(l)) - 1), members(l))
+            call point_to(space%workspaces(merge(l, filler, is_wanted(l)) - 1), members(l))
          end if
          if (is_wanted(l)) call new_path(members(l)%suspension, members(l)%case, members(l)%path)
       end do
@@ -72,7 +72,7 @@ contains
    contains
 
       subroutine point_to(from, member)
-         type(worker_t), intent(inout), target :: from
+         type(workspace_t), intent(inout), target :: from
          type(member_t), intent(inout) :: member
 
          member%suspension => from%cases(c)%result%suspension

@@ -13,7 +13,7 @@ module ek_study_plan
    use ek_sampler_kind, only: list_kind
    use ek_sampler_settings, only: sampler_settings_t, factor_t
    use ek_study, only: study_t, define_factor
-   use ek_worker, only: deck_value
+   use ek_factor_numbers, only: deck_value
    use ek_designer, only: designer_t
    use ek_chunk, only: chunk_t, new_chunk
    implicit none(type, external)
@@ -116,7 +116,7 @@ contains
       if (study%kind == list_kind) call read_list(study, home, designer, settings%rows, error)
       do f = 1, size(factors)
          if (.not. allocated(error)) call define_factor(study%factors(f), study%kind, &
-            deck_value(designer%worker, designer%paths(f)), factors(f), error)
+            deck_value(designer%workspace%design%parameters, designer%paths(f)), factors(f), error)
       end do
       if (.not. allocated(error)) then
          call new_sampler(settings, factors, sampler, error)

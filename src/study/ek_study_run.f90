@@ -307,8 +307,8 @@ contains
          begun = seconds()
          call begin_chunk(plan, number, chunk)
          is_whole = .true.
-         do k = 1, size(chunk%status), size(mine%packs%workers) + 1
-            call solve_designs(study, deck, mine, k, min(k + size(mine%packs%workers), size(chunk%status)), chunk)
+         do k = 1, size(chunk%status), size(mine%packs%workspaces) + 1
+            call solve_designs(study, deck, mine, k, min(k + size(mine%packs%workspaces), size(chunk%status)), chunk)
             is_whole = .not. (is_stop_asked() .or. allocated(chunk%error))
             if (.not. is_whole) exit
             if (ranks%count == 1) cycle

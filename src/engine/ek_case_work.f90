@@ -1,0 +1,85 @@
+!> A case of a workspace: its numbers, how far its present design is, and its solution.
+module ek_case_work
+   use ek_suspension, only: suspension_t
+   use ek_reader, only: design_t
+   use ek_case, only: case_t, copy_case_numbers, is_mountable
+   use ek_diagnosis, only: diagnosis_t
+   use ek_examination, only: examine_case, known_case_t
+   use ek_rig, only: mount_again
+   use ek_standard_tests, only: cover_rack_travel
+   use ek_sweep_table, only: observer_t
+   use ek_case_result, only: case_result_t
+   implicit none(type, external)
+   private
+   public :: case_work_t, renew_case, make_room, examine_again, put_on_rig
+   public :: not_examined, examined, on_rig
+
+   ! stages of a case at the present numbers, each after the one before
+   integer, parameter :: not_examined = 0
+   integer, parameter :: examined = 1       !! its model has no defect
+   integer, parameter :: on_rig = 2         !! and stands on the rig, without the preloads of balance
+
+   type :: case_work_t
+      type(case_t) :: case                        !! of the present design, as in the deck
+      integer :: number = 0                       !! in the deck; 0: a standard test
+      integer :: stage = not_examined
+      type(known_case_t) :: known                 !! what the first design has proved about the others
+      class(observer_t), allocatable :: observer  !! of the columns of its results
+      class(case_result_t), allocatable :: result !! of the present design; holds the case on the rig. Classes: gfortran copies
+                                                  !! a type that holds one by calling a procedure; otherwise it writes out the copy
+                                                  !! at each use, and the program grows
+   end type case_work_t
+
+contains
+
+   !> Renews the numbers of a case at a design: the numbers of the deck, or of the standard test.
+   subroutine renew_case(suspension, design, this)
+      type(suspension_t), intent(in) :: suspension
+      type(design_t), intent(in) :: design                 !! with the cases of these numbers
+      type(case_work_t), intent(inout) :: this
+
+      if (this%number > 0) then
+         call copy_case_numbers(design%cases(this%number), this%case)
+      else
+         call cover_rack_travel(suspension, this%case)
+      end if
+   end subroutine renew_case
+
+   !> Makes the work space of a case that is solved for the first time.
+   subroutine make_room(this)
+      type(case_work_t), intent(inout) :: this
+      if (.not. allocated(this%result)) allocate (this%result)
+      if (.not. allocated(this%observer)) allocate (this%observer)
+   end subroutine make_room
+
+   !> Renews the numbers of a case and examines the design on its rig. is_sound is .false. if the case cannot be put on the rig, or
+   !> if the design may have a defect: the reason is found with texts, by examine_case.
+   subroutine examine_again(suspension, design, this, is_sound)
+      type(suspension_t), intent(in) :: suspension         !! realised, not balanced
+      type(design_t), intent(in) :: design                 !! with the cases of these numbers
+      type(case_work_t), intent(inout) :: this
+      logical, intent(out) :: is_sound
+      type(diagnosis_t) :: diagnosis
+      logical :: is_in_doubt
+
+      call renew_case(suspension, design, this)
+      is_sound = is_mountable(this%case)
+      if (.not. is_sound) return
+      call make_room(this)
+      call examine_case(suspension, this%case, diagnosis, this%known, this%result%mounted_case_t, is_in_doubt)
+      is_sound = .not. is_in_doubt
+      if (is_sound) this%stage = on_rig
+   end subroutine examine_again
+
+   !> Puts a case on the rig with a balanced model, unless it stands there with the same numbers already.
+   subroutine put_on_rig(suspension, this)
+      type(suspension_t), intent(in) :: suspension         !! balanced
+      type(case_work_t), intent(inout) :: this
+
+      if (this%stage == on_rig .and. suspension%balance == 'none') return
+      call make_room(this)
+      call mount_again(suspension, this%case, this%result%mounted_case_t)
+      if (this%stage == on_rig) this%stage = examined      ! with the preloads of balance
+   end subroutine put_on_rig
+
+end module ek_case_work

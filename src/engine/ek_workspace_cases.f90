@@ -1,0 +1,246 @@
+!> Opens a workspace: from a deck to its numbers and the cases that it solves.
+module ek_workspace_cases
+   use ek_error, only: error_t, fail, exit_deck, exit_model, exit_file
+   use ek_text, only: quoted, did_you_mean
+   use ek_group, only: word_length
+   use ek_deck, only: deck_t
+   use ek_reader, only: design_t, build_design
+   use ek_suspension, only: suspension_t
+   use ek_case, only: case_t, is_mountable, prefer_plan
+   use ek_diagnosis, only: diagnosis_t
+   use ek_rig, only: mount, take_off
+   use ek_standard_tests, only: standard_tests
+   use ek_examination, only: examine_case, check_inputs
+   use ek_sweep_table, only: sweep_columns
+   use ek_table, only: name_length
+   use ek_case_work, only: case_work_t, make_room, examined
+   use ek_workspace, only: workspace_t, balance_once, realised
+   implicit none(type, external)
+   private
+   public :: open_model, open_workspace, open_cases, report_cases, restrict_cases, heads_of_case, case_number
+
+contains
+
+   !> Reads a deck, and lists no case of it: the numbers and the model of a command that chooses its cases itself.
+   subroutine open_model(deck, workspace, error, needs_tables)
+      type(deck_t), intent(in) :: deck
+      type(workspace_t), intent(out) :: workspace
+      type(error_t), allocatable, intent(out) :: error       !! exit_deck, exit_file: all errors together
+      logical, intent(in), optional :: needs_tables          !! if .true., a missing table is an error, also of a case not run
+
+      call read_checked(deck, workspace%design, workspace%raw, error, needs_tables)
+      allocate (workspace%cases(0))
+      if (allocated(error)) return
+      workspace%x = workspace%design%parameters%x(:workspace%design%parameters%used)
+      workspace%stage = realised
+   end subroutine open_model
+
+   !> Reads a deck with all its errors, also those of the tables and of the targets of its cases.
+   subroutine read_checked(deck, design, suspension, error, needs_tables)
+      type(deck_t), intent(in) :: deck
+      type(design_t), intent(out) :: design
+      type(suspension_t), intent(out) :: suspension
+      type(error_t), allocatable, intent(out) :: error
+      logical, intent(in), optional :: needs_tables          !! if .true., a missing table is an error, also of a case not run
+      type(error_t), allocatable :: fault
+      logical :: is_whole, needs_all
+
+      needs_all = .false.
+      if (present(needs_tables)) needs_all = needs_tables
+      call build_design(deck, design, suspension, error, is_whole)
+      call check_inputs(suspension, design%cases, fault, is_whole)
+      if (.not. allocated(fault)) return
+      if (allocated(error)) then
+         error%message = error%message//new_line('a')//fault%message
+      else if (fault%code /= exit_file .or. needs_all) then
+         ! a missing file is reported by the case that needs it: the other cases can be run
+         call move_alloc(fault, error)
+      end if
+   end subroutine read_checked
+
+   !> Reads a deck and lists its cases, then the standard tests that it does not have; reports all errors together.
+   subroutine open_workspace(deck, workspace, error)
+      type(deck_t), intent(in) :: deck
+      type(workspace_t), intent(out) :: workspace
+      type(error_t), allocatable, intent(out) :: error       !! exit_deck
+      type(case_t), allocatable :: tests(:), all(:)         ! of the report; with those on request
+      integer :: own, k
+
+      call open_model(deck, workspace, error)
+      if (allocated(error)) return
+      deallocate (workspace%cases)
+      call prefer_plan(workspace%design%cases)
+      workspace%design%cases%has_all = .true.
+      allocate (tests(0), all(0))
+      if (size(workspace%raw%wheels) > 0) call standard_tests(workspace%raw, workspace%design%cases, tests)
+      if (size(workspace%raw%wheels) > 0) call standard_tests(workspace%raw, workspace%design%cases, all, '*')
+      own = size(workspace%design%cases)
+      allocate (workspace%cases(own + count([(is_standard(all(k)), k=1, size(all))])))
+      do k = 1, own
+         workspace%cases(k)%number = k
+         workspace%cases(k)%case = workspace%design%cases(k)
+      end do
+      do k = 1, size(all)
+         if (.not. is_standard(all(k))) cycle
+         own = own + 1
+         workspace%cases(own)%case = all(k)
+         call prefer_plan(workspace%cases(own)%case)
+      end do
+      workspace%report_order = [(case_number(tests(k)%name, workspace), k=1, size(tests))]
+
+   contains
+
+      !> Whether a test is not a case of the deck.
+      pure logical function is_standard(test)
+         type(case_t), intent(in) :: test
+         integer :: j
+         is_standard = .not. any([(workspace%design%cases(j)%name == test%name, j=1, size(workspace%design%cases))])
+      end function is_standard
+
+   end subroutine open_workspace
+
+   !> Reads a deck for some cases alone ('': the first of the deck), examines it on the rig of each, and balances it with the
+   !> tolerance of the first. Errors in other cases do not matter.
+   subroutine open_cases(deck, names, workspace, error, increments)
+      type(deck_t), intent(in) :: deck
+      character(*), intent(in) :: names(:)
+      type(workspace_t), intent(out) :: workspace
+      type(error_t), allocatable, intent(out) :: error     !! exit_deck, exit_file, exit_model, exit_convergence
+      integer, intent(in), optional :: increments          !! of all cases; absent or 0: those of the deck
+      type(diagnosis_t) :: diagnosis
+      logical :: is_whole
+      integer :: k
+
+      call build_design(deck, workspace%design, workspace%raw, error, is_whole)
+      if (allocated(error)) return
+      workspace%x = workspace%design%parameters%x(:workspace%design%parameters%used)
+      workspace%stage = realised
+      call prefer_plan(workspace%design%cases)
+      allocate (workspace%cases(size(names)))
+      do k = 1, size(names)
+         call take_case(deck%file, trim(names(k)), workspace%design%cases, workspace%raw, workspace%cases(k), error)
+         if (allocated(error)) return
+      end do
+      if (present(increments)) then
+         if (increments > 0) then
+            workspace%design%cases%increments = increments
+            workspace%cases%case%increments = increments              ! also of a standard test
+         end if
+      end if
+      do k = 1, size(workspace%cases)
+         associate (this => workspace%cases(k))
+            ! on the rig from now on: the order of elimination of all designs is that of this one
+            call examine_case(workspace%raw, this%case, diagnosis, this%known, this%result%mounted_case_t)
+            if (.not. diagnosis%is_solvable()) then
+               call fail(error, exit_model, deck%file//': the model cannot be solved'//new_line('a')//diagnosis%words())
+               return
+            end if
+            this%stage = examined
+         end associate
+      end do
+      call balance_once(workspace%cases(1)%case%tolerance, .false., workspace, error)
+   end subroutine open_cases
+
+   !> Finds a case of the deck, or a standard test of the report that it does not have.
+   subroutine take_case(file, name, cases, suspension, found, error)
+      character(*), intent(in) :: file, name           !! '': the first of the deck
+      type(case_t), intent(in) :: cases(:)
+      type(suspension_t), intent(in) :: suspension
+      type(case_work_t), intent(inout) :: found
+      type(error_t), allocatable, intent(out) :: error
+      type(case_t), allocatable :: tests(:)
+      character(word_length), allocatable :: names(:)      !! of all that could be meant
+      integer :: k, j
+
+      call make_room(found)
+      do k = 1, size(cases)
+         if (len(name) == 0 .or. cases(k)%name == name) exit
+      end do
+      if (k > size(cases)) then
+         call standard_tests(suspension, cases, tests)
+         do j = 1, size(tests)
+            if (len(name) > 0 .and. tests(j)%name == name) exit
+         end do
+         if (j > size(tests)) then
+            allocate (names(size(tests)))
+            do j = 1, size(tests)
+               names(j) = tests(j)%name
+            end do
+            call fail(error, exit_deck, file//': there is no case '//quoted(name)//did_you_mean(name, names))
+            return
+         end if
+         found%case = tests(j)
+         call prefer_plan(found%case)
+         return
+      end if
+      if (cases(k)%follows_arc) then
+         call fail(error, exit_deck, file//': case '//quoted(cases(k)%name)//' has follow = ''arc'', where a factor '// &
+            'may have several states; a study needs a case with follow = ''factor''')
+         return
+      end if
+      call check_inputs(suspension, cases(k:k), error)
+      if (allocated(error)) return
+      found%number = k
+      found%case = cases(k)
+   end subroutine take_case
+
+   !> Lists the cases in the order of the report, with the present numbers.
+   subroutine report_cases(workspace, cases)
+      type(workspace_t), intent(in) :: workspace
+      type(case_t), allocatable, intent(out) :: cases(:)
+      integer :: j
+
+      allocate (cases(size(workspace%report_order)))
+      do j = 1, size(cases)
+         cases(j) = workspace%cases(workspace%report_order(j))%case
+      end do
+   end subroutine report_cases
+
+   !> Restricts the report to these of its cases, with their method and their increments.
+   subroutine restrict_cases(chosen, workspace)
+      type(case_t), intent(in) :: chosen(:)
+      type(workspace_t), intent(inout) :: workspace
+      integer :: j, k
+
+      workspace%report_order = [(case_number(chosen(j)%name, workspace), j=1, size(chosen))]
+      do j = 1, size(chosen)
+         k = workspace%report_order(j)
+         associate (this => workspace%cases(k))
+            this%case = chosen(j)
+            this%stage = min(this%stage, examined)
+            if (allocated(this%result)) call take_off(this%result%mounted_case_t)
+            if (this%number > 0) workspace%design%cases(this%number) = chosen(j)
+         end associate
+      end do
+   end subroutine restrict_cases
+
+   !> Lists all columns that the table of a case has.
+   subroutine heads_of_case(k, workspace, heads)
+      integer, intent(in) :: k
+      type(workspace_t), intent(in) :: workspace
+      character(name_length), allocatable, intent(out) :: heads(:)
+      type(suspension_t) :: suspension
+      type(case_t) :: case
+
+      associate (given => workspace%cases(k)%case)
+         if (is_mountable(given)) then
+            call mount(workspace%raw, given, suspension, case)
+            call sweep_columns(suspension, case, heads)
+         else
+            call sweep_columns(workspace%raw, given, heads)
+         end if
+      end associate
+   end subroutine heads_of_case
+
+   !> The number of a case; '' is the first. 0: there is none of this name.
+   pure integer function case_number(name, workspace) result(k)
+      character(*), intent(in) :: name
+      type(workspace_t), intent(in) :: workspace
+
+      do k = 1, size(workspace%cases)
+         if (len_trim(name) == 0 .or. workspace%cases(k)%case%name == name) return
+      end do
+      k = 0
+   end function case_number
+
+end module ek_workspace_cases

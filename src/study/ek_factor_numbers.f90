@@ -1,0 +1,87 @@
+!> From the factors of a study to numbers of the deck.
+module ek_factor_numbers
+   use ek_kinds, only: wp
+   use ek_parameter, only: choice_t, parameters_t
+   use ek_study, only: by_value, by_delta, not_given
+   use ek_workspace, only: workspace_t, put_numbers, ready_cases
+   implicit none(type, external)
+   private
+   public :: factor_paths_t, put_factor, deck_value, change_design
+
+   !> The parameters of one factor.
+   type :: factor_paths_t
+      integer :: change = by_value                !! see ek_study
+      type(choice_t), allocatable :: found(:)
+   end type factor_paths_t
+
+contains
+
+   !> Changes to the design with these values of the factors, from the numbers alone, with its cases on the rig. is_done is .false. if
+   !> it must be read from the text: a factor is not a number of the design space, a value is outside its range, or the design may
+   !> have a defect.
+   subroutine change_design(factors, values, workspace, is_done)
+      type(factor_paths_t), intent(in) :: factors(:)
+      real(wp), intent(in) :: values(:)                    !! in the units of the deck
+      type(workspace_t), intent(inout) :: workspace
+      logical, intent(out) :: is_done
+      real(wp) :: x(size(workspace%x))
+      integer :: f
+
+      is_done = .true.
+      associate (parameters => workspace%design%parameters)
+         x = parameters%x(:parameters%used)
+         do f = 1, size(factors)
+            is_done = is_done .and. size(factors(f)%found) > 0
+            call put_factor(factors(f), values(f), parameters, x)
+         end do
+      end associate
+      call put_numbers(x, workspace)
+      if (is_done) call ready_cases(workspace, is_done)
+   end subroutine change_design
+
+   !> Writes a factor into x; relative to the numbers of the deck, or instead of them. The right side of an axle takes the value
+   !> with its sign (ek_parameter).
+   pure subroutine put_factor(factor, value, parameters, x)
+      type(factor_paths_t), intent(in) :: factor
+      real(wp), intent(in) :: value
+      type(parameters_t), intent(in) :: parameters         !! of the deck
+      real(wp), intent(inout) :: x(:)                      !! of the parameters [SI, axes of the deck]
+      integer :: j
+
+      do j = 1, size(factor%found)
+         associate (number => factor%found(j)%number, sign => factor%found(j)%sign)
+            associate (unit => parameters%list(number)%unit, at => x(number))
+               select case (factor%change)
+               case (by_value)
+                  at = (sign*value)*unit
+               case (by_delta)
+                  at = at + (sign*value)*unit
+               case default
+                  at = at*value
+               end select
+            end associate
+         end associate
+      end do
+   end subroutine put_factor
+
+   !> The number of the deck that a factor changes, in the unit of the deck; NaN if there are several that differ.
+   pure real(wp) function deck_value(parameters, factor) result(value)
+      type(parameters_t), intent(in) :: parameters
+      type(factor_paths_t), intent(in) :: factor
+      real(wp) :: this
+      integer :: j
+
+      value = not_given()
+      do j = 1, size(factor%found)
+         associate (number => factor%found(j)%number)
+            this = factor%found(j)%sign*parameters%x(number)/parameters%list(number)%unit
+         end associate
+         if (j == 1) value = this
+         if (abs(this - value) > 1.0e-12_wp*abs(value)) then
+            value = not_given()
+            exit
+         end if
+      end do
+   end function deck_value
+
+end module ek_factor_numbers
