@@ -135,6 +135,18 @@ compile_times() {
   echo "remark: clean build of elastokin: $start s"
 }
 
+# The results are those of the commit that EK_BEFORE names, to the byte: for changes of the sources that must not change a result
+same_bytes() {
+  local before=$logs/before
+  [ -n "${EK_BEFORE:-}" ] || { skip "EK_BEFORE names no commit to compare with"; return; }
+  python_with venv_numpy numpy || { skip "numpy could not be installed from PyPI"; return; }
+  [ -d "$before" ] || git clone --quiet "$top" "$before" || return 1
+  git -C "$before" fetch --quiet "$top" && git -C "$before" checkout --quiet "$EK_BEFORE" || return 1
+  "$before/tools/build.sh" release elastokin && cmake --build "$before/build/release" --target elastokin_c || return 1
+  EK_PYTHON=$logs/venv_numpy/bin/python tests/support/compare_bits.sh build/release "$before/build/release" | sed '$s/^/remark: /'
+  [ "${PIPESTATUS[0]}" -eq 0 ]
+}
+
 # The loader takes the best copy of the kernels of packs, and each gives the same bits: tables of a study, and the tests of lanes and packs.
 # LD_LIBRARY_PATH selects the copy for every processor; a tunable of glibc would also change the functions of libm.
 packs_on_instruction_sets() {
