@@ -28,7 +28,7 @@ module ek_workspace
    private
    public :: workspace_t, put_numbers, ready_cases, mount_numbers, solve_case_fully, solve_case_again, settle_fully, settle_again, &
       settle_model, balance_once
-   public :: realised
+   public :: numbers_given, realised
 
    ! stages of the numbers, each after the one before
    integer, parameter :: numbers_given = 0

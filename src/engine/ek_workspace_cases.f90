@@ -14,7 +14,7 @@ module ek_workspace_cases
    use ek_sweep_table, only: sweep_columns
    use ek_table, only: name_length
    use ek_case_work, only: case_work_t, make_room, examined
-   use ek_workspace, only: workspace_t, balance_once, realised
+   use ek_workspace, only: workspace_t, balance_once, numbers_given, realised
    implicit none(type, external)
    private
    public :: open_model, open_workspace, open_cases, report_cases, restrict_cases, heads_of_case, case_number
@@ -24,10 +24,11 @@ contains
    !> Reads a deck, and lists no case of it: the numbers and the model of a command that chooses its cases itself.
    subroutine open_model(deck, workspace, error, needs_tables)
       type(deck_t), intent(in) :: deck
-      type(workspace_t), intent(out) :: workspace
+      type(workspace_t), intent(inout) :: workspace          !! what it held is lost
       type(error_t), allocatable, intent(out) :: error       !! exit_deck, exit_file: all errors together
       logical, intent(in), optional :: needs_tables          !! if .true., a missing table is an error, also of a case not run
 
+      call empty_workspace(workspace)
       call read_checked(deck, workspace%design, workspace%raw, error, needs_tables)
       allocate (workspace%cases(0))
       if (allocated(error)) return
@@ -61,7 +62,7 @@ contains
    !> Reads a deck and lists its cases, then the standard tests that it does not have; reports all errors together.
    subroutine open_workspace(deck, workspace, error)
       type(deck_t), intent(in) :: deck
-      type(workspace_t), intent(out) :: workspace
+      type(workspace_t), intent(inout) :: workspace          !! what it held is lost
       type(error_t), allocatable, intent(out) :: error       !! exit_deck
       type(case_t), allocatable :: tests(:), all(:)         ! of the report; with those on request
       integer :: own, k
@@ -104,13 +105,14 @@ contains
    subroutine open_cases(deck, names, workspace, error, increments)
       type(deck_t), intent(in) :: deck
       character(*), intent(in) :: names(:)
-      type(workspace_t), intent(out) :: workspace
+      type(workspace_t), intent(inout) :: workspace          !! what it held is lost
       type(error_t), allocatable, intent(out) :: error     !! exit_deck, exit_file, exit_model, exit_convergence
       integer, intent(in), optional :: increments          !! of all cases; absent or 0: those of the deck
       type(diagnosis_t) :: diagnosis
       logical :: is_whole
       integer :: k
 
+      call empty_workspace(workspace)
       call build_design(deck, workspace%design, workspace%raw, error, is_whole)
       if (allocated(error)) return
       workspace%x = workspace%design%parameters%x(:workspace%design%parameters%used)
@@ -140,6 +142,12 @@ contains
       end do
       call balance_once(workspace%cases(1)%case%tolerance, .false., workspace, error)
    end subroutine open_cases
+
+   !> Empties a workspace: one procedure where gfortran writes out how all of it is given back.
+   subroutine empty_workspace(workspace)
+      type(workspace_t), intent(out) :: workspace
+      workspace%stage = numbers_given
+   end subroutine empty_workspace
 
    !> Finds a case of the deck, or a standard test of the report that it does not have.
    subroutine take_case(file, name, cases, suspension, found, error)

@@ -46,7 +46,7 @@ contains
       type(quantity_t) :: quantity
       integer :: k, c, used
 
-      allocate (list(0))
+      allocate (list(0), found(0))
       call start_contributions(result%suspension, table)
       allocate (is_wanted(table%columns%used))
       do c = 1, size(is_wanted)
@@ -57,6 +57,7 @@ contains
       call choose_contributions(is_wanted, table)
       call find_contributions(result%suspension, new_schedule(result%suspension, result%case), result%path, k, result%kkt, table)
       if (.not. table%is_known) return
+      deallocate (found)
       allocate (found(size(table%values)))
       do c = 1, size(found)
          associate (this => found(c))

@@ -16,7 +16,7 @@ module ek_case_slopes
    type :: case_slopes_t
       integer :: case = 0                                    !! in the workspace
       type(solve_options_t) :: options                       !! its columns, and how far from design
-      class(derivatives_t), allocatable :: derivatives       !! of the columns at the states. A class as in case_work_t
+      type(derivatives_t), allocatable :: derivatives        !! of the columns at the states
       type(table_t) :: table                                 !! of the last design: quantities and entries of the compliance matrix
       type(table_t) :: moved                                 !! the same along a direction
       integer, allocatable :: place(:)                       !! of a column of the derivatives in the table

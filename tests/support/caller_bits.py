@@ -41,7 +41,7 @@ def main() -> None:
         with elastokin.Model.from_file(deck) as model:
             solve_all(model, lines)
             x = model.x
-            model.x = x * (1.0 + 1.0e-4 * np.cos(np.arange(len(x))))
+            model.x = x * (1.0 - 1.0e-4 * np.cos(np.arange(len(x))) ** 2)
             solve_all(model, lines)
             model.x = x
             solve_all(model, lines)
