@@ -346,7 +346,7 @@ contains
       call fail(error, exit_deck, lines%text())
    end subroutine refuse_all
 
-   !> Resets all numbers and texts as opened.
+   !> Resets all numbers and strings to their values when the deck was opened.
    subroutine reset(session, error)
       type(session_t), intent(inout) :: session
       type(error_t), allocatable, intent(out) :: error

@@ -157,7 +157,7 @@ contains
    end subroutine end_solution
 
    !> The last solution: result%table has the columns, one row per state; result%remarks the notes, warnings and failures.
-   !> Not associated if there is no solution.
+   !> The pointer is not associated if there is no solution.
    function result_of(session) result(last)
       type(session_t), intent(inout), target :: session
       type(case_result_t), pointer :: last

@@ -49,7 +49,7 @@ module ek_rig_test
       real(wp) :: moment(3) = 0.0_wp
       logical :: is_at_centre = .false.      !! the force acts at the wheel centre, except in a solid axle that takes the torque
       logical :: has_phase = .false.         !! the load on the right wheel may be reversed
-      logical :: has_trail = .false.         !! the force may act behind the patch, at `offset`
+      logical :: has_trail = .false.         !! the force may act aft of the contact point, at `offset`
       integer :: place = 0                   !! among the standard tests; 0: none of them
       logical :: is_on_request = .false.     !! a standard test that runs only if it is asked by its name
       integer :: phases = 1                  !! 2: the standard tests contain it in parallel and opposed

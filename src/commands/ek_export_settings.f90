@@ -34,6 +34,7 @@ module ek_export_settings
 
 contains
 
+   !> Reads the settings of export from the command line and checks them.
    subroutine read_export_settings(line, settings, error)
       type(command_line_t), intent(in) :: line
       type(export_settings_t), intent(out) :: settings

@@ -35,6 +35,7 @@ module ek_load_deck
 
 contains
 
+   !> Reads the options of the command line that all commands with a deck share.
    subroutine read_deck_settings(line, settings)
       type(command_line_t), intent(in) :: line
       class(deck_settings_t), intent(inout) :: settings
@@ -71,7 +72,7 @@ contains
       if (present(used_deck)) used_deck = deck
    end subroutine load_deck
 
-   !> Loads the session of a program as load_deck does the model, for commands that use one.
+   !> Opens the session of a program. Unlike load_deck, this is for commands that use a session.
    subroutine load_session(settings, session, error)
       class(deck_settings_t), intent(in) :: settings
       type(session_t), intent(out) :: session

@@ -30,7 +30,7 @@ module ek_reader
    private
    public :: design_t, read_design, build_design, build_model
 
-   !> The order of reading: what others refer to comes first.
+   !> The order of reading: groups to which others refer come first.
    integer, parameter :: reading_order(*) = [model_group, point_group, curve_group, body_group, mass_group, measure_group, &
       joint_group, bushing_group, spring_groups, wheel_group, axle_group, steering_group, load_group]
 

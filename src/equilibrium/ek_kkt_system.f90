@@ -57,7 +57,7 @@ module ek_kkt_system
       real(wp) :: pivot_ratio = 1.0_wp       !! smallest over largest pivot of the last matrix: a cheap condition estimate
       real(wp) :: log_determinant = 0.0_wp   !! ln |det| of the last matrix, scaled
       logical :: is_singular = .false.       !! the last factorisation met a zero pivot
-      integer :: stage = nothing             !! what `matrix` holds
+      integer :: stage = nothing             !! content of `matrix`
       logical :: is_at_design = .false.      !! matrix, factors and right-hand side are those of design, see `holds`
    end type kkt_t
 

@@ -79,6 +79,7 @@ contains
       end select
    end function symmetry_of
 
+   !> Reads a symmetry; any other string is an error.
    subroutine take_symmetry(text, line, symmetry, flaws)
       character(*), intent(in) :: text
       integer, intent(in) :: line

@@ -20,6 +20,7 @@ module ek_law_points
 
 contains
 
+   !> Appends a point and its line in the file.
    pure subroutine add_point(law, x, y, line)
       type(law_points_t), intent(inout) :: law
       real(wp), intent(in) :: x, y

@@ -26,7 +26,7 @@ module ek_characteristics
    real(wp), parameter :: min_rotation = 1.0e-13_wp         !! rad/(N m): its inverse is stiffer than any block of steel
    real(wp), parameter :: longest_arm = 1.0e3_wp          !! m
    real(wp), parameter :: gravity = 9.80665_wp            !! m/s², the g of "per g"
-   real(wp), parameter, public :: trail = 0.030_wp        !! m: distance of a lateral force behind the patch, typical of a tyre
+   real(wp), parameter, public :: trail = 0.030_wp        !! m: distance of a lateral force aft of the contact point; typical tyre
    integer, parameter, public :: in_phase = 1, anti_phase = 2
    integer, parameter, public :: load_held = 1, height_held = 2
 
@@ -190,7 +190,7 @@ contains
    !> Computes the stiffness of one wheel, load and height of the other held.
    pure subroutine single_rates(c, at, rate)
       real(wp), intent(in) :: c(12, 12)
-      integer, intent(in) :: at              !! rows before those of the wheel
+      integer, intent(in) :: at              !! number of rows before the rows of the wheel
       real(wp), intent(out) :: rate(2)
       integer :: own, other
 

@@ -77,7 +77,7 @@ module ek_blueprint
    type :: bushing_plan_t
       integer :: ends(2) = 0, z = 0, x = 0  !! vectors
       integer :: kt = 0, kr = 0, preload_force = 0, preload_moment = 0   !! the first of three parameters
-      integer :: curves(6) = 0              !! numbers of curves
+      integer :: curves(6) = 0              !! indices of curves
    end type bushing_plan_t
 
    type :: wheel_plan_t

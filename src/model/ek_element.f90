@@ -33,7 +33,7 @@ module ek_element
    integer, parameter :: bushing_element = 1
    integer, parameter :: axial_spring = 2
    integer, parameter :: torsion_spring = 3
-   integer, parameter :: measure_spring = 4  !! on a gap, a rotation or a cosine; keeps its preload
+   integer, parameter :: measure_spring = 4  !! on a displacement along an axis, a rotation or a cosine; preload is not balanced
    integer, parameter :: stop_spring = 5
    integer, parameter :: damper = 6
 

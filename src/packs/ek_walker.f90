@@ -125,6 +125,7 @@ contains
       history%abscissa(history%newest) = value
    end subroutine remember_place
 
+   !> Puts the numbers of one design into its lane.
    pure subroutine put_lane(lane, numbers, x)
       integer, intent(in) :: lane
       real(wp), intent(in) :: numbers(:)
@@ -136,6 +137,7 @@ contains
       end do
    end subroutine put_lane
 
+   !> Takes the numbers of one design from its lane.
    pure subroutine get_lane(lane, x, numbers)
       integer, intent(in) :: lane
       type(lanes_t), intent(in) :: x(:)

@@ -36,7 +36,7 @@ module ek_turntable
       character(:), allocatable :: test, label   !! its name; what moves, with unit
       real(wp), allocatable :: value(:)          !! in that unit
       real(wp), allocatable :: pose(:, :, :)     !! reference point [m], quaternion q1 to q3 with q0 ≥ 0: (6, body, state)
-      integer :: design = 0                      !! number of the state nearest to design
+      integer :: design = 0                      !! index of the state nearest to design
    end type motion_t
 
    type :: turntable_t
