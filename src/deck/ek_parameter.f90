@@ -64,7 +64,7 @@ contains
    subroutine split_path(text, path, message)
       character(*), intent(in) :: text
       type(path_t), intent(out) :: path
-      character(:), allocatable, intent(out) :: message     !! '' if there is no mistake
+      character(:), allocatable, intent(out) :: message     !! '' if there is no error
       character(:), allocatable :: inside
       integer :: dot, last, mark, status
 

@@ -47,14 +47,14 @@ module ek_attitude
    !> The attitude of one wheel at one state. Changes are relative to design.
    type :: attitude_t
       real(wp) :: centre(3) = 0.0_wp     !! wheel centre, change [m]; z is the wheel travel, bump positive
-      real(wp) :: contact(3) = 0.0_wp    !! contact patch, change [m]
+      real(wp) :: contact(3) = 0.0_wp    !! contact point, change [m]
       real(wp) :: toe = 0.0_wp           !! rad, positive: front edges inward
       real(wp) :: camber = 0.0_wp        !! rad, positive: top outward
       real(wp) :: track_change = 0.0_wp       !! m, positive outward
       real(wp) :: wheelbase_change = 0.0_wp   !! m, positive rearward
       type(steer_axis_t) :: axis         !! of the two points of the deck, if any
       type(axes_t) :: axes = axes_t()    !! spin axis, and the direction of the steering axis
-      real(wp) :: at_centre(3) = 0.0_wp, at_contact(3) = 0.0_wp   !! wheel centre and contact patch at the state [m]
+      real(wp) :: at_centre(3) = 0.0_wp, at_contact(3) = 0.0_wp   !! wheel centre and contact point at the state [m]
       real(wp) :: axis_point(3) = 0.0_wp !! first point of the steering axis at the state [m]
       real(wp) :: side_view = 0.0_wp     !! rotation in the side view: atan2(e_x, e_z), e vertical at design; + top rearward [rad]
    end type attitude_t

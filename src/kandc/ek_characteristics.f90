@@ -4,7 +4,7 @@
 !> C(i,j): displacement i per unit load j, 1–6 the wheel centre of this wheel (x y z, rotations about them), global
 !> axes. M is C with the loads at the contact points, CP with the displacements there as well (ek_loaded_wheels).
 !> Parallel (in phase): both wheels carry the load; opposed (anti phase): the other carries the opposite load. The
-!> slopes of steer, toe, camber and caster are those of the columns of that name, by the chain rule of ek_attitude.
+!> slopes of steer, toe, camber and caster are the slopes of the columns of this name, by the chain rule of ek_attitude.
 !>
 !> Two conditions in the vertical direction: vertical force held (the unchanged matrix), or heights of the wheel centres held
 !> (ek_port_response).
@@ -162,7 +162,7 @@ contains
    !> Computes responses to forces at the contact point and at the centre, and to moments.
    pure subroutine under_forces(wheels, m, c, reader, place, axle, held, is)
       integer, intent(in) :: wheels
-      real(wp), intent(in) :: m(12, 12), c(12, 12)   !! loads at the patch and at the centre, displacements at the centre
+      real(wp), intent(in) :: m(12, 12), c(12, 12)   !! loads at the contact point and at the centre, displacements at the centre
       type(reader_t), intent(in) :: reader
       integer, intent(in) :: place
       type(axle_t), intent(in) :: axle
@@ -273,7 +273,7 @@ contains
 
    !> Computes −Zf/Zw of brakes and of drive, per unit of the whole force on the vehicle, and the wheel travel per g.
    !>
-   !> Braking with a force 1 rearward: this axle's wheels carry half its share each, at the patch, and the load
+   !> Braking with a force 1 rearward: this axle's wheels carry half its share each, at the contact point, and the load
    !> transfer h/2L more (front) or less (rear). Driving with a force 1 forward: with opposite signs, at the
    !> centre or the patch. Zf, Zw: upward displacement of the wheel centres under the force and under the load transfer; their
    !> sum times the weight of the car is the travel per g.

@@ -34,7 +34,7 @@ contains
    !> Computes the values of wheel_axis: side view, distances from the steering axis of the deck, spin axis.
    pure subroutine axis_geometry(now, frame, values)
       type(attitude_t), intent(in) :: now
-      real(wp), intent(in) :: frame(3)              !! from the frame of the program to that of the deck
+      real(wp), intent(in) :: frame(3)              !! from the program's frame to the deck's frame
       real(wp), intent(inout) :: values(8)
 
       values(1) = now%side_view

@@ -108,7 +108,7 @@ module ek_suspension
    contains
       procedure :: unknowns                    !! 6 × bodies
       procedure :: constraints                 !! number of rows
-      procedure :: own_rows                    !! number of rows without those of the rig
+      procedure :: own_rows                    !! number of rows without the rows of the rig
    end type suspension_t
 
 contains

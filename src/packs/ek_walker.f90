@@ -43,7 +43,7 @@ module ek_walker
       type(pack_t) :: pack
       type(predictor_t) :: history               !! places of the stored states; their numbers are in the pack
       type(branch_t) :: branch(lanes)            !! of each design, where it goes a step alone
-      logical :: is_fresh(lanes) = .false.       !! the branch is that of the present design
+      logical :: is_fresh(lanes) = .false.       !! the branch belongs to the present design
       type(state_t) :: state
       type(place_t), allocatable :: places(:)    !! of each design; kept as work space
       real(wp) :: tolerance = 0.0_wp             !! of the present designs [m]

@@ -16,7 +16,7 @@ module ek_step_page
    private
    public :: step_page, step_script, figure_ending
 
-   character(*), parameter :: figure_ending = '_steps'     !! of the name of the figure, after that of the study
+   character(*), parameter :: figure_ending = '_steps'     !! appended to the name of the study
 
    !> The errors and their names.
    integer, parameter :: errors = 4

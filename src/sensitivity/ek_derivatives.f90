@@ -66,7 +66,7 @@ contains
    subroutine begin_derivatives(workspace, k, columns, directions, self)
       type(workspace_t), intent(in) :: workspace          !! the case was solved at its present numbers (solve_case_fully)
       integer, intent(in) :: k                             !! the case, not refused by refuse_case
-      character(*), intent(in) :: columns(:)               !! of the table of the case, or of that of its compliance matrix
+      character(*), intent(in) :: columns(:)               !! of the table of the case, or of the table of its compliance matrix
       type(direction_t), intent(in) :: directions(:)
       type(derivatives_t), intent(out) :: self
 
