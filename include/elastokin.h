@@ -65,7 +65,7 @@ int ek_wheel_count(ek_model *model);                /* 0, 1 or 2; left before ri
  * deck from them, for instance in another process. */
 int ek_copy(ek_model *model, ek_model **copy);
 int ek_file_count(ek_model *model);
-const char *ek_file_path(ek_model *model, int k);   /* path as in the deck; NULL outside the list */
+const char *ek_file_path(ek_model *model, int k);   /* path from which it was read; NULL outside the list */
 const char *ek_file_text(ek_model *model, int k);
 int ek_open_files(int n, const char *const *paths, const char *const *texts, ek_model **model);  /* the first: the deck */
 /* The deck with its present numbers as one string. Opened again, this string gives the same results. It contains the
@@ -115,7 +115,7 @@ int ek_case_is_of_deck(ek_model *model, int k);
  * them. name NULL or "" selects the first case. n_columns 0 computes all columns. Otherwise the columns are `state`,
  * `factor`, the given columns (in the order of the program's tables), and the last columns on convergence. */
 int ek_solve(ek_model *model, const char *name, int n_columns, const char *const *columns);
-int ek_row_count(ek_model *model);                  /* states of the last solution; 0 before the first solution */
+int ek_row_count(ek_model *model);                  /* states of the last solution; 0 if there is none */
 int ek_column_count(ek_model *model);
 const char *ek_column_name(ek_model *model, int k);          /* "left_toe_deg" */
 const char *ek_column_unit(ek_model *model, int k);          /* "deg" */
