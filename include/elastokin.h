@@ -4,7 +4,7 @@
  *
  *     ek_model *m;
  *     if (ek_open_file("axle.nml", &m) != EK_OK) puts(ek_message(m));      m exists also after an error
- *     ek_set(m, "bushing.lca_front.kt(1)", 500.0);                         in the unit of the deck, as --set
+ *     ek_set(m, "bushing.lca_front.kt(1)", 500.0);                         path as in --set, unit of the deck
  *     if (ek_solve(m, "parallel_travel", 0, NULL) == EK_OK) ...
  *     ek_close(m);
  *
@@ -13,9 +13,9 @@
  * no state is shared. Each handle may be used by one thread at a time, and different handles by different threads.
  *
  * Counts and positions are int, and positions begin with 0. Strings are UTF-8 and end with '\0'. A string that a
- * function returns belongs to the handle. It stays valid until 16 further strings were returned by the handle
- * (ek_message: until the next call). Parameters are in the units of the deck. Results are in the unit that ends the
- * name of their column. Compliances are in SI. Missing numbers are NaN. Signs and frames: input/QUANTITIES.md.
+ * function returns belongs to the handle. It stays valid until the handle has returned 16 further strings. The string
+ * of ek_message stays valid until the next call. Parameters are in the units of the deck. Results are in the unit at
+ * the end of the column name. Compliances are in SI. Missing numbers are NaN. Signs and frames: input/QUANTITIES.md.
  *
  * Compatibility: functions and codes of this file keep names, arguments and meaning as long as the SONAME
  * (libelastokin.so.0) stays. New functions may be added; their symbols then carry the version in which they were
@@ -34,27 +34,28 @@ enum {
   EK_USAGE = 1,       /* an unknown name, path, case or column; a position outside the list; a value that is not a
                          finite number; in ek_set_text a value of the wrong type; a null pointer where this file does
                          not allow one */
-  EK_DECK = 2,        /* errors of the deck, or a number outside its legal range: all of them in the message */
+  EK_DECK = 2,        /* errors of the deck, or numbers outside their legal ranges; the message lists all of them */
   EK_MODEL = 3,       /* a mechanism, or redundant constraints: nothing was solved */
   EK_CONVERGENCE = 4, /* some states did not converge. Their rows have converged = 0 and NaN, and key numbers that need
-                         them are NaN. The others are valid */
+                         them are NaN. The other rows and key numbers are valid */
   EK_FILE = 5         /* a file cannot be read, or memory does not suffice */
 };
 
 /* ---- the library ---- */
 const char *ek_version(void);                       /* version of the library, as "0.1.0" */
-/* Sets the OpenBLAS of this process to one thread, if it is the LAPACK. Matrices are small here, and threads would only
- * wait. Other users of OpenBLAS in this process are affected. */
+/* If OpenBLAS provides LAPACK, sets OpenBLAS to one thread in this process. The matrices are too small to benefit from
+ * several threads. Other users of OpenBLAS in this process are affected. */
 int ek_use_one_thread(void);
 
 /* ---- a model ---- */
 int ek_open_file(const char *path, ek_model **model);                       /* reads a deck */
-/* Reads a deck from a string. name is used in messages, and its folder is that of included files. NULL: "deck" */
+/* Reads a deck from a string. name is the file name in messages, and included files are relative to the folder of name.
+ * NULL means "deck". */
 int ek_open_text(const char *text, const char *name, ek_model **model);
 void ek_close(ek_model *model);                     /* NULL is allowed */
 const char *ek_message(ek_model *model);            /* message of the last call; "" if it succeeded */
 const char *ek_name(ek_model *model);               /* name of the model */
-const char *ek_checksum(ek_model *model);           /* of the deck with its present numbers, 16 hexadecimal digits */
+const char *ek_checksum(ek_model *model);           /* checksum of the deck with its present numbers, 16 hex digits */
 int ek_wheel_count(ek_model *model);                /* 0, 1 or 2; left before right */
 
 /* ---- copies ----
@@ -64,12 +65,12 @@ int ek_wheel_count(ek_model *model);                /* 0, 1 or 2; left before ri
  * deck from them, for instance in another process. */
 int ek_copy(ek_model *model, ek_model **copy);
 int ek_file_count(ek_model *model);
-const char *ek_file_path(ek_model *model, int k);   /* as it was read; NULL outside the list */
+const char *ek_file_path(ek_model *model, int k);   /* path from which it was read; NULL outside the list */
 const char *ek_file_text(ek_model *model, int k);
 int ek_open_files(int n, const char *const *paths, const char *const *texts, ek_model **model);  /* the first: the deck */
-/* The deck with its present numbers as one string, which gives the same results. Included files, hardpoints, property
- * files, both sides and changes are written out, load tables by their whole paths. NULL with a message if the numbers
- * do not define a valid model. */
+/* The deck with its present numbers as one string. Opened again, this string gives the same results. It contains the
+ * contents of included files, hardpoints and property files, both sides of a mirrored axle, and all changes. Load
+ * tables are given by absolute paths. NULL with a message if the numbers do not define a valid model. */
 const char *ek_deck_as_used(ek_model *model);
 
 /* ---- remarks on the model ----
@@ -82,39 +83,39 @@ const char *ek_model_remark_text(ek_model *model, int k);
 const char *ek_model_remark_severity(ek_model *model, int k);      /* "note", "warning" or "failure" */
 
 /* ---- parameters: every number of the deck ----
- * A number outside its legal range (input/README.md) is rejected when it is set. The code is EK_DECK, and no number is
- * changed, also not in ek_set_all. Legal numbers that together do not define a valid model (two points that coincide, a
- * case from 1 to 1) are stored; ek_solve and ek_numbers report them. ek_set_text reads the deck again and rejects every
- * error. */
+ * A number outside its legal range (input/README.md) is rejected when it is set. The code is EK_DECK. No number is then
+ * changed, and ek_set_all changes none of its numbers. Legal numbers that together do not define a valid model (two
+ * points that coincide, a case from 1 to 1) are stored; ek_solve and ek_numbers report them. ek_set_text reads the deck
+ * again and rejects every error. */
 int ek_parameter_count(ek_model *model);
 const char *ek_parameter_path(ek_model *model, int k);       /* "bushing.lca_front.kt(1)"; NULL outside the range */
 const char *ek_parameter_unit(ek_model *model, int k);       /* "N/mm"; "" without dimension */
 int ek_parameter_is_given(ek_model *model, int k);           /* 1: the deck gives it; 0: it has its default */
 int ek_parameter_twin(ek_model *model, int k);               /* mirrored axle: position of the same number on the left
-                                                                side; -1 without one */
+                                                                side; -1: there is no such number */
 int ek_get_at(ek_model *model, int k, double *value);
 int ek_set_at(ek_model *model, int k, double value);
 int ek_get_all(ek_model *model, int n, double *values);      /* n must be ek_parameter_count */
 int ek_set_all(ek_model *model, int n, const double *values);
 int ek_get(ek_model *model, const char *path, double *value);    /* NaN if the path leads to several different numbers */
-int ek_set(ek_model *model, const char *path, double value);     /* path as --set: both sides of a mirrored axle,
-                                                                    * for any letters */
+int ek_set(ek_model *model, const char *path, double value);     /* path as in --set: it may lead to both sides of a
+                                                                   mirrored axle; * stands for any letters */
 int ek_set_text(ek_model *model, const char *path, const char *text);  /* "*1.1", "+2", or a string */
-int ek_reset(ek_model *model);                      /* resets all numbers and strings as opened */
+int ek_reset(ek_model *model);                      /* resets all numbers and strings to their values when opened */
 
 /* ---- cases ----
- * The cases of the deck come first, then the standard tests that it does not have. The grid travel_and_steering is
- * among these with a &steering group. */
+ * The cases of the deck come first. The standard tests that the deck does not define follow. They include the grid
+ * travel_and_steering if the deck has a &steering group. */
 int ek_case_count(ek_model *model);
 const char *ek_case_name(ek_model *model, int k);
 int ek_case_is_of_deck(ek_model *model, int k);
 
 /* ---- solving ----
- * The results stay until the next solution, also when numbers or strings are changed, reset, or key numbers are read.
- * name NULL or "" is the first case. n_columns 0 computes all columns. Otherwise the columns are `state`, `factor`, the
- * given ones (in the order of the program's tables), and the last columns on convergence. */
+ * The results stay valid until the next ek_solve. Changing or resetting numbers and reading key numbers do not affect
+ * them. name NULL or "" selects the first case. n_columns 0 computes all columns. Otherwise the columns are `state`,
+ * `factor`, the given columns (in the order of the program's tables), and the last columns on convergence. */
 int ek_solve(ek_model *model, const char *name, int n_columns, const char *const *columns);
-int ek_row_count(ek_model *model);                  /* states of the last solution; 0 without one */
+int ek_row_count(ek_model *model);                  /* states of the last solution; 0 if there is none */
 int ek_column_count(ek_model *model);
 const char *ek_column_name(ek_model *model, int k);          /* "left_toe_deg" */
 const char *ek_column_unit(ek_model *model, int k);          /* "deg" */
@@ -126,31 +127,32 @@ int ek_remark_count(ek_model *model);               /* notes, warnings and failu
 const char *ek_remark_text(ek_model *model, int k);
 const char *ek_remark_severity(ek_model *model, int k);      /* "note", "warning" or "failure" */
 
-/* Compliance matrix at a state of the last solution: 6 x wheels squared, row after row. Rows are displacements and
- * rotations of each wheel centre (x y z [m], rx ry rz [rad]), columns the loads there (fx fy fz [N], mx my mz [N m]).
- * Both are in the frame of the deck. The vertical force on all wheels is held. EK_USAGE after ek_numbers of numbers
- * that were changed since the solution. */
+/* Compliance matrix at a state of the last solution, row after row; both dimensions are 6 x wheels. Rows are
+ * displacements and rotations of each wheel centre (x y z [m], rx ry rz [rad]), columns the loads at the wheel centres
+ * (fx fy fz [N], mx my mz [N m]). Both are in the frame of the deck. The vertical force on all wheels is held. EK_USAGE
+ * if numbers were changed after the solution and ek_numbers was then called. */
 int ek_compliance(ek_model *model, int row, int n, double *values);
 
 /* Exact derivatives of columns in a row of the last solution with respect to numbers of the deck [unit of the column
  * per unit of the number]: n_columns x n_numbers, a row for each column. Nothing is solved again. The motion of the
  * state, static equilibrium and balance are included. Requires method equilibrium.
- *   columns: columns of the case, whether asked in ek_solve or not, or entries of the compliance matrix (as in the
- *            files of run --compliance)
- *   paths:   as in ek_set, each of one number, or of both sides of a mirrored axle
+ *   columns: columns of the case (ek_solve need not have computed them), or entries of the compliance matrix (names as
+ *            in the files of run --compliance)
+ *   paths:   as in ek_set; each path leads to one number, or to this number on both sides of a mirrored axle
  *   errors:  estimates of the errors, or NULL
- * NaN: the state did not converge, the column has no value there, or the number cannot move. A second call with these
- * columns and paths, of another design, is faster. */
+ * NaN: the state did not converge, the column has no value at the state, or the number cannot be changed. A further
+ * call with the same columns and paths is faster, also after numbers were changed. */
 int ek_derivatives(ek_model *model, int row, int n_columns, const char *const *columns, int n_numbers, const char *const *paths,
                    double *values, double *errors);
 
 /* ---- key numbers, as in key_numbers.csv of the report ----
- * ek_numbers gives the numbers with these names, and solves only the tests that they need. On an axle a name begins
- * with left_ or right_, unless the number is one of the axle. The last solution (ek_values) is not changed.
- * EK_CONVERGENCE: some numbers are NaN, because they need a state that was not found (states outside the window of a
- * slope do not matter) or because the model does not define them. The message names them. The others are valid. */
+ * ek_numbers gives the numbers with these names, and solves only the tests that they need. In a model of an axle the
+ * name of a wheel's number begins with left_ or right_; the name of an axle number does not. The last solution
+ * (ek_values) is not changed. EK_CONVERGENCE: some numbers are NaN, because they need a state that was not found
+ * (states outside the window of a slope do not matter) or because the model does not define them. The message names
+ * them. The other numbers are valid. */
 int ek_numbers(ek_model *model, int n, const char *const *names, double *values);
-int ek_number_count(ek_model *model);               /* all names; solves nothing, so one of them may have no value */
+int ek_number_count(ek_model *model);               /* all names; solves nothing; some numbers may have no value */
 const char *ek_number_name(ek_model *model, int k);
 const char *ek_number_unit(ek_model *model, int k);
 const char *ek_number_definition(ek_model *model, int k);

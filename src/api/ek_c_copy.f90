@@ -12,6 +12,7 @@ module ek_c_copy
 
 contains
 
+   !> Exit code after copying a deck, with its changes, into a new handle (elastokin.h).
    integer(c_int) function ek_copy(model, copy) bind(c) result(code)
       type(c_ptr), value :: model
       type(c_ptr), value :: copy                   !! where the handle is to be stored
@@ -29,6 +30,7 @@ contains
       other%is_open = code == ek_ok
    end function ek_copy
 
+   !> Number of files of the deck: the deck and all files that it names.
    integer(c_int) function ek_file_count(model) bind(c) result(count)
       type(c_ptr), value :: model
       type(handle_t), pointer :: handle
@@ -38,12 +40,14 @@ contains
       if (associated(handle)) count = int(handle%session%original%kept%count(), c_int)
    end function ek_file_count
 
+   !> Path of file k, from 0, as a C string; NULL outside the list.
    type(c_ptr) function ek_file_path(model, k) bind(c) result(address)
       type(c_ptr), value :: model
       integer(c_int), value :: k
       address = text_of_file(open_handle(model), k, .true.)
    end function ek_file_path
 
+   !> Content of file k, from 0, as a C string; NULL outside the list.
    type(c_ptr) function ek_file_text(model, k) bind(c) result(address)
       type(c_ptr), value :: model
       integer(c_int), value :: k
@@ -68,6 +72,7 @@ contains
       !$omp end critical (ek_words)
    end function text_of_file
 
+   !> Exit code after reading a deck from given file contents into a new handle (elastokin.h).
    integer(c_int) function ek_open_files(n, paths, texts, model) bind(c) result(code)
       integer(c_int), value :: n
       type(c_ptr), value :: paths, texts
@@ -104,6 +109,7 @@ contains
       handle%is_open = code == ek_ok
    end function ek_open_files
 
+   !> The deck with its present numbers as one C string; NULL if the model is not valid.
    type(c_ptr) function ek_deck_as_used(model) bind(c) result(address)
       type(c_ptr), value :: model
       type(handle_t), pointer :: handle

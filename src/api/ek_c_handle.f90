@@ -41,7 +41,7 @@ module ek_c_handle
 
 contains
 
-   !> The handle behind the pointer of a caller; not associated for NULL.
+   !> The handle to which the pointer of a caller points; not associated for NULL.
    function handle_of(model) result(handle)
       type(c_ptr), intent(in) :: model
       type(handle_t), pointer :: handle

@@ -15,10 +15,12 @@ module ek_c_model
 
 contains
 
+   !> Version of the library as a C string.
    type(c_ptr) function ek_version_text() bind(c, name='ek_version') result(address)
       address = c_loc(version_text)
    end function ek_version_text
 
+   !> Exit code after setting OpenBLAS to one thread (elastokin.h).
    integer(c_int) function ek_use_one_thread() bind(c) result(code)
       type(error_t), allocatable :: error
 
@@ -29,6 +31,7 @@ contains
       if (allocated(error)) code = int(error%code, c_int)
    end function ek_use_one_thread
 
+   !> Exit code after reading a deck from a file into a new handle (elastokin.h).
    integer(c_int) function ek_open_file(path, model) bind(c) result(code)
       type(c_ptr), value :: path
       type(c_ptr), value :: model                  !! where the handle is to be stored
@@ -50,6 +53,7 @@ contains
       handle%is_open = code == ek_ok
    end function ek_open_file
 
+   !> Exit code after reading a deck from a string into a new handle (elastokin.h).
    integer(c_int) function ek_open_text(text, name, model) bind(c) result(code)
       type(c_ptr), value :: text, name
       type(c_ptr), value :: model                  !! where the handle is to be stored
@@ -93,6 +97,7 @@ contains
       place = c_loc(handle)
    end subroutine new_handle
 
+   !> Closes a handle; does nothing for NULL (elastokin.h).
    subroutine ek_close(model) bind(c)
       type(c_ptr), value :: model
       type(handle_t), pointer :: handle
@@ -101,6 +106,7 @@ contains
       if (associated(handle)) deallocate (handle)
    end subroutine ek_close
 
+   !> Message of the last call as a C string; empty if the call succeeded.
    type(c_ptr) function ek_message(model) bind(c) result(address)
       type(c_ptr), value :: model
       character(len=22, kind=c_char), save, target :: no_model = 'there is no ek_model '//c_null_char      ! never changed
@@ -111,6 +117,7 @@ contains
       if (associated(handle)) address = c_loc(handle%message)
    end function ek_message
 
+   !> Name of the model as a C string.
    type(c_ptr) function ek_name(model) bind(c) result(address)
       type(c_ptr), value :: model
       type(handle_t), pointer :: handle
@@ -121,6 +128,7 @@ contains
       address = say(handle, handle%session%workspace%raw%name)
    end function ek_name
 
+   !> Checksum of the deck with its present numbers as a C string.
    type(c_ptr) function ek_checksum(model) bind(c) result(address)
       type(c_ptr), value :: model
       type(handle_t), pointer :: handle

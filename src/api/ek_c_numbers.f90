@@ -14,6 +14,7 @@ module ek_c_numbers
 
 contains
 
+   !> Exit code after computing the key numbers with these names (elastokin.h).
    integer(c_int) function ek_numbers(model, n, names, values) bind(c) result(code)
       type(c_ptr), value :: model, names, values
       integer(c_int), value :: n
@@ -35,6 +36,7 @@ contains
       code = finish(handle, error)
    end function ek_numbers
 
+   !> Number of key numbers that the model may have; nothing is solved.
    integer(c_int) function ek_number_count(model) bind(c) result(count)
       type(c_ptr), value :: model
       type(handle_t), pointer :: handle
@@ -46,18 +48,21 @@ contains
       count = int(handle%number_names%count(), c_int)
    end function ek_number_count
 
+   !> Name of key number k, from 0, as a C string; NULL outside the list.
    type(c_ptr) function ek_number_name(model, k) bind(c) result(address)
       type(c_ptr), value :: model
       integer(c_int), value :: k
       address = text_of_number(open_handle(model), k, 'name')
    end function ek_number_name
 
+   !> Unit of key number k, from 0, as a C string; NULL outside the list.
    type(c_ptr) function ek_number_unit(model, k) bind(c) result(address)
       type(c_ptr), value :: model
       integer(c_int), value :: k
       address = text_of_number(open_handle(model), k, 'unit')
    end function ek_number_unit
 
+   !> Definition of key number k, from 0, as a C string; NULL outside the list.
    type(c_ptr) function ek_number_definition(model, k) bind(c) result(address)
       type(c_ptr), value :: model
       integer(c_int), value :: k

@@ -32,6 +32,7 @@ contains
       if (present(code)) code = found
    end function handle_at
 
+   !> Number of parameters of the deck.
    integer(c_int) function ek_parameter_count(model) bind(c) result(count)
       type(c_ptr), value :: model
       type(handle_t), pointer :: handle
@@ -41,6 +42,7 @@ contains
       if (associated(handle)) count = int(size(handle%session%numbers%x), c_int)
    end function ek_parameter_count
 
+   !> Path of parameter k, from 0, as a C string; NULL outside the list.
    type(c_ptr) function ek_parameter_path(model, k) bind(c) result(address)
       type(c_ptr), value :: model
       integer(c_int), value :: k
@@ -56,6 +58,7 @@ contains
       end associate
    end function ek_parameter_path
 
+   !> Unit of parameter k, from 0, as a C string; empty without dimension.
    type(c_ptr) function ek_parameter_unit(model, k) bind(c) result(address)
       type(c_ptr), value :: model
       integer(c_int), value :: k
@@ -69,6 +72,7 @@ contains
       !$omp end critical (ek_words)
    end function ek_parameter_unit
 
+   !> 1 if the deck gives parameter k, from 0; 0 if the parameter has its default.
    integer(c_int) function ek_parameter_is_given(model, k) bind(c) result(answer)
       type(c_ptr), value :: model
       integer(c_int), value :: k
@@ -79,6 +83,7 @@ contains
       if (associated(handle)) answer = merge(1_c_int, 0_c_int, handle%session%workspace%design%parameters%list(k + 1)%is_given)
    end function ek_parameter_is_given
 
+   !> Position of the same number on the left side of a mirrored axle; -1: there is none.
    integer(c_int) function ek_parameter_twin(model, k) bind(c) result(twin)
       type(c_ptr), value :: model
       integer(c_int), value :: k
@@ -89,6 +94,7 @@ contains
       if (associated(handle)) twin = int(handle%session%workspace%design%parameters%list(k + 1)%tied, c_int) - 1_c_int
    end function ek_parameter_twin
 
+   !> Exit code after reading parameter k, from 0, in the unit of the deck.
    integer(c_int) function ek_get_at(model, k, value) bind(c) result(code)
       type(c_ptr), value :: model
       integer(c_int), value :: k

@@ -11,6 +11,7 @@ module ek_c_remarks
 
 contains
 
+   !> Exit code after examining the model; `count` receives the number of remarks.
    integer(c_int) function ek_model_remarks_c(model, count) bind(c, name='ek_model_remarks') result(code)
       type(c_ptr), value :: model, count
       type(handle_t), pointer :: handle
@@ -26,12 +27,14 @@ contains
       code = finish(handle, error)
    end function ek_model_remarks_c
 
+   !> Text of remark k on the model, from 0, as a C string; NULL outside the list.
    type(c_ptr) function ek_model_remark_text(model, k) bind(c) result(address)
       type(c_ptr), value :: model
       integer(c_int), value :: k
       address = text_of_remark(open_handle(model), k, is_severity=.false.)
    end function ek_model_remark_text
 
+   !> Severity of remark k on the model, from 0, as a C string: note, warning or failure.
    type(c_ptr) function ek_model_remark_severity(model, k) bind(c) result(address)
       type(c_ptr), value :: model
       integer(c_int), value :: k

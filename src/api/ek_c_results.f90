@@ -18,6 +18,7 @@ module ek_c_results
 
 contains
 
+   !> Exit code after solving a case (elastokin.h).
    integer(c_int) function ek_solve(model, name, n_columns, columns) bind(c) result(code)
       type(c_ptr), value :: model, name, columns
       integer(c_int), value :: n_columns
@@ -60,6 +61,7 @@ contains
       if (code == ek_ok .and. .not. associated(last)) code = refuse(handle, 'there is no solution')
    end subroutine take_solution
 
+   !> Number of states of the last solution; 0 without a solution.
    integer(c_int) function ek_row_count(model) bind(c) result(count)
       type(c_ptr), value :: model
       type(case_result_t), pointer :: last
@@ -69,6 +71,7 @@ contains
       if (associated(last)) count = int(size(last%table%values, 2), c_int)
    end function ek_row_count
 
+   !> Number of columns of the last solution; 0 without a solution.
    integer(c_int) function ek_column_count(model) bind(c) result(count)
       type(c_ptr), value :: model
       type(case_result_t), pointer :: last
@@ -78,24 +81,28 @@ contains
       if (associated(last)) count = int(size(last%table%values, 1), c_int)
    end function ek_column_count
 
+   !> Name of column k, from 0, as a C string; NULL outside the table.
    type(c_ptr) function ek_column_name(model, k) bind(c) result(address)
       type(c_ptr), value :: model
       integer(c_int), value :: k
       address = text_of_column(open_handle(model), k, 'name')
    end function ek_column_name
 
+   !> Unit of column k, from 0, as a C string; NULL outside the table.
    type(c_ptr) function ek_column_unit(model, k) bind(c) result(address)
       type(c_ptr), value :: model
       integer(c_int), value :: k
       address = text_of_column(open_handle(model), k, 'unit')
    end function ek_column_unit
 
+   !> Title of column k, from 0, as a C string; empty if the column has no title.
    type(c_ptr) function ek_column_title(model, k) bind(c) result(address)
       type(c_ptr), value :: model
       integer(c_int), value :: k
       address = text_of_column(open_handle(model), k, 'title')
    end function ek_column_title
 
+   !> Sign convention of column k, from 0, as a C string; empty if the column has none.
    type(c_ptr) function ek_column_sign(model, k) bind(c) result(address)
       type(c_ptr), value :: model
       integer(c_int), value :: k
@@ -134,6 +141,7 @@ contains
       !$omp end critical (ek_words)
    end function text_of_column
 
+   !> Exit code after copying the table of the last solution, row after row.
    integer(c_int) function ek_values(model, n, values) bind(c) result(code)
       type(c_ptr), value :: model, values
       integer(c_int), value :: n

@@ -144,7 +144,7 @@ contains
       type(design_numbers_t), intent(in) :: numbers
       integer, intent(in) :: setting
       real(wp), intent(in) :: value                       !! in the unit of the deck
-      type(parameters_t), intent(in) :: parameters        !! of begin_numbers
+      type(parameters_t), intent(in) :: parameters        !! prepared by begin_numbers
       integer :: j
 
       is_legal_path = .true.
@@ -160,7 +160,7 @@ contains
       type(design_numbers_t), intent(in) :: numbers
       integer, intent(in) :: k
       real(wp), intent(in) :: value                       !! in the unit of the deck
-      type(parameters_t), intent(in) :: parameters        !! of begin_numbers
+      type(parameters_t), intent(in) :: parameters        !! prepared by begin_numbers
 
       is_legal_at = abs(value) < number_limit
       if (is_legal_at) is_legal_at = is_inside(parameters%list(k)%range, value*numbers%unit(k))
@@ -183,7 +183,7 @@ contains
    !> Makes the settings in a deck, in the order in which they were made.
    subroutine apply_settings(numbers, design, deck, error)
       type(design_numbers_t), intent(in) :: numbers
-      type(design_t), intent(in) :: design                 !! of begin_numbers
+      type(design_t), intent(in) :: design                 !! prepared by begin_numbers
       type(deck_t), intent(inout) :: deck
       type(error_t), allocatable, intent(out) :: error     !! exit_usage
       integer :: turn, k, s

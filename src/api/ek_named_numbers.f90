@@ -89,7 +89,7 @@ contains
       if (.not. is_complete) call explain_unknown(names, suspension, cases, error)
    end subroutine prepare_numbers
 
-   !> Adds what a number needs of its cases.
+   !> Adds the columns and states that a number needs from its cases.
    subroutine add_needs(number, suspension, cases, tests, needed, reach)
       type(key_number_t), intent(in) :: number
       type(suspension_t), intent(in) :: suspension

@@ -69,7 +69,7 @@ contains
    subroutine open_file(path, session, error)
       character(*), intent(in) :: path
       type(session_t), intent(inout) :: session
-      type(error_t), allocatable, intent(out) :: error     !! exit_file, exit_deck: every mistake of the deck
+      type(error_t), allocatable, intent(out) :: error     !! exit_file, exit_deck: every error of the deck
 
       call empty_session(session)
       !$omp critical (ek_words)
@@ -81,9 +81,9 @@ contains
    !> Opens a deck that is given as text.
    subroutine open_text(text, name, session, error)
       character(*), intent(in) :: text
-      character(*), intent(in) :: name                     !! for messages; its folder is that of included files and load tables
+      character(*), intent(in) :: name                     !! for messages; its folder contains included files and load tables
       type(session_t), intent(inout) :: session
-      type(error_t), allocatable, intent(out) :: error     !! exit_deck: every mistake of the deck
+      type(error_t), allocatable, intent(out) :: error     !! exit_deck: every error of the deck
 
       call empty_session(session)
       !$omp critical (ek_words)
@@ -96,7 +96,7 @@ contains
    subroutine open_deck(deck, session, error)
       type(deck_t), intent(in) :: deck
       type(session_t), intent(inout) :: session
-      type(error_t), allocatable, intent(out) :: error     !! exit_deck: every mistake of the deck
+      type(error_t), allocatable, intent(out) :: error     !! exit_deck: every error of the deck
       type(deck_t) :: copy
 
       !$omp critical (ek_words)
@@ -109,7 +109,7 @@ contains
    subroutine take_deck(deck, session, error)
       type(deck_t), intent(inout) :: deck
       type(session_t), intent(inout) :: session
-      type(error_t), allocatable, intent(out) :: error     !! exit_deck: every mistake of the deck
+      type(error_t), allocatable, intent(out) :: error     !! exit_deck: every error of the deck
 
       call empty_session(session)
       !$omp critical (ek_words)
@@ -346,7 +346,7 @@ contains
       call fail(error, exit_deck, lines%text())
    end subroutine refuse_all
 
-   !> Resets all numbers and texts as opened.
+   !> Resets all numbers and strings to their values when the deck was opened.
    subroutine reset(session, error)
       type(session_t), intent(inout) :: session
       type(error_t), allocatable, intent(out) :: error

@@ -1,6 +1,6 @@
 !> A deck opened for a program that calls elastokin: copies of it. Part of the Fortran interface (ek_api).
 !>
-!> A copy is what was opened: no file is read again, so that it has the same checksum whatever has become of the files since.
+!> A copy is the deck as opened: no file is read again, so that it has the same checksum even if the files have changed since.
 module ek_session_copy
    use ek_error, only: error_t, fail, exit_usage
    use ek_kept_files, only: kept_files_t
@@ -46,7 +46,7 @@ contains
    subroutine open_files(files, session, error)
       type(kept_files_t), intent(in) :: files              !! the first is the deck
       type(session_t), intent(inout) :: session
-      type(error_t), allocatable, intent(out) :: error     !! exit_usage, exit_deck: every mistake of the deck
+      type(error_t), allocatable, intent(out) :: error     !! exit_usage, exit_deck: every error of the deck
 
       call empty_session(session)
       if (files%count() == 0) then

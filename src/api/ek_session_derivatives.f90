@@ -129,7 +129,7 @@ contains
       session%derived%derivatives%case = 0        ! kept as room; is_prepared knows that it is no answer
    end subroutine prepare
 
-   !> Finds the direction of each path; a path that leads to several is an error.
+   !> Finds the direction of each path; a path that leads to several directions is an error.
    subroutine place_paths(workspace, session, paths, directions, place, mistakes)
       class(workspace_t), intent(in) :: workspace
       type(session_t), intent(in) :: session

@@ -22,8 +22,8 @@ module ek_session_solution
 
 contains
 
-   !> Solves a case at the present numbers: of the deck, or a standard test. Its table has all columns, or `state`, `factor`, those named
-   !> (in the order of the program's tables) and the last ones on convergence.
+   !> Solves a case of the deck or a standard test at the present numbers. The table has all columns, or `state`, `factor`, the
+   !> named columns (in the order of the program's tables) and the last columns on convergence.
    subroutine solve(session, name, error, columns)
       type(session_t), intent(inout) :: session
       character(*), intent(in) :: name                         !! '': the first case of the deck
@@ -157,7 +157,7 @@ contains
    end subroutine end_solution
 
    !> The last solution: result%table has the columns, one row per state; result%remarks the notes, warnings and failures.
-   !> Not associated if there is no solution.
+   !> The pointer is not associated if there is no solution.
    function result_of(session) result(last)
       type(session_t), intent(inout), target :: session
       type(case_result_t), pointer :: last
@@ -192,7 +192,7 @@ contains
       state_of_row = nint(result%table%values(column_index(result%table, 'state'), row)) + 1
    end function state_of_row
 
-   !> Rejects calls on the last solution where key numbers were read of other numbers since: its model then has those.
+   !> Rejects calls on the last solution if key numbers were since read at changed numbers: the model then has the changed numbers.
    subroutine refuse_other_numbers(session, error)
       type(session_t), intent(in) :: session
       type(error_t), allocatable, intent(out) :: error     !! exit_usage

@@ -8,7 +8,7 @@ module ek_error
    public :: exit_usage, exit_deck, exit_model, exit_convergence, exit_file, exit_stopped
 
    integer, parameter :: exit_usage = 1        !! wrong command line
-   integer, parameter :: exit_deck = 2         !! mistakes in a deck
+   integer, parameter :: exit_deck = 2         !! errors in a deck
    integer, parameter :: exit_model = 3        !! mechanism or redundant constraint
    integer, parameter :: exit_convergence = 4  !! a state did not converge; the converged states are written
    integer, parameter :: exit_file = 5         !! a file cannot be read or written

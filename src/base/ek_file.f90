@@ -136,7 +136,7 @@ contains
       if (status /= 0) reason = trim(adjustl(words(index(trim(words), ': ', back=.true.) + 1:)))
    end subroutine read_regular
 
-   !> Creates a folder and its parents. In an existing folder, temporary files left by dead runs are removed.
+   !> Creates a folder and its parents. In an existing folder, temporary files of terminated runs are removed.
    subroutine make_folder(path, error)
       character(*), intent(in) :: path
       type(error_t), allocatable, intent(out) :: error       !! exit_file, with path and reason

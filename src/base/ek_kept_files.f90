@@ -1,4 +1,4 @@
-!> The content of files that were read once: who reads one of them again gets the same bytes, whatever has become of the file since.
+!> The content of files that were read once: a second read of a file returns the stored bytes, even if the file has changed.
 module ek_kept_files
    use ek_error, only: error_t
    use ek_file, only: read_whole
@@ -58,7 +58,7 @@ contains
       end do
    end function place
 
-   !> Adds a file, unless its path is there.
+   !> Adds a file, unless its path is already stored.
    pure subroutine add_file(files, path, text)
       type(kept_files_t), intent(inout) :: files
       character(*), intent(in) :: path, text
@@ -71,7 +71,7 @@ contains
       files%list(files%used)%text = text
    end subroutine add_file
 
-   !> Reads a file and adds it. One that cannot be read is not added: whoever reads it reports the reason.
+   !> Reads a file and adds it. A file that cannot be read is not added; its reader reports the reason.
    subroutine keep_file(files, path)
       type(kept_files_t), intent(inout) :: files
       character(*), intent(in) :: path

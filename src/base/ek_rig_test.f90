@@ -39,8 +39,8 @@ module ek_rig_test
       character(19) :: name = ''
       integer :: action = 0                  !! one of those above; 0: no test of the rig
       integer :: charts = of_none            !! set of charts and gradients
-      character(6) :: control = ''           !! how the wheels are held, unless the case says otherwise
-      character(3) :: unit = '-'             !! of the swept value: mm, deg, N, N m or '' for that of the steered joint
+      character(6) :: control = ''           !! how the wheels are held, unless the case gives it
+      character(3) :: unit = '-'             !! of the swept value: mm, deg, N, N m or '' for the unit of the steered joint
       character(45) :: place_name = ''       !! of the swept value
       character(18) :: abscissa = 'wheel_travel_mm'    !! column over which the charts are drawn and the gradients fitted
       character(56) :: label = 'wheel travel [mm]    (+ bump)'   !! of the abscissa
@@ -49,7 +49,7 @@ module ek_rig_test
       real(wp) :: moment(3) = 0.0_wp
       logical :: is_at_centre = .false.      !! the force acts at the wheel centre, except in a solid axle that takes the torque
       logical :: has_phase = .false.         !! the load on the right wheel may be reversed
-      logical :: has_trail = .false.         !! the force may act behind the patch, at `offset`
+      logical :: has_trail = .false.         !! the force may act aft of the contact point, at `offset`
       integer :: place = 0                   !! among the standard tests; 0: none of them
       logical :: is_on_request = .false.     !! a standard test that runs only if it is asked by its name
       integer :: phases = 1                  !! 2: the standard tests contain it in parallel and opposed

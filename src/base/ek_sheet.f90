@@ -3,7 +3,7 @@
 !> Lines with # are comments, empty lines (and lines of separators alone) are skipped, and the first other line has the
 !> headings. Columns are separated by commas, or by semicolons or tabs if the line of headings has one. Also accepted are a
 !> byte order mark, a first line `sep=;`, line ends of Windows and old Macs, headings and numbers in double quotes,
-!> empty cells behind the last head, and decimal commas if commas do not separate columns.
+!> empty cells after the last heading, and decimal commas if commas do not separate columns.
 module ek_sheet
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp

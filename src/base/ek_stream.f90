@@ -18,7 +18,7 @@ module ek_stream
 
 contains
 
-   !> Reads what other programs write into a pipe, until the last of them closes it.
+   !> Reads the output of other programs from a pipe, until the last program closes the pipe.
    subroutine read_stream(path, text, reason)
       character(*), intent(in) :: path
       character(:), allocatable, intent(out) :: text

@@ -270,7 +270,7 @@ contains
       ignored = c_signal(int(number, c_int), action)
    end subroutine set_signal
 
-   !> Prepares this process: corrects what a batch system, a shell or a pipe has set for it. Only the main program may call it,
+   !> Prepares this process: corrects settings made by a batch system, a shell or a pipe. Only the main program may call it,
    !> once, before anything else.
    !>
    !> A reader that closes the pipe (`| head`) and a file that reaches `ulimit -f` become write errors instead of ending the

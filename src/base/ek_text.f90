@@ -8,7 +8,7 @@ module ek_text
    public :: str, lower, quoted, nearest_name, suggestion, suggestion_by_part, did_you_mean, is_like, vector_text, plural, &
       printable, spaced, replace
 
-   !> A number as text, in the shortest form a person would write.
+   !> A number as a string in its shortest form.
    interface str
       module procedure str_integer, str_real
    end interface str

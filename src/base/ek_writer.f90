@@ -6,7 +6,7 @@
 !>     call writer%finish(error)              ! the complete file, or none (an older file is then kept)
 !>
 !> A temporary file is named `.elastokin-<machine>-<random>.tmp`. Its process holds a lock on it until the process ends. An
-!> unlocked file of this machine therefore belongs to a dead run, and `remove_stale` removes it. Locks of other machines
+!> unlocked file of this machine therefore belongs to a terminated run, and `remove_stale` removes it. Locks of other machines
 !> may be invisible here: their files count as dead when nothing was written to them for a day (`renew_scratch` of a long run).
 !>
 !> Files that can be redrawn (pictures, scripts of charts) are renamed atomically too, but without waiting for the disk:
@@ -99,7 +99,7 @@ contains
    !> Creates a new file and locks it. O_EXCL (the x of the mode): a link planted under the name is not followed.
    subroutine open_temporary(writer, begin, end)
       type(writer_t), intent(inout) :: writer
-      character(*), intent(in) :: begin, end                 !! of its path
+      character(*), intent(in) :: begin, end                 !! of the path of the new file
       integer :: attempt, ignored
 
       do attempt = 1, max_attempts
@@ -320,7 +320,7 @@ contains
       ignored = c_rmdir(path//c_null_char)
    end subroutine remove_empty_folder
 
-   !> Removes files of dead runs from a folder. Anything that cannot be removed or identified remains.
+   !> Removes files of terminated runs from a folder. Anything that cannot be removed or identified remains.
    subroutine remove_stale(folder)
       character(*), intent(in) :: folder
       call remove_tagged(folder_of(folder//'/'), front, tail)
@@ -343,7 +343,7 @@ contains
       end do
    end subroutine find_users
 
-   !> Removes what dead runs left under the names <begin><machine>-<random><end>.
+   !> Removes files of terminated runs with the names <begin><machine>-<random><end>.
    subroutine remove_tagged(folder, begin, end)
       character(*), intent(in) :: folder                     !! with its slash
       character(*), intent(in) :: begin, end
@@ -360,7 +360,7 @@ contains
       end do
    end subroutine remove_tagged
 
-   !> Removes a temporary file or folder if its run is dead. The lock is held meanwhile, so that two runs do not both remove it
+   !> Removes a temporary file or folder of a terminated run. The lock is held meanwhile, so that two runs do not both remove it
    !> and a run that has just created it notices.
    subroutine remove_dead(path, tag)
       character(*), intent(in) :: path, tag                  !! tag: begins with the tag of its machine

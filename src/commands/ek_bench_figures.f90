@@ -11,7 +11,7 @@ module ek_bench_figures
 
    character(*), parameter :: nl = new_line('a')
 
-   integer, parameter :: short_sweep = 20     !! increments of a design, like those of a study
+   integer, parameter :: short_sweep = 20     !! increments of a design, as in a study
 
    !> The measured values; times are of the processor, so that a busy machine does not change them.
    type :: figures_t

@@ -62,8 +62,8 @@ module ek_command
       'Runs the designs of a study and writes CSV files into DIR; if gnuplot is installed, draws the'//nl// &
       'figures and the page (as plot does) and runs the study''s plot script. A study'//nl// &
       'that was stopped or killed resumes: DIR/<study>.parts stores the finished designs.', &
-      'Exit status 4: complete, but a design failed (see the columns status and reason; the others are written; 0 with'//nl// &
-      '--accept-failed). 6: stopped before the end; run the same command again to resume.'), &
+      'Exit status 4: complete, but a design failed (see the columns status and reason; all other designs are'//nl// &
+      'written; 0 with --accept-failed). 6: stopped before the end; run the same command again to resume.'), &
       command_t('merge', 'merge STUDY.nml', 'merge STUDY', 'write the tables of a study that ran in shards', &
       'Writes the tables of a study whose shards (study --shard i/n) have all ended, from DIR/<study>.parts.', &
       'Exit status 4: complete, but a design failed (0 with --accept-failed). 6: designs are missing.'), &
@@ -81,34 +81,38 @@ module ek_command
       '  carmaker   <model>.skc: kinematics over travel and steer (or the other wheel''s travel), compliance'//nl// &
       '  carsim     <model>_carsim.par: tables over jounce, compliance coefficients'//nl// &
       '  matlab-kc  <model>_kandc.m and .json: parameters of "Independent Suspension - K and C"'//nl// &
-      '  csv        <model>_kinematics.csv, _loads.csv, _compliance.csv, and all of it in _tables.json'//nl// &
+      '  csv        <model>_kinematics.csv, _loads.csv, _compliance.csv; _tables.json with all three tables'//nl// &
       'docs/EXPORT.md describes each file: frame, signs, units. If a number cannot be computed, nothing is written.', ''), &
       command_t('derivatives', 'derivatives DECK [options]', 'derivatives DECK', &
       'differentiate every column by every number of a deck', &
       'Solves one case and writes DIR/<model>_<case>_derivatives.csv: the derivative of every column with respect to every'//nl// &
       'number of the deck, in the unit of the column per unit of the number, with an estimate of its error. Derivatives are'//nl// &
-      'exact except for rounding. Nothing is solved again. They include the motion of the state, settling and balance.'//nl// &
-      'A number of a mirrored half deck acts on both sides; the name point.left_x.z selects one side. With --of,'//nl// &
-      'the numbers with the largest effects are printed: of 1 mm, of 0.06 deg, of 1 % of a rate or force.', &
+      'exact except for rounding. No solution is repeated. Derivatives include the motion of the state, static equilibrium'// &
+      nl//'and balance. A number of a mirrored half deck acts on both sides; the name point.left_x.z selects one side.'//nl// &
+      'With --of, the numbers with the largest effects are printed. An effect is the change of a column caused by 1 mm,'//nl// &
+      '0.06 deg, or 1 % of a rate or force.', &
       exit_status_text), &
-      command_t('solve', 'solve DECK [options]', 'solve DECK', 'find numbers of a deck at which quantities have values', &
+      command_t('solve', 'solve DECK [options]', 'solve DECK', 'find numbers of a deck that give wanted values', &
       'Changes the numbers of --vary within their bounds until the quantities of --for have their values. A quantity is'//nl// &
       'a column of a case, an entry of its compliance matrix, or a key number of the report. Derivatives are exact, so that'//nl// &
-      'Newton''s method needs a few sweeps. Prints the values reached, the reasons for missed ones, and the changed'//nl// &
+      'Newton''s method needs a few sweeps. Prints the values reached, the reasons for missed values, and the changed'//nl// &
       'records; writes DIR/<model>_solve.set for --set-file. Where several solutions exist, the smallest change is taken.', &
       exit_status_text), &
       command_t('fit', 'fit FIT.nml [options]', 'fit FIT', 'fit factors of a deck to measured or wanted curves', &
-      'Weighted least squares: the factors of a deck within their bounds at which curves, slopes, key numbers and limits of'//nl// &
-      'several cases are fitted; hardpoints for wanted curves, or bushing rates from measured ones. Prints and draws start,'// &
-      nl//'target and result, the 95 % confidence of each factor, active bounds, and factors that stay undetermined. Writes'//nl// &
+      'Finds the factors of a deck, within their bounds, by weighted least squares. Targets are curves, slopes, key numbers'//nl// &
+      'and limits of several cases: hardpoints for wanted curves, or bushing rates from measured curves. Prints and draws'// &
+      nl//'start, target and result; prints the 95 % confidence of each factor, active bounds, and undetermined factors. Writes'// &
+      nl// &
       'DIR/<fit>_factors.csv, <fit>_points.csv, <fit>.set for --set-file, and the figure <fit>.png and .svg.', &
       exit_status_text), &
       command_t('bench', 'bench DECK   or   elastokin bench --growth N', 'bench DECK', &
       'time increments, relative to LAPACK''s solve alone', &
       'Times one complete increment of each method relative to LAPACK''s dsysv alone (factor and solve)'//nl// &
-      'on the same matrices in the same run, by LAPACK and by plan, with its parts; packs of four designs; a row of the'//nl// &
-      'compliance matrix; a design of 20 increments from numbers to a column (as in a study) relative to its states;'//nl// &
-      'and all steps from deck to CSV (omitted with --quiet). --json prints one object.', '', alone='--growth')]
+      'on the same matrices in the same run, by LAPACK and by plan, with the parts of an increment. Also times'//nl// &
+      '  packs of four designs,'//nl// &
+      '  a row of the compliance matrix,'//nl// &
+      '  a design of 20 increments, from its numbers to one column (as in a study), relative to its states alone,'//nl// &
+      '  all steps from deck to CSV (omitted with --quiet).', '', alone='--growth')]
 
    ! In the order of the help; neighbours with the same help share a line
    type(option_t), parameter :: options(*) = [ &
@@ -131,8 +135,8 @@ module ek_command
       option_t('check', '--case NAME', ''), option_t('check', '--set path=value', ''), &
       option_t('check', '--set-file FILE', ''), &
       option_t('check', '--json', 'print the messages as one JSON object: severity, file, line, group, key, text'), &
-      option_t('check', '--write-deck FILE', 'write the deck as it was used, with included, property and hardpoint files,'// &
-      indent//'both sides and settings written out; its load tables in the same folder'), &
+      option_t('check', '--write-deck FILE', 'write the deck as used, in one file: contents of included, property and hardpoint'// &
+      indent//'files, both sides, and settings applied; load tables go to the same folder'), &
       option_t('report', '--out DIR', 'output folder (default: out)'), &
       option_t('report', '--animate', 'also write animation.gif: the suspension moving through its travel and steering'), &
       option_t('report', '--window what=half', 'half width of a gradient window; may be repeated; the defaults are:'//indent// &
@@ -150,12 +154,12 @@ module ek_command
       option_t('report', '--quiet', quiet_help), &
       option_t('explain', '--out DIR', 'output folder (default: out)'), &
       option_t('explain', '--case NAME', 'this case only'), &
-      option_t('explain', '--of a,b,c', 'these columns: of forces and torques (lateral_in_load_held_steer_deg_per_kn), or'// &
-      indent//'entries of the matrix (patch_z_by_fz_mm_per_kn); * stands for any letters; default: key ones'), &
+      option_t('explain', '--of a,b,c', 'these columns: responses to loads (lateral_in_load_held_steer_deg_per_kn), or'// &
+      indent//'matrix entries (patch_z_by_fz_mm_per_kn); * stands for any letters; default: key columns'), &
       option_t('explain', '--at VALUE', 'only the state nearest to this swept value (default: all; design is printed)'), &
-      option_t('explain', '--rigid NAME', 'columns with this element rigid (arm_front), or'//indent// &
-      'one axis of it (arm_front.x); may be repeated'), &
-      option_t('explain', '--scan', 'locations at which 1 kN/mm more changes the columns most'), &
+      option_t('explain', '--rigid NAME', 'columns with this element rigid (arm_front), or with'//indent// &
+      'one axis of this element rigid (arm_front.x); may be repeated'), &
+      option_t('explain', '--scan', 'locations at which an added stiffness of 1 kN/mm changes the columns most'), &
       option_t('explain', '--json', 'also write DIR/<model>_contributions.json'), &
       option_t('explain', '--increments N', 'as for run'), option_t('explain', '--solver S', 'as for run'), &
       option_t('explain', '--set path=value', 'as for run'), option_t('explain', '--set-file FILE', 'as for run'), &
@@ -196,7 +200,7 @@ module ek_command
       'family | histogram | scatter | parallel | convergence'), &
       option_t('plot', '--out DIR', 'folder of the tables (default: out, next to the study)'), &
       option_t('plot', '--samples N', 'number of designs of the study run'), &
-      option_t('plot', '--set path=value', 'the change of the deck with which the study ran'), &
+      option_t('plot', '--set path=value', 'change of the deck, as in the study run'), &
       option_t('plot', '--quiet', quiet_help), &
       option_t('export', '--to TARGET', 'carmaker | carsim | matlab-kc | csv'), &
       option_t('export', '--out DIR', 'output folder (default: out)'), &
@@ -207,7 +211,8 @@ module ek_command
       option_t('export', '--length what=NAME', 'spring, damper, stop or bar of a wheel, where the deck has several; NAME'// &
       indent//'without left_ and right_, or LEFT,RIGHT; may be repeated: --length spring=coil'), &
       option_t('export', '--vertical WORD', 'point whose height defines wheel travel: centre | patch | road (default: patch)'), &
-      option_t('export', '--held WORD', 'wheels in the compliance: road | centre | force (default: road with a tyre_rate)'), &
+      option_t('export', '--held WORD', 'wheels on the road (with tyre rates), centre heights held, or vertical forces held:'// &
+      indent//'road | centre | force (default: road if every wheel has a tyre_rate, else centre)'), &
       option_t('export', '--axle WORD', 'front | rear (default: position of &axle)'), &
       option_t('export', '--other DECK', 'matlab-kc: the deck of the other axle'), &
       option_t('export', '--signs WORD', 'csv: iso | sae (default: iso)'), &
@@ -218,8 +223,8 @@ module ek_command
       option_t('import', '--out FILE', 'write this file (default: -, standard output)'), &
       option_t('import', '--quiet', quiet_help), &
       option_t('derivatives', '--case NAME', 'case or standard test (default: the first of the deck)'), &
-      option_t('derivatives', '--of a,b,c', 'only these columns, also of the compliance matrix (as in run --compliance); '// &
-      '* stands for any letters'), &
+      option_t('derivatives', '--of a,b,c', 'only these columns of the case or of the compliance matrix (names as in'// &
+      indent//'run --compliance); * stands for any letters'), &
       option_t('derivatives', '--with paths', 'only these numbers, as in --set: point.lca_front.z,bushing.*.kt; may be repeated'), &
       option_t('derivatives', '--at a,b,c', 'at the states nearest to these swept values, or all (default: 0, the design state)'), &
       option_t('derivatives', '--out DIR', 'output folder (default: out); - writes the CSV to standard output'), &

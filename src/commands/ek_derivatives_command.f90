@@ -214,7 +214,7 @@ contains
       if (size(states) == 0) call fail(error, exit_usage, '--at: no swept value is given')
    end subroutine choose_states
 
-   !> Writes the table, and what has the most effect on the requested columns.
+   !> Writes the table, and the numbers with the largest effects on the requested columns.
    subroutine write_results(line, settings, workspace, found, error)
       type(command_line_t), intent(in) :: line
       type(deck_settings_t), intent(in) :: settings

@@ -140,6 +140,7 @@ contains
       if (abs(whole) > 0.0_wp) share = value/whole
    end function share_of
 
+   !> Begins the JSON object: program, model, checksum, and the list of cases.
    subroutine begin_explain_json(model, checksum, json)
       character(*), intent(in) :: model, checksum
       type(json_t), intent(inout) :: json

@@ -65,7 +65,7 @@ contains
    !> Adds each requested column with some laws rigid, or 1 kN/mm more in one of them.
    subroutine add_rigid(suspension, name, laws, kkt, table, text)
       type(suspension_t), intent(in) :: suspension
-      character(*), intent(in) :: name                 !! what is rigid
+      character(*), intent(in) :: name                 !! name of the rigid element or axis
       integer, intent(in) :: laws(:)
       type(kkt_t), intent(inout) :: kkt                !! with the factors of the state
       type(contribution_table_t), intent(in) :: table
@@ -85,7 +85,7 @@ contains
       end do
    end subroutine add_rigid
 
-   !> Adds the locations at which a spring of 1 kN/mm more changes a column most: along the axes of bushings and beside springs.
+   !> Adds the locations at which an added spring of 1 kN/mm changes a column most: along axes of bushings, parallel to springs.
    subroutine add_scan(suspension, kkt, table, text)
       type(suspension_t), intent(in) :: suspension
       type(kkt_t), intent(inout) :: kkt                !! with the factors of the state

@@ -34,10 +34,11 @@ module ek_export_settings
 
 contains
 
+   !> Reads the settings of export from the command line and checks them.
    subroutine read_export_settings(line, settings, error)
       type(command_line_t), intent(in) :: line
       type(export_settings_t), intent(out) :: settings
-      type(error_t), allocatable, intent(out) :: error        !! exit_usage: every mistake
+      type(error_t), allocatable, intent(out) :: error        !! exit_usage: every error
       type(message_list_t) :: mistakes
 
       call refuse_stream(line, error)

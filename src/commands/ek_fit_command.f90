@@ -22,7 +22,7 @@ module ek_fit_command
 
 contains
 
-   !> Reads a fit, solves it, prints what was found and writes it.
+   !> Reads a fit, solves it, and prints and writes the result.
    subroutine run_fit(line, error)
       type(command_line_t), intent(in) :: line
       type(error_t), allocatable, intent(out) :: error     !! exit_convergence: the iterations did not suffice

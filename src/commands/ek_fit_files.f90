@@ -109,7 +109,7 @@ contains
       end if
    end subroutine add_number
 
-   !> One row per point: what was wanted, at the start, now.
+   !> One row per point: target, value at the start, value of the result.
    function points_csv(fit, workspace, problem, found) result(text)
       type(fit_t), intent(in) :: fit
       type(workspace_t), intent(in) :: workspace

@@ -30,11 +30,12 @@ module ek_load_deck
       integer :: increments = 0                  !! 0: as in the deck
       logical :: is_quiet = .false.
       type(message_list_t) :: changes            !! --set path=value
-      type(message_list_t) :: set_files          !! --set-file FILE: settings that come before those of --set
+      type(message_list_t) :: set_files          !! --set-file FILE: settings applied before the settings of --set
    end type deck_settings_t
 
 contains
 
+   !> Reads the options of the command line that all commands with a deck share.
    subroutine read_deck_settings(line, settings)
       type(command_line_t), intent(in) :: line
       class(deck_settings_t), intent(inout) :: settings
@@ -53,7 +54,7 @@ contains
    !> Reads a deck, applies --set, builds the model, and checks the tables and targets of its cases; reports all errors together.
    subroutine load_deck(settings, workspace, checksum, error, needs_tables, used_deck)
       class(deck_settings_t), intent(in) :: settings
-      type(workspace_t), intent(out) :: workspace            !! without cases: the command chooses among those of the design
+      type(workspace_t), intent(out) :: workspace            !! without cases: the command chooses cases of the design
       character(:), allocatable, intent(out), optional :: checksum     !! of the deck as it was used
       type(error_t), allocatable, intent(out) :: error
       logical, intent(in), optional :: needs_tables          !! if .true., a missing table is an error, also of a case not run
@@ -71,7 +72,7 @@ contains
       if (present(used_deck)) used_deck = deck
    end subroutine load_deck
 
-   !> Loads the session of a program as load_deck does the model, for commands that use one.
+   !> Opens a deck with its settings as a session, for commands that use a session; load_deck gives a model instead.
    subroutine load_session(settings, session, error)
       class(deck_settings_t), intent(in) :: settings
       type(session_t), intent(out) :: session
@@ -91,7 +92,7 @@ contains
       class(deck_settings_t), intent(in) :: settings
       type(deck_t), intent(out) :: deck
       type(set_file_t), allocatable, intent(out) :: files(:)
-      type(error_t), allocatable, intent(out) :: unset       !! mistakes of settings; the other settings may contain mistakes too
+      type(error_t), allocatable, intent(out) :: unset       !! errors of settings; the other settings may contain errors too
       type(error_t), allocatable, intent(out) :: error
       integer :: k
 

@@ -21,7 +21,7 @@ module ek_report_list
 
 contains
 
-   !> Removes what an earlier report left in the folder, and writes the list of this one.
+   !> Removes the files of an earlier report from the folder, and writes the list of files of this report.
    subroutine renew_list(report, is_quiet, error)
       type(report_t), intent(in) :: report
       logical, intent(in) :: is_quiet

@@ -20,6 +20,7 @@ module ek_run_json
 
 contains
 
+   !> Begins the JSON object: program, model, checksum, and the list of cases.
    subroutine begin_run_json(model, checksum, json)
       character(*), intent(in) :: model, checksum
       type(json_t), intent(out) :: json

@@ -49,6 +49,7 @@ contains
       end if
    end subroutine begin_log
 
+   !> Whether the log of the run is open.
    logical function is_logging()
       is_logging = file%is_open()
    end function is_logging

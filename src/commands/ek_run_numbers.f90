@@ -71,7 +71,7 @@ contains
       end if
    end subroutine write_results
 
-   !> Solves what the numbers need, in the session of a program.
+   !> Solves the tests that the numbers need, in the session of a program.
    subroutine find_values(settings, names, values, error)
       class(deck_settings_t), intent(in) :: settings
       character(*), intent(in) :: names(:)

@@ -73,6 +73,7 @@ contains
       if (record%entries(e)%values(1)%is_string) text = trim(record%entries(e)%values(1)%text)
    end function text_of
 
+   !> Adds an error at a key of a record, with the group and the name of the record.
    subroutine complain(record, key, what, deck_errors)
       type(record_t), intent(in) :: record
       character(*), intent(in) :: key, what
@@ -82,6 +83,7 @@ contains
          trim(element(record, 'name', 1)))//what)
    end subroutine complain
 
+   !> Adds a key with a string value to a record.
    subroutine put_word(record, key, word)
       type(record_t), intent(inout) :: record
       character(*), intent(in) :: key, word
@@ -93,6 +95,7 @@ contains
       call add_entry(record, entry)
    end subroutine put_word
 
+   !> Adds a key with a list of numbers to a record.
    subroutine put_numbers(record, key, values)
       type(record_t), intent(inout) :: record
       character(*), intent(in) :: key

@@ -37,7 +37,7 @@ module ek_deck
       character(:), allocatable :: file          !! as given by the user, for messages
       type(record_t), allocatable :: records(:)  !! the first `used` are filled, in the order of the text
       integer :: used = 0
-      type(deck_errors_t) :: deck_errors           !! syntax mistakes
+      type(deck_errors_t) :: deck_errors           !! syntax errors
       type(setting_t), allocatable :: late(:)    !! settings to be made after property files and &mirror
       logical :: is_finished = .false.
       type(kept_files_t) :: kept                 !! the deck, then all files that it names, as they were when it was read
@@ -45,7 +45,7 @@ module ek_deck
 
    ! &include: the record itself stays in the list, so that its keys are checked like all others; the records of the file follow
    ! it. Every record stores its file, which messages then show.
-   integer, parameter :: max_nested = 8      !! nesting depth of files; more is a mistake
+   integer, parameter :: max_nested = 8      !! nesting depth of files; more is an error
    integer, parameter :: max_files = 500     !! total: ten files that include ten each, eight levels deep, would be 10^8
    integer, parameter :: max_letters = 50000000   !! total; the largest known deck has 1 % of it
 

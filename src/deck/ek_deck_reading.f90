@@ -22,7 +22,7 @@ module ek_deck_reading
       integer :: group = 0                  !! 0: an unknown group
       character(word_length) :: name = ''
       integer :: hash = 0                   !! of the name in lower case: equal names have equal ones
-      logical :: is_good = .false.          !! no mistake found so far
+      logical :: is_good = .false.          !! no error found so far
       integer :: index = 0                  !! its number among the parts of its kind; of a point, its vector
       real(wp) :: factor = 1.0_wp           !! measure, driver: deck unit → SI
       logical :: is_used = .false.          !! point: referenced; body: attached to something; load: scaled by cases
@@ -37,7 +37,7 @@ module ek_deck_reading
       type(units_t) :: units
       type(blueprint_t) :: plan
       type(parameters_t) :: parameters
-      real(wp), allocatable :: vectors(:, :)    !! (3, 0:n) present values of those of the blueprint [m, -]; 0: zero
+      real(wp), allocatable :: vectors(:, :)    !! (3, 0:n) present values of the blueprint's vectors [m, -]; 0: zero
    end type deck_reading_t
 
 contains

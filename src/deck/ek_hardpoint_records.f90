@@ -19,7 +19,7 @@ contains
 
    !> Adds the points of all &hardpoints.
    subroutine attach_hardpoints(files, records, used, deck_errors)
-      type(kept_files_t), intent(inout) :: files   !! receives what is read
+      type(kept_files_t), intent(inout) :: files   !! receives the files that are read
       type(record_t), allocatable, intent(inout) :: records(:)
       integer, intent(inout) :: used
       type(deck_errors_t), intent(inout) :: deck_errors

@@ -2,7 +2,7 @@
 !>
 !> | column (two wheels: left_…, right_…)  | quantity                                                 |
 !> |---------------------------------------|----------------------------------------------------------|
-!> | fx_n, fy_n, fz_n                      | force at the contact patch, frame of the deck            |
+!> | fx_n, fy_n, fz_n                      | force at the contact point, frame of the deck            |
 !> | mx_nm, my_nm, mz_nm                   | moment on the wheel                                      |
 !> | centre_fx_n, centre_fy_n, centre_fz_n | force at the wheel centre                                |
 !> | travel_mm                             | height of the wheel centre above design, held            |

@@ -16,8 +16,8 @@ module ek_namelist
    private
    public :: check_record, value_fault, surplus, name_fault, is_legal_name
 
-   integer, parameter :: largest_exponent = 30      !! numbers from 1e30 are mistakes and could overflow later
-   integer, parameter :: smallest_exponent = -100   !! numbers below 1e-100 are mistakes too; the smallest would be read as 0
+   integer, parameter :: largest_exponent = 30      !! numbers from 1e30 are errors and could overflow later
+   integer, parameter :: smallest_exponent = -100   !! numbers below 1e-100 are errors too; the smallest would be read as 0
    character(*), parameter :: digits = '0123456789'
    character(*), parameter :: types(heading) = [character(17) :: 'a text in quotes', 'a text in quotes', 'a number', &
       'a whole number', '.true. or .false.', 'a text in quotes']

@@ -64,7 +64,7 @@ contains
    subroutine split_path(text, path, message)
       character(*), intent(in) :: text
       type(path_t), intent(out) :: path
-      character(:), allocatable, intent(out) :: message     !! '' if there is no mistake
+      character(:), allocatable, intent(out) :: message     !! '' if there is no error
       character(:), allocatable :: inside
       integer :: dot, last, mark, status
 
@@ -164,8 +164,8 @@ contains
       end do
    end subroutine add_parameter
 
-   !> Finds the parameters with a path, which may have * in place of names; none if it is the path of a text, or of nothing that the
-   !> deck gives. The path of a half deck leads to both sides of the axle.
+   !> Finds the parameters with a path, which may have * in place of names. None is found if the path leads to a string,
+   !> or if the deck does not give the number. The path of a half deck leads to both sides of the axle.
    subroutine find_parameters(parameters, records, path_text, found)
       type(parameters_t), intent(in) :: parameters
       type(record_t), intent(in) :: records(:)

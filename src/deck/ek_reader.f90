@@ -30,7 +30,7 @@ module ek_reader
    private
    public :: design_t, read_design, build_design, build_model
 
-   !> The order of reading: what others refer to comes first.
+   !> The order of reading: groups to which others refer come first.
    integer, parameter :: reading_order(*) = [model_group, point_group, curve_group, body_group, mass_group, measure_group, &
       joint_group, bushing_group, spring_groups, wheel_group, axle_group, steering_group, load_group]
 
@@ -39,7 +39,7 @@ module ek_reader
       type(blueprint_t) :: plan
       type(parameters_t) :: parameters           !! with their values in the deck, x
       type(record_t), allocatable :: records(:)  !! of the mirrored deck, to which the parameters refer
-      type(case_t), allocatable :: cases(:)      !! with their tables; may be of size 0; includes cases with a mistake
+      type(case_t), allocatable :: cases(:)      !! with their tables; may be of size 0; includes cases with an error
       type(target_band_t), allocatable :: targets(:)      !! of key numbers, for the page of a report
    end type design_t
 
@@ -49,9 +49,9 @@ contains
    subroutine build_model(deck, suspension, cases, error, is_whole)
       type(deck_t), intent(in) :: deck
       type(suspension_t), intent(out) :: suspension
-      type(case_t), allocatable, intent(out) :: cases(:)     !! may be of size 0; includes cases with a mistake
+      type(case_t), allocatable, intent(out) :: cases(:)     !! may be of size 0; includes cases with an error
       type(error_t), allocatable, intent(out) :: error
-      logical, intent(out), optional :: is_whole             !! the suspension is complete: all mistakes are in cases
+      logical, intent(out), optional :: is_whole             !! the suspension is complete: all errors are in cases
       type(design_t) :: design
       logical :: is_complete
 
@@ -67,7 +67,7 @@ contains
       type(design_t), intent(out) :: design
       type(suspension_t), intent(out) :: suspension
       type(error_t), allocatable, intent(out) :: error       !! exit_deck: all errors of the deck
-      logical, intent(out) :: is_whole                       !! the suspension is complete: all mistakes are in cases
+      logical, intent(out) :: is_whole                       !! the suspension is complete: all errors are in cases
 
       call read_design(deck, design, error, is_whole)
       if (.not. is_whole) return
@@ -83,7 +83,7 @@ contains
       type(deck_t), intent(in) :: deck
       type(design_t), intent(out) :: design
       type(error_t), allocatable, intent(out) :: error
-      logical, intent(out), optional :: is_whole             !! the blueprint is complete: all mistakes are in cases
+      logical, intent(out), optional :: is_whole             !! the blueprint is complete: all errors are in cases
       type(deck_t) :: finished
       type(deck_reading_t) :: reading
       logical :: is_complete

@@ -35,7 +35,7 @@ module ek_record
    type :: deck_errors_t
       private
       integer :: used = 0
-      logical :: is_cut = .false.         !! a file was not read to its end: it may have more mistakes
+      logical :: is_cut = .false.         !! a file was not read to its end: it may have more errors
       type(deck_error_t), allocatable :: list(:)
    contains
       procedure :: add => complaints_add, cut => complaints_cut, count => complaints_count, text => complaints_text

@@ -83,7 +83,7 @@ contains
    subroutine scan_values(text, entry, message)
       character(*), intent(in) :: text
       type(entry_t), intent(inout) :: entry               !! values are appended
-      character(:), allocatable, intent(out) :: message   !! '' if there is no mistake
+      character(:), allocatable, intent(out) :: message   !! '' if there is no error
       type(deck_errors_t) :: deck_errors
       type(record_t) :: record
       type(cursor_t) :: cursor

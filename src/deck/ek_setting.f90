@@ -50,7 +50,7 @@ contains
       integer, intent(in) :: used
       character(*), intent(in) :: path_text, text
       character(:), allocatable, intent(out) :: message
-      logical, intent(out) :: is_found     !! a record exists, even if there is another mistake
+      logical, intent(out) :: is_found     !! a record exists, even if there is another error
       character(:), allocatable :: setting
       type(path_t) :: path
       type(entry_t) :: given

@@ -32,8 +32,8 @@ module ek_workspace
 
    ! stages of the numbers, each after the one before
    integer, parameter :: numbers_given = 0
-   integer, parameter :: realised = 1       !! raw has them, and so have the cases of the design
-   integer, parameter :: balanced = 2       !! suspension has them, and the preloads of balance
+   integer, parameter :: realised = 1       !! raw and the cases of the design have these numbers
+   integer, parameter :: balanced = 2       !! suspension has these numbers and the preloads of balance
 
    type :: workspace_t
       type(design_t) :: design

@@ -107,7 +107,7 @@ contains
       character(*), intent(in) :: names(:)
       type(workspace_t), intent(inout) :: workspace          !! what it held is lost
       type(error_t), allocatable, intent(out) :: error     !! exit_deck, exit_file, exit_model, exit_convergence
-      integer, intent(in), optional :: increments          !! of all cases; absent or 0: those of the deck
+      integer, intent(in), optional :: increments          !! of all cases; absent or 0: the increments of the deck
       type(diagnosis_t) :: diagnosis
       logical :: is_whole
       integer :: k
@@ -240,7 +240,7 @@ contains
       end associate
    end subroutine heads_of_case
 
-   !> The number of a case; '' is the first. 0: there is none of this name.
+   !> The number of a case; '' is the first. 0: no such name.
    pure integer function case_number(name, workspace) result(k)
       character(*), intent(in) :: name
       type(workspace_t), intent(in) :: workspace

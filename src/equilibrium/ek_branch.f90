@@ -6,7 +6,7 @@
 !> - the tangents dz/ds = N⁻¹ dF/ds at its ends agree with the motion d of the bodies from a to b:
 !>   |d − h (t_a + t_b)/2| is small against |d| (trapezoidal rule: third order in h on a smooth path);
 !> - the matrix N has as many negative eigenvalues at b as at a: N is regular along a smooth path;
-!> - det(Φq(a) Φq(b)ᵀ) > 0: the joints are in the same assembly. Where Φq loses rank, the inertia of N does not
+!> - det(Φq(a) Φq(b)ᵀ) > 0: the joints are in the same assembly mode. Where Φq loses rank, the inertia of N does not
 !>   change: its determinant is proportional to the square of that of Φq.
 !>
 !> Where laws bend between a and b, tangents with their chords must agree instead (ek_chord). If the step was halved often
@@ -65,7 +65,7 @@ module ek_branch
       integer :: negative = -1              !! negative eigenvalues of N at the newest state; −1: not known
       real(wp) :: log_determinant = huge(1.0_wp)   !! ln |det N| there; huge: not known
       logical :: was_uneven = .true.        !! |det N| changed much in the step to it
-      logical :: has_tangent = .false.      !! tangent_a is that of the newest state
+      logical :: has_tangent = .false.      !! tangent_a belongs to the newest state
       real(wp) :: width_before = 0.0_wp     !! place of a minus place of the state before; 0: not known
       integer :: serial = -1                !! number of the last factorisation at or near b
       real(wp) :: missed = 0.0_wp           !! its distance from b [m]
@@ -161,7 +161,7 @@ contains
    !> Compares both ends of a step. kkt must contain the factors of N at or near b.
    !>
    !> It first uses these factors and a tangent at a that may be old; if the step disagrees with them, new ones. On
-   !> return self%tangent_b belongs to b; `accept` makes it that of the newest state.
+   !> return self%tangent_b belongs to b; `accept` makes it the tangent of the newest state.
    !> Equation (K.15) of docs/theory/kkt.md: three states and the tangent at b, as long as that at a is not known.
    subroutine compare(self, suspension, inputs_a, inputs_b, place, state_b, outcome, kkt, verdict)
       type(branch_t), intent(inout) :: self

@@ -116,7 +116,7 @@ contains
       end do
    end subroutine correct
 
-   !> Subtracts what the dyads add to N x: Σ s g gᵀ x.
+   !> Subtracts the contribution of the dyads to N x: Σ s g gᵀ x.
    pure subroutine resist(self, x, rhs)
       type(dyads_t), intent(in) :: self
       real(wp), intent(in) :: x(:)

@@ -1,6 +1,6 @@
 !> The factors of N at the newest state of a path, kept while Newton's method factorises N elsewhere.
 !>
-!> They change places with those in kkt_t; nothing is copied or allocated after new_factors.
+!> `exchange` swaps these factors with the factors in kkt_t; nothing is copied or allocated after new_factors.
 module ek_factors
    use ek_kinds, only: wp
    use ek_kkt, only: kkt_t, nothing
@@ -8,12 +8,12 @@ module ek_factors
    private
    public :: factors_t, new_factors, mark, keep, exchange
 
-   !> Factors, and whose they are.
+   !> Factors, and the state to which they belong.
    type :: factors_t
       logical :: is_kept = .false.          !! these are the factors of the state
       integer, private :: serial = -1       !! number of their factorisation; −1: the state has none
       integer, private :: negative = 0      !! negative eigenvalues
-      integer, private :: stage = nothing   !! what `matrix` holds, as in kkt_t
+      integer, private :: stage = nothing   !! content of `matrix`, as in kkt_t
       integer, private :: way = 0           !! plan that they follow, as in kkt_t
       real(wp), allocatable, private :: matrix(:, :), planned(:)
       integer, allocatable, private :: pivots(:)
@@ -21,7 +21,7 @@ module ek_factors
 
 contains
 
-   !> No factors; work space like that of kkt_t is allocated when they are kept first.
+   !> An empty store of factors; its work space is allocated when factors are first stored.
    pure function new_factors() result(self)
       type(factors_t) :: self
       self%serial = -1

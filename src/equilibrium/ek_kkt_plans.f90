@@ -1,4 +1,4 @@
-!> The plans of elimination of a KKT system: that of the matrix of an increment, and that with the rows of the rig released.
+!> The plans of elimination of a KKT system: for the matrix of an increment, and for the matrix with the rig's rows released.
 module ek_kkt_plans
    use ek_kinds, only: wp
    use ek_suspension, only: suspension_t
@@ -13,7 +13,7 @@ module ek_kkt_plans
 contains
 
    !> Finds the plans, from matrices of three states: design, and two in which every body is moved and every reaction acts, so that
-   !> no number is small by chance. The order depends on these numbers, never on those of a state that is solved.
+   !> no number is small by chance. The order depends on these numbers, never on a state that is solved.
    subroutine make_plans(suspension, kkt)
       type(suspension_t), intent(in) :: suspension
       type(kkt_t), intent(inout) :: kkt

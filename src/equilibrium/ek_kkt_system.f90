@@ -52,13 +52,13 @@ module ek_kkt_system
       integer :: factorisations = 0          !! so far
       integer :: solutions = 0               !! so far, of one right-hand side each
       integer :: fallbacks = 0               !! of these by LAPACK, because those by plan were not sound
-      integer :: way = held                  !! of the plans: that of the matrix in the store
+      integer :: way = held                  !! plan of the matrix in the store
       integer :: negative = 0                !! negative eigenvalues of the last matrix
       real(wp) :: pivot_ratio = 1.0_wp       !! smallest over largest pivot of the last matrix: a cheap condition estimate
       real(wp) :: log_determinant = 0.0_wp   !! ln |det| of the last matrix, scaled
       logical :: is_singular = .false.       !! the last factorisation met a zero pivot
-      integer :: stage = nothing             !! what `matrix` holds
-      logical :: is_at_design = .false.      !! matrix, factors and right-hand side are those of design, see `holds`
+      integer :: stage = nothing             !! content of `matrix`
+      logical :: is_at_design = .false.      !! matrix, factors and right-hand side belong to design, see `holds`
    end type kkt_t
 
 contains

@@ -1,4 +1,4 @@
-!> Checks that the joints of two states are in the same assembly: det(Φq(a) Φq(b)ᵀ) > 0, for the rigid rows.
+!> Checks that the joints of two states are in the same assembly mode: det(Φq(a) Φq(b)ᵀ) > 0, for the rigid rows.
 !>
 !> If Φq loses rank between them, the determinant changes sign, while the inertia of the matrix N of equilibrium is unchanged:
 !> its determinant is proportional to the square of that of Φq. The products of rows that share no body are zero: only the others are
@@ -178,7 +178,7 @@ contains
 
    !> Compares two states: det(Φq(a) Φq(b)ᵀ) < 0, and whether Φq loses rank at b itself, where that sign means nothing.
    !>
-   !> x·Φq(a) Φq(b)ᵀ x > 0 for all x means a positive determinant; otherwise its sign is that of the LU factors.
+   !> x·Φq(a) Φq(b)ᵀ x > 0 for all x means a positive determinant; otherwise the LU factors give its sign.
    !> Equation (K.17) of docs/theory/kkt.md.
    pure subroutine compare_orientation(self, suspension, poses_a, poses_b, scale, is_turned_over, is_singular)
       type(orientation_t), intent(inout) :: self

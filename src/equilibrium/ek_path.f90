@@ -24,7 +24,7 @@ module ek_path
 
    real(wp), parameter :: min_step = 4.0e-10_wp     !! of the range: resolution of the end of a path
    real(wp), parameter :: crossing_step = 1.0e-6_wp   !! likewise; nearer at a bifurcation the matrix is too singular
-   real(wp), parameter :: min_of_row = 0.0078125_wp    !! behind the first row of a table that was not found
+   real(wp), parameter :: min_of_row = 0.0078125_wp    !! after the first row of a table that was not found
 
    real(wp), parameter :: suspect = 1.0e-12_wp         !! pivot ratio below which the condition number is computed
 
@@ -67,7 +67,7 @@ contains
       type(path_t), intent(inout) :: path                      !! as of new_path
       type(kkt_t), intent(inout) :: kkt                        !! of new_kkt
       procedure(progress_procedure), optional :: progress
-      real(wp), intent(in), optional :: reach                  !! swept value; states beyond it on either side are left out
+      real(wp), intent(in), optional :: reach                  !! swept value; states beyond it on either side are omitted
       type(walk_t), intent(inout), optional :: space           !! of an earlier design of this model on this rig, or empty
       type(schedule_t) :: schedule
       integer :: ends(2, 2), w

@@ -104,7 +104,7 @@ contains
       if (element%measure%kind == axis_axis .or. element%measure%kind == rotation) kind_of_use = rotation
    end function kind_of_use
 
-   !> Notes what the pattern was made from, for same_pattern.
+   !> Stores the input of the pattern for same_pattern.
    pure subroutine note_connections(suspension, self)
       type(suspension_t), intent(in) :: suspension
       type(pattern_t), intent(inout) :: self

@@ -225,12 +225,12 @@ contains
       end if
    end subroutine scale_gradient
 
-   !> Solves by elimination, corrected until the solution is that of W and F themselves. is_sure is .false., and x and y have no
-   !> meaning, where the problem may have no unique solution, or the corrections do not become small as they should.
+   !> Solves by elimination, and corrects the solution with the columns of W and F until the corrections are small. is_sure is
+   !> .false., and x and y have no meaning, if the solution may not be unique or the corrections do not become small.
    !> Equation (K.21) of docs/theory/kkt.md.
    pure subroutine hold_by_elimination(problem, x, y, is_sure)
       type(preload_problem_t), intent(in) :: problem
-      real(wp), intent(out) :: x(:), y(:)             !! nx and ny: forces over the roots of the rates, and forces
+      real(wp), intent(out) :: x(:), y(:)             !! (nx): forces divided by √rate; (ny): forces
       logical, intent(out) :: is_sure
       type(saddle_t) :: saddle
       real(wp) :: c(problem%nq), v(problem%nq), dx(problem%nx), dy(size(problem%used)), part(size(problem%used))

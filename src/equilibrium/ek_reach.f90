@@ -220,8 +220,8 @@ contains
       end associate
    end subroutine judge_end
 
-   !> Steps over a goal that is a bifurcation itself: N is singular there. The path is taken up again just after it, and the
-   !> state is what lies between; the width is so small that the path is straight.
+   !> Steps over a goal that is a bifurcation, where N is singular. The path continues just after the goal, and the state at
+   !> the goal is interpolated; the step is so short that the path is straight.
    subroutine step_over(suspension, schedule, goal, tolerance, branch, state, kkt, step, is_there)
       type(suspension_t), intent(in) :: suspension
       type(schedule_t), intent(in) :: schedule

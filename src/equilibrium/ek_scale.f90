@@ -22,7 +22,7 @@ contains
    subroutine characteristic(suspension, length, stiffness)
       type(suspension_t), intent(in) :: suspension
       real(wp), intent(out) :: length       !! L [m], at least 1 mm
-      real(wp), intent(out) :: stiffness    !! k [N/m]; that of a coil spring if nothing is elastic
+      real(wp), intent(out) :: stiffness    !! k [N/m]; the rate of a coil spring if nothing is elastic
       real(wp) :: sum_log, least, rates(6)
       real(wp), parameter :: usual = 2.0e4_wp     ! N/m: a coil spring, for a model without elastic elements
       integer :: k, used

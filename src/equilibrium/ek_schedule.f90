@@ -128,7 +128,7 @@ contains
    pure subroutine inputs_at(schedule, place, inputs)
       type(schedule_t), intent(in) :: schedule
       real(wp), intent(in) :: place
-      type(inputs_t), intent(inout) :: inputs    !! what is beyond the number of loads and rows stays
+      type(inputs_t), intent(inout) :: inputs    !! elements beyond the number of loads and rows stay unchanged
       integer :: k
 
       inputs%homotopy = 0.0_wp

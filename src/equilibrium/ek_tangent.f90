@@ -14,7 +14,7 @@ module ek_tangent
    real(wp), parameter :: takes_part = 5.0e-2_wp   !! of the largest motion: bodies whose direction is checked
    real(wp), parameter :: min_cosine = 0.5_wp    !! between the directions of a body at both ends of a bend
 
-   !> Work space, and what the loads do to the matrix.
+   !> Work space, and the terms of the loads in the matrix.
    type :: tangent_t
       private
       real(wp), allocatable :: whole(:), defect(:)         !! [Δq; Δλ] per place, and a right-hand side

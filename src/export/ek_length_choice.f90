@@ -24,7 +24,7 @@ contains
       type(suspension_t), intent(in) :: suspension
       type(message_list_t), intent(in) :: wishes
       type(length_choice_t), intent(out) :: choices(lengths, 2)      !! left, right; of a side without a wheel nothing
-      type(error_t), allocatable, intent(out) :: error               !! exit_usage: every mistake
+      type(error_t), allocatable, intent(out) :: error               !! exit_usage: every error
       type(message_list_t) :: mistakes
       character(:), allocatable :: wish, name
       integer :: wheels(2), side, j, k, equals

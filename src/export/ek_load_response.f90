@@ -31,7 +31,7 @@ contains
       type(map_request_t), intent(in) :: request
       real(wp), intent(in) :: force, moment            !! largest [N, N m]
       integer, intent(in) :: count                     !! of values of a load, odd
-      logical, intent(in) :: is_at_patch               !! forces at the contact patch, otherwise at the wheel centre
+      logical, intent(in) :: is_at_patch               !! forces at the contact point, otherwise at the wheel centre
       type(load_table_result_t), intent(out) :: loads
       type(error_t), allocatable, intent(out) :: error
       integer, parameter :: at_centre = 6              ! added to the component of a table_column_t

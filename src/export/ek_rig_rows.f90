@@ -20,7 +20,7 @@ contains
    !> A case of the rig that stands in no deck.
    pure function rig_case(test, vertical) result(case)
       character(*), intent(in) :: test
-      character(*), intent(in) :: vertical                  !! 'centre', 'road'; '': as the test says
+      character(*), intent(in) :: vertical                  !! 'centre', 'road'; '': as in the test
       type(case_t) :: case
 
       case%name = 'export'

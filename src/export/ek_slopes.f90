@@ -1,5 +1,5 @@
 !> Curves and slopes of a map that simulators take: columns over the travel of the wheel centre without steer, and slopes at design
-!> of the angles of a wheel under loads at its contact patch or its centre.
+!> of the angles of a wheel under loads at its contact point or its centre.
 !>
 !> ISO 8855, SI: see ek_wheel_motion. The wheels are held in the slopes as in the compliance of the map.
 module ek_slopes
@@ -69,7 +69,7 @@ contains
    pure type(load_response_t) function load_response(map, side, component, is_at_patch) result(response)
       type(kandc_map_t), intent(in) :: map
       integer, intent(in) :: side, component
-      logical, intent(in) :: is_at_patch        !! the force acts at the contact patch, otherwise at the wheel centre
+      logical, intent(in) :: is_at_patch        !! the force acts at the contact point, otherwise at the wheel centre
       real(wp) :: own(6, 6), arm(3, 1), turn(3)
       type(axes_t) :: axes
 

@@ -27,7 +27,7 @@ module ek_wheel_motion
       at_camber = 12, at_caster = 13, at_patch = 13, at_load = 17, quantities = 17
 
    !> Names of the quantities: translations [m] of the wheel centre, rotations [rad], lengths [m], toe, camber and caster [rad],
-   !> translations of the contact patch [m], wheel load [N].
+   !> translations of the contact point [m], wheel load [N].
    character(8), parameter :: quantity_names(quantities) = [character(8) :: 'tx', 'ty', 'tz', 'rx', 'ry', 'rz', &
       'lSpring', 'lDamp', 'lBuf', 'lStabi', 'toe', 'camber', 'caster', 'px', 'py', 'pz', 'load']
 

@@ -21,6 +21,7 @@ module ek_flaws
 
 contains
 
+   !> An empty list of errors of a file.
    pure type(flaws_t) function new_flaws(file) result(flaws)
       character(*), intent(in) :: file
       flaws%file = file

@@ -54,7 +54,7 @@ contains
       character(*), intent(in) :: path
       character(:), allocatable, intent(out) :: text
       integer, intent(out) :: kind
-      type(error_t), allocatable, intent(out) :: error      !! exit_file: it cannot be read; exit_deck: mistakes in it
+      type(error_t), allocatable, intent(out) :: error      !! exit_file: it cannot be read; exit_deck: errors in it
       character(:), allocatable :: content
       type(flaws_t) :: flaws
 

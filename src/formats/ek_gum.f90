@@ -1,4 +1,4 @@
-!> A bushing of IPGKinematics (.gum): lines of a quoted label and numbers. For each axis, of which x is that of the bushing:
+!> A bushing of IPGKinematics (.gum): lines of a quoted label and numbers. For each axis (x is the axis of the bushing):
 !> displacements in mm, forces in N, damping, and a rotational stiffness in N m/rad; at the end, whether the negative side has
 !> numbers of its own (1) or is the image of the positive side (0).
 module ek_gum

@@ -21,7 +21,7 @@ module ek_hardpoint
    type :: hardpoints_t
       integer :: used = 0
       type(hardpoint_t), allocatable :: points(:)
-      logical :: is_adams = .false.         !! the frame is that of Adams/Car: x rearward, y to the right
+      logical :: is_adams = .false.         !! the file uses the frame of Adams/Car: x rearward, y right
    end type hardpoints_t
 
 contains
@@ -79,6 +79,7 @@ contains
       end select
    end function symmetry_of
 
+   !> Reads a symmetry; any other string is an error.
    subroutine take_symmetry(text, line, symmetry, flaws)
       character(*), intent(in) :: text
       integer, intent(in) :: line

@@ -1,7 +1,7 @@
 !> A table of hardpoints as CSV. The first line has the column headings, in any order and with any further columns: `name`, `x`,
-!> `y`, `z`, with or without their unit (`x_mm`, `Y [m]`, `z (in)`), perhaps `symmetry` or `side`. Without them the columns are
-!> name, x, y, z. Columns are separated by commas, semicolons or tabs; # begins a comment. With semicolons or tabs a decimal comma
-!> is accepted.
+!> `y`, `z`, with or without their unit (`x_mm`, `Y [m]`, `z (in)`), optionally `symmetry` or `side`. Without headings the columns
+!> are name, x, y, z. Columns are separated by commas, semicolons or tabs; # begins a comment. With semicolons or tabs a decimal
+!> comma is accepted.
 module ek_hardpoint_table
    use ek_kinds, only: wp
    use ek_error, only: message_list_t

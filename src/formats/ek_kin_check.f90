@@ -19,7 +19,7 @@ contains
       is_used_mount = any(k == [3, 4, 5, 6, 7]) .or. (kin%has_subframe .and. k <= 2)
    end function is_used_mount
 
-   !> Reports what the program does not model, and numbers that make no model.
+   !> Reports parts that the program does not model, and numbers that do not define a valid model.
    subroutine check_kin(kin, flaws)
       type(kin_t), intent(in) :: kin
       type(flaws_t), intent(inout) :: flaws

@@ -1,6 +1,6 @@
 !> The lines of a file of IPGKinematics (.kin) and how far they are read: a label in quotes and values, in a fixed order.
 !>
-!> A value is found by the form of its label behind the line of the value before it, so that headings, comments and further
+!> A value is found by the form of its label after the line of the previous value, so that headings, comments and further
 !> lines do not matter.
 module ek_kin_cursor
    use ek_kinds, only: wp
@@ -15,7 +15,7 @@ module ek_kin_cursor
    type :: kin_cursor_t
       type(lines_t) :: lines
       integer :: line = 0
-      logical :: is_lost = .false.            !! a value is missing; those behind it are not looked for
+      logical :: is_lost = .false.            !! a value is missing; the values after it are not read
    end type kin_cursor_t
 
 contains
@@ -55,6 +55,7 @@ contains
          'or further down, found none')
    end subroutine go_to
 
+   !> Reads the string on the next line with a label of this form; `text` is unchanged if there is no such line.
    subroutine take_text(cursor, pattern, text, flaws)
       type(kin_cursor_t), intent(inout) :: cursor
       character(*), intent(in) :: pattern
@@ -67,6 +68,7 @@ contains
       if (used > 1) text = trim(adjustl(fields(2)%text))
    end subroutine take_text
 
+   !> Reads the number on the next line with a label of this form; 0 if there is no such line.
    subroutine take_real(cursor, pattern, value, flaws)
       type(kin_cursor_t), intent(inout) :: cursor
       character(*), intent(in) :: pattern
@@ -81,6 +83,7 @@ contains
       if (used > 1) call take_number(fields(2)%text, cursor%line, plain(pattern), value, flaws, is_good)
    end subroutine take_real
 
+   !> Reads a number as take_real; a negative mass is an error.
    subroutine take_mass(cursor, pattern, value, flaws)
       type(kin_cursor_t), intent(inout) :: cursor
       character(*), intent(in) :: pattern
@@ -112,6 +115,7 @@ contains
       choice = int(value)
    end subroutine take_choice
 
+   !> Reads an integer from 0 to 1 as a logical: 1 is .true..
    subroutine take_flag(cursor, pattern, flag, flaws)
       type(kin_cursor_t), intent(inout) :: cursor
       character(*), intent(in) :: pattern
@@ -135,6 +139,7 @@ contains
       is_second = choice == 2
    end subroutine take_choice_of_two
 
+   !> Reads the three coordinates of a point; zeros if there is no such line.
    subroutine take_point(cursor, pattern, at, flaws)
       type(kin_cursor_t), intent(inout) :: cursor
       character(*), intent(in) :: pattern

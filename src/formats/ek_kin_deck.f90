@@ -25,7 +25,7 @@ contains
       type(mount_law_t), intent(in) :: mounts(:)
       character(*), intent(in) :: source                    !! the file, for a comment
       character(:), allocatable, intent(out) :: text
-      type(flaws_t), intent(inout) :: flaws                 !! mistakes in the curves
+      type(flaws_t), intent(inout) :: flaws                 !! errors in the curves
       type(deck_text_t) :: deck
       character(:), allocatable :: name
 

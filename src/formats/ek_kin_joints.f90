@@ -10,6 +10,7 @@ module ek_kin_joints
 
 contains
 
+   !> Writes the joints of the axle into the deck.
    subroutine put_joints(deck, kin, mounts)
       type(deck_text_t), intent(inout) :: deck
       type(kin_t), intent(in) :: kin

@@ -17,6 +17,7 @@ module ek_kin_mounts
 
 contains
 
+   !> Writes the bushings of the axle into the deck, x along the axis of each bushing.
    subroutine put_mounts(deck, kin, mounts)
       type(deck_text_t), intent(inout) :: deck
       type(kin_t), intent(in) :: kin

@@ -15,6 +15,7 @@ module ek_kin_points
 
 contains
 
+   !> Writes the hardpoints of the axle into the deck, with the numbers of the file.
    subroutine put_points(deck, kin)
       type(deck_text_t), intent(inout) :: deck
       type(kin_t), intent(in) :: kin
@@ -88,6 +89,7 @@ contains
       at = sum(kin%at(:, numbers), dim=2)/size(numbers)
    end function middle
 
+   !> Writes the bodies of the axle into the deck, with their masses.
    subroutine put_bodies(deck, kin)
       type(deck_text_t), intent(inout) :: deck
       type(kin_t), intent(in) :: kin

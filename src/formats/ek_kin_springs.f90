@@ -12,6 +12,7 @@ module ek_kin_springs
 
 contains
 
+   !> Writes the springs of the axle, their curves and the bar into the deck.
    subroutine put_springs(deck, kin, flaws)
       type(deck_text_t), intent(inout) :: deck
       type(kin_t), intent(in) :: kin

@@ -11,7 +11,7 @@ module ek_law_points
 
    type :: law_points_t
       logical :: is_given = .false.
-      logical :: is_bad = .false.                !! a mistake was reported
+      logical :: is_bad = .false.                !! an error was reported
       integer :: line = 0                        !! where it begins
       integer :: used = 0
       real(wp), allocatable :: x(:), y(:)        !! SI
@@ -20,6 +20,7 @@ module ek_law_points
 
 contains
 
+   !> Appends a point and its line in the file.
    pure subroutine add_point(law, x, y, line)
       type(law_points_t), intent(inout) :: law
       real(wp), intent(in) :: x, y

@@ -3,10 +3,10 @@
 !> | columns | meaning                                   | columns of the table                     |
 !> |---------|-------------------------------------------|------------------------------------------|
 !> | 1, 2    | height of the wheel, left and right; a force with VERTICAL_MODE = 'force' | travel_mm; fz_n |
-!> | 3, 4    | lateral force at the patch                 | fy_n                                     |
+!> | 3, 4    | lateral force at the contact point                 | fy_n                                     |
 !> | 5 – 8   | damage radius, damage force                | none; the force must be 0                |
 !> | 9, 10   | aligning torque                            | mz_nm                                    |
-!> | 11, 12  | braking force at the patch, rearward       | fx_n                                     |
+!> | 11, 12  | braking force at the contact point, rearward       | fx_n                                     |
 !> | 13, 14  | driving force at the wheel centre, forward | centre_fx_n                              |
 !> | 15, 16  | overturning moment                         | mx_nm                                    |
 !> | 17, 18  | rolling resistance moment                  | my_nm                                    |

@@ -1,4 +1,4 @@
-!> The attitude of a wheel from the pose of its carrier: toe, camber, steer axis, displacements; the vertical force of the ground.
+!> The attitude of a wheel from the pose of its carrier: toe, camber, steering axis, displacements; vertical force of the ground.
 !>
 !> Frame x rearward, y right, z up; side = −1 left, +1 right. All in SI and radians.
 !>
@@ -9,7 +9,7 @@
 !>     camber = asin(−w_z):                   δcamber = (θ_y w_x − θ_x w_y)/h
 !>     caster = atan2(k_x, k_z):              δcaster = θ_y − k_y (θ_x k_x + θ_z k_z)/(k_x² + k_z²)
 !>
-!> A vertical spin axis has no toe, a steer axis along y no caster: the quotients are then infinite or not a number.
+!> A vertical spin axis has no toe, a steering axis along y no caster: the quotients are then infinite or not a number.
 module ek_attitude
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
@@ -29,33 +29,33 @@ module ek_attitude
    type :: axes_t
       integer :: side = -1                                     !! −1 left, +1 right
       real(wp) :: spin(3) = [0.0_wp, -1.0_wp, 0.0_wp]          !! unit, outboard
-      logical :: has_steer_axis = .false.                      !! the deck gives two points of the steer axis
+      logical :: has_steer_axis = .false.                      !! the deck gives two points of the steering axis
       real(wp) :: steer_axis(3) = [0.0_wp, 0.0_wp, 1.0_wp]     !! of any length
    end type axes_t
 
-   !> A steer axis relative to wheel centre and patch.
+   !> A steering axis relative to wheel centre and contact point.
    type :: steer_axis_t
       logical :: is_known = .false.
       real(wp) :: caster = 0.0_wp               !! rad, positive: top rearward
       real(wp) :: kingpin_inclination = 0.0_wp  !! rad, positive: top inward
       real(wp) :: scrub_radius = 0.0_wp         !! m, positive: axis meets the ground inboard of the patch
       real(wp) :: caster_trail = 0.0_wp         !! m, positive: axis meets the ground ahead of the patch
-      real(wp) :: spindle_length = 0.0_wp       !! m, wheel centre to steer axis, lateral at its height, positive outboard
-      real(wp) :: spindle_offset = 0.0_wp       !! m, likewise longitudinal, positive: centre behind the axis
+      real(wp) :: spindle_length = 0.0_wp       !! m, wheel centre to steering axis, lateral at its height, positive outboard
+      real(wp) :: spindle_offset = 0.0_wp       !! m, likewise longitudinal, positive: centre aft of the axis
    end type steer_axis_t
 
    !> The attitude of one wheel at one state. Changes are relative to design.
    type :: attitude_t
       real(wp) :: centre(3) = 0.0_wp     !! wheel centre, change [m]; z is the wheel travel, bump positive
-      real(wp) :: contact(3) = 0.0_wp    !! contact patch, change [m]
+      real(wp) :: contact(3) = 0.0_wp    !! contact point, change [m]
       real(wp) :: toe = 0.0_wp           !! rad, positive: front edges inward
       real(wp) :: camber = 0.0_wp        !! rad, positive: top outward
       real(wp) :: track_change = 0.0_wp       !! m, positive outward
       real(wp) :: wheelbase_change = 0.0_wp   !! m, positive rearward
       type(steer_axis_t) :: axis         !! of the two points of the deck, if any
-      type(axes_t) :: axes = axes_t()    !! spin axis, and the direction of the steer axis
-      real(wp) :: at_centre(3) = 0.0_wp, at_contact(3) = 0.0_wp   !! wheel centre and contact patch at the state [m]
-      real(wp) :: axis_point(3) = 0.0_wp !! first point of the steer axis at the state [m]
+      type(axes_t) :: axes = axes_t()    !! spin axis, and the direction of the steering axis
+      real(wp) :: at_centre(3) = 0.0_wp, at_contact(3) = 0.0_wp   !! wheel centre and contact point at the state [m]
+      real(wp) :: axis_point(3) = 0.0_wp !! first point of the steering axis at the state [m]
       real(wp) :: side_view = 0.0_wp     !! rotation in the side view: atan2(e_x, e_z), e vertical at design; + top rearward [rad]
    end type attitude_t
 
@@ -64,9 +64,9 @@ contains
    !> Attitude of a wheel for a pose of its carrier.
    !>
    !>     toe = atan2(−w_x, side·w_y)       camber = asin(−w_z)        w: spin axis, outboard
-   !>     caster = atan2(k_x, k_z)          kingpin = atan2(−side·k_y, k_z)    k: steer axis, upward
+   !>     caster = atan2(k_x, k_z)          kingpin = atan2(−side·k_y, k_z)    k: steering axis, upward
    !>
-   !> The ground is the horizontal plane through the contact patch. A horizontal steer axis (k_z = 0)
+   !> The ground is the horizontal plane through the contact point. A horizontal steering axis (k_z = 0)
    !> does not intersect it: scrub radius and trail are then not a number.
    !> Equation (C.9) of docs/theory/compliance.md.
    pure function attitude_of(wheel, origin, now) result(attitude)
@@ -135,7 +135,7 @@ contains
       axis%spindle_offset = centre(1) - abeam(1)
    end function steer_axis_of
 
-   !> The values of the six columns of a steer axis [rad, m]; not numbers if it is unknown.
+   !> The values of the six columns of a steering axis [rad, m]; not numbers if it is unknown.
    pure function axis_values(axis) result(values)
       type(steer_axis_t), intent(in) :: axis
       real(wp) :: values(6)
@@ -194,7 +194,7 @@ contains
       gradient(3) = 0.0_wp
    end function camber_gradient
 
-   !> Those in the change of the caster of the geometric steer axis [rad, positive: top rearward].
+   !> The weights of the rotations in the change of caster of the geometric steering axis [rad, positive: top rearward].
    !> Equation (C.11) of docs/theory/compliance.md.
    pure function caster_gradient(axis) result(gradient)
       real(wp), intent(in) :: axis(3)         !! of any length

@@ -67,7 +67,7 @@ contains
       type(solve_options_t), intent(in) :: options
       type(case_result_t), intent(out) :: result
       procedure(progress_procedure), optional :: progress
-      type(observer_t), intent(inout), optional :: observer   !! kept from design to design of a deck
+      type(observer_t), intent(inout), optional :: observer   !! reused for all designs of a deck
 
       if (allocated(options%fault)) then
          if (len(options%fault) > 0) then
@@ -90,9 +90,9 @@ contains
    !> Solves the path of a case that was put on the rig (mount_case) and tabulates it.
    subroutine solve_mounted(options, result, progress, observer, is_walked)
       type(solve_options_t), intent(in) :: options     !! without a fault
-      type(case_result_t), intent(inout) :: result     !! what it holds besides the case on the rig is replaced
+      type(case_result_t), intent(inout) :: result     !! everything except the case on the rig is replaced
       procedure(progress_procedure), optional :: progress
-      type(observer_t), intent(inout), optional, target :: observer   !! kept from design to design of a deck
+      type(observer_t), intent(inout), optional, target :: observer   !! reused for all designs of a deck
       logical, intent(in), optional :: is_walked       !! .true.: its path is there, complete
       type(observer_t), allocatable, target :: own
       type(observer_t), pointer :: tells

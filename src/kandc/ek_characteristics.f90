@@ -4,7 +4,7 @@
 !> C(i,j): displacement i per unit load j, 1–6 the wheel centre of this wheel (x y z, rotations about them), global
 !> axes. M is C with the loads at the contact points, CP with the displacements there as well (ek_loaded_wheels).
 !> Parallel (in phase): both wheels carry the load; opposed (anti phase): the other carries the opposite load. The
-!> slopes of steer, toe, camber and caster are those of the columns of that name, by the chain rule of ek_attitude.
+!> slopes of steer, toe, camber and caster are the slopes of the columns of this name, by the chain rule of ek_attitude.
 !>
 !> Two conditions in the vertical direction: vertical force held (the unchanged matrix), or heights of the wheel centres held
 !> (ek_port_response).
@@ -26,7 +26,7 @@ module ek_characteristics
    real(wp), parameter :: min_rotation = 1.0e-13_wp         !! rad/(N m): its inverse is stiffer than any block of steel
    real(wp), parameter :: longest_arm = 1.0e3_wp          !! m
    real(wp), parameter :: gravity = 9.80665_wp            !! m/s², the g of "per g"
-   real(wp), parameter, public :: trail = 0.030_wp        !! m: distance of a lateral force behind the patch, typical of a tyre
+   real(wp), parameter, public :: trail = 0.030_wp        !! m: distance of a lateral force aft of the contact point; typical tyre
    integer, parameter, public :: in_phase = 1, anti_phase = 2
    integer, parameter, public :: load_held = 1, height_held = 2
 
@@ -162,7 +162,7 @@ contains
    !> Computes responses to forces at the contact point and at the centre, and to moments.
    pure subroutine under_forces(wheels, m, c, reader, place, axle, held, is)
       integer, intent(in) :: wheels
-      real(wp), intent(in) :: m(12, 12), c(12, 12)   !! loads at the patch and at the centre, displacements at the centre
+      real(wp), intent(in) :: m(12, 12), c(12, 12)   !! loads at the contact point and at the centre, displacements at the centre
       type(reader_t), intent(in) :: reader
       integer, intent(in) :: place
       type(axle_t), intent(in) :: axle
@@ -190,7 +190,7 @@ contains
    !> Computes the stiffness of one wheel, load and height of the other held.
    pure subroutine single_rates(c, at, rate)
       real(wp), intent(in) :: c(12, 12)
-      integer, intent(in) :: at              !! rows before those of the wheel
+      integer, intent(in) :: at              !! number of rows before the rows of the wheel
       real(wp), intent(out) :: rate(2)
       integer :: own, other
 
@@ -273,7 +273,7 @@ contains
 
    !> Computes −Zf/Zw of brakes and of drive, per unit of the whole force on the vehicle, and the wheel travel per g.
    !>
-   !> Braking with a force 1 rearward: this axle's wheels carry half its share each, at the patch, and the load
+   !> Braking with a force 1 rearward: this axle's wheels carry half its share each, at the contact point, and the load
    !> transfer h/2L more (front) or less (rear). Driving with a force 1 forward: with opposite signs, at the
    !> centre or the patch. Zf, Zw: upward displacement of the wheel centres under the force and under the load transfer; their
    !> sum times the weight of the car is the travel per g.

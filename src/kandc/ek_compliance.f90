@@ -12,7 +12,7 @@
 !> is cleared and its diagonal set to −1 of the scaled matrix: Δλ = 0, one negative eigenvalue as before.
 !>
 !> Under a constant moment or a load that rotates with its body the matrix is not symmetric, and is factorised in full
-!> (ek_skew_system); the responses read from the left are then those of the transpose.
+!> (ek_skew_system); the responses read from the left are then the responses of the transpose.
 !>
 !> The contact point given by the deck is fixed to the carrier at the arm a from the wheel centre: a force F there equals the same
 !> force at the centre with the moment a×F, and the point moves by δ + θ×a. Moments and rotations do not depend on the point.
@@ -41,7 +41,7 @@ module ek_compliance
       integer, allocatable :: order(:)          !! wheel of the suspension at each index of C: left before right
       integer, allocatable :: spring(:)         !! axial spring of the suspension at each index
       logical :: is_known = .false.             !! false: the matrix was singular, `response` is not a number
-      logical :: has_drive = .false.            !! the last load is that of a unit of the steering driver
+      logical :: has_drive = .false.            !! the last load is a unit displacement of the steering driver
       real(wp), allocatable :: response(:, :)   !! (port, load), see above; not a number where it was not asked
       ! the loads that are solved, and the ports that are read
       integer, private :: solved = 0
@@ -49,9 +49,9 @@ module ek_compliance
       integer, allocatable, private :: column(:)        !! of each load, 0: it is not solved
       logical, private :: reads_springs = .true.
       ! a port touches the unknowns of one body, or two
-      integer, allocatable, private :: at_wheel(:)      !! unknowns before those of the carrier
+      integer, allocatable, private :: at_wheel(:)      !! unknowns before the unknowns of the carrier
       real(wp), allocatable, private :: arm(:, :)       !! from its reference point to the wheel centre [m]
-      integer, allocatable, private :: at_spring(:, :)  !! unknowns before those of both bodies; negative: the chassis
+      integer, allocatable, private :: at_spring(:, :)  !! unknowns before the unknowns of both bodies; negative: the chassis
       real(wp), allocatable, private :: gradient(:, :)  !! of the length of each spring
       real(wp), allocatable, private :: columns(:, :)   !! (unknown, column): loads, then displacements
       type(skew_system_t), private :: skew_system       !! used only if a load requires it
@@ -296,7 +296,7 @@ contains
       end do
    end subroutine set_loads
 
-   !> Reads the displacements of the ports under a solved load, from those of the bodies.
+   !> Reads the displacements of the ports under a solved load from the displacements of the bodies.
    !> Equation (C.3) of docs/theory/compliance.md.
    pure subroutine read_ports(column, self)
       integer, intent(in) :: column
@@ -335,7 +335,7 @@ contains
    !> A gradient times the displacements of its two bodies; a negative number: the chassis.
    pure real(wp) function along(gradient, at_i, at_j, moves) result(change)
       real(wp), intent(in) :: gradient(12)
-      integer, intent(in) :: at_i, at_j           !! unknowns before those of the body
+      integer, intent(in) :: at_i, at_j           !! unknowns before the unknowns of the body
       real(wp), intent(in) :: moves(*)
 
       change = 0.0_wp

@@ -23,7 +23,7 @@ module ek_geometry_columns
    real(wp), parameter :: standard_gravity = 9.80665_wp      !! m/s²
    real(wp), parameter :: min_ratio = 1.0e-6_wp            !! stop is independent of the wheels
 
-   real(wp), parameter :: parallel = 1.0e-9_wp           !! sine of the angle of spin and steer axis: parallel below
+   real(wp), parameter :: parallel = 1.0e-9_wp           !! sine of the angle of spin and steering axis: parallel below
 
    ! Below these a carrier does not rotate: stiffer than any steel about z, or a rack that steers 1e-6 rad per metre
    real(wp), parameter :: min_rotation = 1.0e-12_wp        !! rad/(N m); also of a quotient, by moment or by rack
@@ -34,7 +34,7 @@ contains
    !> Computes the values of wheel_axis: side view, distances from the steering axis of the deck, spin axis.
    pure subroutine axis_geometry(now, frame, values)
       type(attitude_t), intent(in) :: now
-      real(wp), intent(in) :: frame(3)              !! from the frame of the program to that of the deck
+      real(wp), intent(in) :: frame(3)              !! from the program's frame to the deck's frame
       real(wp), intent(inout) :: values(8)
 
       values(1) = now%side_view
@@ -184,7 +184,7 @@ contains
       end do
    end subroutine locked_twists
 
-   !> The instant steer axis of a wheel: the line about which its carrier rotates when it steers with its springs at constant
+   !> The instant steering axis of a wheel: the line about which its carrier rotates when it steers with its springs at constant
    !> length, ω/|ω| through p + ω×v/|ω|² for the twist (v, ω) at the wheel centre p (the pitch of the screw is ignored).
    !> is_known is false if the carrier does not rotate, or for a horizontal axis.
    !> Equation (S.9) of docs/theory/suspension.md.
@@ -201,9 +201,9 @@ contains
       axis = steer_axis_of(now%axes%side, point, turn, now%at_centre, now%at_contact)
    end function instant_axis
 
-   !> Distances of a wheel from a steer axis, the line through `point` along `direction`: of the centre and of the patch, never
+   !> Distances of a wheel from a steering axis, the line through `point` along `direction`: of the centre and of the patch, never
    !> negative; along the spin axis, from the foot of the common perpendicular, + outboard; length of the common perpendicular,
-   !> + spin axis behind the line.
+   !> + spin axis aft of the line.
    !>
    !> With d = centre − point, k the unit direction upward, w the spin axis outboard, n = side w×k/|w×k|:
    !>

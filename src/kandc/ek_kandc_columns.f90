@@ -7,7 +7,7 @@
 !> The ending of a column names the quantity whose slope it is: `…_steer`, `…_toe`, `…_camber`, `…_caster` are the
 !> derivatives of the columns steer_deg, toe_deg, camber_deg and caster_deg; `…_rotation_x`, `…_y`, `…_z` are the
 !> rotation of the carrier about an axis of the deck's frame; `…_deflection` is the movement of the contact point (of the
-!> wheel centre in traction), `…_centre_deflection` that of the wheel centre.
+!> wheel centre under driving force), `…_centre_deflection` is the movement of the wheel centre.
 module ek_kandc_columns
    use ek_kinds, only: wp, pi, millimetre
    use ek_measure, only: measure_value

@@ -72,7 +72,7 @@ contains
 
    !> Lists the names of all columns that a model defines: self%names(:self%used). In the order of the table: each wheel, the axle
    !> with its steering, the geometry of each wheel, that of the axle, elements, springs. Before they are filled, choose_kandc
-   !> says which are requested.
+   !> marks the requested columns.
    subroutine list_kandc(suspension, self)
       type(suspension_t), intent(in) :: suspension
       type(kandc_t), intent(out) :: self
@@ -220,7 +220,7 @@ contains
       end associate
    end subroutine choose_kandc
 
-   !> Sets what is the same at all states of a design.
+   !> Sets the values that are equal at all states of a design.
    subroutine begin_design(suspension, self)
       type(suspension_t), intent(in) :: suspension
       type(kandc_t), intent(inout) :: self

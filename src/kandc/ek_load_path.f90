@@ -113,7 +113,8 @@ contains
       end associate
    end subroutine change_element
 
-   !> Adds Φᵀμ + λ Hess u of a joint to the sum; its force and moment, of one of measures those of its first measure.
+   !> Adds Φᵀμ + λ Hess u of a joint to the sum, and finds its force and moment. In a joint of measures, they are the force and
+   !> moment of the first measure.
    subroutine change_joint(suspension, state, joint, nq, u, sum_of, force, moment)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state

@@ -7,7 +7,7 @@ module ek_port_response
    private
    public :: load_at_patch, read_at_patch, hold, lock_t, find_lock, keep_locked
 
-   real(wp), parameter :: rounding = 1.0e-9_wp    !! of its own compliance: a port that has less left is held already
+   real(wp), parameter :: rounding = 1.0e-9_wp    !! share of the port's compliance: a port with less left is already held
 
    !> Ports that are held, one after the other. Kept from state to state, so that its memory is allocated once.
    type :: lock_t

@@ -7,13 +7,13 @@
 !> an increment needs
 !> one list of rows, one of loads and one reaction vector λ. The split is by number: `own_rows` of the suspension come first in Φ
 !> and in λ, and "released" means without the rows after them. In the same way the case on the rig is the case with the
-!> actuations of its rig: a rig carried beside both would be one more argument of every procedure and split nothing else.
+!> actuations of its rig. A separate rig would be one more argument of every procedure, without any other benefit.
 !>
-!> A wheel held by height has a driver on its centre, or on its patch (vertical = 'patch'); on the road (vertical =
-!> 'road') that driver is the road's height, on which the patch rests through the rate of its tyre; held by vertical
-!> force it is free and keeps its load. In an opposed case (anti phase) the right wheel gets the opposite load. The wheel
+!> A wheel held by height has a driver on its centre, or on its contact point (vertical = 'patch'). On the road (vertical =
+!> 'road') this driver is the height of the road, on which the contact point rests through the tyre rate. Held by vertical
+!> force, the wheel is free and its load is constant. In an anti-phase case the right wheel gets the opposite load. The wheel
 !> is fixed to its carrier, as with a locked brake; a freely rolling wheel transmits a force at its centre only.
-!> If the drive torque is reacted in a solid axle, traction acts at the patch.
+!> If a solid axle reacts the drive torque, the driving force acts at the contact point.
 module ek_rig
    use ek_kinds, only: wp
    use ek_contract, only: are_checked, require

@@ -24,7 +24,7 @@ module ek_rig_numbers
       logical :: is_road = .false.                       !! the height of the road, on which the patch rests through its tyre
    end type height_t
 
-   !> Where a load acts, and what it is at factor 1.
+   !> The point of application of a load, and its value at factor 1.
    type :: acting_t
       integer :: wheel = 0
       logical :: is_at_patch = .false.                   !! otherwise at the wheel centre

@@ -55,7 +55,7 @@ contains
       subroutine include(test, is_anti, offset)
          type(rig_test_t), intent(in) :: test
          logical, intent(in) :: is_anti
-         real(wp), intent(in) :: offset              !! distance of the force behind the patch [m]
+         real(wp), intent(in) :: offset              !! distance of the force aft of the contact point [m]
          type(case_t) :: this
          integer :: k
 

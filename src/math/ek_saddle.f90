@@ -1,4 +1,4 @@
-!> The linear system of a quadratic cost under linear conditions, K symmetric and not negative:
+!> The linear system of a quadratic cost under linear conditions, with K symmetric and positive semi-definite:
 !>
 !>     [ K   F ] [v]   [b]
 !>     [ Fᵀ  0 ] [y] = [0]
@@ -28,7 +28,7 @@ module ek_saddle
    type :: saddle_t
       integer :: n = 0                           !! rows of K
       integer :: m = 0                           !! columns of F
-      real(wp), allocatable :: k(:, :)           !! (n, n) lower triangle; then its part from m + 1: the factor of Zᵀ K Z
+      real(wp), allocatable :: k(:, :)           !! (n, n) lower triangle; then from row and column m + 1 on: the factor of Zᵀ K Z
       real(wp), allocatable :: f(:, :)           !! (n, m); then U, and below its diagonal L
       integer, allocatable :: swapped(:)         !! (m): the row that changed places with row k
       logical :: is_regular = .false.            !! F and Zᵀ K Z have full rank without a doubt

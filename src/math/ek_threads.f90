@@ -13,7 +13,7 @@ module ek_threads
    !> OpenBLAS retries forever.
    integer(i8), parameter :: work_space = 2_i8**27 + 2_i8**22
 
-   !> Bytes that a further thread asks for besides: its heap (an arena of glibc) and its stack.
+   !> Bytes that a further thread requires in addition: its heap (an arena of glibc) and its stack.
    integer(i8), parameter :: heap_and_stack = 2_i8**26 + 2_i8**23
 
    abstract interface
@@ -49,7 +49,7 @@ contains
    !> try again forever, and the process would not hear SIGTERM. The first thread has its work space, heap and stack.
    integer function threads_in_memory(wanted, bytes) result(threads)
       integer, intent(in) :: wanted
-      integer(i8), intent(in) :: bytes                        !! that a thread asks for, besides
+      integer(i8), intent(in) :: bytes                        !! required by a thread in addition
       integer(i8) :: further
 
       threads = wanted

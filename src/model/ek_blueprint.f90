@@ -77,7 +77,7 @@ module ek_blueprint
    type :: bushing_plan_t
       integer :: ends(2) = 0, z = 0, x = 0  !! vectors
       integer :: kt = 0, kr = 0, preload_force = 0, preload_moment = 0   !! the first of three parameters
-      integer :: curves(6) = 0              !! numbers of curves
+      integer :: curves(6) = 0              !! indices of curves
    end type bushing_plan_t
 
    type :: wheel_plan_t
@@ -90,7 +90,7 @@ module ek_blueprint
       integer :: force = 0, moment = 0      !! the first of three parameters
    end type load_plan_t
 
-   !> A curve, in deck units: those of the element that uses it.
+   !> A curve, in the deck units of the element that uses it.
    type :: curve_plan_t
       integer :: points = 0                 !! their number
       integer :: x = 0, y = 0               !! the first of the parameters, one per point

@@ -33,7 +33,7 @@ module ek_case
    type :: table_column_t
       character(:), allocatable :: name       !! its head; of a driver joint the name of the joint
       integer :: wheel = 0                    !! number of the wheel; 0: a driver joint of the deck
-      integer :: component = 0                !! 1–3 force and 4–6 moment at the patch, 7–9 force at the centre; 0: a height
+      integer :: component = 0                !! 1–3 force and 4–6 moment at the contact point, 7–9 force at the centre; 0: a height
       real(wp), allocatable :: values(:)      !! N, N m, m or rad
    end type table_column_t
 
@@ -64,11 +64,11 @@ module ek_case
       character(:), allocatable :: test     !! name of the test; not allocated or empty: none
       character(:), allocatable :: vertical !! how wheels are held: 'centre', 'patch', 'road', 'force'; '': default of the test
       logical :: is_anti = .false.          !! opposed: the load on the right wheel is reversed
-      real(wp) :: offset = 0.0_wp           !! trail of a lateral force behind the patch [m]
+      real(wp) :: offset = 0.0_wp           !! trail of a lateral force aft of the contact point [m]
       character(:), allocatable :: file     !! name of a load table
       type(load_table_t) :: table           !! its content
       character(:), allocatable :: target   !! 'column=value', '' for none
-      logical :: is_good = .true.           !! .false.: the case has a mistake and cannot be mounted on the rig
+      logical :: is_good = .true.           !! .false.: the case has an error and cannot be mounted on the rig
       logical :: has_all = .false.          !! write the compliance matrix and the quantities derived from it at every state
       ! of a case on the rig, see ek_rig; not allocated in the deck, except for a case that names several loads
       type(actuation_t), allocatable :: actuations(:)

@@ -33,7 +33,7 @@ module ek_element
    integer, parameter :: bushing_element = 1
    integer, parameter :: axial_spring = 2
    integer, parameter :: torsion_spring = 3
-   integer, parameter :: measure_spring = 4  !! on a gap, a rotation or a cosine; keeps its preload
+   integer, parameter :: measure_spring = 4  !! on a displacement, a rotation or a cosine; balance leaves its preload unchanged
    integer, parameter :: stop_spring = 5
    integer, parameter :: damper = 6
 
@@ -90,7 +90,7 @@ contains
       element%law%rounding = numbers(rounding_number)
    end subroutine set_numbers
 
-   !> Sets kind and measure. The law of a length has the compression as its argument, that of an angle or a cosine its increase.
+   !> Sets kind and measure. The argument of the law is the compression of a length, or the increase of an angle or cosine.
    pure subroutine set_kind(element, kind, measure)
       type(element_t), intent(inout) :: element
       integer, intent(in) :: kind

@@ -73,7 +73,7 @@ contains
    end subroutine add_element_tangent
 
    !> Adds slope g gᵀ + tension × Hessian of the measure, g its gradient. Of a distance: Jᵀ[slope e eᵀ + tension/L (I − e eᵀ)]J and
-   !> the arm terms, which are those of a gap along e.
+   !> the arm terms, which equal the arm terms of a displacement along e.
    !> Equation (M.13) of docs/theory/measures.md.
    pure subroutine add_spring_tangent(kind, evaluation, tension, slope, at, blocks)
       integer, intent(in) :: kind                       !! of the measure

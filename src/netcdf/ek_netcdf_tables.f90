@@ -34,7 +34,7 @@ module ek_netcdf_tables
 
 contains
 
-   !> Writes <study>_responses.csv and, if the store has curves, <study>_curves.csv with those of every n-th design.
+   !> Writes <study>_responses.csv and, if the store has curves, <study>_curves.csv with the curves of every n-th design.
    subroutine write_store_tables(path, folder, every, error)
       character(*), intent(in) :: path, folder
       integer, intent(in) :: every

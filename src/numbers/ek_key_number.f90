@@ -53,6 +53,7 @@ contains
       nothing = ieee_value(1.0_wp, ieee_quiet_nan)
    end function nothing
 
+   !> Whether a number has a finite value on the left or right side.
    pure logical function has_value(number)
       type(key_number_t), intent(in) :: number
       has_value = ieee_is_finite(number%left) .or. ieee_is_finite(number%right)

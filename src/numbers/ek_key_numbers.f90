@@ -22,7 +22,7 @@ module ek_key_numbers
       character(44) :: name = ''        !! a column, or a gradient without its ending
       character(15) :: kind = ''        !! of the test; '': the first that has the column
       integer :: how = at_design        !! at_design to anti_phase of ek_key_number
-      character(38) :: title = ''       !! of an extreme; otherwise that of the column or gradient
+      character(38) :: title = ''       !! of an extreme; otherwise the title of the column or gradient
    end type entry_t
 
    character(*), parameter :: phases(slope:anti_phase) = [character(25) :: '', ', parallel (in phase)', ', opposed (anti phase)']
@@ -260,7 +260,7 @@ contains
    subroutine from_tables(tests, entry, is_steered, number)
       type(test_result_t), intent(in) :: tests(:)
       type(entry_t), intent(in) :: entry
-      logical, intent(in) :: is_steered                 !! the instant axis is that of the steering, not of the elasticity
+      logical, intent(in) :: is_steered                 !! the instant axis belongs to steering, not to elasticity
       type(key_number_t), intent(out) :: number
       type(quantity_t) :: quantity
       type(key_source_t) :: source

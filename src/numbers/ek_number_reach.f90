@@ -18,7 +18,7 @@ module ek_number_reach
 contains
 
    !> The swept value beyond which a number needs no state of a source: 0 if it is read at design, otherwise the end of its window.
-   !> Only where the abscissa of a gradient is the swept value, up to a factor, by the way in which the test holds the wheels;
+   !> For a gradient this requires that the test holds the wheels such that the abscissa is the swept value times a factor;
    !> otherwise all states are needed.
    pure real(wp) function reach_of(how, suspension, case, source, test) result(reach)
       integer, intent(in) :: how                        !! of ek_key_number

@@ -46,6 +46,7 @@ contains
       allocate (number%sources(0))
    end subroutine new_number
 
+   !> Appends a source to a number.
    subroutine add_source(source, number)
       type(key_source_t), intent(in) :: source
       type(key_number_t), intent(inout) :: number

@@ -132,7 +132,7 @@ contains
       kkt%factorisations = kkt%factorisations + 1          ! they are not those before
    end subroutine take_factors
 
-   !> Whether the joints of a design are in the same assembly at the present state as at state `before`, and not singular.
+   !> Whether the joints of a design are in the same assembly mode at the present state as at state `before`, and not singular.
    logical function is_same_assembly(self, member, lane, before)
       type(walker_t), intent(inout) :: self
       type(member_t), intent(in) :: member

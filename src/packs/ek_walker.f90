@@ -43,7 +43,7 @@ module ek_walker
       type(pack_t) :: pack
       type(predictor_t) :: history               !! places of the stored states; their numbers are in the pack
       type(branch_t) :: branch(lanes)            !! of each design, where it goes a step alone
-      logical :: is_fresh(lanes) = .false.       !! the branch is that of the present design
+      logical :: is_fresh(lanes) = .false.       !! the branch belongs to the present design
       type(state_t) :: state
       type(place_t), allocatable :: places(:)    !! of each design; kept as work space
       real(wp) :: tolerance = 0.0_wp             !! of the present designs [m]
@@ -125,6 +125,7 @@ contains
       history%abscissa(history%newest) = value
    end subroutine remember_place
 
+   !> Puts the numbers of one design into its lane.
    pure subroutine put_lane(lane, numbers, x)
       integer, intent(in) :: lane
       real(wp), intent(in) :: numbers(:)
@@ -136,6 +137,7 @@ contains
       end do
    end subroutine put_lane
 
+   !> Takes the numbers of one design from its lane.
    pure subroutine get_lane(lane, x, numbers)
       integer, intent(in) :: lane
       type(lanes_t), intent(in) :: x(:)

@@ -40,6 +40,7 @@ contains
          sin(camera%tilt*degree)]
    end subroutine directions
 
+   !> The projection of a fitted camera onto its picture, in shares of width and height.
    pure type(projection_t) function new_projection(camera) result(self)
       type(camera_t), intent(in) :: camera      !! fitted
       real(wp) :: right(3), up(3)

@@ -9,7 +9,7 @@ module ek_chart_axis
    private
    public :: range_of, view_of, cut_of, free_range, extremes, contact_spans
 
-   real(wp), parameter :: much = 3.0_wp       !! times the span of the free travel: beyond it, an axis is that of the free travel
+   real(wp), parameter :: much = 3.0_wp       !! times the span of the free travel: beyond it, the axis covers the free travel only
 
 contains
 

@@ -14,7 +14,7 @@ module ek_chart_data
       real(wp), allocatable :: mark(:)       !! [x, y] of a ring: the design state
       integer :: colour = 1                  !! index in the palette
       integer :: dash = 0                    !! 0 solid, 1 dashed, 2 dotted, 3 dash-dotted
-      integer :: design = 0                  !! row of the design state where it is not that of the test; 0: as the test
+      integer :: design = 0                  !! row of the design state if it differs from the row of the test; 0: row of the test
       logical, allocatable :: in_contact(:)  !! states at which a stop is in contact; not allocated: no stop, or not of interest
       integer :: reference = 0               !! the curve of the chart that it is compared with; 0: none
    end type trace_t

@@ -37,7 +37,7 @@ module ek_compare_charts
 
 contains
 
-   !> Compares the charts of every test of the first result that another one has too. A curve that is the same as that of the
+   !> Compares the charts of every test of the first result that another one has too. A curve that equals the curve of the
    !> first result is drawn once, as 'A = B'.
    subroutine compare_charts(results, threshold, charts, changes, curves)
       type(results_t), intent(in) :: results(:)

@@ -55,7 +55,7 @@ contains
       text = page_text(page)
    end function page_of
 
-   !> Adds what was changed: facts of the making, values of the decks.
+   !> Adds the differences: facts of the runs, values of the decks.
    subroutine add_changes(page, this)
       type(page_t), intent(inout) :: page
       type(comparison_t), intent(in) :: this

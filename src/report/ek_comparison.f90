@@ -18,7 +18,7 @@ module ek_comparison
 
    !> One gradient or key number of all results. Of a key number `test` is its group and `column` its name for programs.
    type, extends(gradient_t) :: difference_t
-      real(wp) :: least = 0.0_wp              !! what a change is compared with where the value is smaller
+      real(wp) :: least = 0.0_wp              !! reference of a change where the value is smaller
       real(wp), allocatable :: values(:)      !! one per result; not a number if it lacks the gradient
       logical, allocatable :: is_there(:)
    end type difference_t
@@ -27,7 +27,7 @@ module ek_comparison
       character(:), allocatable :: folder               !! of the page
       type(results_t), allocatable :: results(:)        !! the first is the one compared with
       real(wp) :: threshold = 0.01_wp                   !! a larger change counts
-      type(deck_difference_t), allocatable :: facts(:), deck(:)     !! what differs in making and decks
+      type(deck_difference_t), allocatable :: facts(:), deck(:)     !! differences of the runs and of the decks
       type(difference_t), allocatable :: rows(:), numbers(:)        !! gradients, key numbers
       type(difference_t), allocatable :: shown(:)       !! both, each once, sorted by change
       type(chart_t), allocatable :: charts(:)           !! of the tests of the first
@@ -139,7 +139,7 @@ contains
    end function largest_change
 
    !> The key numbers and gradients for a page: a gradient that is a key number too once, both sides once where every result shows
-   !> the same or the opposite numbers for them; the largest change first, then what has no value.
+   !> the same or the opposite numbers for them; the largest change first, then numbers without a value.
    function results_shown(numbers, rows) result(shown)
       type(difference_t), intent(in) :: numbers(:), rows(:)
       type(difference_t), allocatable :: shown(:), others(:)

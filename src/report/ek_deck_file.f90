@@ -21,6 +21,7 @@ module ek_deck_file
 
 contains
 
+   !> Writes deck.csv: the facts and the values of the deck.
    subroutine write_deck_file(path, names, facts, paths, texts, error)
       character(*), intent(in) :: path
       type(message_list_t), intent(in) :: names, facts     !! of the head of the page

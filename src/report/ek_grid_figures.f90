@@ -68,6 +68,7 @@ contains
       name = test%name//'_carpet'
    end function carpet_name
 
+   !> The name of the figure of the envelope of a test.
    pure function envelope_name(test) result(name)
       type(test_result_t), intent(in) :: test
       character(:), allocatable :: name

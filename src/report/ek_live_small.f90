@@ -74,7 +74,7 @@ contains
       call put_numbers(test, state, small)
    end subroutine make_small
 
-   !> Replaces both laws of a rate by sum and difference; the sign between the sides is that of the load of a column.
+   !> Replaces both laws of a rate by sum and difference; the load of a column gives the sign between the sides.
    subroutine take_sums(of_law, column, state)
       integer, intent(in) :: of_law(:), column
       type(live_state_t), intent(inout) :: state(:)
@@ -140,7 +140,7 @@ contains
       first = sum
    end subroutine turn
 
-   !> Finds the laws that the load of a column touches, and those that A couples with such a law.
+   !> Finds the laws on which the load of a column acts, and the laws that A couples with them.
    subroutine find_left(state, column, is_left)
       type(live_state_t), intent(in) :: state(:)
       integer, intent(in) :: column

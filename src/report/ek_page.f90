@@ -60,7 +60,7 @@ contains
       if (present(has_turntable)) page%has_turntable = has_turntable
    end subroutine set_data
 
-   !> Adds HTML as it is, on a line: every text in it has been escaped by escape_html.
+   !> Adds a line of HTML unchanged; the caller has escaped every string in it by escape_html.
    pure subroutine add_markup(page, html)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: html
@@ -71,7 +71,7 @@ contains
    pure subroutine begin_section(page, id, title, condition, is_printed)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: id, title
-      character(*), intent(in), optional :: condition      !! behind the title, smaller
+      character(*), intent(in), optional :: condition      !! after the title, smaller
       logical, intent(in), optional :: is_printed          !! .false.: of a live page, on the screen alone
       character(:), allocatable :: small, look
 

@@ -14,7 +14,7 @@ module ek_report_content
    private
    public :: report_t, add_fact
 
-   !> A report: its tests, and what its page shows besides.
+   !> A report: its tests, and the other contents of its page.
    type :: report_t
       character(:), allocatable :: title, folder
       type(message_list_t) :: names, values            !! facts for the head of the page
@@ -26,14 +26,14 @@ module ek_report_content
       type(gradient_t), allocatable :: gradients(:)
       type(key_number_t), allocatable :: numbers(:)    !! key numbers of the tests
       type(load_record_t), allocatable :: loads        !! of the members, if they are wanted
-      type(explanation_t), allocatable :: explanations(:)     !! what makes the key compliances
+      type(explanation_t), allocatable :: explanations(:)     !! contributions to the key compliances
       type(live_t), allocatable :: live                !! rates that the page can change, if they are wanted
       type(turntable_t), allocatable :: turntable      !! the suspension in space, if something moves
       integer :: axle = 0                              !! −1 front, 1 rear, 0 not known: what a steer angle does to the car
       type(message_list_t) :: drawn                    !! scripts and pictures of this report, relative to the folder
       integer :: incomplete = 0                        !! tests that failed or were not run to their ends
       logical :: is_static = .false.                   !! the charts of gnuplot, no script
-      logical :: has_pictures = .false., has_animation = .false., has_views = .false.   !! those in the folder are of this report
+      logical :: has_pictures = .false., has_animation = .false., has_views = .false.   !! the folder has these of this report
    end type report_t
 
 contains

@@ -155,7 +155,7 @@ contains
       call add_gradients(page, test%name, report%gradients)
    end subroutine add_test
 
-   !> Over what the states of a test are shown.
+   !> The label of the abscissa over which the states of a test are shown.
    function over_what(test) result(words)
       type(test_result_t), intent(in) :: test
       character(:), allocatable :: words
@@ -250,7 +250,7 @@ contains
       call add_markup(page, '</details>')
    end subroutine add_constants
 
-   !> The middle of a constant; what is small against its least span is 0.
+   !> The middle of a constant; a value that is small against its least span is 0.
    pure real(wp) function level_of(y, span) result(value)
       real(wp), intent(in) :: y(:), span
 

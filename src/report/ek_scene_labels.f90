@@ -89,7 +89,7 @@ contains
       end do
    end function is_taken
 
-   !> The mean of what is drawn below a text.
+   !> The mean of the picture below a label.
    pure real(wp) function covered(drawn, middle, half)
       real(wp), intent(in) :: drawn(:, :), middle(2), half(2)
       integer :: low(2), high(2)

@@ -16,9 +16,9 @@ module ek_step_page
    private
    public :: step_page, step_script, figure_ending
 
-   character(*), parameter :: figure_ending = '_steps'     !! of the name of the figure, after that of the study
+   character(*), parameter :: figure_ending = '_steps'     !! appended to the name of the study
 
-   !> The errors, and what they are.
+   !> The errors and their names.
    integer, parameter :: errors = 4
    character(20), parameter :: columns(errors) = [character(20) :: 'constraint_error', 'travel_error_mm', 'toe_error_deg', &
       'camber_error_deg']
@@ -144,7 +144,7 @@ contains
       text = end_panels(sheet)
    end function step_script
 
-   !> A magnitude that a logarithmic axis can show; what is rounding alone is missing.
+   !> A magnitude that a logarithmic axis can show; values that are only rounding are missing.
    pure real(wp) function drawn(value)
       real(wp), intent(in) :: value
 

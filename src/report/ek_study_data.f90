@@ -10,7 +10,7 @@ module ek_study_data
    public :: range_of_values, is_geometric, tic_step, has_indices, has_expected
 
    integer, parameter :: percents(5) = [5, 25, 50, 75, 95]      !! percentiles of a summary and of a band
-   integer, parameter :: most_panels = 9                        !! of one figure; more responses are left out, which it says
+   integer, parameter :: most_panels = 9                        !! of one figure; it notes that further responses are omitted
 
    !> A factor, a response or a column of the curves.
    type :: study_axis_t

@@ -20,7 +20,7 @@ module ek_svg
       integer :: count = 0
       character(24) :: names(max_symbols) = ''
       integer :: first(max_symbols) = 0, last(max_symbols) = 0    !! letters of the output
-      character(:), allocatable :: used      !! with a blank before and behind each
+      character(:), allocatable :: used      !! with a blank before and after each
    contains
       procedure :: define, refer
    end type symbols_t

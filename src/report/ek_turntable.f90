@@ -33,15 +33,15 @@ module ek_turntable
 
    !> States of one test.
    type :: motion_t
-      character(:), allocatable :: test, label   !! its name; what moves, with unit
+      character(:), allocatable :: test, label   !! name of the test; moved quantity with unit
       real(wp), allocatable :: value(:)          !! in that unit
       real(wp), allocatable :: pose(:, :, :)     !! reference point [m], quaternion q1 to q3 with q0 ≥ 0: (6, body, state)
-      integer :: design = 0                      !! number of the state nearest to design
+      integer :: design = 0                      !! index of the state nearest to design
    end type motion_t
 
    type :: turntable_t
       integer :: bodies = 0
-      real(wp) :: frame(3) = 1.0_wp              !! from the frame of the program to that of the deck
+      real(wp) :: frame(3) = 1.0_wp              !! from the program's frame to the deck's frame
       real(wp) :: turn = -116.0_wp               !! at first, deg: where the reader stands, from the x axis of the deck towards y
       type(fixed_line_t), allocatable :: lines(:)
       type(motion_t), allocatable :: motions(:)

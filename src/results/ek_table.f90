@@ -41,7 +41,7 @@ contains
       allocate (table%values(size(columns), rows), source=ieee_value(1.0_wp, ieee_quiet_nan))
    end function new_table
 
-   !> Index of a column, 0 if there is none of this name. Names are case-sensitive. (libgfortran's findloc of texts reads beyond
+   !> Index of a column, 0 if there is no such name. Names are case-sensitive. (libgfortran's findloc of texts reads beyond
    !> the array with back = .true.)
    pure integer function column_index(table, name) result(place)
       type(table_t), intent(in) :: table

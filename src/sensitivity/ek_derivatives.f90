@@ -42,7 +42,7 @@ module ek_derivatives
    private
    public :: derivatives_t, begin_derivatives, find_derivatives, refuse_case
 
-   real(wp), parameter :: rounding = 1.0e-6_wp                !! N: of forces on the bodies; smaller corners are not looked for
+   real(wp), parameter :: rounding = 1.0e-6_wp                !! N, of forces on the bodies: smaller corners are ignored
    integer, parameter :: max_numbers = 4000000                !! of motions and observations that are kept at a time: 32 MB
 
    !> The derivatives of a case at some states.
@@ -66,7 +66,7 @@ contains
    subroutine begin_derivatives(workspace, k, columns, directions, self)
       type(workspace_t), intent(in) :: workspace          !! the case was solved at its present numbers (solve_case_fully)
       integer, intent(in) :: k                             !! the case, not refused by refuse_case
-      character(*), intent(in) :: columns(:)               !! of the table of the case, or of that of its compliance matrix
+      character(*), intent(in) :: columns(:)               !! of the table of the case, or of the table of its compliance matrix
       type(direction_t), intent(in) :: directions(:)
       type(derivatives_t), intent(out) :: self
 
@@ -98,7 +98,7 @@ contains
    subroutine find_derivatives(workspace, states, self)
       type(workspace_t), intent(inout) :: workspace       !! the case is solved at its present numbers; its work space is used
       integer, intent(in) :: states(:)
-      type(derivatives_t), intent(inout) :: self           !! of begin_derivatives
+      type(derivatives_t), intent(inout) :: self           !! prepared by begin_derivatives
       integer :: first, last, many
 
       if (are_checked) call require(self%case > 0 .and. size(self%neighbour%x) == size(workspace%x), &

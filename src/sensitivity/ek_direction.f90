@@ -86,7 +86,7 @@ contains
       type(design_t), intent(in) :: design
       type(choice_t), intent(in) :: found(:)
       type(direction_t), allocatable, intent(out) :: directions(:)
-      logical, intent(in) :: is_free_choice      !! numbers that the deck omits or that cannot move are left out
+      logical, intent(in) :: is_free_choice      !! numbers that the deck omits or that cannot move are omitted
       type(direction_t) :: this
       integer :: j, k
 

@@ -82,7 +82,7 @@ contains
       found%ended = search%ended
    end subroutine solve_fit
 
-   !> Computes all differences with their derivatives; those of priors at the end, zero without one.
+   !> Computes all differences with their derivatives. Differences of priors are at the end; without a prior they are zero.
    !> Equation (E.5) of docs/theory/derivatives.md.
    subroutine find_residuals(problem, x, values, r, jacobian)
       type(fit_problem_t), intent(in) :: problem

@@ -189,7 +189,7 @@ contains
       type(point_t), intent(in) :: points(:)
       type(neighbour_t), intent(inout) :: self
       type(inputs_t), intent(inout) :: inputs(:)
-      logical, intent(out) :: has_inputs                   !! they differ from those of the design; otherwise they are not set
+      logical, intent(out) :: has_inputs                   !! inputs differ from the design's inputs; otherwise they are not set
       logical, intent(out) :: is_done                      !! .false.: there is no such design with the same states
       real(wp) :: place
       integer :: s

@@ -27,14 +27,14 @@ module ek_part_change
       real(wp) :: arms(6) = 0.0_wp, u(3) = 0.0_wp, v(3) = 0.0_wp, coefficient = 0.0_wp
    end type term_change_t
 
-   !> Of a row.
+   !> The change of a row.
    type :: row_change_t
       integer :: row = 0
       logical :: is_touched = .false.
       real(wp) :: target = 0.0_wp, compliance = 0.0_wp
    end type row_change_t
 
-   !> Of an element.
+   !> The change of an element.
    type :: element_change_t
       integer :: element = 0
       logical :: is_touched = .false., has_arms = .false., has_directions = .false., has_stiffness = .false., has_load = .false.
@@ -48,7 +48,7 @@ module ek_part_change
       logical :: is_held(4) = .false.
    end type element_change_t
 
-   !> Of a load: those of the neighbours, without names.
+   !> The change of a load: the loads of the neighbours, without names.
    type :: load_change_t
       integer :: load = 0
       logical :: is_touched = .false.
@@ -69,7 +69,7 @@ module ek_part_change
       logical :: has_curves = .false.                    !! a law that is not linear changes: F may have a corner
    end type change_t
 
-   !> The same of all parts, while the neighbours are visited.
+   !> The changes of all parts, like change_t, while the neighbours are visited.
    type :: draft_t
       type(term_change_t), allocatable, private :: terms(:)
       type(row_change_t), allocatable, private :: rows(:)
@@ -110,7 +110,7 @@ contains
       end do
    end subroutine begin_draft
 
-   !> Adds what differs in neighbour k of the stencil.
+   !> Adds the differences of neighbour k of the stencil.
    !> Equation (E.7) of docs/theory/derivatives.md.
    subroutine learn_neighbour(here, there, k, change, draft)
       type(suspension_t), intent(in) :: here, there        !! the design and its neighbour, on the same rig

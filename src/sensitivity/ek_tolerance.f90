@@ -1,7 +1,7 @@
 !> Tolerances: mean, deviation, skewness and shares of the responses of a study by exact derivatives.
 !>
 !> The responses are expanded about the centre of the factors, in the standard form of each (ek_standard_factor): the slopes are exact
-!> derivatives, the curvatures central differences of exact derivatives at two designs beside the centre for each factor. With k
+!> derivatives, the curvatures central differences of exact derivatives at two designs next to the centre for each factor. With k
 !> factors these are 2 k + 1 designs with their derivatives.
 module ek_tolerance
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan

@@ -23,7 +23,7 @@ module ek_wanted_number
    type :: wanted_number_t
       character(:), allocatable :: name          !! as the user gave it
       character(:), allocatable :: unit          !! 'deg', '' without one
-      integer :: case = 0                        !! in the workspace; of a key number: that of the first source that has a value
+      integer :: case = 0                        !! index in the workspace; of a key number: case of the first source with a value
       character(name_length) :: column = ''      !! '': a key number
       character(name_length) :: over = 'factor'  !! the column in which `at` is meant
       real(wp) :: at = 0.0_wp                    !! where the column is read, in the unit of `over`

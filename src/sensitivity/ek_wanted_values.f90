@@ -94,7 +94,7 @@ contains
       end do
    end subroutine begin_values
 
-   !> Adds what a number needs of a case to the list of these.
+   !> Adds the requirements of a number on a case to the list of requirements.
    subroutine add_need(wanted, source, needed)
       type(wanted_number_t), intent(in) :: wanted
       integer, intent(in) :: source

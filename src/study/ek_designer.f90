@@ -32,7 +32,7 @@ module ek_designer
       type(solve_options_t), allocatable :: options(:)     !! of each case: its columns
       type(reading_t), allocatable :: readings(:)
       integer, allocatable :: case_of(:)                   !! of each response
-      integer :: increments = 0                            !! of all cases; 0: those of the deck
+      integer :: increments = 0                            !! of all cases; 0: the increments of the deck
       integer :: states = 0                                !! of the first case, in the first design
       character(name_length), allocatable :: units(:)      !! of the factors, '' if they have none: 'N/mm'
       character(name_length), allocatable :: heads(:)      !! of the columns of the factors: 'rate_n_per_mm'
@@ -45,7 +45,7 @@ contains
       type(study_t), intent(in) :: study
       type(deck_t), intent(in) :: deck
       type(designer_t), intent(out) :: designer
-      type(error_t), allocatable, intent(out) :: error     !! exit_deck: all mistakes of the paths
+      type(error_t), allocatable, intent(out) :: error     !! exit_deck: all errors of the paths
       integer :: k
 
       call list_cases(study, designer)
@@ -70,7 +70,7 @@ contains
       type(deck_t), intent(in) :: deck
       character(*), intent(in) :: home                     !! folder of the study with its slash
       type(designer_t), intent(out) :: designer
-      type(error_t), allocatable, intent(out) :: error     !! exit_deck: all mistakes of the study
+      type(error_t), allocatable, intent(out) :: error     !! exit_deck: all errors of the study
       integer :: k
 
       call begin_designer(study, deck, designer, error)
@@ -138,7 +138,7 @@ contains
       type(study_t), intent(in) :: study
       character(*), intent(in) :: home
       type(designer_t), intent(inout) :: designer
-      type(error_t), allocatable, intent(out) :: error   !! exit_deck, every mistake
+      type(error_t), allocatable, intent(out) :: error   !! exit_deck, every error
       type(message_list_t) :: mistakes
       character(name_length), allocatable :: heads(:)    ! all columns of the results
       character(:), allocatable :: message

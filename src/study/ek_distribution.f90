@@ -4,8 +4,8 @@
 !> the rest is scaled up to a probability of one (they do not collect what lies outside).
 !>
 !> `nominal ± tolerance` (`from_tolerance`): the tolerance is the half-width of a uniform or triangular distribution, and three
-!> standard deviations of a normal or log-normal one, of which 99.73 % (normal) lie within the tolerance. nominal is the mean, for
-!> all kinds. All values are in the unit of the factor.
+!> standard deviations of a normal or log-normal distribution. 99.73 % of a normal distribution lie within the tolerance. nominal
+!> is the mean, for all kinds. All values are in the unit of the factor.
 module ek_distribution
    use ek_kinds, only: wp
    use ek_error, only: error_t, fail, exit_deck
@@ -105,7 +105,7 @@ contains
       end select
    end subroutine from_tolerance
 
-   !> Leaves out what lies below `lower` or above `upper`. An error if hardly anything (10⁻¹² of the whole) is left.
+   !> Leaves out values below `lower` or above `upper`. It is an error if less than 10⁻¹² of the probability remains.
    pure subroutine truncate(distribution, error, lower, upper)
       type(distribution_t), intent(inout) :: distribution
       type(error_t), allocatable, intent(out) :: error

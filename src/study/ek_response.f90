@@ -77,7 +77,7 @@ contains
       character(*), intent(in) :: factor_unit             !! of the column `factor`: 'mm', 'deg', 'N', 'N m', '-'
       type(reading_t), intent(out) :: reading
       character(:), allocatable, intent(out) :: message
-      character(*), intent(in), optional :: heads(:)      !! all columns of the results, for suggestions; default those of the table
+      character(*), intent(in), optional :: heads(:)      !! all columns of the results, for suggestions; default: of the table
       character(*), intent(in), optional :: home          !! folder of the study with its slash, for the file of rms
       type(test_result_t), intent(in), optional :: test   !! the case as a test of the report, for a gradient
       character(name_length), allocatable :: names(:)

@@ -194,6 +194,7 @@ contains
       end do
    end subroutine fit_line
 
+   !> Whether a response is a slope or a gradient over a window.
    pure logical function is_slope(reading)
       type(reading_t), intent(in) :: reading
       is_slope = reading%of == a_slope .or. reading%of == a_gradient

@@ -18,8 +18,8 @@ module ek_study
 
    ! how a factor changes a number of the deck
    integer, parameter :: by_value = 1       !! number = factor
-   integer, parameter :: by_delta = 2       !! number = that of the deck + factor
-   integer, parameter :: by_scale = 3       !! number = that of the deck × factor
+   integer, parameter :: by_delta = 2       !! number = number of the deck + factor
+   integer, parameter :: by_scale = 3       !! number = number of the deck × factor
    character(*), parameter :: change_names(3) = [character(8) :: 'absolute', 'delta', 'scale']
 
    ! the kinds: those of the samplers, and two names of this module

@@ -135,7 +135,7 @@ contains
       if (chunk%status(k) /= design_solved) call explain(designer, workspace, k, faults, chunk)
    end subroutine solve_from_text
 
-   !> Observes what solving left open: K&C quantities, at the states where a response reads them.
+   !> Observes the K&C quantities, which solving does not compute, at the states where a response reads them.
    subroutine complete_tables(designer, workspace)
       type(designer_t), intent(in) :: designer
       type(workspace_t), intent(inout) :: workspace     !! its cases are solved

@@ -33,7 +33,7 @@ module ek_study_plan
       character(name_length), allocatable :: heads(:)        !! of the responses
       character(name_length), allocatable :: factor_heads(:) !! with their units
       character(name_length), allocatable :: units(:)        !! of the factors, '' for none
-      integer :: columns = 0                                 !! of a row of the curves: the swept value and those of the study
+      integer :: columns = 0                                 !! of a row of the curves: swept value and columns of the study
       integer :: states = 0                                  !! of a design, usually
       character(:), allocatable :: deck_sum                  !! checksum of the deck
       character(:), allocatable :: identity                  !! two studies with the same one have the same results, to rounding

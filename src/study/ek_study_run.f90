@@ -4,7 +4,7 @@
 !> study that was stopped, or killed at any moment, resumes. Which thread computes a chunk has no influence on it.
 !> Several runs may use one folder: each holds a locked scratch folder in it, and the chunks are removed by the last one only. The
 !> locks of other machines may be invisible, so a run renews its scratch folder every hour; one of another machine that was not
-!> renewed for a day belongs to a dead run.
+!> renewed for a day belongs to a terminated run.
 module ek_study_run
    use ek_kinds, only: wp, i8
    use ek_error, only: error_t, fail, exit_file

@@ -54,8 +54,8 @@ contains
       survey%rate = rate_of_chunks(times(:n), designs(:n))
    end subroutine survey_parts
 
-   !> Designs per second in the last 20 s in which chunks were written, or somewhat more: to that time belong the designs of all chunks
-   !> but those that were written at its beginning. 0 if all chunks were written within less.
+   !> Designs per second in the last period of at least 20 s in which chunks were written. The chunks written at the beginning of
+   !> the period do not count. 0 if all chunks were written in less than 20 s.
    pure real(wp) function rate_of_chunks(times, designs) result(rate)
       integer(i8), intent(in) :: times(:)            !! when each was written [s]
       integer, intent(in) :: designs(:)

@@ -206,7 +206,7 @@ contains
       type(study_t), intent(in) :: study
       type(study_plan_t), intent(in) :: plan
       type(study_counts_t), intent(in) :: counts
-      character(*), intent(in) :: columns(:)      !! behind the number of the design
+      character(*), intent(in) :: columns(:)      !! after the column of the design index
       character(:), allocatable :: text
       type(table_t) :: table
 
