@@ -13,7 +13,7 @@ module ek_c_handle
 
    integer(c_int), parameter, public :: ek_ok = 0_c_int      !! the other codes are the exit_… of ek_error
 
-   integer, parameter :: kept = 16          !! texts that stay valid, so that one call of printf may have several
+   integer, parameter :: kept = 16          !! strings that remain valid, so that one call of printf may have several
 
    type :: text_t
       character(:), allocatable :: text
@@ -26,8 +26,8 @@ module ek_c_handle
       character(:), allocatable :: message                   !! of the last call, with its '\0'
       type(text_t) :: texts(kept)                            !! returned last, with their '\0'
       integer :: last = 0                                    !! of them
-      type(message_list_t) :: number_names, number_units, number_definitions      !! of key numbers, made when asked for
-      type(model_remarks_t) :: remarks                       !! on the model, when they were last asked for
+      type(message_list_t) :: number_names, number_units, number_definitions      !! of key numbers, made at the first request
+      type(model_remarks_t) :: remarks                       !! remarks on the model at the last request
    end type handle_t
 
    interface
@@ -50,8 +50,8 @@ contains
       if (c_associated(model)) call c_f_pointer(model, handle)
    end function handle_of
 
-   !> The handle of a model with a deck, and no message; not associated for NULL, or if the deck could not be read: then the message
-   !> of opening stays.
+   !> The handle of a model with a deck, and no message; not associated for NULL, or if the deck could not be read. In the latter
+   !> case the message of opening stays.
    function open_handle(model) result(handle)
       type(c_ptr), intent(in) :: model
       type(handle_t), pointer :: handle

@@ -1,5 +1,5 @@
-!> The numbers of a design space as a caller has set them: in SI for the workspace, in the units of the deck for the caller, and as the
-!> settings (as for --set) with which the deck gives the same design when it is read as text.
+!> The numbers of a design space as a caller has set them: in SI for the workspace, in the units of the deck for the caller, and
+!> as the settings (as for --set) with which the deck gives the same design when it is read as text.
 !>
 !> After begin_numbers and add_path nothing here makes a text, except apply_settings.
 module ek_design_numbers
@@ -69,9 +69,9 @@ contains
       numbers%is_new = .true.
    end subroutine reset_numbers
 
-   !> A number as a person would have written it, with at most 15 digits: the conversion to SI and back changes its last digit. A whole
-   !> number of 15 digits and a power of ten up to 1e22 are exact, and one division or product rounds once: the nearest number to
-   !> the decimal one, as reading its text gives (W. D. Clinger, PLDI 1990).
+   !> A number as a person would have written it, with at most 15 digits: the conversion to SI and back changes its last digit. A
+   !> whole number of 15 digits and a power of ten up to 1e22 are exact, and one division or product rounds once: the nearest
+   !> number to the decimal one, as reading its text gives (W. D. Clinger, PLDI 1990).
    real(wp) function written(value)
       real(wp), intent(in) :: value
       integer :: places                            ! after the decimal point
@@ -208,7 +208,7 @@ contains
 
    contains
 
-      !> The place of the least turn beyond the last one; 0: there is none.
+      !> The index of the smallest turn that is larger than `last`; 0: no turn is larger.
       pure integer function next(turns, last)
          integer, intent(in) :: turns(:), last
          next = 0

@@ -27,12 +27,12 @@ module ek_named_numbers
    private
    public :: named_numbers_t, prepare_numbers, read_numbers, needed_tests, explain_missing
 
-   !> One of the cases: what is needed of it, and its last solution.
+   !> One of the cases: its required columns and range, and its last solution.
    type :: needed_case_t
       logical :: is_first = .false.               !! a number is read here first; other cases only where that gave no value
       logical :: is_solved = .false.              !! for the present design
       logical :: is_missed = .false.              !! a number has no value because this case lacks a state
-      type(solve_options_t) :: options            !! its columns, and how far from design
+      type(solve_options_t) :: options            !! required columns, and distance from design
       type(observer_t), allocatable :: observer   !! allocated at the first solution
       class(case_result_t), allocatable :: result
    end type needed_case_t

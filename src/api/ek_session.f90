@@ -42,7 +42,7 @@ module ek_session
       type(deck_t) :: original                      !! as opened
       type(deck_t) :: deck                          !! with the settings of set_text
       class(workspace_t), allocatable :: workspace !! of this deck; allocated when opened. A class as in case_work_t
-      type(design_numbers_t) :: numbers             !! changed since
+      type(design_numbers_t) :: numbers             !! numbers as changed since the deck was opened
       logical :: is_text_changed = .false.
       ! ek_session_solution
       integer :: solved = 0                         !! case of the last solution; 0: there is none
@@ -52,7 +52,7 @@ module ek_session
       real(wp), allocatable :: solved_x(:)          !! the numbers of the last solution
       class(derived_t), allocatable :: derived      !! ek_session_derivatives
       ! ek_session_numbers
-      class(named_numbers_t), allocatable :: named  !! key numbers that were asked for last
+      class(named_numbers_t), allocatable :: named  !! key numbers requested last
       character(name_length), allocatable :: names(:)
       logical :: is_named_ready = .false.           !! they were read before: to read them again makes no text
    end type session_t
@@ -130,7 +130,7 @@ contains
       call begin_workspace(session)
    end subroutine begin_opened
 
-   !> Takes another deck; the session stays as it was if the deck has errors. The last solution stays in either case: its
+   !> Replaces the deck; if the new deck has errors, the session is unchanged. The last solution is not deleted in either case: its
    !> workspace is kept until the next one.
    subroutine begin(deck, session, error)
       type(deck_t), intent(in) :: deck
@@ -160,7 +160,7 @@ contains
    end subroutine begin_workspace
 
    !> Sets all numbers to which a path leads, as --set path=value: both sides of a mirrored axle, and * in names. Legal numbers that
-   !> together define no valid model are kept, and the next solution reports them.
+   !> together do not define a valid model are stored, and the next solution reports them.
    subroutine set_number(session, path, value, error)
       type(session_t), intent(inout) :: session
       character(*), intent(in) :: path

@@ -25,7 +25,7 @@ contains
    subroutine find_slopes(session, row, columns, paths, slopes, errors, error)
       type(session_t), intent(inout), target :: session
       integer, intent(in) :: row                               !! of the table of the last solution
-      character(*), intent(in) :: columns(:)                   !! of the case (asked in the solution or not), or of its compliance matrix
+      character(*), intent(in) :: columns(:)                   !! of the case (requested or not), or of its compliance matrix
       character(*), intent(in) :: paths(:)                     !! as in set_number, each of one number, or of both sides of an axle
       real(wp), intent(out) :: slopes(:, :), errors(:, :)      !! (column, path)
       type(error_t), allocatable, intent(out) :: error         !! exit_usage: every wrong column and path; the case has no derivatives

@@ -16,7 +16,7 @@ module ek_session_numbers
 contains
 
    !> Reads key numbers of the report by name, at the present numbers: only the tests that they need are solved, as far as
-   !> needed. The last solution stays.
+   !> needed. The last solution is unchanged.
    subroutine read_key_numbers(session, names, values, error)
       type(session_t), intent(inout) :: session
       character(*), intent(in) :: names(:)

@@ -15,7 +15,7 @@ contains
 
    !> Finds the remarks on the model at the present numbers, as the command line prints them: no spring, contact points away from
    !> the ground, implausible values, preloads found by balance; or why it cannot be solved. No case is solved; the last solution
-   !> stays.
+   !> is unchanged.
    subroutine find_remarks(session, remarks, error)
       type(session_t), intent(inout) :: session
       type(model_remarks_t), intent(out) :: remarks

@@ -50,7 +50,7 @@ contains
       words = transfer(letters(:length), words)
    end function date_text
 
-   !> '2026-01-31T16:05:09Z': the time now in UTC (ISO 8601), to compare what several machines have done.
+   !> '2026-01-31T16:05:09Z': the time now in UTC (ISO 8601), to compare the records of several machines.
    function universal_time() result(words)
       character(20) :: words
       character(kind=c_char) :: letters(21)

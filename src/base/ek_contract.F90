@@ -1,4 +1,4 @@
-!> Contracts at the seams of the program: what a procedure requires of its caller, checked in the debug preset only.
+!> Contracts of procedures: requirements on the caller, checked in the debug preset only.
 !>
 !> A call in the wrong order, or with values of another model, stops the debug build with a sentence. In a release build
 !> `are_checked` is a constant .false. and the compiler removes the checks.

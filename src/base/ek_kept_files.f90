@@ -41,14 +41,14 @@ contains
       text = self%list(k)%text
    end function kept_text
 
-   !> Whether a file is kept.
+   !> Whether a file is stored.
    pure logical function kept_has(self, path)
       class(kept_files_t), intent(in) :: self
       character(*), intent(in) :: path
       kept_has = place(self, path) > 0
    end function kept_has
 
-   !> The position of a path; 0 if it is not kept.
+   !> The index of a path among the stored files; 0 if it is not stored.
    pure integer function place(files, path) result(k)
       type(kept_files_t), intent(in) :: files
       character(*), intent(in) :: path

@@ -10,7 +10,7 @@ contains
    !> Finds the indices of the numbers with the largest magnitudes, the largest first; zeros are omitted.
    pure subroutine largest(values, most, places)
       real(wp), intent(in) :: values(:)
-      integer, intent(in) :: most                      !! how many at most
+      integer, intent(in) :: most                      !! largest number of results
       integer, allocatable, intent(out) :: places(:)
       logical :: is_left(size(values))
       integer :: k, n

@@ -12,7 +12,7 @@ contains
 
    !> A text in which every invisible character is replaced by its number: `<U+00A0>` for a no-break space, `<U+00AD>` for a
    !> soft hyphen, `<U+200B>` for a zero-width space, `<U+0009>` for a tab. Every byte that is not UTF-8 becomes for example
-   !> `<E4>`. Line ends and ordinary blanks are kept.
+   !> `<E4>`. Line ends and ordinary blanks are unchanged.
    pure function visible(text) result(seen)
       character(*), intent(in) :: text
       character(:), allocatable :: seen
@@ -20,7 +20,7 @@ contains
    end function visible
 
    !> A text that is safe to show on a terminal: control characters, which could move the cursor or set colours, become
-   !> `<U+001B>`. Line ends, tabs and all other bytes are kept.
+   !> `<U+001B>`. Line ends, tabs and all other bytes are unchanged.
    pure function printable(text) result(shown)
       character(*), intent(in) :: text
       character(:), allocatable :: shown
@@ -97,7 +97,7 @@ contains
          (index(text, char(255)//char(254)) == 1 .or. index(text, char(254)//char(255)) == 1 .or. index(text, achar(0)) > 0)
    end function is_wide
 
-   !> A text without a byte order mark and with single-byte line ends: those of Windows (CR LF) and of old Macs (CR alone) become
+   !> A text without a byte order mark and with single-byte line ends: CR LF (Windows) and single CR (old Macs) become
    !> a newline.
    pure function with_line_ends(text) result(plain)
       character(*), intent(in) :: text

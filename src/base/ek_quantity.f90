@@ -1,10 +1,10 @@
-!> The quantities of the results: name, unit, what a model needs to have them, title, sign, least span of a chart.
+!> The quantities of the results: name, unit, requirements on the model, title, sign, least span of a chart.
 !>
-!> A row stands at the place of its column in the table of results, section by section. The kernel of a section returns the
+!> A row stands at the position of its column in the table of results, section by section. The kernel of a section returns the
 !> values in SI, in the same order: ek_state_columns (wheel_position, steer_axis), ek_kandc_columns (wheel_now to of_rack) with
 !> ek_wheel_columns and ek_geometry_columns. A section is computed as a whole, and only if one of its columns is requested. So a new
-!> quantity is a row here and its value there, at the same place; its unit is the end of its name. Heads, charts, key numbers and
-!> reserved names follow from the row. input/QUANTITIES.md defines each of them.
+!> quantity is a row here and a value at the same position in the kernel; its unit is the end of its name. Headings, charts, key
+!> numbers and reserved names follow from the row. input/QUANTITIES.md defines each of them.
 module ek_quantity
    use ek_kinds, only: wp, degree, millimetre
    implicit none(type, external)
@@ -12,7 +12,7 @@ module ek_quantity
    public :: name_length, quantity_t, quantity_named, held_name, label_of, without_phase, column_of_stem
    public :: unit_of, unit_text, unit_size, slope_unit, head_with_unit
 
-   integer, parameter :: name_length = 192    !! longest column name: two names of a deck (63 letters each) and their endings
+   integer, parameter :: name_length = 192    !! longest column name: two names of a deck (63 letters each) and their suffixes
 
    type :: quantity_t
       character(52) :: name = ''      !! column without the wheel's name; '*': load_held and height_held
@@ -321,7 +321,7 @@ contains
    end function unit_size
 
    !> Finds the unit of a slope as the end of a column name, 'deg_per_m', and the factor on the slope in the units of its two
-   !> columns: deg/m over wheel travel, per kN over a force, per 100 N m over a moment, otherwise those of the columns.
+   !> columns: deg/m over wheel travel, per kN over a force, per 100 N m over a moment, otherwise the units of the columns.
    pure subroutine slope_unit(column, over, factor_unit, unit, factor)
       character(*), intent(in) :: column, over
       character(*), intent(in) :: factor_unit             !! of the column `factor`: 'mm', 'deg', 'N', 'N m', '-'
@@ -353,7 +353,7 @@ contains
       if (upper /= '') unit = upper//'_'//unit
    end subroutine slope_unit
 
-   !> A heading that ends with a unit: 'seat' and 'mm' make 'seat_mm', which stays as it is.
+   !> A heading that ends with a unit: 'seat' and 'mm' make 'seat_mm'; the heading 'seat_mm' is unchanged.
    pure function head_with_unit(name, ending) result(head)
       character(*), intent(in) :: name
       character(*), intent(in) :: ending             !! as in column names; '': none

@@ -51,7 +51,7 @@ module ek_rig_test
       logical :: has_phase = .false.         !! the load on the right wheel may be reversed
       logical :: has_trail = .false.         !! the force may act aft of the contact point, at `offset`
       integer :: place = 0                   !! among the standard tests; 0: none of them
-      logical :: is_on_request = .false.     !! a standard test that runs only if it is asked by its name
+      logical :: is_on_request = .false.     !! a standard test that runs only if it is requested by name
       integer :: phases = 1                  !! 2: the standard tests contain it in parallel and opposed
       real(wp) :: reach = 0.0_wp             !! of the standard test: from −reach to reach, in `unit`
       integer :: increments = 40             !! likewise

@@ -90,7 +90,7 @@ contains
       call judge_heads(sheet, rows, is_unnamed)
    end subroutine read_sheet
 
-   !> Lists all errors, those of the headings first.
+   !> Lists all errors; errors of the headings come first.
    subroutine mistakes_of(sheet, mistakes)
       type(sheet_t), intent(in) :: sheet
       type(message_list_t), intent(inout) :: mistakes
@@ -305,7 +305,7 @@ contains
    subroutine take_record(text, separator, at, line, fields, is_closed)
       character(*), intent(in) :: text
       character, intent(in) :: separator
-      integer, intent(inout) :: at, line          !! where the record begins, then where the next one does
+      integer, intent(inout) :: at, line          !! beginning of the record; on return, of the next record
       type(message_list_t), intent(out) :: fields
       logical, intent(out) :: is_closed
       type(buffer_t) :: cell

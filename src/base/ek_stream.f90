@@ -1,4 +1,4 @@
-!> Reads a pipe to its end. A pipe into which nobody writes, and one that never ends, are rejected instead of waiting without end.
+!> Reads a pipe to its end. A pipe without a writer and an endless pipe are rejected; the program does not wait for them.
 module ek_stream
    use, intrinsic :: iso_c_binding, only: c_char, c_int, c_long, c_null_char, c_null_ptr, c_size_t
    use ek_kinds, only: wp

@@ -317,7 +317,7 @@ contains
       reason = text_of(letters)
    end function system_reason
 
-   !> Checks that a block of this many bytes can be allocated: asked before hours of work begin, so that a shortage gives a message
+   !> Checks that a block of this many bytes can be allocated. Called before hours of work begin, so that a shortage gives a message
    !> and an exit status instead of a crash at the allocation that fails. The block is released at once; only address space is used.
    subroutine ask_memory(bytes, purpose, error)
       integer(i8), intent(in) :: bytes

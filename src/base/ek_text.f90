@@ -115,7 +115,7 @@ contains
       text = "'"//visible(trim(name))//"'"
    end function quoted
 
-   !> A name with blanks for its underscores.
+   !> A name with blanks instead of underscores.
    pure function spaced(name) result(text)
       character(*), intent(in) :: name
       character(len(name)) :: text
@@ -138,7 +138,7 @@ contains
    end function plural
 
    !> The candidate most similar to a mistyped name, or '' if none is similar: the first that ends in '_name', as left_toe_deg in
-   !> toe_deg; otherwise that of the least edit distance, at most a third of the length, at least 1. A pattern (*) has none.
+   !> toe_deg; otherwise the candidate of the least edit distance, at most a third of the length, at least 1. For a pattern (*): ''.
    pure function nearest_name(name, candidates) result(best)
       character(*), intent(in) :: name
       character(*), intent(in) :: candidates(:)
@@ -166,7 +166,8 @@ contains
       end do
    end function nearest_name
 
-   !> The shortest candidate that contains a name without regard to underscores, as left_toe_deg contains lefttoe; '' if there is none.
+   !> The shortest candidate that contains a name without regard to underscores, as left_toe_deg contains lefttoe; '' if there is
+   !> none.
    pure function shortest_with(name, candidates) result(best)
       character(*), intent(in) :: name
       character(*), intent(in) :: candidates(:)
@@ -205,7 +206,7 @@ contains
       if (words /= '') words = ' (did you mean '//quoted(words)//'?)'
    end function suggestion
 
-   !> As suggestion; a name that is part of a candidate but for its underscores is similar too.
+   !> As `suggestion`; a name also counts as similar if it is part of a candidate, apart from underscores.
    pure function suggestion_by_part(name, candidates) result(words)
       character(*), intent(in) :: name, candidates(:)      !! blank candidates are ignored
       character(:), allocatable :: words

@@ -2,8 +2,8 @@
 !> on the disk the file is renamed, atomically for other readers.
 !>
 !>     call begin_file(writer, path, error)
-!>     call writer%add(text)                  ! any number of times; a failure is remembered
-!>     call writer%finish(error)              ! the complete file, or none (an older file is then kept)
+!>     call writer%add(text)                  ! any number of times; a failure is stored
+!>     call writer%finish(error)              ! the complete file, or none (an older file is then unchanged)
 !>
 !> A temporary file is named `.elastokin-<machine>-<random>.tmp`. Its process holds a lock on it until the process ends. An
 !> unlocked file of this machine therefore belongs to a terminated run, and `remove_stale` removes it. Locks of other machines

@@ -2,7 +2,7 @@
 !>
 !> The unit is dsysv on the matrices of the sweep (scaled KKT matrices of its equilibrium states) with one
 !> right-hand side, timed alternately with the methods in the same run: the ratio then does not depend on the
-!> speed of the machine. Times are those of the processor, and the minimum of many rounds is reported for each: the load of the
+!> speed of the machine. Times are processor times, and the minimum of many rounds is reported for each: the load of the
 !> machine does not change them either.
 module ek_bench
    use ek_kinds, only: wp

@@ -1,4 +1,4 @@
-!> elastokin bench DECK --derivatives: what derivatives cost, relative to the sweep of the same states and to the columns.
+!> elastokin bench DECK --derivatives: cost of derivatives, relative to the sweep of the same states and to the columns.
 !>
 !> The unit is the sweep of the case by LAPACK. All are timed in turn in the same run, in time of the processor, and the minimum of
 !> several rounds counts, so that a ratio does not depend on the speed or load of the machine.

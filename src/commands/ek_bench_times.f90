@@ -31,7 +31,7 @@ module ek_bench_times
    public :: rounds, collect_matrices, time_lapack, time_packs, time_kandc, time_designs
 
    integer, parameter :: rounds = 30          !! each method is timed this often; the minimum counts
-   integer, parameter :: kept_numbers = 2**17 !! size of the matrices kept for the unit: 1 MB stays in the cache
+   integer, parameter :: kept_numbers = 2**17 !! size of the matrices stored for the unit: 1 MB fits in the cache
    integer, parameter :: designs = 10         !! timed together
    integer, parameter :: rows = 20            !! of K&C quantities, timed together
 
@@ -95,7 +95,7 @@ contains
       if (is_singular) call fail(error, exit_convergence, 'the matrix of a state is singular and cannot be timed')
    end subroutine time_lapack
 
-   !> Does nothing, but keeps the optimiser from removing the copy as dead code.
+   !> Does nothing, but prevents the optimiser from removing the copy as dead code.
    subroutine keep(copy, rhs)
       real(wp), intent(inout) :: copy(:, :), rhs(:)
       if (rhs(1) < 0.0_wp) copy(1, 1) = rhs(1)

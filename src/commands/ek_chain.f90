@@ -1,7 +1,7 @@
 !> A chain of any length: the model by which `bench --growth` measures how the time of an increment grows with the model.
 !>
 !> Equal bodies in a row along x. Each is held on the one before it, the first on the chassis, by a spherical joint at its beginning
-!> and by a bushing above that joint, which keeps it from turning. A driver lifts the end of the last. A body has 6 unknowns and its
+!> and by a bushing above that joint, which prevents rotation. A driver lifts the end of the last. A body has 6 unknowns and its
 !> joint 3 rows, so that the matrix of b bodies has 9 b + 1 rows.
 module ek_chain
    use ek_kinds, only: wp

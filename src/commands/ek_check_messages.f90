@@ -1,4 +1,4 @@
-!> The messages of elastokin check: errors, warnings and remarks with their places, counted in its last line and written as JSON.
+!> The messages of elastokin check: errors, warnings and remarks with their locations, counted in its last line and written as JSON.
 module ek_check_messages
    use ek_error, only: error_t, message_list_t
    use ek_text, only: str, plural

@@ -1,5 +1,5 @@
-!> The command line: a command, its files and its options. It is read by the tables of ek_command, so that it holds only what
-!> its command takes. Every error message states the expected form.
+!> The command line: a command, its files and its options. It is read by the tables of ek_command, so that it contains only options
+!> of its command. Every error message states the expected form.
 module ek_command_line
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t, fail, exit_usage
@@ -20,13 +20,13 @@ module ek_command_line
       character(620) :: text      !! description
       character(230) :: ending    !! after the options
       integer :: files = 1        !! 1: one file; 2: two or more; 0: one or more
-      character(15) :: alone = '' !! option that is given in place of the files
+      character(15) :: alone = '' !! option that is given instead of the files
    end type command_t
 
    !> An option that a command takes.
    type :: option_t
       character(11) :: command    !! '' for every command
-      character(19) :: label      !! '--plot', '--out DIR': the name, and what follows it; N: a number, a=b: may be repeated
+      character(19) :: label      !! '--plot', '--out DIR': the name and its value; N: a number, a=b: may be repeated
       character(200) :: help      !! its line in the help of the command; '' if the line of usage suffices
    end type option_t
 
@@ -106,7 +106,7 @@ contains
       name = option%label(:index(option%label, ' ') - 1)
    end function option_name
 
-   !> Reads the command line of this process. Nothing is checked against the command if help or the version is asked for.
+   !> Reads the command line of this process. Nothing is checked against the command if help or the version is requested.
    subroutine read_command_line(commands, options, line, error)
       type(command_t), intent(in) :: commands(:)
       type(option_t), intent(in) :: options(:)

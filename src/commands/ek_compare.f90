@@ -1,4 +1,4 @@
-!> elastokin compare: what was changed between results, what this did, and their curves over each other.
+!> elastokin compare: changes of the deck between results, their effects, and the overlaid curves.
 module ek_compare
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t, fail, exit_usage
@@ -197,7 +197,7 @@ contains
       if (names%count() > enough) text = text//' and '//str(names%count() - enough)//' more'
    end function some_of
 
-   !> The text for standard output: what was changed, how many results did, and the table of gradients.
+   !> The text for standard output: changes of the deck, the number of changed results, and the table of gradients.
    function text_of(this) result(text)
       type(comparison_t), intent(in) :: this
       character(:), allocatable :: text

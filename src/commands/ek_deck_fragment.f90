@@ -55,7 +55,7 @@ contains
       if (len(text) > 0) text = text(:len(text) - 1)
    end function records_with
 
-   !> Whether a number of the right side is that of the half deck, and changes with the one on the left.
+   !> Whether a number of the right side comes from a number of the half deck, and changes with the number on the left.
    pure logical function is_image(design, x, found, number)
       type(design_t), intent(in) :: design
       real(wp), intent(in) :: x(:)

@@ -38,7 +38,7 @@ module ek_explain
 
 contains
 
-   !> Explains the chosen cases of a deck. The error at the end is that of the last case that failed.
+   !> Explains the chosen cases of a deck. `error` is then the error of the last case that failed.
    subroutine explain(line, error)
       type(command_line_t), intent(in) :: line
       type(error_t), allocatable, intent(out) :: error

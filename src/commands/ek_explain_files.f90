@@ -33,7 +33,7 @@ contains
 
    !> Begins both tables of a case.
    subroutine begin_explain_files(name, case, header, self, error)
-      character(*), intent(in) :: name                 !! path without its ending
+      character(*), intent(in) :: name                 !! path without its extension
       character(*), intent(in) :: case, header         !! its line: program, model, deck
       type(explain_files_t), intent(inout) :: self
       type(error_t), allocatable, intent(out) :: error
@@ -188,7 +188,7 @@ contains
       call json%close('}')
    end subroutine end_explain_json
 
-   !> Adds one state: of every column its value, and that of every row.
+   !> Adds one state: the value of every column, and the contribution of every row to it.
    subroutine add_json_state(state, factor, table, json)
       integer, intent(in) :: state
       real(wp), intent(in) :: factor

@@ -27,7 +27,7 @@ module ek_export
    private
    public :: export
 
-   !> A deck, what is to be solved for it, and its map.
+   !> A deck, the cases to be solved for it, and its map.
    type :: axle_map_t
       type(suspension_t) :: suspension
       type(map_request_t) :: request

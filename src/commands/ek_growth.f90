@@ -1,8 +1,8 @@
 !> elastokin bench --growth N: how the time of an increment and the memory grow with the model.
 !>
 !> Chains (ek_chain) with matrices of some 100, 200, 400, 1000 and 2000 rows, as far as N, are lifted at their end: all of them by
-!> plan, then all by LAPACK, so that the peak memory of the process shows what either needs. No model is examined (`check`), as that
-!> costs a singular value decomposition, which grows as LAPACK does.
+!> plan, then all by LAPACK, so that the peak memory of the process shows the memory of each solver. No model is examined
+!> (`check`), as that costs a singular value decomposition, which grows as LAPACK does.
 module ek_growth
    use ek_kinds, only: wp, i8
    use ek_error, only: error_t, fail, exit_usage, exit_convergence

@@ -1,4 +1,4 @@
-!> Where the time of an increment goes: assembly, factorisation, solution, and the rest (prediction, moving the bodies, the checks
+!> Times of the parts of an increment: assembly, factorisation, solution, and the rest (prediction, moving the bodies, the checks
 !> that the step stays on the branch).
 module ek_increment_parts
    use ek_kinds, only: wp
@@ -28,7 +28,7 @@ module ek_increment_parts
 
 contains
 
-   !> Walks the path of a case and keeps the shortest time of an increment so far.
+   !> Walks the path of a case and stores the shortest time of an increment so far.
    subroutine time_walk(suspension, case, path, kkt, parts)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case

@@ -13,7 +13,7 @@ module ek_man_page
 
 contains
 
-   !> elastokin(1): what the program does, its commands, the options of every command, the exit status.
+   !> elastokin(1): purpose of the program, its commands, the options of every command, the exit status.
    function main_page(commands, options, exit_status) result(text)
       type(command_t), intent(in) :: commands(:)
       type(option_t), intent(in) :: options(:)

@@ -218,7 +218,7 @@ contains
       call csv%line('')
    end subroutine add_numbers
 
-   !> Reads the tables of a finished study. What is missing or does not fit stays unallocated.
+   !> Reads the tables of a finished study. Data that are missing or do not match stay unallocated.
    subroutine read_moments(out, data)
       character(*), intent(in) :: out
       type(study_data_t), intent(inout) :: data

@@ -10,7 +10,7 @@ module ek_option_help
 
 contains
 
-   !> Whether a command takes an option that is described. The command '' has those of every command.
+   !> Whether an option belongs to a command and has a help text. The command '' has the options of every command.
    pure logical function belongs(option, command)
       type(option_t), intent(in) :: option
       character(*), intent(in) :: command
@@ -32,8 +32,8 @@ contains
       name = trim(adjustl(option%label(len_trim(option_name(option)) + 1:)))
    end function value_name
 
-   !> The description of option number k: its own, that of the command to which it refers ('as for run'), or else the first of an
-   !> option of the same name. Its lines are not indented.
+   !> The description of option number k: its own, or that of the command to which its help refers ('as for run'), or else the
+   !> first description of an option of the same name. Its lines are not indented.
    pure recursive function description(options, k) result(text)
       type(option_t), intent(in) :: options(:)
       integer, intent(in) :: k

@@ -120,7 +120,8 @@ contains
 
    contains
 
-      !> Removes a figure that is not drawn now, unless it is of these results: its script, which contains its data, is that of now.
+      !> Removes a figure that is not drawn now, unless it shows these results: its script, which contains its data, equals the
+      !> present one.
       subroutine remove_old(rule, name)
          type(figure_rule_t), intent(in) :: rule
          character(*), intent(in) :: name

@@ -326,7 +326,7 @@ contains
       type(table_t), intent(out), optional :: compliance    !! the compliance matrix at every state; not set if the test is not run
       type(load_record_t), intent(inout), optional :: loads !! receives the loads of the members
       type(explanation_t), allocatable, intent(out), optional :: explanations(:)      !! with compliance
-      type(live_t), intent(inout), optional :: live         !! receives what other rates need
+      type(live_t), intent(inout), optional :: live         !! receives the data for the sliders of --live
       integer, parameter :: topics(7) = [on_case, on_end, on_stability, on_settling, on_rack, on_curve, on_closure]
       type(solve_options_t) :: options
       type(case_result_t) :: result

@@ -1,5 +1,6 @@
-!> A folder is one report: report-files.csv lists what a report wrote, with checksums. The next report in the folder removes the files
-!> of that list which it does not write itself and which nobody has changed since; a changed one stays, and a note names it.
+!> A folder is one report: report-files.csv lists what a report wrote, with checksums. The next report in the folder removes the
+!> files of that list which it does not write itself and which nobody has changed since; a changed file is not removed, and a note
+!> names it.
 module ek_report_list
    use ek_error, only: error_t, message_list_t
    use ek_text, only: quoted

@@ -252,7 +252,7 @@ contains
    subroutine draw(settings, result, name, error)
       type(settings_t), intent(in) :: settings
       type(case_result_t), intent(in) :: result
-      character(*), intent(in) :: name              !! path of the table without its ending
+      character(*), intent(in) :: name              !! path of the table without its extension
       type(error_t), allocatable, intent(out) :: error
       type(figure_t), allocatable :: figures(:)
       character(64), allocatable :: elements(:)

@@ -15,7 +15,7 @@ module ek_run_columns
 
 contains
 
-   !> Chooses the columns that names, or patterns with *, mean in the results of the cases; also those of targets. All
+   !> Chooses the columns of the results to which names, or patterns with *, refer, and the columns of targets. All
    !> quantities may be named, regardless of the settings of the cases.
    subroutine choose_columns(list, suspension, cases, columns, error, option, others)
       character(*), intent(in) :: list                  !! names with commas between them

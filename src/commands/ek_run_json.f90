@@ -75,7 +75,7 @@ contains
       type(json_t), intent(inout) :: json
       integer, intent(in) :: status                                !! exit status of the program
       character(*), intent(in) :: folder, model                    !! - is standard output
-      type(error_t), allocatable, intent(inout) :: error           !! a failure to write; an earlier error stays
+      type(error_t), allocatable, intent(inout) :: error           !! a failure to write; an earlier error is not replaced
       type(error_t), allocatable :: unwritten
       character(:), allocatable :: path
 

@@ -5,7 +5,7 @@
 !>      "folder": "/data/batch", "arguments": ["run", "front.nml", …], "decks": [{"file": "front.nml", "checksum": "…"}],
 !>      "messages": ["warning: …"], "output": ["out/front_bump.csv"]}
 !>
-!> What the console prints is recorded here: the state of this module is one run of the program, and only commands use it.
+!> Printed text is recorded here: the state of this module is one run of the program, and only commands use it.
 module ek_run_log
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t, fail, exit_usage

@@ -1,4 +1,4 @@
-!> The findings of elastokin solve as text: what was reached, what was not, and why.
+!> The findings of elastokin solve as text: values reached, values missed, and the reasons.
 module ek_solve_text
    use ek_kinds, only: wp
    use ek_text, only: str, quoted, plural

@@ -11,11 +11,11 @@ module ek_study_curves
    private
    public :: read_curves, curve_step
 
-   integer, parameter :: most_curves = 5000          !! designs whose curves are kept
+   integer, parameter :: most_curves = 5000          !! designs whose curves are stored
 
 contains
 
-   !> The curves of the designs 1, 1 + step, … are kept.
+   !> The step between designs whose curves are stored: designs 1, 1 + step, …
    pure integer function curve_step(designs)
       integer, intent(in) :: designs
       curve_step = max(1, (designs + most_curves - 1)/most_curves)

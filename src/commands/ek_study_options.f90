@@ -61,10 +61,11 @@ contains
       if (length > 0) call get_environment_variable(name, value=text)
    end function variable
 
-   !> The processors, or fewer if OMP_NUM_THREADS (the first number of its list) or the processors that Slurm gave to a task are fewer.
+   !> The processors, or fewer if OMP_NUM_THREADS (the first number of its list) or the processors that Slurm gave to a task are
+   !> fewer.
    pure integer function jobs_within(processors, openmp, slurm) result(jobs)
       integer, intent(in) :: processors
-      character(*), intent(in) :: openmp, slurm      !! '' if it is not set; what is no number above 0 does not count
+      character(*), intent(in) :: openmp, slurm      !! '' if it is not set; a string that is not a number above 0 is ignored
       integer :: limit, status, k
 
       jobs = processors

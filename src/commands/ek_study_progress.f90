@@ -37,7 +37,7 @@ contains
       if (is_terminal(2) .and. .not. state%is_quiet) call write_standard_error(achar(13)//repeat(' ', 78)//achar(13))
    end subroutine end_state
 
-   !> '1200 of 5000 designs, 850/s, 4 s left, 3 failed'; the rate is that of this run
+   !> '1200 of 5000 designs, 850/s, 4 s left, 3 failed'; the rate refers to this run only
    function state_text(state) result(text)
       type(run_state_t), intent(in) :: state
       character(:), allocatable :: text
@@ -75,7 +75,7 @@ contains
       end if
    end function time_text
 
-   !> Prints how far a study is, that another process may be running.
+   !> Prints the progress of a study, which another process may be running.
    subroutine print_status(this, error)
       type(opened_study_t), intent(in) :: this
       type(error_t), allocatable, intent(out) :: error

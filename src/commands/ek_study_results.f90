@@ -1,6 +1,6 @@
 !> The results of a finished study for its figures and its page: the tables are read line by line.
 !>
-!> Of a table of many designs all factors and responses are kept (8 bytes each), of the curves those of 5,000 designs at most. A
+!> All factors and responses of a table are stored (8 bytes each), but the curves of at most 5,000 designs. A
 !> store in NetCDF is written as tables into a scratch folder first (ek_store).
 module ek_study_results
    use ek_kinds, only: wp

@@ -9,7 +9,7 @@ module ek_table_lines
    public :: lines_t, open_table, next_line, take_numbers, close_table
 
    integer, parameter :: longest_line = 200000       !! characters, of the column names
-   integer, parameter :: longest_message = 1000      !! characters of a reason that are kept
+   integer, parameter :: longest_message = 1000      !! stored characters of a reason
 
    !> A table that is read line by line.
    type :: lines_t

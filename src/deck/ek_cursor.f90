@@ -80,7 +80,7 @@ contains
       lacks_equals = lacks_equals .and. index(':+-.0123456789''"', next) > 0
    end function lacks_equals
 
-   !> Reads the word here without moving, and what comes after it and its subscript; a blank at the end of the text.
+   !> Reads the word at the cursor without moving, and the character after it and its subscript; a blank at the end of the text.
    pure subroutine look_past_key(text, cursor, word, next)
       character(*), intent(in) :: text
       type(cursor_t), intent(in) :: cursor

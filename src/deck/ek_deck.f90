@@ -5,7 +5,7 @@
 !> Therefore `error` is set only if the file cannot be read (exit_file) or is empty (exit_deck).
 !>
 !> Order of processing: text, included files, &hardpoints, settings of records in the deck, property files, &mirror, settings of
-!> records created by the last two.
+!> records that property files and &mirror have created.
 module ek_deck
    use, intrinsic :: iso_fortran_env, only: input_unit, iostat_eor
    use ek_buffer, only: buffer_t
@@ -178,8 +178,8 @@ contains
       call fail(error, exit_usage, visible(message))
    end subroutine set_value
 
-   !> Finishes the deck: property files read, both sides written out, and the settings of what these created applied. Errors are
-   !> added to its list.
+   !> Finishes the deck: property files read, both sides written out, and the settings of records created by these steps applied.
+   !> Errors are added to its list.
    subroutine finish_deck(deck, whole)
       type(deck_t), intent(in) :: deck
       type(deck_t), intent(out) :: whole
@@ -238,7 +238,8 @@ contains
       digits = digits_of(sum)
    end function deck_checksum
 
-   !> Adds the load tables that cases name to a checksum, byte for byte. One that cannot be read adds nothing: its case cannot be run.
+   !> Adds the load tables that cases name to a checksum, byte for byte. One that cannot be read adds nothing: its case cannot be
+   !> run.
    subroutine include_tables(files, records, sum)
       type(kept_files_t), intent(in) :: files      !! which are not read again
       type(record_t), intent(in) :: records(:)

@@ -1,7 +1,7 @@
-!> The state of the reader while a blueprint is made: the records and what is known about each, the values of their keys,
+!> The state of the reader while a blueprint is made: the records, their names and points, the values of their keys,
 !> and the messages about them. ek_reference looks up the names to which they refer.
 !>
-!> `k` is the record that is being read. Messages have the form `file:line: group 'name': what`. A value that was rejected
+!> `k` is the record that is being read. Messages have the form `file:line: group 'name': error`. A value that was rejected
 !> counts as not given, with a legal default: one error, one message.
 module ek_deck_reading
    use ek_kinds, only: wp, units_t
@@ -197,7 +197,7 @@ contains
       if (text /= '') read (text, *) value
    end function whole_of
 
-   !> .true. or .false.
+   !> The logical value of a key; `default` if it is not given.
    logical function switch_of(reading, key, default) result(value)
       type(deck_reading_t), intent(in) :: reading
       character(*), intent(in) :: key
@@ -265,8 +265,8 @@ contains
       if (any(units == lower(word))) hint = '; imperial units are not supported: convert the numbers of the deck'
    end function imperial_hint
 
-   !> Makes a number of the record being read, or the first `count` elements of a list, parameters; `number` is that of the first,
-   !> 0 if the key is not given and has no default.
+   !> Makes a number of the record being read, or the first `count` elements of a list, parameters; `number` is the index of the
+   !> first, 0 if the key is not given and has no default.
    subroutine slot(reading, key, unit, number, default, count)
       type(deck_reading_t), intent(inout) :: reading
       character(*), intent(in) :: key

@@ -1,4 +1,4 @@
-!> Every value of a deck, as its path and its text: what a report keeps, so that two reports can be compared by what was changed.
+!> Every value of a deck, as its path and its text: stored by a report, so that a comparison of two reports can list the changes.
 module ek_deck_values
    use ek_error, only: message_list_t
    use ek_deck, only: deck_t, finish_deck

@@ -24,7 +24,7 @@ module ek_deck_writer
 
    !> A load table that a record names.
    type :: table_t
-      character(:), allocatable :: path, name      !! where it was read, what the written deck calls it
+      character(:), allocatable :: path, name      !! path from which it was read; its name in the written deck
    end type table_t
 
 contains
@@ -181,7 +181,7 @@ contains
    end function in_quotes
 
    !> The name of the table of a case in the written deck; it is added to the list. Tables of one name in two folders get numbers.
-   !> One that could not be read keeps its path.
+   !> A table that could not be read has its original path.
    function table_name(record, kept, prefix, tables) result(name)
       type(record_t), intent(in) :: record
       type(kept_files_t), intent(in) :: kept

@@ -1,4 +1,4 @@
-!> The groups of a deck and their keys: the single definition of what is legal.
+!> The groups of a deck and their keys: the single definition of legal input.
 !>
 !> To add a key: its row here, and the reader of the group, which asks for its value.
 module ek_group

@@ -164,7 +164,7 @@ contains
       end do
    end subroutine add_parameter
 
-   !> Finds the parameters with a path, which may have * in place of names. None is found if the path leads to a string,
+   !> Finds the parameters with a path, which may have * instead of names. No parameter is found if the path leads to a string,
    !> or if the deck does not give the number. The path of a half deck leads to both sides of the axle.
    subroutine find_parameters(parameters, records, path_text, found)
       type(parameters_t), intent(in) :: parameters

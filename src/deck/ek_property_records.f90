@@ -148,8 +148,8 @@ contains
 
    end subroutine attach_property
 
-   !> Element `at` of a number key; of a single one that element. `default` if it is not given or no number, which the check of the
-   !> record reports.
+   !> Element `at` of a number key; of a key with a single value, this value. `default` if it is not given or no number, which the
+   !> check of the record reports.
    pure real(wp) function number_in(record, key, at, default) result(value)
       type(record_t), intent(in) :: record
       character(*), intent(in) :: key

@@ -217,7 +217,7 @@ contains
       call append_joint(reading%plan%prototype, text_of(reading, 'name'), where_of(reading), kind, terms, [size(terms)])
    end subroutine append_measures
 
-   !> Checks which keys a type of joint requires and which it does not take.
+   !> Checks that a joint has the keys that its type requires, and no others.
    subroutine check_keys(reading, kind)
       type(deck_reading_t), intent(inout) :: reading
       type(joint_kind_t), intent(in) :: kind

@@ -299,8 +299,8 @@ contains
       complaints_count = self%used
    end function complaints_count
 
-   !> The messages, one per line, sorted by file and line number; messages about one line keep their order. The list is cut
-   !> at a limit: a file with so many errors is probably not a deck.
+   !> The messages, one per line, sorted by file and line number; messages about one line are in the order of insertion. The list
+   !> is cut at a limit: a file with so many errors is probably not a deck.
    pure function complaints_text(self) result(text)
       class(deck_errors_t), intent(in) :: self
       character(:), allocatable :: text

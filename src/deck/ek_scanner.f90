@@ -21,7 +21,7 @@ module ek_scanner
 
 contains
 
-   !> Scans all records of a text. Errors are added to the list of messages as `file:line: what`. Line ends of any system are
+   !> Scans all records of a text. Errors are added to the list of messages as `file:line: error`. Line ends of any system are
    !> accepted.
    subroutine scan_text(written, file, records, used, deck_errors, source)
       character(*), intent(in) :: written

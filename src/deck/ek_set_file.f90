@@ -170,7 +170,7 @@ contains
       if (mistakes%count() > 0) call fail(error, exit_deck, visible(mistakes%text()))
    end subroutine apply_set_file
 
-   !> Names the lines of the file in a message about settings: 'params.in:3: path=value' in place of '--set path=value'.
+   !> Names the lines of the file in a message about settings: 'params.in:3: path=value' instead of '--set path=value'.
    subroutine show_set_file(file, message)
       type(set_file_t), intent(in) :: file
       character(:), allocatable, intent(inout) :: message

@@ -207,7 +207,7 @@ contains
 
    end subroutine read_values
 
-   !> Puts the values in the place of elements of the record, or adds them to it.
+   !> Replaces elements of the record by the values, or adds the values to it.
    subroutine put_values(record, given, setting)
       type(record_t), intent(inout) :: record
       type(entry_t), intent(in) :: given
