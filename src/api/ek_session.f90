@@ -47,7 +47,7 @@ module ek_session
       ! ek_session_solution
       integer :: solved = 0                         !! case of the last solution; 0: there is none
       type(prepared_t), allocatable :: prepared(:)  !! of each case
-      class(workspace_t), allocatable :: other  !! has the last solution if `workspace` has not: of the deck with its numbers as text,
+      class(workspace_t), allocatable :: other  !! has the last solution if `workspace` has not: deck with its numbers as text,
       !!                                               or of the deck before set_text or reset
       real(wp), allocatable :: solved_x(:)          !! the numbers of the last solution
       class(derived_t), allocatable :: derived      !! ek_session_derivatives

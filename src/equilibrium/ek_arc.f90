@@ -14,7 +14,7 @@
 !>
 !>     a·b = Σ over bodies (a_r·b_r/L² + a_π·b_π) + a_s b_s/range²        L the size of the model
 !>
-!> and are therefore dimensionless; reactions are ignored. The sense of the tangent is that of the previous one, which
+!> and are therefore dimensionless; reactions are ignored. The tangent has the sense of the previous tangent, which
 !> carries the path across a fold. A position where joints lock is passed likewise; there the reactions are unbounded.
 !>
 !> A step is accepted if its tangents agree with the motion and differ by a small angle, or at a corner of a law.
@@ -57,14 +57,14 @@ module ek_arc
       real(wp) :: place_a = 0.0_wp, place_b = 0.0_wp
       integer :: negative_a = 0, negative_b = 0      !! negative eigenvalues of N
       real(wp), allocatable :: packed_a(:), packed_b(:)      !! states, see ek_state
-      real(wp), allocatable :: tangent_a(:), tangent_b(:)    !! [twists; reactions; place] per length
+      real(wp), allocatable :: tangent_a(:), tangent_b(:)    !! [twists; reactions; swept value] per length
       real(wp), allocatable :: tangent_0(:)                  !! likewise at the start
       type(state_t) :: state                         !! state of the last probe
       real(wp) :: place = 0.0_wp                     !! likewise
       real(wp), allocatable :: tangent(:)            !! its tangent, from find_tangent
       integer :: factorisations = 0                  !! spent so far
       type(state_t) :: other
-      real(wp), allocatable :: motion(:)             !! [twists; 0; place]
+      real(wp), allocatable :: motion(:)             !! [twists; 0; swept value]
       real(wp), allocatable :: residual(:)
       real(wp), allocatable :: matrix(:, :), rhs(:, :)       !! the bordered system, scaled
       integer, allocatable :: pivots(:)
@@ -77,7 +77,7 @@ contains
       type(suspension_t), intent(in) :: suspension
       type(schedule_t), intent(in) :: schedule
       real(wp), intent(in) :: length         !! characteristic length from ek_scale [m]
-      real(wp), intent(in) :: range          !! place, above 0
+      real(wp), intent(in) :: range          !! swept value, above 0
       real(wp), intent(in) :: tolerance      !! m
       type(arc_t) :: self
       integer :: n
@@ -208,7 +208,7 @@ contains
       end do
    end subroutine probe
 
-   !> Finds the unit tangent at self%state, in self%tangent; its sense is that of the tangent at a. N is factorised for its inertia.
+   !> Finds the unit tangent at self%state, in self%tangent, with the sense of the tangent at a. N is factorised for its inertia.
    !>
    !> If N is only the symmetric part of the true matrix, the derivative of the residual along the tangent corrects it.
    subroutine find_tangent(self, suspension, kkt, is_found)
@@ -310,7 +310,7 @@ contains
 
    end subroutine solve_bordered
 
-   !> Moves bodies, reactions and place by a step.
+   !> Moves bodies, reactions and swept value by a step.
    pure subroutine move_all(self, kkt, step, state, place)
       type(arc_t), intent(in) :: self
       type(kkt_t), intent(in) :: kkt
@@ -323,7 +323,7 @@ contains
       place = place + step(size(self%rhs, 1))
    end subroutine move_all
 
-   !> a·b of two steps [twists; reactions; place].
+   !> a·b of two steps [twists; reactions; swept value].
    !> Equation (K.18) of docs/theory/kkt.md.
    pure real(wp) function inner(self, kkt, a, b)
       type(arc_t), intent(in) :: self

@@ -46,7 +46,7 @@ contains
       type(arc_t), intent(inout) :: arc
       type(suspension_t), intent(in) :: suspension
       real(wp), contiguous, intent(in) :: settled(:)     !! packed state at swept value 0
-      real(wp), intent(in) :: near, far                  !! places on one side of 0; near may be 0
+      real(wp), intent(in) :: near, far                  !! swept values on one side of 0; near may be 0
       type(kkt_t), intent(inout) :: kkt
       type(survey_t), intent(out) :: found
       real(wp) :: top, place
@@ -105,7 +105,7 @@ contains
          found%far_length = arc%length + max(arc%width - behind, 0.0_wp)
       end function ending
 
-      !> Finds the places near and far on a part of the segment over which the swept value is monotonic.
+      !> Finds the lengths at which the path passes `near` and `far`, on a part of the segment with a monotonic swept value.
       subroutine evaluate_between(low, place_low, high, place_high)
          real(wp), intent(in) :: low, place_low, high, place_high
          real(wp) :: width
@@ -140,7 +140,7 @@ contains
       integer, intent(in) :: first, last
       integer, intent(inout) :: limits
       real(wp), intent(inout) :: places(:)
-      integer, intent(inout) :: states(:)    !! 0: closer to design than the first
+      integer, intent(inout) :: states(:)    !! 0: the limit point is closer to design than state `first`
       real(wp) :: share
       integer :: k
 
@@ -228,7 +228,7 @@ contains
       type(suspension_t), intent(in) :: suspension
       type(kkt_t), intent(inout) :: kkt
       real(wp), intent(in) :: goal
-      real(wp), intent(in) :: from, place_from, to, place_to     !! lengths beyond a, and places, at both ends of the part
+      real(wp), intent(in) :: from, place_from, to, place_to     !! lengths beyond a, and swept values, at both ends of the part
       real(wp), intent(out) :: width                             !! length beyond a
       integer, parameter :: max_probes = 80
       real(wp) :: low, high, f_low, f_high, f
@@ -254,7 +254,8 @@ contains
       end do
    end subroutine find_place
 
-   !> Makes one step of root finding between two values of different sign: false position; an end that stays counts half (Illinois).
+   !> Makes one step of root finding between two values of different sign: false position; the value at an unchanged end is halved
+   !> (Illinois).
    pure subroutine narrow(x, f, low, f_low, high, f_high, side)
       real(wp), intent(in) :: x, f
       real(wp), intent(inout) :: low, f_low, high, f_high

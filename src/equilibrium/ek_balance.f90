@@ -3,7 +3,7 @@
 !> `spring`: the spring preloads with which the wheels settle at their design height.
 !> `all`: spring and bushing preloads with which every body stays exactly at design; if there are several solutions,
 !> the one with the smallest complementary energy Σ f²/2k of the bushing preloads (k of a curve: its slope at design).
-!> Dampers, stops, torsion springs and springs with `balance = .false.` keep their preloads.
+!> Dampers, stops, torsion springs and springs with `balance = .false.` have unchanged preloads.
 !>
 !> A driver with a stiffness that acts on the body of a wheel (a tyre modelled as a spring under the patch) would carry the
 !> wheel instead of the spring: it is excluded from `all` unless its joint sets `balance = .true.`. Others (a rack, a steering

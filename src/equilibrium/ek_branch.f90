@@ -7,7 +7,7 @@
 !>   |d − h (t_a + t_b)/2| is small against |d| (trapezoidal rule: third order in h on a smooth path);
 !> - the matrix N has as many negative eigenvalues at b as at a: N is regular along a smooth path;
 !> - det(Φq(a) Φq(b)ᵀ) > 0: the joints are in the same assembly mode. Where Φq loses rank, the inertia of N does not
-!>   change: its determinant is proportional to the square of that of Φq.
+!>   change: det N is proportional to the square of det Φq.
 !>
 !> Where laws bend between a and b, tangents with their chords must agree instead (ek_chord). If the step was halved often
 !> enough, d need only lie between h t_a and h t_b, and the direction of motion of no body may change by more than 60
@@ -50,32 +50,32 @@ module ek_branch
    !> Data of a step from a to b.
    type :: step_t
       type(inputs_t) :: inputs_a, inputs_b, rate
-      real(wp) :: width = 0.0_wp            !! h: place of b minus place of a
+      real(wp) :: width = 0.0_wp            !! h: swept value of b minus swept value of a
       real(wp) :: rest = 0.0_wp             !! of the tangents' agreement with the motion
       integer :: negative_b = 0             !! negative eigenvalues of N at b
       logical :: is_explained = .false.     !! the tangents at a and b agree with the motion
       logical :: is_past = .false.          !! they need not, as laws bend between
       logical :: is_bent = .false.          !! laws bend between
       logical :: is_regular(2) = .false.    !! N at a, at b, with all slopes that these laws have between
-      logical :: is_new_at_a = .false.      !! the tangents at a are from new factors there
+      logical :: is_new_at_a = .false.      !! the tangents at a are from new factors at a
    end type step_t
 
    !> Data of the newest state of a path and of the step compared last.
    type :: known_t
       integer :: negative = -1              !! negative eigenvalues of N at the newest state; −1: not known
-      real(wp) :: log_determinant = huge(1.0_wp)   !! ln |det N| there; huge: not known
-      logical :: was_uneven = .true.        !! |det N| changed much in the step to it
+      real(wp) :: log_determinant = huge(1.0_wp)   !! ln |det N| at the newest state; huge: not known
+      logical :: was_uneven = .true.        !! |det N| changed much in the step to the newest state
       logical :: has_tangent = .false.      !! tangent_a belongs to the newest state
-      real(wp) :: width_before = 0.0_wp     !! place of a minus place of the state before; 0: not known
+      real(wp) :: width_before = 0.0_wp     !! swept value of a minus swept value of the state before; 0: unknown
       integer :: serial = -1                !! number of the last factorisation at or near b
-      real(wp) :: missed = 0.0_wp           !! its distance from b [m]
+      real(wp) :: missed = 0.0_wp           !! distance of this factorisation from b [m]
       logical :: is_singular = .false.      !! the joints lose rank at or too near to the end of the step compared last
       logical :: is_over = .false.          !! they are in another assembly there
       logical :: was_bent = .false.         !! the step compared last passes a corner of a law
       logical :: knows_end = .false.        !! tangent_b belongs to the state evaluated last
       integer :: factorisations = 0         !! number needed by the last comparison
-      real(wp) :: least = 0.0_wp            !! shortest step tried before the path is reported to end [place]
-      real(wp) :: width = 0.0_wp            !! width of the step across a bifurcation [place]
+      real(wp) :: least = 0.0_wp            !! shortest step tried before the path is reported to end [swept value]
+      real(wp) :: width = 0.0_wp            !! width of the step across a bifurcation [swept value]
       integer :: crossings = 0              !! bifurcations met so far
       real(wp) :: crossing_place(max_crossings) = 0.0_wp
    end type known_t
@@ -83,7 +83,7 @@ module ek_branch
    !> The last states of the path, data of the newest, and work space.
    type, extends(known_t) :: branch_t
       type(predictor_t) :: predictor
-      real(wp), allocatable :: tangent_a(:), tangent_b(:)  !! dz/ds: twists of the bodies and reactions per place
+      real(wp), allocatable :: tangent_a(:), tangent_b(:)  !! dz/ds: twists of the bodies and reactions per swept value
       real(wp), allocatable :: motion(:), motion_before(:) !! twists of the bodies from a to b, from the state before to a [m, rad]
       real(wp), allocatable :: chord_a(:), chord_b(:)      !! tangents with the laws replaced by their chords
       real(wp), allocatable :: twist(:)                    !! of the bodies, where one is handed on [m, rad]
@@ -114,8 +114,8 @@ contains
       self%shifted = self%before
    end function new_branch
 
-   !> Renews a branch in place, for other numbers of the model for which it was made; an empty one, or one of another size, is
-   !> made anew.
+   !> Renews a branch in place, for other numbers of the model for which it was made; an empty branch, or a branch of another
+   !> size, is made anew.
    subroutine renew_branch(suspension, self)
       type(suspension_t), intent(in) :: suspension
       type(branch_t), intent(inout) :: self
@@ -160,9 +160,9 @@ contains
 
    !> Compares both ends of a step. kkt must contain the factors of N at or near b.
    !>
-   !> It first uses these factors and a tangent at a that may be old; if the step disagrees with them, new ones. On
-   !> return self%tangent_b belongs to b; `accept` makes it the tangent of the newest state.
-   !> Equation (K.15) of docs/theory/kkt.md: three states and the tangent at b, as long as that at a is not known.
+   !> It first uses these factors and a tangent at a that may be old; if the step disagrees with them, it uses new factors and a
+   !> new tangent. On return self%tangent_b belongs to b; `accept` makes it the tangent of the newest state.
+   !> Equation (K.15) of docs/theory/kkt.md: three states and the tangent at b, as long as the tangent at a is not known.
    subroutine compare(self, suspension, inputs_a, inputs_b, place, state_b, outcome, kkt, verdict)
       type(branch_t), intent(inout) :: self
       type(suspension_t), intent(in) :: suspension
@@ -265,7 +265,7 @@ contains
       call decide(self, step, kkt%length)
    end subroutine evaluate_closer
 
-   !> Evaluates the tangent at a; if it does not explain the step, that with the chords of bent laws.
+   !> Evaluates the tangent at a; if it does not explain the step, also the tangent with the chords of bent laws.
    subroutine evaluate_beginning(self, step, suspension, is_anew, kkt)
       type(branch_t), intent(inout) :: self
       type(step_t), intent(inout) :: step
@@ -288,7 +288,8 @@ contains
          self%before, step%inputs_a, step%rate, kkt, self%chord_a, step%is_regular(at_a))
    end subroutine evaluate_beginning
 
-   !> Decides whether the tangents agree with the motion, or those along the chords of bent laws do and N stays regular.
+   !> Decides whether the tangents agree with the motion, or whether the tangents along the chords of bent laws agree and N stays
+   !> regular.
    pure subroutine decide(self, step, length)
       type(branch_t), intent(in) :: self
       type(step_t), intent(inout) :: step
@@ -348,7 +349,7 @@ contains
       call move_as_screw(state, self%twist)
    end subroutine go_along
 
-   !> Records a bifurcation at a swept value; one that is not distinct from the last one within rounding is omitted.
+   !> Records a bifurcation at a swept value, unless it equals the last recorded bifurcation within rounding.
    pure subroutine note_crossing(self, place)
       type(branch_t), intent(inout) :: self
       real(wp), intent(in) :: place

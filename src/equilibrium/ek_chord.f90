@@ -1,17 +1,17 @@
 !> A step past bent laws (a stop comes into contact, a curve gets stiffer): whether it is on the path, and the path does not
 !> reverse in it.
 !>
-!> The tangents at the ends of such a step disagree with the motion, as the slopes of the laws change on the way. Two questions
-!> replace that comparison:
+!> The tangents at the ends of such a step disagree with the motion, as the slopes of the laws change on the way. Two checks
+!> replace the comparison with the motion:
 !>
 !> - With every law replaced by its chord, the straight line through its forces at both ends, a and b are equilibria of the
-!>   changed model too, and nothing in it bends but the geometry. Its tangents must then agree with the motion.
-!> - On the way, the slope of each law stays between a least and a most. N grows with each slope (in the sense of its
-!>   quadratic form), and so does each of its eigenvalues. If N has as many negative ones with all slopes at their least as with
-!>   all at their most, it is regular for all slopes between: no limit point, however the laws follow each other.
+!>   changed model too, and only its geometry is nonlinear. Its tangents must then agree with the motion.
+!> - On the way, the slope of each law stays between a minimum and a maximum. N grows with each slope (in the sense of its
+!>   quadratic form), and each eigenvalue does too. If N has as many negative eigenvalues with all slopes at their minimum as
+!>   with all at their maximum, N is regular for all slopes between: no limit point, however the laws follow each other.
 !>
-!> The forces at both ends stay, so that only the slopes change: N of the changed model is N plus a dyad per bent law (ek_dyads).
-!> No memory is allocated after new_chord.
+!> The forces at both ends are unchanged, so that only the slopes change: N of the changed model is N plus a dyad per bent law
+!> (ek_dyads). No memory is allocated after new_chord.
 module ek_chord
    use ek_kinds, only: wp
    use ek_suspension, only: suspension_t
@@ -42,12 +42,12 @@ module ek_chord
    !> The laws in a step; one column per law.
    type :: chord_t
       type(place_t), allocatable :: place(:)
-      real(wp), allocatable :: value(:, :), force(:, :)    !! (at_a or at_b, law): argument and force there [m, N; rad, N m]
-      real(wp), allocatable :: own(:, :)                   !! (at_a or at_b, law): slope there [N/m, N m/rad]
+      real(wp), allocatable :: value(:, :), force(:, :)    !! (at_a or at_b, law): argument and force at a or b [m, N; rad, N m]
+      real(wp), allocatable :: own(:, :)                   !! (at_a or at_b, law): slope at a or b [N/m, N m/rad]
       real(wp), allocatable :: slope(:, :)                 !! (least, mean or most, law): between them [N/m, N m/rad]
       real(wp), allocatable :: change(:)                   !! of the slope of each bent law [N/m, N m/rad]
-      integer, allocatable :: bent_law(:)                  !! numbers of the laws that bend in the step
-      integer :: bends = 0                                 !! how many
+      integer, allocatable :: bent_law(:)                  !! indices of the laws that bend in the step
+      integer :: bends = 0                                 !! number of laws that bend
       type(dyads_t) :: dyads
    end type chord_t
 

@@ -3,7 +3,7 @@
 !> The recursive and the corrected increment take one step without a check, and may step across a lock onto
 !> another assembly. Therefore the exact path is followed again in a few long steps checked by ek_reach. At each of
 !> them Newton's method is started from the state of the linear method and must converge to the exact path.
-!> States beyond the last place where it does are marked as not reached.
+!> States beyond the last swept value where it converges are marked as not reached.
 module ek_confirm
    use ek_kinds, only: wp
    use ek_suspension, only: suspension_t
@@ -30,7 +30,7 @@ contains
       real(wp), intent(in) :: place(:)               !! of each state
       real(wp), intent(in) :: packed(:, :)           !! (coordinate, state)
       integer, intent(in) :: first, last
-      real(wp), intent(in) :: least                  !! shortest step [place]
+      real(wp), intent(in) :: least                  !! shortest step [swept value]
       type(kkt_t), intent(inout) :: kkt
       logical, intent(inout) :: is_reached(:)
       type(failure_t), intent(inout) :: failure      !! state: the first rejected state

@@ -3,7 +3,7 @@
 !> At each step the pivot of the least fill is taken, one unknown or a pair of connected unknowns (2×2): the square of the
 !> number of unknowns that it then couples, the rule of Markowitz and of minimum degree. It must be stable in every sample
 !> matrix: |D⁻¹| × the largest entries of its columns stays below 1/threshold, as in I. S. Duff and J. K. Reid, ACM TOMS 9
-!> (1983) 302–325. Where no pivot is stable, the most stable one is taken; whoever uses the order notices large factors.
+!> (1983) 302–325. Where no pivot is stable, the most stable pivot is taken; the factorisation then detects large factors.
 module ek_elimination_order
    use ek_kinds, only: wp
    implicit none(type, external)
@@ -17,19 +17,19 @@ module ek_elimination_order
    type :: order_t
       integer :: blocks = 0
       integer, allocatable :: pivot(:, :)        !! (2, block): unknowns; the second is 0 for a pivot of one
-      integer, allocatable :: first(:)           !! (blocks + 1): its first place in `rows`
+      integer, allocatable :: first(:)           !! (blocks + 1): index of its first row in `rows`
       integer, allocatable :: rows(:)            !! unknowns coupled by the pivot, which are eliminated later
    end type order_t
 
-   !> The graph of what is not yet eliminated, with the numbers of all samples.
+   !> The graph of the unknowns not yet eliminated, with the numbers of all samples.
    type :: graph_t
       integer :: n = 0, samples = 0, room = 0
       integer, allocatable :: degree(:)
-      integer, allocatable :: next_to(:, :)      !! (place, unknown)
-      real(wp), allocatable :: value(:, :, :)    !! (sample, place, unknown)
+      integer, allocatable :: next_to(:, :)      !! (neighbour, unknown)
+      real(wp), allocatable :: value(:, :, :)    !! (sample, neighbour, unknown)
       real(wp), allocatable :: diagonal(:, :)    !! (sample, unknown)
       logical, allocatable :: is_left(:)
-      integer, allocatable :: mark(:)            !! work space: place of a neighbour, or 0
+      integer, allocatable :: mark(:)            !! work space: index of a neighbour, or 0
    end type graph_t
 
    !> The best pivot that contains an unknown.
@@ -309,7 +309,7 @@ contains
       end do
    end function factor_size
 
-   !> Eliminates a pivot: what it couples becomes a clique, with the numbers of all samples.
+   !> Eliminates a pivot: the unknowns that it couples become a clique, with the numbers of all samples.
    subroutine eliminate(graph, first, second, coupled, many)
       type(graph_t), intent(inout) :: graph
       integer, intent(in) :: first, second       !! second = 0: a pivot of one

@@ -1,4 +1,4 @@
-!> The factors of N at the newest state of a path, kept while Newton's method factorises N elsewhere.
+!> The factors of N at the newest state of a path, stored while Newton's method factorises N elsewhere.
 !>
 !> `exchange` swaps these factors with the factors in kkt_t; nothing is copied or allocated after new_factors.
 module ek_factors
@@ -10,8 +10,8 @@ module ek_factors
 
    !> Factors, and the state to which they belong.
    type :: factors_t
-      logical :: is_kept = .false.          !! these are the factors of the state
-      integer, private :: serial = -1       !! number of their factorisation; −1: the state has none
+      logical :: is_kept = .false.          !! the object contains the factors of the state
+      integer, private :: serial = -1       !! number of the factorisation; −1: the state has no factors
       integer, private :: negative = 0      !! negative eigenvalues
       integer, private :: stage = nothing   !! content of `matrix`, as in kkt_t
       integer, private :: way = 0           !! plan that they follow, as in kkt_t

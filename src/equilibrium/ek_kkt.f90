@@ -1,7 +1,7 @@
 !> The linear system of an increment: assembly, and factorisation by LAPACK or by a plan of elimination.
 !>
 !> Its parts and assembly: ek_kkt_system. Its factors and solutions: ek_kkt_factors. Its plans: ek_kkt_plans.
-!> This module makes it for a model, and hands on what callers need.
+!> This module creates the system of a model, and re-exports the procedures for callers.
 module ek_kkt
    use ek_kinds, only: wp
    use ek_suspension, only: suspension_t
@@ -50,8 +50,8 @@ contains
       end if
    end function new_kkt
 
-   !> Renews the work space for the next design of a model: the parts that depend on the connections stay, the plans included, and
-   !> nothing is allocated.
+   !> Renews the work space for the next design of a model: the parts that depend on the connections, including the plans, are
+   !> unchanged, and nothing is allocated.
    !> A model with other connections, or an empty kkt, gets a new one.
    subroutine renew_kkt(suspension, wants_plan, kkt)
       type(suspension_t), intent(in) :: suspension
@@ -93,7 +93,7 @@ contains
    end subroutine set_scales
 
    !> Finds the reciprocal condition number of the scaled matrix at a state (as LAPACK's dsycon). Factorises, by plan or by LAPACK:
-   !> by plan only if the factors are so small that the estimate is that of the matrix.
+   !> by plan only if the factors are so small that they give the estimate of the original matrix.
    pure subroutine condition(suspension, state, inputs, kkt, rcond)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state

@@ -67,7 +67,7 @@ contains
    pure subroutine move_all(bodies, step, poses)
       integer, intent(in) :: bodies
       real(num), intent(in) :: step(6*bodies)           !! [Δr Δπ] of each body [m, rad]
-      type(pose_t), intent(inout) :: poses(0:bodies)    !! the chassis, which stays, then the bodies
+      type(pose_t), intent(inout) :: poses(0:bodies)    !! the chassis, which does not move, then the bodies
       integer :: k
 
       do k = 1, bodies

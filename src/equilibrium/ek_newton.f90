@@ -20,7 +20,7 @@ module ek_newton
    ! × step²/characteristic length: the error that a full step leaves. Some 0.2 on a smooth path, 130 in the stops of the examples;
    ! near the end of a path, where the stiffness vanishes, 200 has let 1e-12 m pass
    real(wp), parameter :: curvature = 2.0e4_wp
-   real(wp), parameter :: good_chord = 0.03_wp  !! of the step before; with slower convergence new factors are cheaper
+   real(wp), parameter :: good_chord = 0.03_wp  !! limit of step/step before; above it, new factors are cheaper
 
    !> The outcome of an iteration.
    type :: outcome_t

@@ -1,8 +1,9 @@
 !> Checks that the joints of two states are in the same assembly mode: det(Φq(a) Φq(b)ᵀ) > 0, for the rigid rows.
 !>
 !> If Φq loses rank between them, the determinant changes sign, while the inertia of the matrix N of equilibrium is unchanged:
-!> its determinant is proportional to the square of that of Φq. The products of rows that share no body are zero: only the others are
-!> computed and eliminated, row by row (ek_plan). No memory is allocated after new_orientation, but for the LU factors of a large model.
+!> det N is proportional to the square of det Φq. The products of rows that share no body are zero: only the others are
+!> computed and eliminated, row by row (ek_plan). No memory is allocated after new_orientation, but for the LU factors of a large
+!> model.
 module ek_orientation
    use ek_kinds, only: wp
    use ek_relative_rotation, only: pose_t
@@ -38,7 +39,7 @@ module ek_orientation
       type(pose_t), allocatable :: poses_b(:)              !! of rows_b
       real(wp) :: min_b = 0.0_wp                           !! smallest pivot of Φq Φqᵀ there, as a share of the largest
       real(wp), allocatable :: lower(:), upper(:)          !! the products, row of a × row of b and row of b × row of a
-      real(wp), allocatable :: factors(:)                  !! in the places of the plan
+      real(wp), allocatable :: factors(:)                  !! in the order of the plan
       real(wp), allocatable :: product(:, :), unit(:, :)   !! for LU factors
       integer, allocatable :: pivots(:)
    end type orientation_t

@@ -1,8 +1,8 @@
 !> A sweep: from design outward to both ends of a case, one state after the other.
 !>
 !> A state that does not converge is approached by halved increments; if that fails too, the sweep in
-!> that direction ends, and the states before it are kept. The rows of a table are independent states:
-!> if one does not converge, the next is reached from design.
+!> that direction ends, and the states before it remain valid. The rows of a table are independent states:
+!> if one state does not converge, the next is reached from design.
 module ek_path
    use ek_kinds, only: wp
    use ek_case, only: case_t
@@ -35,12 +35,12 @@ module ek_path
       end subroutine progress_procedure
    end interface
 
-   !> The state that a walk has come to, and what the next increment needs. Kept from design to design of a model, it is work space
+   !> The present state of a walk, and the data for the next increment. Reused from design to design of a model, it is work space
    !> that need not be allocated again.
    type :: walk_t
       private
       type(state_t) :: state
-      real(wp) :: here = 0.0_wp        !! value of the path coordinate, and inputs; of the linear methods
+      real(wp) :: here = 0.0_wp        !! swept value, and inputs at it; for the linear methods
       type(inputs_t) :: inputs
       type(schedule_t) :: schedule
       real(wp), allocatable :: held(:)     !! of the recursion
@@ -53,7 +53,7 @@ module ek_path
 
 contains
 
-   !> Gives back the work space of a walk.
+   !> Frees the work space of a walk.
    pure subroutine empty_walk(self)
       type(walk_t), intent(out) :: self
       self%done = 0
@@ -90,7 +90,7 @@ contains
       type(path_t), intent(inout) :: path
       type(kkt_t), intent(inout) :: kkt
       procedure(progress_procedure), optional :: progress
-      real(wp), intent(in), optional :: reach      !! place; 0: the design state only
+      real(wp), intent(in), optional :: reach      !! swept value; 0: the design state only
       type(walk_t), intent(inout), optional :: space   !! as for sweep
       type(walk_t), allocatable :: own
 
@@ -310,7 +310,7 @@ contains
       call leave(self%branch, self%here, path%settled, self%negative)
    end subroutine restart
 
-   !> Uses the states of the other direction to predict the first states of this one.
+   !> Uses the states of the other direction to predict the first states of this direction.
    pure subroutine seed(predictor, path, first, direction)
       type(predictor_t), intent(inout) :: predictor
       type(path_t), intent(in) :: path

@@ -1,4 +1,4 @@
-!> The states of a sweep, in storage that serves one design after the other: their places, and what is known of each.
+!> The states of a sweep, in storage that serves one design after the other: the swept value of each state, and the findings at it.
 module ek_path_states
    use ek_kinds, only: wp
    use ek_case, only: case_t, follows_table
@@ -15,7 +15,7 @@ module ek_path_states
    type :: path_t
       integer :: states = 0
       integer :: start = 0                        !! index of the design state, 0 if the range leaves it out
-      real(wp), allocatable :: value(:)           !! place: factor, or change of the driven value [m, rad]
+      real(wp), allocatable :: value(:)           !! swept value: factor, or change of the driven value [m, rad]
       real(wp), allocatable :: packed(:, :)       !! (coordinate, state), see ek_state
       logical, allocatable :: is_reached(:)
       logical, allocatable :: is_stable(:)        !! no negative stiffness
@@ -25,8 +25,8 @@ module ek_path_states
       logical :: is_settled = .false.             !! there is an equilibrium under the constant loads
       logical :: is_table = .false.               !! rows of a table, each an independent state
       integer :: crossings = 0                    !! number of bifurcations on the path
-      real(wp) :: crossing_place(max_crossings) = 0.0_wp   !! their places
-      integer :: limits = 0                       !! number of limit points (follow = 'arc'), and their places
+      real(wp) :: crossing_place(max_crossings) = 0.0_wp   !! swept values of these bifurcations
+      integer :: limits = 0                       !! number of limit points (follow = 'arc')
       real(wp) :: limit_place(2*max_limits) = 0.0_wp
       integer :: limit_state(2*max_limits) = 0   !! index of the nearest state; 0: before the range begins
       type(failure_t) :: failure(2)               !! towards `to`, towards `from`; or while settling; or of a table's first lost row
@@ -34,7 +34,7 @@ module ek_path_states
 
 contains
 
-   !> Sets the places of all states and allocates storage for them.
+   !> Sets the swept values of all states and allocates storage for them.
    !>
    !> A range around design is swept outward in both directions, its increments divided in proportion.
    subroutine new_path(suspension, case, path)
@@ -139,7 +139,7 @@ contains
       end if
    end function ways
 
-   !> The range of a path; for a table, 1 row [place].
+   !> The range of a path; for a table, 1 row [swept value].
    pure real(wp) function span(path)
       type(path_t), intent(in) :: path
       span = 1.0_wp

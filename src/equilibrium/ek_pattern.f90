@@ -1,9 +1,9 @@
-!> Where the numbers of the KKT matrix stand: its blocks, and every place that may be other than zero.
+!> Positions of the numbers of the KKT matrix: its blocks, and every entry that may be nonzero.
 !>
 !> Assembly writes into a store: the 6×6 blocks of T (see ek_block: one per body, then one per pair of bodies that an element
 !> or a row couples), then six numbers per row of Φ and body (its gradient), then the diagonal of the rows. `entries` lists the
-!> places of the lower triangle of the matrix that are written, and their positions in the store. The pattern follows from what
-!> is connected with what and from the kinds of measures, never from the values of one state.
+!> entries of the lower triangle of the matrix that are written, and their positions in the store. The pattern follows from the
+!> connections and from the kinds of measures, never from the values of one state.
 module ek_pattern
    use ek_measure, only: axis_axis, body_gap, global_gap, distance, rotation
    use ek_element, only: element_t, bushing_element

@@ -1,5 +1,5 @@
 !> A plan of elimination for a sparse symmetric matrix: the factors L D Lᵀ, with the order, the pattern with its fill, and every
-!> place of every update found once for all matrices of one pattern.
+!> position of every update found once for all matrices of one pattern.
 !>
 !> D has blocks of one or two unknowns (ek_elimination_order). The factors stand in one array: per block the lower triangle of D⁻¹,
 !> then the columns of L. Their numbers: ek_plan_factors.
@@ -16,11 +16,11 @@ module ek_plan
       integer :: blocks = 0                   !! pivots
       integer :: length = 0                   !! of x
       integer, allocatable :: pivot(:, :)     !! (2, block): unknowns; the second is 0 for a pivot of one
-      integer, allocatable :: start(:)        !! place of its D in x
-      integer, allocatable :: first(:)        !! (blocks + 1): its first place in `rows`
+      integer, allocatable :: start(:)        !! index of its D in x
+      integer, allocatable :: first(:)        !! (blocks + 1): index of its first row in `rows`
       integer, allocatable :: rows(:)         !! unknowns of its column of L
-      integer, allocatable :: places(:)       !! of all updates, one block after the other
-      integer, allocatable :: slot(:)         !! place in x of each entry of the pattern
+      integer, allocatable :: places(:)       !! indices in x of all updates, one block after the other
+      integer, allocatable :: slot(:)         !! index in x of each entry of the pattern
    end type plan_t
 
 contains

@@ -1,7 +1,7 @@
 !> Factors of a matrix by a plan of elimination, and solutions with them.
 !>
-!> Per pivot: l = D⁻¹ a, x(place) ← x(place) − l a over the places of the plan, where a are the entries of its columns. The order is
-!> fixed, so a matrix far from the samples may have large factors: whoever factorises looks at `growth` and takes LAPACK instead.
+!> Per pivot: l = D⁻¹ a, x(place) ← x(place) − l a over the indices `places` of the plan, where a are the entries of its columns.
+!> The order is fixed, so a matrix far from the samples may have large factors: the caller checks `growth` and uses LAPACK instead.
 !> Equation (K.23) of docs/theory/kkt.md.
 module ek_plan_factors
    use ek_kinds, only: wp
@@ -15,7 +15,7 @@ module ek_plan_factors
    ! both solvers judge alike
    real(wp), parameter :: least_ratio = 1.0e-10_wp
 
-   integer, parameter :: several = 6       !! right-hand sides solved together: the loads on a body; they stay in registers
+   integer, parameter :: several = 6       !! right-hand sides solved together: the loads on a body; they fit in registers
 
    !> Data of a factorisation.
    type :: soundness_t

@@ -26,8 +26,8 @@ module ek_reach
    !> Where and how a sweep stopped.
    type :: failure_t
       integer :: state = 0                 !! index of the first state that did not converge, 0: none
-      real(wp) :: value = 0.0_wp           !! place of the nearest attempt that failed
-      real(wp) :: reached = 0.0_wp         !! place of the last equilibrium
+      real(wp) :: value = 0.0_wp           !! swept value of the nearest attempt that failed
+      real(wp) :: reached = 0.0_wp         !! swept value of the last equilibrium
       logical :: is_singular = .false.
       logical :: is_off_path = .false.     !! a linear method continued, but not along the path from design
       integer :: ending = 0                !! how a walk by arc length ended, see ek_arc_survey; 0: it was none
@@ -84,12 +84,12 @@ contains
 
    !> Moves from the newest stored state to equilibrium at the swept value `goal` of a path, in one step if the path allows it.
    !>
-   !> A step is halved if no equilibrium is found, or one that is not on the path (ek_branch); it is doubled again after an
-   !> accepted step. A step shorter than branch%least means the end of the path: `state` is then the last equilibrium.
+   !> A step is halved if no equilibrium is found, or if the equilibrium found is not on the path (ek_branch); it is doubled again
+   !> after an accepted step. A step shorter than branch%least means the end of the path: `state` is then the last equilibrium.
    subroutine reach(suspension, schedule, goal, tolerance, branch, state, kkt, iterations, failure, found)
       type(suspension_t), intent(in) :: suspension
       type(schedule_t), intent(in) :: schedule
-      real(wp), intent(in) :: goal               !! place
+      real(wp), intent(in) :: goal               !! swept value
       real(wp), intent(in) :: tolerance          !! m
       type(branch_t), intent(inout) :: branch    !! branch of the newest stored state
       type(state_t), intent(inout) :: state      !! result; with `found`, the equilibrium at the goal
@@ -297,7 +297,7 @@ contains
    subroutine blame(suspension, predictor, lost, step, state, kkt, failure)
       type(suspension_t), intent(in) :: suspension
       type(predictor_t), intent(in) :: predictor
-      real(wp), intent(in) :: lost               !! place of the nearest attempt that failed
+      real(wp), intent(in) :: lost               !! swept value of the nearest attempt that failed
       type(step_t), intent(in) :: step           !! the last attempt
       type(state_t), intent(inout) :: state
       type(kkt_t), intent(inout) :: kkt

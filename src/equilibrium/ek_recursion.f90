@@ -100,7 +100,7 @@ contains
    subroutine check_increment(kkt, state_number, before, value, failure)
       type(kkt_t), intent(in) :: kkt
       integer, intent(in) :: state_number
-      real(wp), intent(in) :: before, value      !! place at either end of the increment
+      real(wp), intent(in) :: before, value      !! swept value at either end of the increment
       type(failure_t), intent(inout) :: failure
       real(wp), parameter :: far = 3.0_wp        ! m: no suspension moves that far, certainly not in one increment
       real(wp) :: moved

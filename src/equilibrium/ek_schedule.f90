@@ -1,6 +1,6 @@
-!> The inputs of a case along its path: which loads and rows, and their values.
+!> The inputs of a case along its path: the indices of loads and rows, and their values.
 !>
-!> The path coordinate (place) is one number, the swept value: the factor of a load, the travel of a wheel, the roll angle,
+!> The path coordinate (`place`) is one number, the swept value: the factor of a load, the travel of a wheel, the roll angle,
 !> or the row number of a table. Each actuation of a case is a function of it.
 module ek_schedule
    use ek_kinds, only: wp
@@ -101,7 +101,7 @@ contains
       if (allocated(values)) this%values = values
    end subroutine put
 
-   !> Whether two schedules give the same inputs at all places.
+   !> Whether two schedules give the same inputs at all swept values.
    pure logical function same_schedule(a, b)
       type(schedule_t), intent(in) :: a, b
       integer :: k
@@ -145,8 +145,8 @@ contains
       end do
    end subroutine inputs_at
 
-   !> share × place, share × tan(place), or the value of the table: linear between its rows, and from 0 at
-   !> place `rest` to the next row (initially from swept value 0 to row 1).
+   !> share × swept value, share × tan(swept value), or the value of the table: linear between its rows, and from 0 at
+   !> swept value `rest` to the next row (initially from swept value 0 to row 1).
    pure real(wp) function value_at(actuation, place, rest) result(value)
       type(actuator_t), intent(in) :: actuation
       real(wp), intent(in) :: place

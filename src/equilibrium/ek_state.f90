@@ -35,7 +35,7 @@ contains
    !> The difference of two sets of inputs of the same items, per unit of the path coordinate.
    pure function inputs_rate(a, b, width) result(rate)
       type(inputs_t), intent(in) :: a, b
-      real(wp), intent(in) :: width      !! place of b minus place of a; not 0
+      real(wp), intent(in) :: width      !! swept value of b minus swept value of a; not 0
       type(inputs_t) :: rate
 
       rate = b

@@ -17,7 +17,7 @@ module ek_tangent
    !> Work space, and the terms of the loads in the matrix.
    type :: tangent_t
       private
-      real(wp), allocatable :: whole(:), defect(:)         !! [Δq; Δλ] per place, and a right-hand side
+      real(wp), allocatable :: whole(:), defect(:)         !! [Δq; Δλ] per swept value, and a right-hand side
       real(wp), allocatable :: twist(:)                    !! of the bodies [m, rad]
       logical :: is_symmetric = .true.      !! no load makes the tangent unsymmetric
       type(state_t) :: shifted
@@ -125,7 +125,7 @@ contains
 
       !> Computes the residual at a small distance along the tangent, with the same inputs.
       subroutine shifted_residual(distance)
-         real(wp), intent(in) :: distance     !! place
+         real(wp), intent(in) :: distance     !! swept value
 
          self%shifted = state
          self%shifted%reaction = state%reaction + distance*self%whole(kkt%nq + 1:)

@@ -113,7 +113,7 @@ contains
       text = script%text()
    end function script_of
 
-   !> The range of an axis: gnuplot's own, but not that of rounding errors.
+   !> The range of an axis: chosen by gnuplot, unless the values differ by rounding errors only.
    pure function range_of(values) result(range)
       real(wp), intent(in) :: values(:)
       character(:), allocatable :: range

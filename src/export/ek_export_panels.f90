@@ -28,7 +28,7 @@ contains
    subroutine carmaker_panels(map, sources, file, text, list)
       type(kandc_map_t), intent(in) :: map
       type(sources_t), intent(in) :: sources
-      character(*), intent(in) :: file, text            !! its name and what was written
+      character(*), intent(in) :: file, text            !! name and content of the written file
       type(panel_list_t), intent(out) :: list
       character(1) :: letter
       real(wp) :: signs(2)

@@ -1,4 +1,4 @@
-!> The compliance of wheels that stand on something: what a simulator adds to kinematics.
+!> The compliance of wheels that are held, which a simulator adds to kinematics.
 !>
 !> The travel of a wheel is a coordinate of the simulator, whose springs act along it, so a compliance must not contain it. The
 !> wheels are held as on the rig: at the height of their centres ('centre'), on the road through their tyres ('road'), or not at

@@ -136,7 +136,7 @@ contains
       integer, intent(in) :: wheels(2)
       real(wp), allocatable, intent(out) :: heights(:, :)      !! (side, row)
       real(wp), allocatable, intent(out) :: steer(:)
-      integer, allocatable, intent(out) :: at(:, :)            !! (travel, second argument; row): place in the grid
+      integer, allocatable, intent(out) :: at(:, :)            !! (travel, second argument; row): indices in the grid
       integer :: i, j, k, n, from, to, step
 
       n = size(map%travel)*size(map%second)
@@ -262,7 +262,7 @@ contains
       end do
    end subroutine take_compliance
 
-   !> Mirrors the side that the deck has to the side that it does not have.
+   !> Mirrors the side that the deck defines to the other side.
    subroutine mirror_map(map, to, error)
       type(kandc_map_t), intent(inout) :: map
       integer, intent(in) :: to                            !! 1 left, 2 right

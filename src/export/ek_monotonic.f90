@@ -13,8 +13,8 @@ module ek_monotonic
 
 contains
 
-   !> Checks tz, and on request the four lengths, of both sides over travel; a column that turns back is reported with the first
-   !> position where it does.
+   !> Checks tz, and on request the four lengths, of both sides over travel; a column that is not monotonic is reported with the
+   !> first position at which it reverses.
    subroutine check_monotonic(map, target, has_lengths, error)
       type(kandc_map_t), intent(in) :: map
       character(*), intent(in) :: target                    !! of the export, for the message

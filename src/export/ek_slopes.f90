@@ -22,7 +22,7 @@ module ek_slopes
 
 contains
 
-   !> Place of 0 in a list that contains it.
+   !> Index of 0 in a list that contains 0.
    pure integer function zero_of(values) result(place)
       real(wp), intent(in) :: values(:)
       place = minloc(abs(values), dim=1)

@@ -3,8 +3,8 @@
 !> Frame ISO 8855: x forward, y to the left, z up, regardless of the deck's axes. SI and radians.
 !>
 !> The rotation of the wheel from "upright and straight ahead" to its attitude is R = Rz(rz) Rx(rx) Ry(ry): it contains the static
-!> angles. rx and rz then are the attitude of the spin axis, whatever the spin ry of the carrier: on the left wheel camber = −rx and
-!> toe = −rz, on the right wheel camber = rx and toe = rz (camber positive: top outward; toe positive: front edge inward).
+!> angles. rx and rz then are the attitude of the spin axis, independent of the spin ry of the carrier: on the left wheel camber =
+!> −rx and toe = −rz, on the right wheel camber = rx and toe = rz (camber positive: top outward; toe positive: front edge inward).
 module ek_wheel_motion
    use ek_kinds, only: wp
    use ek_measure, only: measure_t, measure_value

@@ -175,8 +175,8 @@ contains
       self%column = self%column + self%buffer%length() - before
    end subroutine put_quoted
 
-   !> Adds text without line ends and other invisible characters; an apostrophe becomes that of typography, as a deck cannot
-   !> hold it.
+   !> Adds text without line ends and other invisible characters; an apostrophe becomes the typographic apostrophe (’), as a
+   !> string of a deck cannot contain the other.
    subroutine add_safe(self, text)
       class(deck_text_t), intent(inout) :: self
       character(*), intent(in) :: text

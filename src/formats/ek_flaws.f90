@@ -41,7 +41,7 @@ contains
       self%lines(self%words%count()) = line
    end subroutine flaws_add
 
-   !> The number of errors that were kept.
+   !> The number of errors that are stored.
    pure integer function flaws_count(self)
       class(flaws_t), intent(in) :: self
       flaws_count = self%words%count()
@@ -64,7 +64,7 @@ contains
          '; is this the right file?)'
    end function flaws_what
 
-   !> All errors as lines 'file:line: what'.
+   !> All errors as lines 'file:line: error'.
    pure function flaws_text(self) result(text)
       class(flaws_t), intent(in) :: self
       character(:), allocatable :: text

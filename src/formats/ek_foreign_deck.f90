@@ -1,4 +1,4 @@
-!> Files of other programs as text of a deck: what `elastokin import` writes. The kind of a file follows from its content.
+!> Files of other programs as text of a deck, which `elastokin import` writes. The kind of a file follows from its content.
 module ek_foreign_deck
    use ek_kinds, only: wp, millimetre
    use ek_error, only: error_t, fail, exit_deck

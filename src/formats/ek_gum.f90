@@ -15,7 +15,7 @@ module ek_gum
 
    !> The content of a file.
    type :: gum_t
-      type(law_points_t) :: halves(2, 3)      !! (positive or negative side, axis); y stays 0 until the forces are read
+      type(law_points_t) :: halves(2, 3)      !! (positive or negative side, axis); y is 0 until the forces are read
       integer :: force_line(2, 3) = 0
       real(wp) :: stiffness(3) = 0.0_wp       !! about each axis [N m/rad]
       logical :: has_stiffness(3) = .false.

@@ -85,7 +85,7 @@ contains
       if (index(text, ';') > 0) separator = ';'
    end function separator_of
 
-   !> A number with a decimal point in place of a decimal comma.
+   !> A number with a decimal point instead of a decimal comma.
    pure function with_point(text, separator) result(number)
       character(*), intent(in) :: text
       character, intent(in) :: separator

@@ -1,6 +1,6 @@
 !> An axle of IPGKinematics, as ek_kin_reader reads it from its file (.kin).
 !>
-!> Numbers stay in the units of the file: mm, N, deg, kg.
+!> Numbers are in the units of the file: mm, N, deg, kg.
 module ek_kin
    use ek_kinds, only: wp
    implicit none(type, external)

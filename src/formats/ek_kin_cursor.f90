@@ -1,4 +1,4 @@
-!> The lines of a file of IPGKinematics (.kin) and how far they are read: a label in quotes and values, in a fixed order.
+!> The lines of a file of IPGKinematics (.kin) and the index of the line being read: a label in quotes and values, in a fixed order.
 !>
 !> A value is found by the form of its label after the line of the previous value, so that headings, comments and further
 !> lines do not matter.

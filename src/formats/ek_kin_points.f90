@@ -1,7 +1,8 @@
 !> The points and bodies of an axle of IPGKinematics as groups of a deck.
 !>
-!> The mass of an arm is in the middle between its ball joint and its pivots, that of a tie rod in its middle, that of a carrier in
-!> the middle between its ball joints and the wheel centre, that of the wheel at its centre, that of a rocker at its pivot.
+!> The mass of an arm is in the middle between its ball joint and its pivots, the mass of a tie rod in its middle, the mass of a
+!> carrier in the middle between its ball joints and the wheel centre, the mass of the wheel at its centre, and the mass of a
+!> rocker at its pivot.
 module ek_kin_points
    use ek_kinds, only: wp
    use ek_text, only: str

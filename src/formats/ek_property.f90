@@ -1,8 +1,8 @@
 !> Property files of elastic elements: .bus, .spr, .bum, .reb of Adams/Car and .gum of IPGKinematics, as curves in SI.
 !>
 !> The kind of the file follows from its content. In all of them force and moment oppose the displacement: a positive
-!> displacement gives a positive number, as in a curve of a deck. The displacement of a spring is its compression, that of a
-!> stop its penetration.
+!> displacement gives a positive number, as in a curve of a deck. The displacement of a spring is its compression; the
+!> displacement of a stop is its penetration.
 module ek_property
    use ek_kinds, only: wp
    use ek_error, only: error_t
@@ -215,7 +215,7 @@ contains
       call finish_law(law, upper(trim(file%names(block))), flaws)
    end subroutine take_points
 
-   !> Turns a stop whose penetration and force are counted negative into one with positive numbers.
+   !> Changes the signs of a stop whose penetration and force are negative.
    pure subroutine turn_rebound(law)
       type(law_points_t), intent(inout) :: law
 

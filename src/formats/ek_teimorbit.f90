@@ -65,7 +65,7 @@ contains
       end do
    end function is_teimorbit
 
-   !> Splits a text into blocks. What is in the lines is judged by the reader of the file.
+   !> Splits a text into blocks. The reader of the file checks the content of the lines.
    subroutine parse_teimorbit(lines, file, flaws)
       type(lines_t), intent(in) :: lines
       type(teimorbit_t), intent(out) :: file
@@ -214,7 +214,7 @@ contains
       entry_of = 0
    end function entry_of
 
-   !> Reads the units of the file in SI, in the order of ek_unit_word; 0 for one that it does not name.
+   !> Reads the units of the file in SI, in the order of ek_unit_word; 0 for a unit that the file does not name.
    subroutine units_in(file, units, flaws)
       type(teimorbit_t), intent(in) :: file
       real(wp), intent(out) :: units(size(quantity_names))
