@@ -15,9 +15,9 @@
 !>     call find_slopes(session, row, columns, paths, slopes, errors, error)     exact derivatives in a row of the solution
 !>
 !> `error` has the message and the exit status of the program for the same fault; look at it after every call. Nothing is printed,
-!> nothing is kept outside the session: different sessions may be used by different threads at a time. gfortran keeps the length of a
-!> text that a function returns in one place for all threads, so everything that makes texts is done in the critical section `ek_words`;
-!> solutions after the first of a case are numbers only and run at the same time.
+!> nothing is stored outside the session: different sessions may be used by different threads at a time. gfortran stores the
+!> length of a text that a function returns in one location for all threads, so everything that makes texts is done in the
+!> critical section `ek_words`; solutions after the first of a case are numbers only and run at the same time.
 module ek_api
    use ek_kinds, only: wp
    use ek_error, only: error_t

@@ -28,7 +28,7 @@ contains
       character(*), intent(in) :: columns(:)                   !! of the case (requested or not), or of its compliance matrix
       character(*), intent(in) :: paths(:)                     !! as in set_number, each of one number, or of both sides of an axle
       real(wp), intent(out) :: slopes(:, :), errors(:, :)      !! (column, path)
-      type(error_t), allocatable, intent(out) :: error         !! exit_usage: all wrong columns and paths; a case without derivatives
+      type(error_t), allocatable, intent(out) :: error         !! exit_usage: wrong columns and paths; a case without derivatives
       type(case_result_t), pointer :: result
       logical :: is_ready
 

@@ -1,4 +1,4 @@
-!> A case of a workspace: its numbers, how far its present design is, and its solution.
+!> A case of a workspace: its numbers, the stage of its present design, and its solution.
 module ek_case_work
    use ek_suspension, only: suspension_t
    use ek_reader, only: design_t
@@ -23,7 +23,7 @@ module ek_case_work
       type(case_t) :: case                        !! of the present design, as in the deck
       integer :: number = 0                       !! in the deck; 0: a standard test
       integer :: stage = not_examined
-      type(known_case_t) :: known                 !! what the first design has proved about the others
+      type(known_case_t) :: known                 !! properties proved at the first design for all designs
       class(observer_t), allocatable :: observer  !! of the columns of its results
       class(case_result_t), allocatable :: result !! of the present design; holds the case on the rig. Classes: gfortran copies
                                                   !! a type that holds one by calling a procedure; otherwise it writes out the copy

@@ -1,14 +1,14 @@
-!> What one thread owns of a deck: its present numbers, the model that they give, and each case on its rig with its last solution.
+!> The data of a deck that one thread owns: present numbers, their model, and each case on its rig with its last solution.
 !>
-!> The life of a design stands here, in ordered stages. put_numbers lowers them all; what is asked for raises them, each by one
+!> This module defines the ordered stages of a design. put_numbers resets all of them; each is reached again on request, by one
 !> procedure:
 !>
 !>     workspace:  numbers_given → realised → balanced        put_numbers, take_numbers, balance_once
 !>     a case:     not_examined → examined → on_rig           examine_fully or examine_again, put_on_rig
 !>
 !> The first solution of a case, and any that may have a defect, makes texts (its columns, messages); the others are numbers
-!> only. gfortran keeps the length of a text that a function returns in one place for all threads: the caller lets one thread at a
-!> time make texts (solve_case_fully, settle_fully), and ready_cases, solve_case_again and settle_again make none.
+!> only. gfortran stores the length of a text that a function returns in one location for all threads: the caller lets one thread
+!> at a time make texts (solve_case_fully, settle_fully), and ready_cases, solve_case_again and settle_again make none.
 module ek_workspace
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t, fail, exit_model
@@ -106,8 +106,8 @@ contains
       end associate
    end subroutine examine_fully
 
-   !> Takes the present numbers as far as all cases on the rig, balanced with the tolerance of the first. No text is made. is_done is
-   !> .false. if the design must be read from the text: a number is outside its range, or the design may have a defect.
+   !> Takes the present numbers as far as all cases on the rig, balanced with the tolerance of the first. No text is made. is_done
+   !> is .false. if the design must be read from the text: a number is outside its range, or the design may have a defect.
    subroutine ready_cases(workspace, is_done)
       type(workspace_t), intent(inout) :: workspace
       logical, intent(out) :: is_done
@@ -126,8 +126,9 @@ contains
       end do
    end subroutine ready_cases
 
-   !> Puts a case on the rig with the present numbers, balanced, and solves nothing. No text is made, and the numbers are not examined:
-   !> they are close to those of a design that was. is_done is .false. if they are outside the range of the blueprint.
+   !> Puts a case on the rig with the present numbers, balanced, and solves nothing. No text is made, and the numbers are not
+   !> examined: they are close to the numbers of an examined design. is_done is .false. if the numbers are outside the range of
+   !> the blueprint.
    subroutine mount_numbers(k, tolerance, workspace, is_done)
       integer, intent(in) :: k
       real(wp), intent(in) :: tolerance                    !! of balance [m]
@@ -174,8 +175,8 @@ contains
       call solve_balanced(k, options, .false., workspace, error)
    end subroutine solve_case_fully
 
-   !> Solves a case that was solved before, with the same columns, at the present numbers. No text is made. is_done is .false. if the
-   !> design must be read from the text: a number is outside its range, or the design may have a defect.
+   !> Solves a case that was solved before, with the same columns, at the present numbers. No text is made. is_done is .false. if
+   !> the design must be read from the text: a number is outside its range, or the design may have a defect.
    subroutine solve_case_again(k, options, workspace, is_done)
       integer, intent(in) :: k
       type(solve_options_t), intent(in) :: options       !! without remarks

@@ -24,7 +24,7 @@ contains
    !> Reads a deck, and lists no case of it: the numbers and the model of a command that chooses its cases itself.
    subroutine open_model(deck, workspace, error, needs_tables)
       type(deck_t), intent(in) :: deck
-      type(workspace_t), intent(inout) :: workspace          !! what it held is lost
+      type(workspace_t), intent(inout) :: workspace          !! its former content is deleted
       type(error_t), allocatable, intent(out) :: error       !! exit_deck, exit_file: all errors together
       logical, intent(in), optional :: needs_tables          !! if .true., a missing table is an error, also of a case not run
 
@@ -36,7 +36,7 @@ contains
       workspace%stage = realised
    end subroutine open_model
 
-   !> Reads a deck with all its errors, also those of the tables and of the targets of its cases.
+   !> Reads a deck and collects all its errors, including errors in the tables and targets of its cases.
    subroutine read_checked(deck, design, suspension, error, needs_tables)
       type(deck_t), intent(in) :: deck
       type(design_t), intent(out) :: design
@@ -62,7 +62,7 @@ contains
    !> Reads a deck and lists its cases, then the standard tests that it does not have; reports all errors together.
    subroutine open_workspace(deck, workspace, error)
       type(deck_t), intent(in) :: deck
-      type(workspace_t), intent(inout) :: workspace          !! what it held is lost
+      type(workspace_t), intent(inout) :: workspace          !! its former content is deleted
       type(error_t), allocatable, intent(out) :: error       !! exit_deck
       type(case_t), allocatable :: tests(:), all(:)         ! of the report; with those on request
       integer :: own, k
@@ -105,7 +105,7 @@ contains
    subroutine open_cases(deck, names, workspace, error, increments)
       type(deck_t), intent(in) :: deck
       character(*), intent(in) :: names(:)
-      type(workspace_t), intent(inout) :: workspace          !! what it held is lost
+      type(workspace_t), intent(inout) :: workspace          !! its former content is deleted
       type(error_t), allocatable, intent(out) :: error     !! exit_deck, exit_file, exit_model, exit_convergence
       integer, intent(in), optional :: increments          !! of all cases; absent or 0: the increments of the deck
       type(diagnosis_t) :: diagnosis

@@ -30,7 +30,7 @@ contains
    pure subroutine axle_characteristics(loaded, stand, has_centres, is)
       type(loaded_t), intent(in) :: loaded          !! two wheels
       type(stand_t), intent(in) :: stand
-      logical, intent(in) :: has_centres            !! roll centres are asked
+      logical, intent(in) :: has_centres            !! roll centres are requested
       type(axle_characteristics_t), intent(inout) :: is
       real(wp) :: at(2:3, 2), height, moment, lift(2)
       real(wp) :: wheel(2), tyre(2)      ! compliances, wheel under opposed loads [m/N]
@@ -61,9 +61,9 @@ contains
       end associate
    end subroutine axle_characteristics
 
-   !> Vertical forces of the ground [N] on the left and the right patch that keep their heights under lateral forces at the
-   !> patches, 1 N to the right on the left one, `right` on the other: V = −CP_zz⁻¹ CP_zy F. Not a number if the wheels cannot move
-   !> independently in height.
+   !> Vertical forces of the ground [N] on the left and the right contact point that hold their heights under lateral forces at the
+   !> contact points, 1 N to the right on the left point, `right` on the other: V = −CP_zz⁻¹ CP_zy F. Not a number if the wheels
+   !> cannot move independently in height.
    !> Equation (S.5) of docs/theory/suspension.md.
    pure function jacking_forces(patch, right) result(lift)
       real(wp), intent(in) :: patch(2:3, 2, 2:3, 2)

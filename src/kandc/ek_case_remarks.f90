@@ -121,7 +121,7 @@ contains
       end do
    end subroutine drift_remarks
 
-   !> A length or angle; 0 instead of one that is rounding, such as the travel of a wheel whose height is held.
+   !> A length or angle; 0 if it is only rounding, such as the travel of a wheel whose height is held.
    pure real(wp) function without_rounding(value)
       real(wp), intent(in) :: value                !! m or rad
       real(wp), parameter :: rounding = 1.0e-12_wp

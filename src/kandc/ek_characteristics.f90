@@ -166,7 +166,7 @@ contains
       type(reader_t), intent(in) :: reader
       integer, intent(in) :: place
       type(axle_t), intent(in) :: axle
-      integer, intent(in) :: held                    !! condition
+      integer, intent(in) :: held                    !! load_held or height_held
       type(wheel_characteristics_t), intent(inout) :: is
       real(wp) :: lateral(6), moment(6), twist(6), with
       integer :: k

@@ -19,10 +19,10 @@ module ek_column_list
       logical, allocatable :: is_of_matrix(:)          !! the value of this column comes from the compliance matrix
       logical :: is_matrix_wanted = .true.             !! a column that is wanted needs the compliance matrix
       integer, allocatable :: place(:)                 !! of the value of each column in the vector of its block
-      real(wp), allocatable :: unit(:)                 !! of each column, in SI; of a quantity 0 until it is asked
+      real(wp), allocatable :: unit(:)                 !! of each column, in SI; of a quantity 0 until it is requested
       integer :: offered = 0                           !! length of the vector of the block that is being added
       integer, allocatable :: last(:)                  !! last column of each block
-      integer, allocatable :: section(:), item(:)      !! of each block: what it holds, and of which wheel, element, …
+      integer, allocatable :: section(:), item(:)      !! of each block: its section, and the index of its wheel, element, …
       integer, allocatable :: asked(:)                 !! the wanted columns
       integer, allocatable :: last_asked(:)            !! last of them of each block
       integer, allocatable :: blocks(:)                !! blocks with wanted columns

@@ -42,7 +42,7 @@ module ek_compliance
       integer, allocatable :: spring(:)         !! axial spring of the suspension at each index
       logical :: is_known = .false.             !! false: the matrix was singular, `response` is not a number
       logical :: has_drive = .false.            !! the last load is a unit displacement of the steering driver
-      real(wp), allocatable :: response(:, :)   !! (port, load), see above; not a number where it was not asked
+      real(wp), allocatable :: response(:, :)   !! (port, load), see above; not a number if it was not requested
       ! the loads that are solved, and the ports that are read
       integer, private :: solved = 0
       integer, allocatable, private :: load(:)          !! of each solved column
@@ -98,7 +98,7 @@ contains
    subroutine ask(self, is_asked, reads_springs)
       type(compliance_t), intent(inout) :: self
       logical, intent(in) :: is_asked(:)          !! of each load
-      logical, intent(in) :: reads_springs        !! also the lengths of the springs are asked
+      logical, intent(in) :: reads_springs        !! also the lengths of the springs are requested
       integer :: k
 
       self%reads_springs = reads_springs
@@ -136,8 +136,9 @@ contains
       if (self%is_known) kept(:, :) = transpose(self%columns(:, :size(kept, 1)))
    end subroutine keep_responses
 
-   !> Computes the compliance of the wheels alone, without factorising, close to the state and design of the kept responses X:
-   !> C ≈ PᵀX + XᵀP − XᵀKX, with K and P of this state. The error is of second order in the distance, and even. For symmetric matrices.
+   !> Computes the compliance of the wheels alone, without factorising, close to the state and design of the stored responses X:
+   !> C ≈ PᵀX + XᵀP − XᵀKX, with K and P of this state. The error is of second order in the distance, and even. For symmetric
+   !> matrices.
    !> Equation (E.8) of docs/theory/derivatives.md.
    subroutine wheel_compliance_nearby(suspension, state, inputs, kept, kkt, self)
       type(suspension_t), intent(in) :: suspension
@@ -213,7 +214,7 @@ contains
    end subroutine solve_symmetric
 
    !> Moves every load to the column of its own number, zeros between: the last digits of LAPACK's column depend on its number
-   !> and on the number of columns, by the kernels of the processor. A quantity is the same whatever else is requested.
+   !> and on the number of columns, by the kernels of the processor. A quantity does not depend on the other requested quantities.
    pure subroutine spread(self)
       type(compliance_t), intent(inout) :: self
       integer :: j, k
@@ -343,9 +344,9 @@ contains
       if (at_j >= 0) change = change + dot_product(gradient(7:12), moves(at_j + 1:at_j + 6))
    end function along
 
-   !> Returns the motions of all bodies and the changes of all reactions [u; μ] under the unit loads at the wheel centres, all of
-   !> them asked, and those from the left (of the transpose; the same where the matrix is symmetric). After `respond`, whose
-   !> responses to these loads are refined.
+   !> Returns the motions of all bodies and the changes of all reactions [u; μ] under the unit loads at the wheel centres,
+   !> all of which must be requested, and the motions and changes for the transpose (equal if the matrix is symmetric). After
+   !> `respond`, whose responses to these loads are refined.
    !> Equation (C.14) of docs/theory/compliance.md.
    subroutine unit_responses(kkt, self, right, left)
       type(kkt_t), intent(inout) :: kkt                     !! with the factors of `respond`

@@ -24,7 +24,7 @@ contains
 
    !> Makes a table of the compliance matrix at every converged state of a sweep: one row per state, one column per entry.
    !>
-   !> A column is called <place>_<displacement>_by_<load>_<unit>: displacement and load begin with the wheel (`left_`, `right_`),
+   !> A column is called <point>_<displacement>_by_<load>_<unit>: displacement and load begin with the wheel (`left_`, `right_`),
    !> then x, y, z (displacements), rx, ry, rz (rotations), fx, fy, fz (forces), mx, my, mz (moments), in the frame of the deck.
    !> `centre`: loads and displacements at the wheel centres; `patch`: at the contact points of the deck. Loads keep their
    !> direction; the vertical force on all wheels is held, heights held by the rig are released (ek_compliance). Without a
@@ -80,7 +80,7 @@ contains
       call read_compliance(suspension, state, compliance, c, arm)
    end subroutine state_compliance
 
-   !> Computes the values of compliance_columns at an equilibrium; or, with responses that were kept at one, at a state near by.
+   !> Computes the values of compliance_columns at an equilibrium; or, with responses stored at an equilibrium, at a state near it.
    subroutine observe_compliance(suspension, state, inputs, kkt, compliance, values, kept)
       type(suspension_t), intent(in) :: suspension      !! on the rig
       type(state_t), intent(in) :: state

@@ -101,7 +101,7 @@ contains
       type(state_t), intent(in) :: state
       type(inputs_t), intent(in) :: inputs
       type(kkt_t), intent(inout) :: kkt                  !! with residual and factors of this state: after `respond`
-      type(compliance_t), intent(inout) :: compliance    !! after `respond`, all loads at the wheel centres asked; known
+      type(compliance_t), intent(inout) :: compliance    !! known, after `respond`; all loads at the wheel centres requested
       type(contribution_t), intent(inout) :: self        !! of new_contribution
       integer :: k, law
 
@@ -260,7 +260,7 @@ contains
       end do
    end subroutine add_unbalanced
 
-   !> Places of the blocks of two bodies by themselves, see ek_block.
+   !> Indices of the blocks of two bodies by themselves, see ek_block.
    pure function local_places(body_i, body_j) result(at)
       integer, intent(in) :: body_i, body_j
       integer :: at(3)

@@ -1,5 +1,5 @@
-!> The contributions to the columns of a case that are linear in the compliance matrix, state by state: what each element, joint and
-!> load adds to each of them, with the load paths of that state.
+!> The contributions to the columns of a case that are linear in the compliance matrix, state by state: the share of each element,
+!> joint and load in each column, with the load paths of that state.
 module ek_contribution_table
    use ek_kinds, only: wp
    use ek_text, only: is_like
@@ -43,8 +43,8 @@ module ek_contribution_table
       type(linear_columns_t) :: columns
       type(contribution_t) :: shares
       type(row_name_t), allocatable :: row(:)
-      real(wp), allocatable :: values(:)        !! of the asked columns, in their units
-      real(wp), allocatable :: parts(:, :)      !! (asked column, row): they add up to the value
+      real(wp), allocatable :: values(:)        !! of the requested columns, in their units
+      real(wp), allocatable :: parts(:, :)      !! (requested column, row): contributions, which add up to the value
       type(load_path_t) :: paths
       real(wp), allocatable :: arm(:, :)        !! from each wheel centre to its contact point at the state [m], global axes
       real(wp), allocatable :: energy(:, :)     !! (load of the paths, row): share of the strain energy; they add up to 1

@@ -1,4 +1,4 @@
-!> Examines the cases of a deck before any solution: the errors in what they name, and whether they can be solved.
+!> Examines the cases of a deck before any solution: errors in their references to parts and tables, and whether they can be solved.
 !>
 !> The model is examined as given in the deck, before balance: a preload found by balance must not count as a stiffness.
 !> The full diagnosis is made once per topology and case; a further design of the same case costs one factorisation, unless that
@@ -187,7 +187,7 @@ contains
       if (mistakes%count() > 0) call fail(error, merge(exit_file, exit_deck, mistakes%count() == unread), mistakes%text())
    end subroutine check_inputs
 
-   !> Collects the errors in the table of case k, with all cases that name it, unless an earlier case names the same one.
+   !> Collects the errors in the table of case k, with all cases that name it, unless an earlier case names the same table.
    subroutine collect_table(cases, k, mistakes, unread)
       type(case_t), intent(in) :: cases(:)
       integer, intent(in) :: k

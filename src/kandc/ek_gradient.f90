@@ -141,7 +141,7 @@ contains
       real(wp), intent(in) :: half                 !! of the window
       real(wp), intent(out) :: slope               !! not a number if it has too few states, or the column is undefined at one
       integer, intent(out) :: points               !! states in the window at which the column is defined
-      integer, intent(out), optional :: undefined  !! and at which it is not
+      integer, intent(out), optional :: undefined  !! states in the window at which y is not a number
       logical :: is_good(row_count(table))
       real(wp), allocatable :: x(:), y(:)
 
@@ -156,7 +156,7 @@ contains
       if (abs(slope)*half <= noise_of(table%columns(place))) slope = 0.0_wp
    end subroutine fit_slope
 
-   !> Numerical noise in the unit of a column, by its ending: travel is driven to 1e-7 mm, which corresponds to 1e-8 deg at a
+   !> Numerical noise in the unit of a column, by its suffix: travel is driven to 1e-7 mm, which corresponds to 1e-8 deg at a
    !> lever of 500 mm and 1e-3 N at 10 kN/mm; ten times that.
    pure real(wp) function noise_of(column) result(noise)
       character(*), intent(in) :: column
@@ -184,14 +184,14 @@ contains
       if (test%is_anti .and. side > 0) turn = -turn                  ! the load on the right wheel is −factor
    end function turn_of
 
-   !> Fits the least-squares slope of y over x for |x| ≤ half; not a number with fewer than three different x, or if y is not a number at a
-   !> state in the window: the other states would give another slope.
+   !> Fits the least-squares slope of y over x for |x| ≤ half; not a number with fewer than three different x, or if y is not a
+   !> number at a state in the window: the other states would give another slope.
    pure subroutine slope_over_window(x, y, half, slope, points, undefined)
       real(wp), intent(in) :: x(:), y(:)   !! one value per state; a state that was not found has no x and is skipped
       real(wp), intent(in) :: half
       real(wp), intent(out) :: slope
       integer, intent(out) :: points       !! states in the window at which y is a number
-      integer, intent(out), optional :: undefined      !! and at which it is not
+      integer, intent(out), optional :: undefined      !! states in the window at which y is not a number
       real(wp), parameter :: rim = 1.0_wp + 1.0e-6_wp   !! a state nominally on the edge is inside: travel is driven to 1e-7 mm
       logical :: is_inside(size(x))
       real(wp) :: mean(2), spread

@@ -4,7 +4,7 @@
 !> if one of its columns is requested: here, in ek_wheel_columns and in ek_geometry_columns. A quantity
 !> without a value at a state is not a number.
 !>
-!> The ending of a column names the quantity whose slope it is: `…_steer`, `…_toe`, `…_camber`, `…_caster` are the
+!> The suffix of a column names the quantity whose slope the column is: `…_steer`, `…_toe`, `…_camber`, `…_caster` are the
 !> derivatives of the columns steer_deg, toe_deg, camber_deg and caster_deg; `…_rotation_x`, `…_y`, `…_z` are the
 !> rotation of the carrier about an axis of the deck's frame; `…_deflection` is the movement of the contact point (of the
 !> wheel centre under driving force), `…_centre_deflection` is the movement of the wheel centre.

@@ -1,4 +1,4 @@
-!> The K&C quantities that a model defines, as a list of columns, and what is computed for those that are requested: sections of
+!> The K&C quantities that a model defines, as a list of columns, and the data computed for the requested columns: sections of
 !> quantities, loads of the compliance matrix, ports that are held.
 module ek_kandc_list
    use ek_kinds, only: wp
@@ -34,7 +34,7 @@ module ek_kandc_list
    type, extends(column_list_t) :: kandc_t
       integer :: steer_row = 0                 !! row of Φ of the steering driver, 0: none
       integer, allocatable :: has(:)           !! conditions of ek_quantity: of each wheel, and without a wheel
-      real(wp), allocatable :: values(:)       !! of the columns, in their units; those that are not asked are not set
+      real(wp), allocatable :: values(:)       !! of the columns, in their units; columns that are not requested are not set
       type(compliance_t) :: compliance
       ! what the asked columns need
       logical :: is_asked(sections) = .false.
@@ -58,7 +58,7 @@ module ek_kandc_list
 
 contains
 
-   !> Lists all columns that a model defines, and all are requested.
+   !> Lists all columns that a model defines, and requests all of them.
    subroutine start_kandc(suspension, self)
       type(suspension_t), intent(in) :: suspension
       type(kandc_t), intent(out) :: self
@@ -71,8 +71,8 @@ contains
    end subroutine start_kandc
 
    !> Lists the names of all columns that a model defines: self%names(:self%used). In the order of the table: each wheel, the axle
-   !> with its steering, the geometry of each wheel, that of the axle, elements, springs. Before they are filled, choose_kandc
-   !> marks the requested columns.
+   !> with its steering, the geometry of each wheel, the geometry of the axle, elements, springs. Before the columns are filled,
+   !> choose_kandc marks the requested columns.
    subroutine list_kandc(suspension, self)
       type(suspension_t), intent(in) :: suspension
       type(kandc_t), intent(out) :: self

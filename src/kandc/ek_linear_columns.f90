@@ -31,7 +31,7 @@ module ek_linear_columns
    integer, parameter :: sections(2) = [of_forces_load_held, of_forces_height_held]
    integer, parameter :: most = 40      !! values of a section
 
-   !> The columns of a model, and what their values at a state are computed from.
+   !> The columns of a model, and the data from which their values at a state are computed.
    type :: linear_columns_t
       integer :: used = 0
       character(name_length), allocatable :: names(:)     !! of all
@@ -97,7 +97,7 @@ contains
       type(inputs_t), intent(in) :: inputs
       type(kkt_t), intent(inout) :: kkt                     !! work space; then with the factors of the state
       type(linear_columns_t), intent(inout) :: self
-      real(wp), intent(out) :: values(:)                    !! of the asked columns, in their units
+      real(wp), intent(out) :: values(:)                    !! of the requested columns, in their units
       integer :: k
 
       do k = 1, size(self%wheels)

@@ -1,7 +1,7 @@
 !> The rates that contribute most to the key compliances of a suspension: those that a reader of its report may change on the page.
 !>
 !> A rate is the constant of one law: an axis of a bushing, a spring, a bar. The same law on both sides of an axle is one rate if it
-!> is equal on both. Laws with a curve or a gap have no rate.
+!> is equal on both. Laws with a curve or a clearance have no rate.
 module ek_live_rates
    use ek_kinds, only: wp
    use ek_largest, only: largest
@@ -41,7 +41,7 @@ contains
    subroutine choose_rates(result, k, many, rates)
       type(case_result_t), intent(inout) :: result         !! is_run
       integer, intent(in) :: k                             !! the state: reached
-      integer, intent(in) :: many                          !! how many at most
+      integer, intent(in) :: many                          !! largest number of rates
       type(live_rates_t), intent(out) :: rates
       type(contribution_table_t) :: table
       type(live_rate_t), allocatable :: all(:)
@@ -106,7 +106,7 @@ contains
       end do
    end subroutine list_rates
 
-   !> The place of the same rate on the left side; 0: there is none.
+   !> The index of the corresponding rate on the left side; 0: there is no such rate.
    pure integer function other_side(all, new) result(at)
       type(live_rate_t), intent(in) :: all(:), new
 

@@ -68,8 +68,8 @@ module ek_live_state
 
 contains
 
-   !> Chooses the columns of a test among some names, and the laws of the rates. Stiffnesses and heights held are those of a single
-   !> wheel or of an axle.
+   !> Chooses the columns of a test that match `names`, and the laws of the rates. Stiffnesses and columns at held heights refer
+   !> to a single wheel or to an axle.
    subroutine start_live(suspension, rates, names, self)
       type(suspension_t), intent(in) :: suspension          !! on the rig
       type(live_rates_t), intent(in) :: rates

@@ -1,5 +1,5 @@
 !> The responses of one or two wheels to loads at their centres and at their contact points, with vertical loads or heights held:
-!> what their characteristics are computed from. Only what is requested is set.
+!> the data for their characteristics. Only the requested responses are set.
 !>
 !> No suspension is stiffer than a block of steel (about 1e10 N/m), so a compliance below 1e-12 m/N is rounding.
 module ek_loaded_wheels
@@ -50,9 +50,9 @@ contains
    pure subroutine load_wheels(c, arm, has_patch, has_held, lock, loaded)
       real(wp), intent(in) :: c(:, :)             !! six rows and columns per wheel
       real(wp), intent(in) :: arm(:, :)           !! contact point less wheel centre of each wheel [m]
-      logical, intent(in) :: has_patch            !! forces at the contact points are asked
-      logical, intent(in) :: has_held             !! heights held are asked; then has_patch
-      type(lock_t), intent(in) :: lock            !! holds the heights of the centres; if they are asked
+      logical, intent(in) :: has_patch            !! forces at the contact points are requested
+      logical, intent(in) :: has_held             !! held heights are requested; implies has_patch
+      type(lock_t), intent(in) :: lock            !! holds the heights of the centres; used only if has_held
       type(loaded_t), intent(inout) :: loaded
       integer :: n, w, v, j, at
 

@@ -2,7 +2,7 @@
 !> points where they are held: for stress and durability.
 !>
 !> A load is the force and the moment ON a body, the moment about the design hardpoint as it has moved with this body, in the frame
-!> of the deck. Every member has two: on its first and on its second body (the chassis included); the two forces are opposite.
+!> of the deck. Every member has two loads: on its first and on its second body (the chassis included); the two forces are opposite.
 !> A member without points (a torsion spring, a `parallel` joint) has moments only, and no hardpoint.
 module ek_member_loads
    use ek_kinds, only: wp

@@ -1,5 +1,5 @@
-!> Plausibility of the connections of a deck: a spring that no part connects to a wheel, a torsion bar whose hinges turn about another
-!> axis, a bushing on the axis of another arm. Nothing is solved.
+!> Plausibility of the connections of a deck: a spring that no part connects to a wheel, a torsion bar whose hinges turn about
+!> another axis, a bushing on the axis of another arm. Nothing is solved.
 module ek_plausible_connection
    use ek_kinds, only: wp, degree, millimetre
    use ek_text, only: str, quoted
@@ -131,7 +131,7 @@ contains
       axis = suspension%terms(suspension%rows(suspension%joints(j)%first_row + 3)%first)%measure%v
    end function hinge_axis
 
-   !> Examines bushings on the axis of the only bushing of another body, and off that of the other bushings of their own.
+   !> Examines bushings on the axis of the only bushing of another body, and off the axis of the other bushings of their own body.
    subroutine doubt_bushing_axes(suspension, doubts)
       type(suspension_t), intent(in) :: suspension
       type(doubts_t), intent(inout) :: doubts

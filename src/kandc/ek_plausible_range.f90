@@ -117,7 +117,7 @@ module ek_plausible_range
    ! toe: 30 mm of travel, about the least that a Formula Student car must have, would use the range of the static toe. Compliances
    ! have no range: no source covers both trucks and race cars.
 
-   !> The remarks, each once: the two sides of a mirrored deck come from one line of it.
+   !> The remarks without repetition: both sides of a mirrored deck come from one line and give one remark.
    type :: doubts_t
       type(message_list_t) :: remarks
       type(units_t) :: units = units_t()               !! of the deck

@@ -1,4 +1,4 @@
-!> Responses of ports to loads, as the compliance matrix gives them, seen from elsewhere: with loads and displacements at the
+!> Responses of ports to loads, computed from the compliance matrix: with loads and displacements at the
 !> contact points instead of the wheel centres, and with some ports held.
 module ek_port_response
    use ek_kinds, only: wp
@@ -73,7 +73,7 @@ contains
 
    !> Finds the loads at some ports that undo the displacements of these ports.
    !>
-   !> The ports are held one after the other, the one that is most compliant then first; a port without compliance once others are
+   !> The ports are held one after the other, the most compliant remaining port first; a port without compliance once others are
    !> held (wheels that can only move together, two springs on one arm; below 1e-9 of its own compliance is rounding) is held
    !> already.
    !> Equation (C.6) of docs/theory/compliance.md.

@@ -1,8 +1,9 @@
-!> The wheel rate and the suspension roll rate taken apart: what springs, bushings, bars, stops and preloads add to each.
+!> The wheel rate and the suspension roll rate as sums: the contributions of springs, bushings, bars, stops and preloads to each
+!> rate.
 !>
 !> A vertical load f moves the suspension by u, and the point of the load by c f. Each part adds its share c_e to the compliance c
-!> (module ek_contribution), which is twice its elastic energy per f². Moved by 1 instead of loaded by 1, the same motion is u/c, and
-!> the rate is k = 1/c = Σ c_e/c²: the part of a spring is its rate times the square of its motion ratio.
+!> (module ek_contribution), which is twice its elastic energy per f². Moved by 1 instead of loaded by 1, the same motion is u/c,
+!> and the rate is k = 1/c = Σ c_e/c²: the part of a spring is its rate times the square of its motion ratio.
 module ek_rate_split
    use ek_kinds, only: wp
    use ek_element, only: bushing_element, axial_spring, torsion_spring, measure_spring, stop_spring

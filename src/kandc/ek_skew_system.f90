@@ -1,8 +1,8 @@
 !> The linear system of a state under loads that have no potential: a constant moment, or a load that rotates with its body.
 !>
 !> T lacks their skew part N, which affects not the equilibrium but its derivative. With g = dV/dπ the moment of all terms that
-!> have a potential, the derivative of the residual along a rotation is that of the exponential coordinates less ½ g̃ (from the
-!> product of two rotations, exp(δ̃)exp(π̃) = exp((δ + π + ½ δ×π + …)~)), and g is the moment M of the rest:
+!> have a potential, the derivative of the residual along a rotation is the derivative in exponential coordinates less ½ g̃ (from
+!> the product of two rotations, exp(δ̃)exp(π̃) = exp((δ + π + ½ δ×π + …)~)), and g is the moment M of the rest:
 !>
 !>     dead moment M:            N_ππ = −½ M̃
 !>     follower, force f, moment m about the reference point, arm included:

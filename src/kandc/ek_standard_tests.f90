@@ -17,7 +17,7 @@ contains
    !> Lists the standard tests of an axle, or the standard tests of a single wheel.
    !>
    !> A test that the deck contains (same test, phase, offset and vertical control) is taken from the deck with its range;
-   !> the other cases of the deck follow. A name that the deck uses for another case gets the ending '_test'. Steering
+   !> the other cases of the deck follow. A name that the deck uses for another case gets the suffix '_test'. Steering
    !> covers the travel of the rack given in &steering, a grid also the range of the parallel travel. A grid costs as much as
    !> several other tests and is one of them only if it is requested.
    subroutine standard_tests(suspension, own, tests, asked)
@@ -103,7 +103,7 @@ contains
 
    end subroutine standard_tests
 
-   !> Sets the range of a standard test of steering, or of a grid, to the whole rack travel; all others keep their range.
+   !> Sets the range of a standard test of steering, or of a grid, to the whole rack travel; the range of other tests is unchanged.
    pure subroutine cover_rack_travel(suspension, this)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(inout) :: this

@@ -129,7 +129,7 @@ contains
       type(attitude_t), intent(in) :: wheels(:)  !! at this state, if has_wheels
       type(kkt_t), intent(in) :: kkt             !! if has_joints, assembled at this state; provides the gradients of the rows
       type(column_list_t), intent(in) :: list    !! of state_columns
-      real(wp), intent(inout) :: row(*)          !! one per column; those that are not asked stay
+      real(wp), intent(inout) :: row(*)          !! one per column; values not requested are unchanged
       real(wp) :: frame(3), values(most)
       integer :: b, k
 

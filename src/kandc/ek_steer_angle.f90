@@ -120,7 +120,7 @@ contains
       diameter = 2.0_wp*wheelbase/sin(outer)
    end function turning_circle
 
-   !> Steer of the outer wheel at which both roll about one point on the line of the rear axle, from that of the inner one:
+   !> Steer of the outer wheel at which both roll about one point on the line of the rear axle, from the steer of the inner wheel:
    !> atan(L/(L/tan δi + t)), written without a division.
    pure real(wp) function ideal_outer_steer(inner, wheelbase, track) result(outer)
       real(wp), intent(in) :: inner, wheelbase, track

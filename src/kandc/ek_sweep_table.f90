@@ -40,9 +40,9 @@ module ek_sweep_table
 
 contains
 
-   !> Prepares the table of a case. Nothing is done where it is prepared for this model, case and these columns already; so in
-   !> designs after the first there is no text at all: gfortran keeps the length of the text that a function returns in one
-   !> place for all threads.
+   !> Prepares the table of a case. Nothing is done if the table is already prepared for this model, case and these columns; so in
+   !> designs after the first no text is made: gfortran stores the length of the text that a function returns in one
+   !> location for all threads.
    subroutine make_observer(suspension, case, self, wanted, has_violation)
       type(suspension_t), intent(in) :: suspension          !! on the rig
       type(case_t), intent(in) :: case
@@ -150,8 +150,8 @@ contains
       end associate
    end subroutine observe
 
-   !> Fills the K&C quantities of a table of observe with defers_kandc, at the states where they are read; at all others they stay
-   !> values that are not numbers.
+   !> Fills the K&C quantities of a table of observe with defers_kandc, at the states where they are read; at all other states
+   !> they remain values that are not numbers.
    subroutine observe_kandc_at(is_read, suspension, case, path, kkt, observer, table)
       logical, intent(in) :: is_read(:)          !! of each row of the table
       type(suspension_t), intent(in) :: suspension
@@ -213,7 +213,7 @@ contains
       names = observer%columns(3:count(observer%kept <= observer%reported))
    end function quantity_columns
 
-   !> Whether a column needs the compliance matrix, or is of the sections that come with it.
+   !> Whether a column needs the compliance matrix, or belongs to a section that is computed with it.
    pure logical function reads_matrix(observer)
       type(observer_t), intent(in) :: observer              !! of make_observer
       reads_matrix = has_kandc(observer)
@@ -239,7 +239,7 @@ contains
       if (has_kandc) has_kandc = size(observer%kandc%blocks) > 0
    end function has_kandc
 
-   !> Fills the asked quantities of a state. begin_design was called.
+   !> Fills the requested quantities of a state. begin_design was called.
    subroutine fill_quantities(suspension, state, inputs, kkt, observer, needs_violation, needs_kandc, wheels, values)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state

@@ -108,7 +108,7 @@ contains
    end function state_of
 
    !> Solves for the swept value between a row and the next: regula falsi with the Illinois rule, which halves the weight
-   !> of an end that is kept.
+   !> of an unchanged end.
    subroutine close_in(suspension, case, path, table, c, row, kkt, found, is_jump, error)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
@@ -221,7 +221,7 @@ contains
       here%settled = path%settled
    end subroutine one_state
 
-   !> Finds the column of this name, or the only one that consists of this name and a unit.
+   !> Finds the column of this name, or the only column whose name consists of this name and a unit.
    subroutine find_column(columns, name, place, error)
       character(*), intent(in) :: columns(:)
       character(*), intent(in) :: name

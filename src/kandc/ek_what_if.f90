@@ -1,12 +1,12 @@
-!> The compliance matrix of a state with other rates, exactly and without factorising again: the state stays as it is.
+!> The compliance matrix of a state with other rates, exactly and without factorising again: the state is unchanged.
 !>
 !> Each law of an element acts along a deflection gᵀu. With the deflections G per unit load, A per unit load on the laws
 !> themselves, and the changes D of their rates,
 !>
 !>     C' = C − G_vᵀ (I + D A)⁻¹ D G
 !>
-!> and, with the laws rigid, C' = C − G_vᵀ A⁻¹ G. G_v is G of the transpose. A law that was not there has the rate 0 before: what
-!> an added spring would do. With preload the state would move as well; such a result is exact at the state as it stands.
+!> and, with the laws rigid, C' = C − G_vᵀ A⁻¹ G. G_v is G of the transpose. An added law has the rate 0 before; this gives the
+!> effect of an added spring. With preload the state would move as well; such a result is exact at the state as it stands.
 module ek_what_if
    use ek_kinds, only: wp
    use ek_contract, only: are_checked, require
@@ -62,7 +62,7 @@ contains
       changed = c - matmul(left_move, forces)
    end subroutine changed_compliance
 
-   !> C' with some laws rigid: their deflections are locked one after the other; one that is locked already has no effect.
+   !> C' with some laws rigid: their deflections are locked one after the other; a deflection that is locked already has no effect.
    !> Equation (C.17) of docs/theory/compliance.md.
    pure function rigid_compliance(c, left_move, move, self_move) result(changed)
       real(wp), intent(in) :: c(:, :)

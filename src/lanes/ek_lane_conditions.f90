@@ -1,6 +1,6 @@
 !> Conditions on numbers of four designs, and functions of them.
 !>
-!> A condition is kept as 1 or 0 in a real: SSE2 has no comparison of 64-bit integers.
+!> A condition is stored as 1 or 0 in a real: SSE2 has no comparison of 64-bit integers.
 module ek_lane_conditions
    use ek_kinds, only: wp
    use ek_lane_numbers, only: lanes, lanes_t

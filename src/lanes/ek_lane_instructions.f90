@@ -1,8 +1,8 @@
 !> The instruction set for which the lane kernels are compiled.
 !>
-!> The build may compile this layer for several instruction sets, as a shared library of which the loader takes the best copy that the
-!> processor can run (src/lanes/loaded_lanes.cmake). Only the copy that runs knows its own: it is asked by a procedure, as a constant
-!> would be copied from the module file into the program.
+!> The build may compile this layer for several instruction sets, as a shared library of which the loader takes the best copy that
+!> the processor can run (src/lanes/loaded_lanes.cmake). Only the running copy contains its instruction set: a procedure returns
+!> it, as a constant would be copied from the module file into the program.
 module ek_lane_instructions
    use, intrinsic :: iso_fortran_env, only: compiler_options
    implicit none(type, external)

@@ -1,6 +1,6 @@
 !> Numbers of four designs, computed together: arithmetic.
 !>
-!> The result of a lane never depends on its neighbours, and is that of the scalar operation to the bit.
+!> The result of a lane never depends on its neighbours, and equals the result of the scalar operation to the bit.
 module ek_lane_numbers
    use ek_kinds, only: wp
    implicit none(type, external)
@@ -8,7 +8,7 @@ module ek_lane_numbers
    public :: lanes, lanes_t, zero, one
    public :: assignment(=), operator(+), operator(-), operator(*), operator(/), operator(**)
 
-   integer, parameter :: lanes = 4       !! eight lanes are not kept in registers by gfortran
+   integer, parameter :: lanes = 4       !! gfortran does not hold eight lanes in registers
 
    !> One number of each of the designs.
    type :: lanes_t

@@ -7,15 +7,15 @@
 !>     end do
 !>     … search%best, search%residuals, search%jacobian, search%held …
 !>
-!> Each step is that of Gauss and Newton, the smallest one if several are as good, and solved with the bounds as part of the
-!> problem (an active set: what stays at a bound does so because r would grow on its other side). Where a step fails, because r
+!> Each step is a Gauss-Newton step, the smallest if several are as good, and solved with the bounds as part of the
+!> problem (an active set: an unknown stays at a bound if r would grow on its other side). Where a step fails, because r
 !> grows or has no value, it is damped as Levenberg and Marquardt do. For as many conditions as unknowns this is Newton's method.
 !>
-!> Why none of the libraries: the codes of MINPACK (lmder) know no bounds. With bounds by a change of variable, a solution at a
-!> bound has the derivative zero there, from which no step leaves and no covariance follows; and MINPACK does not find the rank of
-!> the problem, for which LAPACK is needed anyway. NLopt has bounds, but no method for least squares: it would have to find from
-!> many gradients the curvature that the Jacobian gives at once. What remains is short, since LAPACK (dgelsd) does the numerical
-!> work.
+!> Reasons against libraries: the codes of MINPACK (lmder) do not support bounds. With bounds by a change of variable, a solution
+!> at a bound has the derivative zero there, from which no step leaves and no covariance follows; and MINPACK does not find the
+!> rank of the problem, for which LAPACK is needed anyway. NLopt has bounds, but no method for least squares: it would have to
+!> find from many gradients the curvature that the Jacobian gives at once. This module is short, since LAPACK (dgelsd) does the
+!> numerical work.
 module ek_bounded_search
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
@@ -45,7 +45,7 @@ module ek_bounded_search
       real(wp), private :: predicted = 0.0_wp        !! reduction of |r|² that the last step promised
    end type bounded_search_t
 
-   real(wp), parameter :: far = 1.0e100_wp                 !! a bound further away is ignored; its distance can be divided by a scale
+   real(wp), parameter :: far = 1.0e100_wp                 !! a bound farther away is ignored; far/scale is finite
    real(wp), parameter :: tiny_step = 1.0e-10_wp           !! of the scale
    real(wp), parameter :: tiny_gain = 1.0e-13_wp           !! of |r|²: rounding
    real(wp), parameter :: first_damping = 1.0e-3_wp, most_damping = 1.0e7_wp, least_damping = 1.0e-8_wp

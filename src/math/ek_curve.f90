@@ -5,11 +5,11 @@
 !>
 !> | kind   | slopes                                                              | smooth |
 !> |--------|---------------------------------------------------------------------|--------|
-!> | linear | slopes of the chords; corners are kept                              | C0     |
+!> | linear | slopes of the chords; corners remain                                | C0     |
 !> | akima  | weighted means of neighbouring chords: H. Akima, J. ACM 17 (1970) 589–602 | C1 |
 !> | cubic  | natural spline: zero curvature at the ends, continuous with the straight line | C2 |
 !>
-!> An Akima curve depends on five neighbouring points: a distant corner causes no oscillation, and flat data stay flat.
+!> An Akima curve depends on five neighbouring points: a distant corner causes no oscillation, and flat data remain flat.
 module ek_curve
    use ek_kinds, only: wp
    use ek_number, only: num, mask, piece, zero, one, some, every, pieces_below, entry
@@ -32,7 +32,7 @@ contains
    !> Copies the numbers of a curve to another one, whose memory is used again if the number of points is the same.
    pure subroutine copy_curve(from, to)
       type(curve_t), intent(in) :: from
-      type(curve_t), intent(inout) :: to          !! keeps its name in this case
+      type(curve_t), intent(inout) :: to          !! its name is then unchanged
       logical :: is_alike
 
       is_alike = allocated(to%breaks)

@@ -59,7 +59,7 @@ contains
       end do
    end function image_of
 
-   !> A number from 0 to n − 1, mixed from a number and a key: n w / 2³² with a word w. Multipliers below 2³¹ keep all products
+   !> A number from 0 to n − 1, mixed from a number and a key: n w / 2³² with a word w. With multipliers below 2³¹, all products are
    !> within 63 bits; they and the shifts are from C. Wellons, Hash Prospector (public domain),
    !> https://github.com/skeeto/hash-prospector.
    pure integer(i8) function below(n, number, key)

@@ -7,8 +7,8 @@
 !> of K leave Zᵀ K Z, where the columns of Z span the null space of Fᵀ, and Cholesky's method factorises it. Zeros are skipped: for
 !> matrices of bodies with few connections this takes a fraction of the time of LAPACK's dsytrf on the whole.
 !>
-!> The matrix counts as regular only where there is no doubt about it: see `pivot_share` and `stiffness_share`. What does not
-!> is for a decomposition in singular values (ek_singular_values).
+!> The matrix counts as regular only where there is no doubt about it: see `pivot_share` and `stiffness_share`. Other matrices
+!> require a decomposition in singular values (ek_singular_values).
 module ek_saddle
    use ek_kinds, only: wp
    use ek_lapack, only: dpotrf
@@ -30,7 +30,7 @@ module ek_saddle
       integer :: m = 0                           !! columns of F
       real(wp), allocatable :: k(:, :)           !! (n, n) lower triangle; then from row and column m + 1 on: the factor of Zᵀ K Z
       real(wp), allocatable :: f(:, :)           !! (n, m); then U, and below its diagonal L
-      integer, allocatable :: swapped(:)         !! (m): the row that changed places with row k
+      integer, allocatable :: swapped(:)         !! (m): the row that was exchanged with row k
       logical :: is_regular = .false.            !! F and Zᵀ K Z have full rank without a doubt
    end type saddle_t
 
@@ -214,7 +214,7 @@ contains
       end do
    end subroutine substitute_back
 
-   !> Finds y with F y = b, from a reduced b whose part after m is rounding.
+   !> Finds y with F y = b, from a reduced b; b(m+1:) is ignored, because it contains only rounding errors.
    pure subroutine solve_forces(saddle, b, y)
       type(saddle_t), intent(in) :: saddle        !! is_regular
       real(wp), intent(in) :: b(:)                !! n: from `reduce`

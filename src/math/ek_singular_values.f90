@@ -3,8 +3,8 @@
 !>
 !>     A = U S Vᵀ,   x = V S⁺ Uᵀ b
 !>
-!> The columns of U after the rank span what A cannot produce: I − A A⁺ = U₀ U₀ᵀ. The columns of V after the rank span
-!> what A maps to zero.
+!> The columns of U after the rank span the complement of the range of A: I − A A⁺ = U₀ U₀ᵀ. The columns of V after the rank span
+!> the null space of A.
 module ek_singular_values
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
@@ -23,7 +23,7 @@ module ek_singular_values
 
 contains
 
-   !> Decomposes a matrix. If it fails, U and V are unit matrices and the rank is 0, so that an index stays in its bounds.
+   !> Decomposes a matrix. If it fails, U and V are unit matrices and the rank is 0, so that an index is within its bounds.
    pure subroutine decompose(a, share, parts, whole, wants_null_space)
       real(wp), intent(in) :: a(:, :)
       real(wp), intent(in) :: share          !! singular values up to this share of the largest count as zero

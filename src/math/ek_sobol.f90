@@ -5,8 +5,8 @@
 !>     x_n,j = (g₁ v_j,1 ⊕ g₂ v_j,2 ⊕ …) 2⁻³² + 2⁻³³
 !>
 !> The Gray code g of n gives the points the order of other programs (scipy, SALib); it only permutes them within blocks of 2ᵐ
-!> points. The half step 2⁻³³ keeps all coordinates inside (0, 1), point 0 included. The first 2ᵐ points, and every later block of
-!> 2ᵐ, have exactly one coordinate in each of 2ᵐ equal intervals, in every dimension.
+!> points. With the half step 2⁻³³, all coordinates are inside (0, 1), including point 0. The first 2ᵐ points, and every later
+!> block of 2ᵐ, have exactly one coordinate in each of 2ᵐ equal intervals, in every dimension.
 !>
 !> Sources: P. Bratley, B. L. Fox, Algorithm 659, ACM TOMS 14 (1988) 88–100; the direction numbers: ek_sobol_numbers.
 !> Scrambling: J. Matoušek, On the L2-discrepancy for anchored boxes, J. Complexity 14 (1998) 527–556: a random linear map of the

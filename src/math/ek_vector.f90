@@ -1,4 +1,4 @@
-!> Vectors of any length, changed in place: no temporary and no reallocation, whatever the compiler.
+!> Vectors of any length, changed in place: no temporary and no reallocation, with any compiler.
 !>
 !> An assignment to a whole allocatable array checks its shape at run time, and flang asks for memory for the right-hand side
 !> where that may overlap the left-hand side.

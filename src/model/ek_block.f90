@@ -1,10 +1,10 @@
 !> The blocks of the tangent matrix of bodies, six unknowns each [Δr Δπ], and adding 3×3 parts to them.
 !>
-!> `blocks(:, :, b)` for b up to the number of bodies is the diagonal block of body b, of which the lower triangle counts; the
-!> others hold the coupling of two bodies, rows of the one with the larger number, columns of the other. An element or a measure
-!> between bodies i and j finds its three blocks by `at`: at(1) = i and at(2) = j are its diagonal blocks (0: the chassis, which
-!> has no unknowns), at(3) is the number of its coupling block, negative if body i has the larger number, 0 if there is none. A 3×3
-!> part is named by its rows and columns, each one of r_i, pi_i, r_j, pi_j. Parts on the diagonal are added in full.
+!> `blocks(:, :, b)` for b up to the number of bodies is the diagonal block of body b, of which only the lower triangle is used; the
+!> others contain the coupling of two bodies, rows of the body with the larger number, columns of the other body. An element or a
+!> measure between bodies i and j finds its three blocks by `at`: at(1) = i and at(2) = j are its diagonal blocks (0: the chassis,
+!> which has no unknowns), at(3) is the number of its coupling block, negative if body i has the larger number, 0 if there is
+!> none. A 3×3 part is named by its rows and columns, each one of r_i, pi_i, r_j, pi_j. Parts on the diagonal are added in full.
 module ek_block
    use ek_kinds, only: wp
    use ek_number, only: num
@@ -19,8 +19,8 @@ module ek_block
 
 contains
 
-   !> Adds factor × gradient to y, that of a measure of two bodies, at their unknowns; at_i, at_j: the number of unknowns before
-   !> those of body i, j; negative: the chassis.
+   !> Adds factor × the gradient of a measure of two bodies to y, at the unknowns of the bodies; at_i, at_j: the number of
+   !> unknowns before the unknowns of body i, j; negative: the chassis.
    pure subroutine add_gradient(factor, gradient, at_i, at_j, y)
       real(num), intent(in) :: factor, gradient(12)
       integer, intent(in) :: at_i, at_j
@@ -154,7 +154,7 @@ contains
       call add_block(block, pi_i, pi_j, at, blocks)
    end subroutine add_gap_hessian
 
-   !> Adds a 3×3 part; no action if one of its bodies is the chassis. It is transposed where the transposed part is kept.
+   !> Adds a 3×3 part; no action if one of its bodies is the chassis. The part is transposed where its transpose is stored.
    pure subroutine add_block(part, rows, columns, at, blocks)
       real(num), intent(in) :: part(3, 3)
       integer, intent(in) :: rows, columns      !! of the unknowns: r_i … pi_j

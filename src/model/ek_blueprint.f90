@@ -1,4 +1,4 @@
-!> The blueprint of a suspension: what is connected to what, and which numbers it takes from the parameters.
+!> The blueprint of a suspension: the connections of the parts, and the index of each number in the parameters.
 !>
 !> The numbers of a design are the vector x [SI, axes of the deck]; everything here is an index into it, or the number of another
 !> part. `realise` of ek_realise computes the suspension from (blueprint, x). A point stays a point: everything placed

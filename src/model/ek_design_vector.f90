@@ -1,4 +1,5 @@
-!> The geometry of a design: its points and directions, and what else the reader of a deck and `realise` both compute from them.
+!> The geometry of a design: its points and directions, and further geometry that the reader of a deck and `realise` both compute
+!> from them.
 module ek_design_vector
    use ek_kinds, only: wp
    use ek_rotation, only: cross, perpendicular, unit_vector, angle_between
@@ -79,7 +80,7 @@ contains
       if (norm2(direction) > 0.0_wp) direction = unit_vector(direction)
    end subroutine find_direction
 
-   !> Computes the marker axes: z stays, x is made perpendicular to it, y = z × x. Default: the deck's global axes.
+   !> Computes the marker axes: z is unchanged, x is made perpendicular to z, y = z × x. Default: the deck's global axes.
    pure subroutine marker_axes(plan, z, x, axes, is_good)
       type(blueprint_t), intent(in) :: plan
       real(wp), intent(in) :: z(3), x(3)          !! unit vectors, or both zero

@@ -20,7 +20,7 @@ module ek_elastic
    public :: evaluate_bushing, bushing_force, add_bushing_tangent, add_bushing_material, bushing_load, design_rates
 
    !> The law of a six-axis bushing from marker I on body i to marker J on body j. The markers are parallel at design. They may be
-   !> at two points; the design gap causes no force. What every evaluation reads comes first.
+   !> at two points; the design gap causes no force. The numbers that every evaluation reads come first.
    type :: bushing_t
       ! set by set_bushing_axes: the same law in the axes of body i
       real(num) :: stiffness_t(3, 3) = zero, stiffness_r(3, 3) = zero
@@ -33,7 +33,7 @@ module ek_elastic
       real(num) :: preload_force(3) = zero  !! on body j at design, marker axes [N]
       real(num) :: preload_moment(3) = zero !! on body j at design, marker axes [N m]
       ! curves instead of rates, in the order: along x, y, z, about x, y, z of the marker
-      type(law_t), allocatable :: laws(:)    !! six if has_curves; a component without a curve keeps its rate
+      type(law_t), allocatable :: laws(:)    !! six if has_curves; a component without a curve has its rate
    end type bushing_t
 
    !> A bushing at one pair of poses.

@@ -1,4 +1,4 @@
-!> Elastic elements: what each kind is, the record of one element, and what defines it.
+!> Elastic elements: the properties of each kind, the record of one element, and the numbers that define it.
 !>
 !> | kind    | tension T (dV/dvalue)                                                                 |
 !> |---------|---------------------------------------------------------------------------------------|
@@ -13,8 +13,8 @@
 !> −T × gradient of the measure. Forces and tangents of all kinds: ek_element_force.
 !>
 !> A new kind of one measure: its number and its row in `element_kinds`, here; its group, keys and reader in the deck layer. A new
-!> number of the deck: also its position in the list of numbers and its line in `set_numbers`. A formula that ek_law does not have: its
-!> case in `look_up_element`, `element_slopes` and `is_linear`.
+!> number of the deck: also its position in the list of numbers and its line in `set_numbers`. A formula that ek_law does not
+!> have: its case in `look_up_element`, `element_slopes` and `is_linear`.
 module ek_element
    use ek_kinds, only: wp
    use ek_number, only: num, mask, zero, some
@@ -39,7 +39,7 @@ module ek_element
 
    ! numbers that a deck gives for an element of one measure
    integer, parameter :: rate_number = 1, preload_number = 2, free_length_number = 3, clearance_number = 4, rounding_number = 5
-   integer, parameter :: element_numbers = 5      !! how many there are
+   integer, parameter :: element_numbers = 5      !! count of these numbers
 
    ! shapes in pictures
    integer, parameter :: no_shape = 0, coil_shape = 1, damper_shape = 2, stop_shape = 3, bushing_shape = 4
@@ -62,11 +62,11 @@ module ek_element
       element_kind_t('stop', 'stop', 'stops', .false., .true., .false., stop_shape), &
       element_kind_t('damper', '', '', .false., .false., .false., damper_shape)]
 
-   !> An elastic element. What the solution reads comes first.
+   !> An elastic element. The numbers that the solution reads come first.
    type :: element_t
       integer :: kind = axial_spring
       logical :: is_balanced = .true.       !! spring: balance may change its preload
-      type(measure_t) :: measure            !! its bodies and points; the length, angle or other measure it acts on; 0: bushing
+      type(measure_t) :: measure            !! its bodies and points; the length, angle or other measure of its action; 0: bushing
       real(num) :: preload = zero          !! compression at design [N], moment on body j about the axis [N m]
       type(law_t) :: law                    !! of the measure; the preload is subtracted [N, N m]
       type(bushing_t) :: bushing            !! the six components of a bushing

@@ -1,4 +1,4 @@
-!> An elastic element taken apart: each of its laws with slope and gradient of what it acts on, and what is left of its tangent, the
+!> An elastic element in parts: each of its laws with slope and gradient of its measure, and the remainder of its tangent, the
 !> geometric stiffness of its forces.
 !>
 !> The tangent of an element is Σ c g gᵀ + Σ F Hess: c the slope of a law, g the gradient of its measure. A bushing has six laws, of

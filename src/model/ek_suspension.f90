@@ -127,7 +127,7 @@ contains
       self%steering%driver = ''
    end subroutine allocate_lists
 
-   !> Copies the numbers of a suspension to another one, which has the same parts, and may have those of a rig after them (ek_rig):
+   !> Copies the numbers of a suspension to another one, which has the same parts, and may have parts of a rig after them (ek_rig):
    !> rows, terms and loads. Every number that realise, settle_design or balance sets is copied; nothing is allocated.
    pure subroutine copy_numbers(from, to)
       type(suspension_t), intent(in) :: from
@@ -208,8 +208,8 @@ contains
       constraints = size(self%rows)
    end function constraints
 
-   !> The number of rows of Φ without those of the rig, which come last: λ(:own_rows) is the suspension's own, λ(own_rows+1:) that
-   !> of the rig, the force of the ground that holds heights.
+   !> The number of rows of Φ without the rows of the rig, which come last: λ(:own_rows) belongs to the suspension, λ(own_rows+1:)
+   !> to the rig: the forces of the ground that hold heights.
    pure integer function own_rows(self)
       class(suspension_t), intent(in) :: self
       own_rows = self%constraints() - self%rig_rows

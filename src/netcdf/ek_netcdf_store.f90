@@ -2,7 +2,7 @@
 !>
 !> Factors and responses are variables over design, the swept value and the columns of the curves over (design, state). Chunks are
 !> read one after the other, and the sizes of the blocks in the file are fixed: the memory does not grow with the number of
-!> designs, and two stores of the same results have the same bytes. Each block has a checksum (fletcher32), so that one that was
+!> designs, and two stores of the same results have the same bytes. Each block has a checksum (fletcher32), so that a block that was
 !> damaged cannot be read.
 module ek_netcdf_store
    use, intrinsic :: iso_fortran_env, only: int8, int64
@@ -20,7 +20,7 @@ module ek_netcdf_store
    public :: write_store_file
 
    interface
-      !> The cache of a variable, of the C library: that of Fortran is set in megabytes, too much for a thousand variables.
+      !> The cache of a variable, of the C library: the Fortran interface sets it in megabytes, too much for a thousand variables.
       integer(c_int) function nc_set_var_chunk_cache(file, variable, size, slots, preemption) bind(c)
          import :: c_int, c_size_t, c_float
          implicit none(type, external)

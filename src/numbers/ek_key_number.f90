@@ -1,4 +1,4 @@
-!> A key number of a suspension: what it is, in which columns of which tests it stands, and how its value is read from them.
+!> A key number of a suspension: its definition, the columns and tests that contain it, and the way its value is read from them.
 !>
 !> ek_key_numbers lists the numbers that tests can have, from the headings of their tables alone; read_source reads one of them when
 !> the tests are solved. It makes no text, so that several threads can read at the same time.
@@ -22,7 +22,7 @@ module ek_key_number
 
    !> Where a number stands in the table of one test: (left wheel, single wheel or axle; right wheel).
    type :: key_source_t
-      integer :: test = 0                               !! place in the list of tests
+      integer :: test = 0                               !! index in the list of tests
       character(name_length) :: column(2) = ''          !! '': this wheel does not have the number
       character(name_length) :: over(2) = ''            !! the abscissa of a gradient; the column that has a given value
       real(wp) :: wanted(2) = 0.0_wp                    !! that value, in the unit of the column
@@ -37,7 +37,7 @@ module ek_key_number
       character(:), allocatable :: name           !! for programs, without left_ or right_: 'bump_toe', 'toe_deg'
       character(:), allocatable :: condition      !! where it is read: 'parallel_travel, within ±15 mm of design'
       character(:), allocatable :: definition     !! from which columns, and its sign
-      character(48) :: held = ''                  !! what holds the wheels of a loaded axle: 'vertical force held'
+      character(48) :: held = ''                  !! condition of the wheels of a loaded axle: 'vertical force held'
       logical :: has_target = .false.
       real(wp) :: target(2) = 0.0_wp              !! lower and upper limit that the deck gives, in `unit`
       real(wp) :: left = 0.0_wp, right = 0.0_wp      !! not a number if missing
@@ -70,8 +70,8 @@ contains
       is_slope = how >= slope .and. how <= anti_phase
    end function is_slope
 
-   !> Reads a number from one of its tests. `values` holds what the tests before gave; the first is that of the left or single wheel
-   !> or of the axle, the second of the right wheel. `is_final`: no further test is read.
+   !> Reads a number from one of its tests. `values` contains the values from earlier tests; the first belongs to the left or
+   !> single wheel or to the axle, the second to the right wheel. `is_final`: no further test is read.
    subroutine read_source(how, source, table, values, is_final)
       integer, intent(in) :: how
       type(key_source_t), intent(in) :: source
@@ -142,7 +142,7 @@ contains
    !> several such points the one nearest to design. Not a number if there is none.
    real(wp) function value_where(table, x, wanted, y) result(value)
       type(table_t), intent(in) :: table
-      integer, intent(in) :: x, y                       !! places of the columns
+      integer, intent(in) :: x, y                       !! indices of the columns
       real(wp), intent(in) :: wanted
       real(wp) :: share, nearest
       logical :: is_usable(size(table%values, 2))

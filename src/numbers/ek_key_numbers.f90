@@ -1,5 +1,5 @@
 !> The key numbers of a report, from all its tests: attitude at design, rates, ride and roll, compliance,
-!> anti-dive, anti-lift, anti-squat, steering. Numbers without a column or test are omitted. Titles, units and signs are those of
+!> anti-dive, anti-lift, anti-squat, steering. Numbers without a column or test are omitted. Titles, units and signs come from
 !> ek_quantity and ek_gradient_definition.
 module ek_key_numbers
    use ek_kinds, only: wp
@@ -16,10 +16,10 @@ module ek_key_numbers
    private
    public :: key_number_t, key_numbers, list_key_numbers, number_heads, wanted_gradients, without_side
 
-   !> One number: its group, what it is of, and how it is read.
+   !> One number: its group, its column or gradient, and the way it is read.
    type :: entry_t
       character(32) :: group = ''
-      character(44) :: name = ''        !! a column, or a gradient without its ending
+      character(44) :: name = ''        !! a column, or a gradient without its suffix
       character(15) :: kind = ''        !! of the test; '': the first that has the column
       integer :: how = at_design        !! at_design to anti_phase of ek_key_number
       character(38) :: title = ''       !! of an extreme; otherwise the title of the column or gradient

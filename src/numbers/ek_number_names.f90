@@ -91,7 +91,7 @@ contains
       end do
    end subroutine list_numbers
 
-   !> Lists the tests with the headings of their tables, and the numbers that they may have. The rig adds nothing to what key
+   !> Lists the tests with the headings of their tables, and the numbers that they may have. The rig adds no column from which key
    !> numbers are read from, so that all tests have the headings of the first.
    subroutine list_all(suspension, cases, tests, listed, names, wanted)
       type(suspension_t), intent(in) :: suspension

@@ -1,7 +1,7 @@
-!> Four designs of one deck as one model: the numbers of each stand in a lane, what they have in common stands once.
+!> Four designs of one deck as one model: the numbers of each design stand in a lane, common data are stored once.
 !>
-!> All have the connections, the plan of elimination and the scale of the first design of the study, so the result of a design does not
-!> depend on the other lanes.
+!> All have the connections, the plan of elimination and the scale of the first design of the study, so the result of a design
+!> does not depend on the other lanes.
 module ek_pack
    use ek_kinds, only: wp
    use ek_lanes, only: lanes_t, lanes
@@ -25,7 +25,7 @@ module ek_pack
       integer :: bodies = 0, rows = 0, n = 0
       type(pattern_t) :: pattern
       type(plan_t) :: plan
-      real(wp), allocatable :: places(:)                 !! of the states
+      real(wp), allocatable :: places(:)                 !! swept values of the states
       real(wp), allocatable :: scale(:), scaling(:)      !! D of the system, and of each entry of the matrix
       real(wp) :: length = 1.0_wp                        !! characteristic length [m]
       type(load_t), allocatable :: loads(:)
@@ -40,7 +40,7 @@ module ek_pack
       type(lanes_t), allocatable :: rate_factor(:), rate_change(:)   !! and their derivatives with the path coordinate
       ! the system
       type(lanes_t), allocatable :: gradients(:, :), values(:), store(:), factors(:), rhs(:)
-      type(lanes_t), allocatable :: spare(:)             !! factors of designs that stay while others are factorised again
+      type(lanes_t), allocatable :: spare(:)             !! factors of designs that are unchanged while others are factorised again
       type(lanes_t), allocatable :: tangent_a(:), tangent_b(:), motion(:), motion_before(:)    !! of the bodies in a step
       ! earlier states, newest first in `slot`
       type(lanes_t), allocatable :: packed(:, :), guess(:)
@@ -52,7 +52,7 @@ module ek_pack
 
 contains
 
-   !> Creates work space for designs with the connections of this one.
+   !> Creates work space for designs with the connections of this suspension.
    subroutine new_pack(suspension, kkt, path, pack)
       type(suspension_t), intent(in) :: suspension
       type(kkt_t), intent(in) :: kkt                     !! with a plan

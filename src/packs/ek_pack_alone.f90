@@ -162,7 +162,7 @@ contains
       end do
    end subroutine take_state
 
-   !> Learns how many states would have predicted the present one of a design best.
+   !> Learns the number of earlier states that would have predicted the present state of a design best.
    subroutine learn(self, member, k, direction, lane, trusted)
       type(walker_t), intent(inout) :: self
       type(member_t), intent(in) :: member

@@ -1,6 +1,6 @@
 !> Newton's method for four designs at a time: the steps of find_equilibrium (ek_newton), each design taking its own.
 !>
-!> A design that has converged or failed stays where it is while the others go on, so its result does not depend on them.
+!> A design that has converged or failed is not changed while the others continue, so its result does not depend on them.
 module ek_pack_newton
    use ek_kinds, only: wp
    use ek_lanes, only: lanes_t, mask_t, lanes
@@ -20,7 +20,7 @@ contains
    subroutine find_equilibria(pack, tolerance, is_wanted, outcome)
       type(pack_t), intent(inout) :: pack
       real(wp), intent(in) :: tolerance                  !! m
-      logical, intent(in) :: is_wanted(lanes)            !! the others stay
+      logical, intent(in) :: is_wanted(lanes)            !! the others are unchanged
       type(outcome_t), intent(out) :: outcome(lanes)
       logical :: is_going(lanes), is_in_chord(lanes), is_taken(lanes)
       type(soundness_t) :: soundness
@@ -108,7 +108,7 @@ contains
       end do
    end subroutine assemble
 
-   !> Factorises anew; the factors of designs whose iteration has ended stay, so that they do not depend on the others.
+   !> Factorises anew; the factors of designs whose iteration has ended are unchanged, so that they do not depend on the others.
    subroutine factorise(pack, is_going, soundness)
       type(pack_t), intent(inout) :: pack
       logical, intent(in) :: is_going(lanes)

@@ -80,7 +80,7 @@ contains
       real(wp), intent(in) :: from, to
       type(pose_t), contiguous, intent(in) :: poses(:)
       type(lanes_t), contiguous, intent(in) :: factors(:)
-      type(lanes_t), intent(out) :: tangent(:)           !! twists of the bodies and reactions per place
+      type(lanes_t), intent(out) :: tangent(:)           !! twists of the bodies and reactions per swept value
       integer :: k
 
       associate (pack => self%pack)

@@ -1,9 +1,9 @@
 !> The paths of four designs, state after state at the same time.
 !>
-!> All designs of the pack take each step together: prediction, Newton's method, and the tests of ek_reach and ek_branch that the state
-!> is on the path (the prediction was close, or the tangents agree with the motion; the joints are in the same assembly). A state of a
-!> design that does not pass them is found by ek_reach, which looks closer and halves steps; a design that fails there, or does not
-!> settle close to its design position, is left to the sweep of a single design.
+!> All designs of the pack take each step together: prediction, Newton's method, and the tests of ek_reach and ek_branch that the
+!> state is on the path (the prediction was close, or the tangents agree with the motion; the joints are in the same assembly). A
+!> state of a design that does not pass them is found by ek_reach, which looks closer and halves steps; a design that fails there,
+!> or does not settle close to its design position, is left to the sweep of a single design.
 module ek_pack_walk
    use ek_kinds, only: wp
    use ek_lanes, only: lanes_t, lanes
@@ -36,7 +36,7 @@ contains
       can_walk = case%method == 'equilibrium' .and. .not. case%follows_arc .and. path%start > 0 .and. .not. path%is_table
    end function can_walk
 
-   !> Walks the paths of all members (of new_path, with the same places); is_walked of each: whether its path is complete.
+   !> Walks the paths of all members (of new_path, with the same swept values); is_walked of each: whether its path is complete.
    subroutine walk_pack(self, members)
       type(walker_t), intent(inout) :: self      !! its pack is made for these designs
       type(member_t), intent(inout) :: members(lanes)
@@ -91,8 +91,8 @@ contains
       end do
    end subroutine walk_together
 
-   !> Finds the equilibria under the constant loads; a design that moves there by more than rounding is not walked. The tangents of its
-   !> first step stay in the pack.
+   !> Finds the equilibria under the constant loads; a design that moves under them by more than rounding is not walked. The
+   !> tangents of its first step are stored in the pack.
    subroutine settle_all(self, members, places, is_common)
       type(walker_t), intent(inout) :: self
       type(member_t), intent(inout) :: members(lanes)

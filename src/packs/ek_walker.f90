@@ -30,22 +30,22 @@ module ek_walker
       type(schedule_t) :: schedule
       integer :: trusted = depth                 !! states used for the prediction
       integer :: settled = -1                    !! negative eigenvalues at design, and
-      real(wp) :: beginning = huge(1.0_wp)       !! ln |det N| there
+      real(wp) :: beginning = huge(1.0_wp)       !! ln |det N| at the beginning
       integer :: negative = -1                   !! at the newest state
       real(wp) :: log_determinant = huge(1.0_wp)
       logical :: was_uneven = .true.
-      logical :: knows_factors = .false.         !! those before in the pack are of the newest state
+      logical :: knows_factors = .false.         !! the previous factors in the pack belong to the newest state
       logical :: is_symmetric = .true.           !! no load makes the tangent unsymmetric
    end type place_t
 
    !> Work space of a thread.
    type :: walker_t
       type(pack_t) :: pack
-      type(predictor_t) :: history               !! places of the stored states; their numbers are in the pack
+      type(predictor_t) :: history               !! swept values of the stored states; their numbers are in the pack
       type(branch_t) :: branch(lanes)            !! of each design, where it goes a step alone
       logical :: is_fresh(lanes) = .false.       !! the branch belongs to the present design
       type(state_t) :: state
-      type(place_t), allocatable :: places(:)    !! of each design; kept as work space
+      type(place_t), allocatable :: places(:)    !! of each design; reused as work space
       real(wp) :: tolerance = 0.0_wp             !! of the present designs [m]
       integer :: steps_alone = 0, steps = 0      !! so far, of all designs
    end type walker_t
@@ -91,7 +91,7 @@ contains
       real(wp), intent(in) :: value
       integer, intent(in) :: trusted(lanes)
       type(lanes_t), intent(out) :: weight(depth)
-      integer, intent(out) :: slot(depth), states        !! states: how many any design uses
+      integer, intent(out) :: slot(depth), states        !! states: largest number that a design uses
       real(wp) :: own(depth)
       integer :: l, j, n, most, last
 

@@ -66,7 +66,7 @@ contains
       type(camera_t), intent(inout) :: camera     !! tilt and turn are input
       type(scene_t), intent(in) :: scenes(:)
       real(wp), intent(in) :: width, height       !! of the picture, any unit
-      real(wp), intent(in) :: footer              !! share of the height that is kept free below
+      real(wp), intent(in) :: footer              !! share of the height that is left free below
       real(wp), allocatable :: at(:, :), across(:), upward(:)
       real(wp) :: right(3), up(3), scale
       integer :: s, k, n

@@ -210,7 +210,7 @@ contains
    end function is_at_begin
 
    !> Adds the values of factor f at the ends of its lines, and 1 or −1 for above or below: away from the mean of the line. At the
-   !> corner of the carpet where the values of both factors meet, those of factor 2 have 2 or −2: further above or below.
+   !> corner of the carpet where the values of both factors meet, the values of factor 2 have 2 or −2: further above or below.
    subroutine add_ends(carpet, f, r, sheet)
       type(carpet_t), intent(in) :: carpet
       integer, intent(in) :: f, r

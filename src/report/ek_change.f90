@@ -1,5 +1,5 @@
-!> When a result has changed: by more than a share of its value, or of the least span that a chart of it has. What is small against
-!> that span is noise: 1e-16 against 1e-17 deg/m is not a change, and neither is 0 against 1e-7.
+!> Whether a result has changed: by more than a share of its value, or of the least span of its chart. A difference that is small
+!> against that span is noise: 1e-16 against 1e-17 deg/m is not a change, and neither is 0 against 1e-7.
 module ek_change
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
@@ -35,7 +35,7 @@ contains
       if (k > 0) least_of = least_span(unit(:at - 1))/widths(k)%width
    end function least_of
 
-   !> The smallest of the least spans of all quantities in a unit; 0: none has it.
+   !> The smallest of the least spans of all quantities in a unit; 0: no quantity has this unit.
    pure real(wp) function least_span(unit)
       character(*), intent(in) :: unit
       integer :: k

@@ -13,7 +13,8 @@ module ek_chart_axis
 
 contains
 
-   !> The range of y: of a span within the noise, and of a constant, the middle; otherwise that of the curves. Poles are cut.
+   !> The range of y: around the middle if the span is within the noise or the chart is constant; otherwise the range of the
+   !> curves. Poles are cut.
    pure function range_of(chart) result(range)
       type(chart_t), intent(in) :: chart
       character(:), allocatable :: range
@@ -78,8 +79,8 @@ contains
       end do
    end subroutine extremes
 
-   !> Where the axis ends on both sides of 0: at the cap of the chart or, of a curve through a pole, at a multiple of what it
-   !> usually is. A pole: between two states the value changes sign and jumps by more than half of the whole span. 0: no limit.
+   !> The limit of the axis on both sides of 0: the cap of the chart or, of a curve through a pole, a multiple of its
+   !> usual magnitude. A pole: between two states the value changes sign and jumps by more than half of the whole span. 0: no limit.
    pure real(wp) function cut_of(chart) result(cut)
       type(chart_t), intent(in) :: chart
       real(wp), parameter :: usual = 8.0_wp      ! times the mean of the magnitudes on a logarithmic scale
@@ -114,8 +115,8 @@ contains
       if (.not. cut > 0.0_wp .or. high < cut) cut = high
    end function cut_of
 
-   !> Finds the range of the free travel, with a margin, if the states in contact span more than three times as much. Without such states,
-   !> or if the axis is limited anyway, it is not cut.
+   !> Finds the range of the free travel, with a margin, if the states in contact span more than three times as much. Without such
+   !> states, or if the axis is limited anyway, it is not cut.
    pure subroutine free_range(chart, low, high, is_cut)
       type(chart_t), intent(in) :: chart
       real(wp), intent(out) :: low, high

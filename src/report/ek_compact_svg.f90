@@ -9,7 +9,7 @@ module ek_compact_svg
 
 contains
 
-   !> A picture without its empty groups and without blanks that mean nothing, with short coordinates and colours. What stays is
+   !> A picture without its empty groups and without meaningless blanks, with short coordinates and colours. The remaining text is
    !> copied in pieces between two changes: pictures have megabytes.
    pure function compact_svg(svg) result(short)
       character(*), intent(in) :: svg

@@ -251,7 +251,7 @@ contains
    end function stands_for
 
    !> Sets name, colour and dash of a curve: the colour of its result, dashed on the right; of several elements the colour is
-   !> that of the element, and the results are distinguished by dashes.
+   !> the colour of the element, and the results are distinguished by dashes.
    pure subroutine dress(trace, letters, r, is_elements)
       type(trace_t), intent(inout) :: trace
       character(*), intent(in) :: letters
@@ -269,8 +269,8 @@ contains
       end if
    end subroutine dress
 
-   !> Names of a curve's numbers in the data of a page, where every result has its own; the abscissa of the first serves if it is the
-   !> same.
+   !> Names of a curve's numbers in the data of a page, where every result has its own; the abscissa of the first serves if it is
+   !> the same.
    pure subroutine name_columns(trace, chart, r)
       type(trace_t), intent(inout) :: trace
       type(chart_t), intent(in) :: chart

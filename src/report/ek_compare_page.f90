@@ -1,4 +1,4 @@
-!> The page of a comparison: what was changed, what this did sorted by change, and a chart of every quantity.
+!> The page of a comparison: changes of the deck, their effects sorted by size, and a chart of every quantity.
 module ek_compare_page
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
@@ -123,7 +123,7 @@ contains
       if (words /= '') text = '('//words//')'
    end function bracketed
 
-   !> A number with a minus sign in place of its hyphen.
+   !> A number with a minus sign instead of its hyphen.
    pure function with_minus(number) result(text)
       character(*), intent(in) :: number
       character(:), allocatable :: text

@@ -1,5 +1,5 @@
 !> The tables of a comparison for programs: differences.csv of the gradients, number-differences.csv of the key numbers,
-!> curve-differences.csv of the charts, deck-differences.csv of the decks. With their hyphen the names differ from those of all
+!> curve-differences.csv of the charts, deck-differences.csv of the decks. With their hyphen the names differ from the names of all
 !> tables of a report. `change` is in percent of A, or of the least span of a chart where A is smaller; `verdict` is changed, same,
 !> only in A, only in B or not a number.
 module ek_compare_tables

@@ -1,4 +1,4 @@
-!> Results and what differs between them: the decks, the gradients and key numbers, the curves.
+!> Results and the differences between them: the decks, the gradients and key numbers, the curves.
 module ek_comparison
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
@@ -189,7 +189,7 @@ contains
       list = pack(list, .not. is_repeated)
    end subroutine drop_repeated_angles
 
-   !> A title with 'toe' in place of 'steer': 'bump steer (fitted)' gives 'bump toe (fitted)'.
+   !> A title with 'toe' instead of 'steer': 'bump steer (fitted)' gives 'bump toe (fitted)'.
    pure function as_toe(title) result(text)
       character(*), intent(in) :: title
       character(:), allocatable :: text
@@ -266,7 +266,7 @@ contains
       end do
    end function are_same
 
-   !> The order of values from large to small; equal ones keep theirs.
+   !> The order of values from large to small; equal values are in their original order.
    pure function descending(values) result(order)
       real(wp), intent(in) :: values(:)
       integer :: order(size(values))

@@ -97,7 +97,7 @@ contains
 
    end subroutine differing
 
-   !> The place of a name, sought first near where it is expected; 0: it is not there.
+   !> The index of a name, searched first near the expected index; 0: the list does not contain the name.
    integer function place_of(names, name, near) result(place)
       type(message_list_t), intent(in) :: names
       character(*), intent(in) :: name

@@ -10,7 +10,7 @@ module ek_deck_file
    public :: deck_record_t, write_deck_file, read_deck_file, facts_of_table
 
    character(*), parameter :: fact = 'fact', value = 'value'
-   !> Where a report says so itself, or what no result depends on
+   !> Facts that are not stored: the report gives them itself, or no result depends on them
    character(*), parameter :: not_kept(2) = [character(14) :: 'Date', 'Road at design']
 
    type :: deck_record_t

@@ -1,5 +1,5 @@
 !> Runs gnuplot in a temporary folder, for a limited time, on scripts alone. A picture is moved to its folder when it is
-!> complete; if gnuplot fails, hangs or draws nothing, earlier pictures stay and an error is returned.
+!> complete; if gnuplot fails, hangs or draws nothing, earlier pictures are not replaced and an error is returned.
 !>
 !> gnuplot runs with -d: no settings of the user or of the machine affect a picture.
 module ek_drawing
@@ -50,7 +50,7 @@ contains
    !> Runs a script of the user. Its variable `out` is the folder of the tables; every complete file that the script writes
    !> there is moved to `folder`.
    subroutine run_plot_script(script, tables, folder, error)
-      character(*), intent(in) :: script                  !! its path
+      character(*), intent(in) :: script                  !! path of the script
       type(message_list_t), intent(in) :: tables          !! names in the folder
       character(*), intent(in) :: folder
       type(error_t), allocatable, intent(out) :: error    !! exit_file, with gnuplot's message

@@ -1,4 +1,5 @@
-!> Figures of what the factors of a study do to its responses: maps over two factors, tornado, Sobol indices, Morris' effects.
+!> Figures of the effects of the factors of a study on its responses: maps over two factors, tornado, Sobol indices, Morris'
+!> effects.
 module ek_effect_figures
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp

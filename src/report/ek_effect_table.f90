@@ -1,4 +1,4 @@
-!> The table of what the factors of a study do to its responses: the strongest first, those without an effect folded.
+!> The table of the effects of the factors of a study on its responses: strongest factor first, factors without an effect folded.
 module ek_effect_table
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
@@ -86,7 +86,7 @@ contains
          'An index rests on the base points whose designs were all solved.')
    end subroutine add_effects
 
-   !> By what the factors are sorted for a response: total index, share, μ* or span.
+   !> The sizes by which the factors are sorted for a response: total index, share, μ* or span.
    function effect_sizes(study, r) result(sizes)
       type(study_data_t), intent(in) :: study
       integer, intent(in) :: r

@@ -33,8 +33,8 @@ module ek_explanation
 
 contains
 
-   !> Finds the contributions to the key compliances at the state of a case that is nearest to design; of an axle those of the
-   !> left wheel. None if there is no such state, or its matrix is singular.
+   !> Finds the contributions to the key compliances at the state of a case that is nearest to design; for an axle, only for the
+   !> left wheel. The list is empty if there is no such state, or its matrix is singular.
    subroutine find_explanations(result, list)
       type(case_result_t), intent(inout) :: result              !! is_run
       type(explanation_t), allocatable, intent(out) :: list(:)

@@ -1,4 +1,4 @@
-!> The curves of the designs of a study, each panel coloured by the factor that leads what the panel shows.
+!> The curves of the designs of a study, each panel coloured by the factor with the largest effect on its curves.
 module ek_family_figure
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp

@@ -1,4 +1,4 @@
-!> Places for the names of points in a panel, where they do not lie over each other.
+!> Positions for the names of points in a panel, without overlap.
 module ek_label_places
    use ek_kinds, only: wp
    implicit none(type, external)
@@ -17,7 +17,7 @@ module ek_label_places
 contains
 
    !> Places the names of points one after the other, the first as near as possible. A name stands to the left of a point in the
-   !> right part of the panel; it is moved up and down in small steps until it lies over no other name and over no named point.
+   !> right part of the panel; it is moved up and down in small steps until it does not overlap another name or a named point.
    pure subroutine place_labels(x, y, widths, height, places)
       real(wp), intent(in) :: x(:), y(:)          !! shares of the panel
       real(wp), intent(in) :: widths(:), height   !! of the texts, shares of the panel

@@ -1,5 +1,5 @@
-!> The part of a report that computes itself for other rates (`report --live`): which rates, and what its script
-!> needs of each state.
+!> The part of a report that computes itself for other rates (`report --live`): the rates, and the data that its script
+!> needs for each state.
 module ek_live
    use ek_kinds, only: wp
    use ek_text, only: is_like
@@ -21,22 +21,23 @@ module ek_live
       logical, allocatable :: is_held(:), is_inverse(:)      !! see live_columns_t
       real(wp), allocatable :: value(:, :)                   !! (column, state), as in the table
       type(live_state_t), allocatable :: state(:)
-      integer, allocatable :: shown(:)                       !! states of which it is said how far they would move
+      integer, allocatable :: shown(:)                       !! states for which the page gives the displacement with other rates
       logical :: holds_heights = .false.                     !! the test holds or drives the heights of the wheels
    end type live_test_t
 
-   !> All of them.
+   !> Data for the sliders: the rates, the design state and the tests.
    type :: live_t
-      integer :: most = 0                                    !! how many rates are asked
+      integer :: most = 0                                    !! requested number of rates
       type(live_rates_t), allocatable :: rates
-      character(:), allocatable :: balance                   !! of the deck: what a run with other rates does with preloads
+      character(:), allocatable :: balance                   !! of the deck: treatment of preloads in a run with other rates
       type(live_test_t) :: design
-      type(live_test_t), allocatable :: tests(:)             !! those with columns that follow the rates
+      type(live_test_t), allocatable :: tests(:)             !! tests with columns that follow the rates
    end type live_t
 
 contains
 
-   !> Adds a test that was solved. The first one with a design state provides rates and numbers; tests before it have none.
+   !> Adds a test that was solved. The first one with a design state provides rates and numbers; earlier tests are without rates
+   !> and numbers.
    subroutine add_live(result, test, live)
       type(case_result_t), intent(inout) :: result           !! is_run
       type(test_result_t), intent(in) :: test                !! its name and kind

@@ -1,4 +1,4 @@
-!> The numbers of live states, few: what follows from symmetry, or stands twice, is omitted.
+!> The numbers of live states, reduced: numbers that follow from symmetry, or occur twice, are omitted.
 !>
 !> The two laws of a rate of both sides change alike, so their deflections may be replaced by sum and difference (over √2). Where
 !> loads and state are symmetric, the loads touch the sums alone and A does not couple them with the differences, which are then
@@ -20,7 +20,7 @@ module ek_live_small
       integer, allocatable :: of_law(:)             !! rate of each law that is left
       integer, allocatable :: column(:)             !! of the test
       integer, allocatable :: read(:), load(:)      !! vectors of each of them
-      integer :: vectors = 0                        !! how many there are
+      integer :: vectors = 0                        !! number of vectors
       logical :: has_self = .false., has_held = .false.      !! which of both matrices the columns need
       logical :: is_whole = .false.                 !! a matrix is not symmetric: all of it stands there, not the lower triangle
       real(wp), allocatable :: numbers(:, :)        !! (number, state): values, A, A with heights held, vectors
@@ -28,8 +28,8 @@ module ek_live_small
 
 contains
 
-   !> Takes columns of a test: the used one with the lowest number, and those that need the same laws, which then are not used any
-   !> more. With all digits, all used ones and all laws.
+   !> Takes columns of a test: the used column with the lowest number, and the columns that need the same laws, which then are not
+   !> used any more. With all digits (`is_exact`): all used columns and all laws.
    subroutine make_small(test, of_law, is_exact, is_used, small)
       type(live_test_t), intent(in) :: test
       integer, intent(in) :: of_law(:)
@@ -195,7 +195,7 @@ contains
       state%load = whole%load(laws, columns)
    end subroutine take_part
 
-   !> Finds the vectors of the columns and numbers them: those of loads, then those of readings, each once.
+   !> Finds the vectors of the columns and numbers them: vectors of loads, then vectors of readings, without repetition.
    subroutine find_vectors(state, small)
       type(live_state_t), intent(in) :: state(:)
       type(small_t), intent(inout) :: small

@@ -84,7 +84,7 @@ contains
       if (html /= '') html = '<span class="held">'//escape_html(html)//'</span>'
    end function taken_apart
 
-   !> Adds all other numbers, each once; a repetition is named with the number that stays.
+   !> Adds all other numbers, each once; a repetition is named with the number that is shown.
    subroutine add_other_numbers(page, report)
       type(page_t), intent(inout) :: page
       type(report_t), intent(in) :: report
@@ -170,7 +170,7 @@ contains
       if (number%held /= '') html = ' <span class="held">'//escape_html(trim(number%held))//'</span>'
    end function held_of
 
-   !> Whether a number keeps the target that the deck gives.
+   !> The verdict on a number with a target in the deck, as HTML; '' without a target.
    function target_of(number) result(html)
       type(key_number_t), intent(in) :: number
       character(:), allocatable :: html, text

@@ -174,7 +174,7 @@ contains
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: text
       character(1), intent(in), optional :: kind
-      character(*), intent(in), optional :: link       !! id of what the text leads to on the page
+      character(*), intent(in), optional :: link       !! id of the target of the link on the page
 
       if (page%cells == 0) call page%body%add('<tr>')
       call page%body%add('<td')

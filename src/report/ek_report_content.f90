@@ -29,7 +29,7 @@ module ek_report_content
       type(explanation_t), allocatable :: explanations(:)     !! contributions to the key compliances
       type(live_t), allocatable :: live                !! rates that the page can change, if they are wanted
       type(turntable_t), allocatable :: turntable      !! the suspension in space, if something moves
-      integer :: axle = 0                              !! −1 front, 1 rear, 0 not known: what a steer angle does to the car
+      integer :: axle = 0                              !! −1 front, 1 rear, 0 unknown; for the effect of steer on the car
       type(message_list_t) :: drawn                    !! scripts and pictures of this report, relative to the folder
       integer :: incomplete = 0                        !! tests that failed or were not run to their ends
       logical :: is_static = .false.                   !! the charts of gnuplot, no script

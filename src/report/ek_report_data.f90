@@ -1,5 +1,5 @@
-!> data.json: what the page of a report shows, once: facts, key numbers, and the curves of every test. The page carries the same
-!> text as a block of data, from which its charts are drawn; schema/data.schema.json describes it.
+!> data.json: the content of the page of a report, without repetition: facts, key numbers, and the curves of every test. The page
+!> carries the same text as a block of data, from which its charts are drawn; schema/data.schema.json describes it.
 module ek_report_data
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
@@ -124,7 +124,7 @@ contains
       type(test_result_t), intent(in) :: test
       type(chart_t), intent(in) :: charts(:)
       integer, intent(in) :: number                   !! of the test
-      character(*), intent(in) :: of                  !! before the names of stops: the result that they are of
+      character(*), intent(in) :: of                  !! prefix of the names of stops: the result to which they belong
       type(message_list_t) :: written
       integer :: k, l, pass
 
@@ -235,7 +235,7 @@ contains
       end if
    end function merge_name
 
-   !> A column of the table; of an expression, the magnitude of a force, the element with the ending _force_magnitude_n.
+   !> A column of the table; of an expression, the magnitude of a force, the element with the suffix _force_magnitude_n.
    function column_of(trace) result(name)
       type(trace_t), intent(in) :: trace
       character(:), allocatable :: name
@@ -249,7 +249,8 @@ contains
       name = name//'_force_magnitude_n'
    end function column_of
 
-   !> The numbers of an abscissa (pass 1) or of a curve (pass 2); what is smaller than a millionth of the least span is rounding.
+   !> The numbers of an abscissa (pass 1) or of a curve (pass 2); values smaller than a millionth of the least span count as
+   !> rounding.
    function merge_numbers(trace, pass, span) result(literal)
       type(trace_t), intent(in) :: trace
       integer, intent(in) :: pass

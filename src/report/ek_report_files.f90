@@ -29,7 +29,7 @@ module ek_report_files
       type(test_result_t), allocatable :: tests(:)
       type(gradient_t), allocatable :: gradients(:)
       type(gradient_t), allocatable :: numbers(:)        !! key numbers: test = group, column = name, window = condition
-      type(deck_record_t) :: deck            !! what it was made from, as far as that is known
+      type(deck_record_t) :: deck            !! deck of the report, as far as it is known
    end type results_t
 
 contains

@@ -25,7 +25,7 @@ module ek_report_pictures
 
 contains
 
-   !> Draws all pictures of a report into its folder: picture.svg and .png, animation.gif if asked for, and in figures/ the charts
+   !> Draws all pictures of a report into its folder: picture.svg and .png, animation.gif if requested, and in figures/ the charts
    !> and the three views.
    subroutine draw_pictures(report, suspension, wants_plots, wants_animation, message, error)
       type(report_t), intent(inout) :: report                !! has_animation: it was requested, and something moves; has_views

@@ -29,7 +29,7 @@ contains
       end do
    end subroutine read_scales
 
-   !> Gives charts the axes of those with the same name; others keep their own.
+   !> Gives charts the axes of the charts with the same name; the axes of other charts are unchanged.
    subroutine take_scales(from, charts)
       type(chart_t), intent(in) :: from(:)
       type(chart_t), intent(inout) :: charts(:)

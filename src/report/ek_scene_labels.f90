@@ -1,4 +1,4 @@
-!> Places for the names in a picture: over no other name, inside the picture, near their points, and over as little drawing as
+!> Positions for the names in a picture: without overlap, inside the picture, near their points, and over as little drawing as
 !> possible.
 module ek_scene_labels
    use ek_kinds, only: wp, pi
@@ -26,7 +26,7 @@ module ek_scene_labels
 
 contains
 
-   !> Places the names one after the other, each as cheaply as those before it allow.
+   !> Places the names one after the other, each at the lowest cost that the names before it allow.
    subroutine place_in_scene(scene, camera, placed)
       type(scene_t), intent(in) :: scene
       type(camera_t), intent(in) :: camera                !! fitted
@@ -77,7 +77,7 @@ contains
       letters_in = count([(iand(iachar(text(k:k)), 192) /= 128, k=1, len(text))])
    end function letters_in
 
-   !> Whether a text would lie over one that is placed.
+   !> Whether a text would overlap a text that is already placed.
    pure logical function is_taken(placed, middle, half)
       type(placed_label_t), intent(in) :: placed(:)
       real(wp), intent(in) :: middle(2), half(2)
@@ -99,14 +99,14 @@ contains
       covered = sum(drawn(low(1):high(1), low(2):high(2)))/product(high - low + 1)
    end function covered
 
-   !> The cell of a position [pixels], of those of the picture.
+   !> The cell of the picture that contains a position [pixels].
    pure function cell_of(place) result(cell)
       real(wp), intent(in) :: place(2)
       integer :: cell(2)
       cell = max(1, min(cells, ceiling(max(0.0_wp, min(1.0_wp, place/pixels))*cells)))
    end function cell_of
 
-   !> Marks the boxes around faces, which are small; what is transparent weighs less.
+   !> Marks the boxes around faces, which are small; transparent faces have a lower weight.
    subroutine mark_faces(faces, projection, drawn)
       type(run_t), intent(in) :: faces
       type(projection_t), intent(in) :: projection

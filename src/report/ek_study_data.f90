@@ -1,4 +1,4 @@
-!> Data for the figures and the page of a study: the rows of its tables and what was computed from them, as plain numbers.
+!> Data for the figures and the page of a study: the rows of its tables and the results computed from them, as plain numbers.
 module ek_study_data
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
@@ -17,7 +17,7 @@ module ek_study_data
       character(:), allocatable :: name
       character(:), allocatable :: head                !! of the column of a factor
       character(:), allocatable :: label               !! name with unit
-      character(:), allocatable :: note                !! path of a factor; what a response is
+      character(:), allocatable :: note                !! path of a factor; description of a response
       real(wp) :: lower = -huge(1.0_wp), upper = huge(1.0_wp)      !! limits of a response
    end type study_axis_t
 
@@ -26,10 +26,10 @@ module ek_study_data
       integer :: used = 0                              !! designs with a value
       real(wp) :: mean = 0.0_wp, deviation = 0.0_wp, lowest = 0.0_wp, highest = 0.0_wp
       real(wp) :: percentiles(size(percents)) = 0.0_wp
-      integer :: within = 0                            !! designs that keep its limits
+      integer :: within = 0                            !! designs that satisfy its limits
       integer, allocatable :: counts(:)                !! histogram: designs in equal intervals from lowest to highest
       integer, allocatable :: steps(:)                 !! convergence: numbers of designs
-      real(wp), allocatable :: running(:), half(:)     !! mean of the first so many, half of its 95 % interval
+      real(wp), allocatable :: running(:), half(:)     !! mean of the first `steps` designs, half of its 95 % interval
    end type summary_t
 
    !> The effects of the factors on a response; allocated for the kinds of study that give them.
@@ -40,18 +40,18 @@ module ek_study_data
       real(wp), allocatable :: first(:), total(:), first_error(:), total_error(:)    !! Sobol indices, half of the 95 % interval
       real(wp), allocatable :: mean_size(:), deviation(:)      !! Morris: μ* and σ
       real(wp), allocatable :: correlation(:)                  !! rank correlation with each factor
-      integer, allocatable :: used(:)                          !! Sobol: base points, Morris: effects on which the factor's numbers rest
-      integer :: planned = 0                                   !! so many if no design had failed
+      integer, allocatable :: used(:)                          !! Sobol: base points used for the factor; Morris: effects
+      integer :: planned = 0                                   !! value of `used` without failed designs
       ! tolerance: derivatives at the centre of each factor
       real(wp), allocatable :: slope(:)                        !! per unit of the factor
       real(wp), allocatable :: effect(:)                       !! change per standard deviation of the factor
       real(wp), allocatable :: curvature(:)                    !! second derivative, per standard deviation squared
    end type effects_t
 
-   !> The scatter of a response as one method has it; in the unit of the response.
+   !> The scatter of a response by one method, in the unit of the response.
    type :: moment_row_t
       real(wp) :: mean, deviation, skewness, low, high         !! low, high: percentiles 5 and 95
-      real(wp) :: mean_half, deviation_half                    !! half of the 95 % interval; 0 of what has no error of a sample
+      real(wp) :: mean_half, deviation_half                    !! half of the 95 % interval; 0 for a number without sampling error
       real(wp) :: within, within_half                          !! share of designs within the limits
    end type moment_row_t
 
@@ -105,7 +105,7 @@ contains
       text = ' ('//text//' of '//str(effects%planned)//' '//what//')'
    end function basis_text
 
-   !> Whether the designs yield Sobol indices: those of a saltelli study, or of a list in such an order.
+   !> Whether the designs yield Sobol indices: the designs of a saltelli study, or of a list in the order of one.
    pure logical function has_indices(study)
       type(study_data_t), intent(in) :: study
 

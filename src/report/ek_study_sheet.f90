@@ -98,7 +98,7 @@ contains
    end subroutine end_data
 
    !> Adds the data of the names of points in a panel: the point, the way to its name, and whether the name ends there. Names
-   !> lie over no other name and over no named point.
+   !> do not overlap other names or named points.
    subroutine add_point_names(sheet, panel, names, x, y, x_range, y_range)
       type(sheet_t), intent(inout) :: sheet
       integer, intent(in) :: panel

@@ -15,8 +15,8 @@ module ek_summary
       'anti_squat_percent', 'anti_lift_drive_percent', 'ride_frequency_hz', 'steering_ratio', 'caster_trail_mm', &
       'scrub_radius_mm', 'wheel_roll_camber', 'lateral_force_camber', 'braking_deflection', 'toe_deg', 'camber_deg']
 
-   !> A number, and the one that says the same: a slope fitted around design and its value at design, a load and its inverse, the
-   !> same angle as toe and as steer.
+   !> A number, and the equivalent number: a slope fitted around design and its value at design, a load and its inverse, the
+   !> same angle as toe and as steer angle.
    type :: pair_t
       character(44) :: repeated = '', kept = ''
    end type pair_t
@@ -34,7 +34,7 @@ module ek_summary
 
 contains
 
-   !> The places of the numbers that head the report, at most 16.
+   !> The indices of the numbers at the top of the report, at most 16.
    pure function summary_numbers(numbers) result(places)
       type(key_number_t), intent(in) :: numbers(:)
       integer, allocatable :: places(:)

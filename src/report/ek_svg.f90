@@ -1,7 +1,7 @@
 !> Adapts a picture drawn by gnuplot as SVG for embedding in a page.
 !>
 !> Many pictures share one page, so the ids of each get a unique prefix; prolog, document type, scripts, mouse events and
-!> fixed sizes are removed; the view box is kept, so that the page determines the width.
+!> fixed sizes are removed; the view box is unchanged, so that the page determines the width.
 module ek_svg
    use ek_letters, only: as_utf8
    use ek_buffer, only: buffer_t
@@ -179,10 +179,10 @@ contains
       end if
    end subroutine add_tag
 
-   !> Whether an attribute name="value" can be kept, by single letters: most can, and the others are looked at closely.
+   !> Whether an attribute name="value" can be copied, judged by single letters: most can, and the others are examined in full.
    pure logical function is_plain(attribute, value)
       character(*), intent(in) :: attribute
-      integer, intent(in) :: value           !! place of the first quote
+      integer, intent(in) :: value           !! position of the first quote
       integer :: last
 
       last = max(1, len(attribute) - 1)

@@ -207,7 +207,7 @@ contains
       end do
    end function quantity_chart
 
-   !> All columns with an ending, labelled by the name before it, except those of the wheels and the axle.
+   !> All columns with a suffix, labelled by the name before it, except the columns of the wheels and the axle.
    pure type(chart_t) function ending_chart(test, name, ending, title, label, noise) result(chart)
       type(test_result_t), intent(in) :: test
       character(*), intent(in) :: name, ending, title, label

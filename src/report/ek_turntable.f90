@@ -26,7 +26,7 @@ module ek_turntable
 
    !> A line through points, each fixed to a body.
    type :: fixed_line_t
-      character(8) :: kind = ''                  !! what it is part of: arm, carrier, rod, damper, spring, wheel
+      character(8) :: kind = ''                  !! part to which it belongs: arm, carrier, rod, damper, spring, wheel
       integer, allocatable :: body(:)            !! of each point; 0: the chassis
       real(wp), allocatable :: arm(:, :)         !! from the reference point of its body, body axes (3, points) [m]
    end type fixed_line_t

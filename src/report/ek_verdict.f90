@@ -18,7 +18,7 @@ module ek_verdict
    type :: verdict_t
       character(24) :: domain = ''
       character(:), allocatable :: text
-      character(7) :: verdict = ''          !! 'inside': all numbers with a band; 'outside': one of them; '': none has a band
+      character(7) :: verdict = ''          !! 'inside': all numbers with a band; 'outside': at least one; '': no band
    end type verdict_t
 
    !> The numbers of a domain in order; the first `most` that the report has are shown.
@@ -131,7 +131,8 @@ contains
       end do
    end subroutine judge
 
-   !> Makes the text of a number: 'bump camber −13.83 deg/m (inside the target −30 … −20)', 'lateral force steer 0.108 deg/kN: understeer'.
+   !> Makes the text of a number: 'bump camber −13.83 deg/m (inside the target −30 … −20)', 'lateral force steer 0.108 deg/kN:
+   !> understeer'.
    subroutine speak(number, axle, words, verdict)
       type(key_number_t), intent(in) :: number
       integer, intent(in) :: axle

@@ -50,7 +50,7 @@ contains
       place = name_index(table%columns, name)
    end function column_index
 
-   !> The last place of a name in a list of column names, 0 if it is not there or blank.
+   !> The last index of a name in a list of column names; 0 if the name is blank or the list does not contain it.
    pure integer function name_index(names, name) result(place)
       character(name_length), intent(in) :: names(:)
       character(*), intent(in) :: name
@@ -139,7 +139,7 @@ contains
       text = line(:filled)
    end function csv_row
 
-   !> The nearest integer, for values small enough to have a fraction; nan stays nan.
+   !> The nearest integer, for values small enough to have a fraction; nan gives nan.
    elemental real(wp) function whole(value)
       real(wp), intent(in) :: value
 
@@ -306,7 +306,7 @@ contains
       character(*), intent(in) :: content
       character(*), intent(in) :: where                  !! 'file:line: ' for messages
       integer, intent(in) :: row
-      logical, intent(in) :: skips                       !! texts are nan
+      logical, intent(in) :: skips                       !! fields that are not numbers become nan
       type(table_t), intent(inout) :: table
       type(error_t), allocatable, intent(out) :: error
       integer, allocatable :: at(:)

@@ -36,7 +36,7 @@ module ek_test_result
       character(:), allocatable :: abscissa, label
       real(wp) :: abscissa_size = 1.0_wp
       real(wp) :: factor_size = 1.0_wp       !! load or displacement at `factor` = 1 [N, N m or mm]
-      character(48) :: held = ''             !! what holds the wheels: 'vertical force held'; '': unknown
+      character(48) :: held = ''             !! condition of the wheels: 'vertical force held'; '': unknown
       logical :: is_anti = .false.           !! the load on the right wheel is opposite to that on the left
       logical :: is_iso = .false.            !! vectors in the table are in ISO 8855 axes (x forward, y left)
       character(name_length), allocatable :: prefixes(:)   !! of the wheels: '', or 'left_' and 'right_'
@@ -98,7 +98,7 @@ contains
       test%sides = test%sides([2, 1])
    end subroutine find_wheels
 
-   !> Sets the abscissa of the charts for a kind of test, if the table has its column. An abscissa already set is kept.
+   !> Sets the abscissa of the charts for a kind of test, if the table has its column. An abscissa already set is unchanged.
    subroutine choose_abscissa(test)
       type(test_result_t), intent(inout) :: test
       type(rig_test_t) :: kind

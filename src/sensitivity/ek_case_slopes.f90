@@ -15,7 +15,7 @@ module ek_case_slopes
 
    type :: case_slopes_t
       integer :: case = 0                                    !! in the workspace
-      type(solve_options_t) :: options                       !! its columns, and how far from design
+      type(solve_options_t) :: options                       !! required columns, and distance from design
       type(derivatives_t), allocatable :: derivatives        !! of the columns at the states
       type(table_t) :: table                                 !! of the last design: quantities and entries of the compliance matrix
       type(table_t) :: moved                                 !! the same along a direction

@@ -17,7 +17,7 @@ module ek_column_gradient
    public :: find_gradients, parts_of_gradient
 
    integer, parameter :: parts_of_gradient = 3             !! itself, and the two parts of its error
-   real(wp), parameter :: step_of_place = 1.0e-4_wp        !! m: of Δr; of other unknowns what does the same work
+   real(wp), parameter :: step_of_place = 1.0e-4_wp        !! m: of Δr; for other unknowns, the step of equal work
 
    ! a motion in no special direction
    real(wp), parameter :: any_motion(6) = [0.83_wp, -0.71_wp, 0.92_wp, -0.64_wp, 0.77_wp, 0.58_wp]

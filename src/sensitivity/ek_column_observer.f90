@@ -50,7 +50,7 @@ contains
       allocate (self%matrix(size(names)), source=0.0_wp)
    end subroutine new_column_observer
 
-   !> Computes values at an equilibrium; or, with what was kept at one, at a state close to it.
+   !> Computes values at an equilibrium; or, with the data stored at an equilibrium, at a state close to it.
    subroutine observe_columns(suspension, state, inputs, kkt, self, values, kept)
       type(suspension_t), intent(in) :: suspension         !! on the rig
       type(state_t), intent(in) :: state

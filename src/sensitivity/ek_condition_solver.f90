@@ -1,8 +1,8 @@
 !> Numbers of a deck for which numbers of the results have given values: Newton's method within bounds.
 !>
-!> The conditions are scaled by what the unknowns can change within their bounds, the unknowns by the width of these. With fewer
-!> conditions than unknowns the change of the unknowns, in widths, is as small as possible; conditions that cannot all be met
-!> are met in the sense of least squares, and the findings give the reason.
+!> The conditions are scaled by the change that the unknowns can cause within their bounds, the unknowns by the width of the
+!> bounds. With fewer conditions than unknowns the change of the unknowns, in widths, is as small as possible; conditions that
+!> cannot all be met are met in the sense of least squares, and the findings give the reason.
 module ek_condition_solver
    use ek_kinds, only: wp
    use ek_error, only: error_t, fail, exit_convergence
@@ -30,11 +30,11 @@ module ek_condition_solver
       logical, allocatable :: is_reached(:)          !! of the conditions
       real(wp), allocatable :: effect(:, :)          !! (condition, unknown): change over the width of the bounds, by the tangent
       integer :: rank = 0                            !! of the effects
-      real(wp), allocatable :: conflict(:, :)        !! (condition, k): what the unknowns cannot change, unit vectors
+      real(wp), allocatable :: conflict(:, :)        !! (condition, k): directions that the unknowns cannot change, unit vectors
       integer :: sweeps = 0                          !! designs that were solved
    end type findings_t
 
-   real(wp), parameter :: close = 1.0e-7_wp         !! of what the unknowns can change: a condition is met
+   real(wp), parameter :: close = 1.0e-7_wp         !! share of the possible change: a smaller deviation counts as met
    real(wp), parameter :: closest = 1.0e-9_wp       !! the same: no further sweep is worth it
    real(wp), parameter :: no_effect = 1.0e-9_wp     !! of the largest effect: errors of the derivatives
 

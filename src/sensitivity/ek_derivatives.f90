@@ -1,7 +1,7 @@
 !> Derivatives of the columns of a case with respect to numbers of the deck, at states of its path. No solution is repeated.
 !>
 !>     call begin_derivatives(workspace, k, columns, directions, self)        once per deck, case, columns and numbers; makes texts
-!>     call find_derivatives(workspace, states, self)                         at each design: of the case as the workspace has solved it
+!>     call find_derivatives(workspace, states, self)                         at each design, after the workspace has solved the case
 !>
 !> Two steps at every state:
 !>
@@ -13,11 +13,11 @@
 !>    z ⊕ h dz/dp is the path of equilibria to first order, which is all that a derivative needs. So every column of the table is
 !>    differentiated by the formula with which it is observed, and a new column needs nothing here.
 !>
-!> With the same at 2h, Richardson's extrapolation removes the error of order h², and the difference of both quotients is the
-!> reported error: an upper limit where the column is smooth, and large where it has a corner within 2h (a stop at contact, a
-!> curve's point, an absolute value). A neighbouring design is that of x ± h in all respects: realised, balanced, mounted; its
-!> swept values are those of the same state of the path. What is not defined is not a number: at a state that was not reached or has
-!> a singular tangent, for a number that cannot move, for a column without a value there.
+!> With the same difference at 2h, Richardson's extrapolation removes the error of order h², and the difference of both quotients
+!> is the reported error: an upper limit where the column is smooth, and large where it has a corner within 2h (a stop at contact, a
+!> curve's point, an absolute value). A neighbouring design is the complete design of x ± h: realised, balanced, mounted. Its
+!> swept values are the swept values of the same state of the path. An undefined derivative is not a number: at a state that was
+!> not reached or has a singular tangent, for a number that cannot move, for a column without a value at the state.
 module ek_derivatives
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
@@ -43,7 +43,7 @@ module ek_derivatives
    public :: derivatives_t, begin_derivatives, find_derivatives, refuse_case
 
    real(wp), parameter :: rounding = 1.0e-6_wp                !! N, of forces on the bodies: smaller corners are ignored
-   integer, parameter :: max_numbers = 4000000                !! of motions and observations that are kept at a time: 32 MB
+   integer, parameter :: max_numbers = 4000000                !! of motions and observations that are stored at a time: 32 MB
 
    !> The derivatives of a case at some states.
    type :: derivatives_t

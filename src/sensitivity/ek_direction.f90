@@ -81,7 +81,8 @@ contains
       end do
    end function is_listed
 
-   !> Gathers one direction for each number found; the number of the right side joins that of the left if both were found.
+   !> Gathers one direction for each number found; the number of the right side joins the direction of the left number if both
+   !> were found.
    subroutine gather(design, found, directions, is_free_choice)
       type(design_t), intent(in) :: design
       type(choice_t), intent(in) :: found(:)
@@ -109,8 +110,8 @@ contains
       end associate
    end subroutine gather
 
-   !> The direction of a factor of a study: all its numbers move together. A sign is all that a direction needs to know of the size of
-   !> a number that is scaled. Its value is not set.
+   !> The direction of a factor of a study: all its numbers move together. A sign is all that a direction needs to know of the
+   !> size of a number that is scaled. Its value is not set.
    function factor_direction(design, name, paths) result(direction)
       type(design_t), intent(in) :: design
       character(*), intent(in) :: name

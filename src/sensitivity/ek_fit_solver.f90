@@ -27,7 +27,7 @@ module ek_fit_solver
 
 contains
 
-   !> Solves a fit; the workspace keeps the design found. Makes texts.
+   !> Solves a fit; the workspace then contains the design found. Makes texts.
    subroutine solve_fit(problem, iterations, workspace, found, error)
       type(fit_problem_t), intent(in) :: problem
       integer, intent(in) :: iterations                    !! at most
@@ -108,7 +108,7 @@ contains
       end do
    end subroutine find_residuals
 
-   !> By how many deviations a value misses its target; 0 between limits.
+   !> The distance of a value from its target, in deviations; 0 between limits.
    !> Equation (E.5) of docs/theory/derivatives.md.
    pure real(wp) function difference_of(point, value) result(difference)
       type(fit_point_t), intent(in) :: point

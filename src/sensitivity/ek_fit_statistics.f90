@@ -19,7 +19,7 @@ module ek_fit_statistics
       real(wp) :: quantile = 0.0_wp                  !! half of a 95 % interval over its standard deviation
       real(wp), allocatable :: half(:)               !! half of the 95 % interval of a factor, with its prior; infinite: unknown
       real(wp), allocatable :: half_alone(:)         !! the same by the targets alone
-      real(wp), allocatable :: width(:)              !! half width of what was possible before: bounds, prior, or the value itself
+      real(wp), allocatable :: width(:)              !! half width before the fit: from bounds, prior, or the value itself
       logical, allocatable :: is_learned(:)          !! the targets narrow it down within that width
       real(wp), allocatable :: correlation(:, :)     !! of the factors; 0 with those that are held or unknown
       real(wp), allocatable :: singular(:)           !! of the Jacobian, differences in deviations, factors in widths; largest first

@@ -21,7 +21,7 @@ module ek_neighbour
    !> A design close to another one.
    type :: neighbour_t
       integer :: case = 0                                  !! number of the case in the workspace
-      class(workspace_t), allocatable :: workspace         !! the same deck, at the numbers of the neighbour; a class as in case_work_t
+      class(workspace_t), allocatable :: workspace         !! the deck at the numbers of the neighbour; a class as in case_work_t
       real(wp), allocatable :: x(:)
       type(schedule_t), private :: here, schedule          !! of the design, of the neighbour
       type(path_t), private :: path
@@ -74,8 +74,8 @@ contains
       end do
    end subroutine keep_choices
 
-   !> Whether the axes of the bushings are close to those of the design: where a deck gives one axis, the same free choice gives the
-   !> other, and where it changes a rate or a column has no derivative.
+   !> Whether the bushing axes of two neighbouring designs are close: where a deck gives one axis, the same free choice gives the
+   !> other; where the choice changes, a rate or a column has no derivative.
    pure logical function has_same_axes(a, b)
       type(suspension_t), intent(in) :: a, b
       real(wp), parameter :: close = 0.1_wp

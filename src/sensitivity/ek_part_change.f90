@@ -1,7 +1,8 @@
-!> The changes of the numbers of the parts of a model with a number of the deck: once for a design, from its neighbours.
+!> The changes of the numbers of the parts of a model with a number of the deck, computed once for each design from neighbouring
+!> designs.
 !>
-!> A number of the deck touches a few joints, elements and loads; the derivatives of their numbers are differences of neighbouring
-!> designs. What F makes of them at a state: ek_part_force.
+!> A number of the deck affects a few joints, elements and loads; the derivatives of their numbers are differences of neighbouring
+!> designs. Their effect on F at a state: ek_part_force.
 module ek_part_change
    use ek_kinds, only: wp
    use ek_suspension, only: suspension_t, wheel_t

@@ -1,8 +1,8 @@
 !> ∂F/∂p at a state: the changes of the parts that a number of the deck touches, times their responses there.
 !>
-!> So ∂F/∂p costs in proportion to what the number touches, and nothing is lost in differences of large forces. Only a law that
-!> is not linear in its numbers (a curve, a rounded contact) is looked up in each of the neighbouring designs, at the deflection
-!> of the state.
+!> So ∂F/∂p costs in proportion to the number of affected parts, and no digits are lost in differences of large forces. Only a law
+!> that is not linear in its numbers (a curve, a rounded contact) is looked up in each of the neighbouring designs, at the
+!> deflection of the state.
 module ek_part_force
    use ek_kinds, only: wp
    use ek_block, only: rotated, add_gradient

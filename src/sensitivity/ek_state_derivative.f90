@@ -2,7 +2,8 @@
 !>
 !> F = [f_ext − f_el − Φqᵀλ; c − Φ + Cλ] is the right-hand side of ek_kkt, zero at an equilibrium, K = −∂F/∂z its whole tangent
 !> along screw motions, and z the poses of the bodies and λ. ∂F/∂p: ek_touched_parts.
-!> As K and F belong to given inputs, dz/dp is that of the settled state where the deck settles, and needs no other state.
+!> As K and F belong to given inputs, dz/dp includes static equilibrium if the deck has it, and needs no
+!> other state.
 module ek_state_derivative
    use ek_kinds, only: wp
    use ek_suspension, only: suspension_t

@@ -5,8 +5,8 @@ module ek_stencil
    private
    public :: stencil_t, stencils, close_pair, close_four, weight_of, corner_weight, differentiate, find_quotients
 
-   !> Points of a difference quotient, and the weights of the values there, both in steps. D₁ and D₂ have the steps h and 2h;
-   !> (4 D₁ − D₂)/3 is of higher order than both.
+   !> Points of a difference quotient, and the weights of the values at these points, both in steps. D₁ and D₂ have the steps h
+   !> and 2h; (4 D₁ − D₂)/3 is of higher order than both.
    type :: stencil_t
       real(wp) :: at(4), first(4), second(4)
       integer :: points = 4

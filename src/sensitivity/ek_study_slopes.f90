@@ -31,7 +31,7 @@ module ek_study_slopes
       real(wp), allocatable :: slopes(:, :)                  !! (value, factor): per unit of the factor
       integer :: responses = 0                               !! that come first
       real(wp), allocatable :: sweep(:)                      !! swept value of the states of a curve
-      integer, allocatable, private :: columns(:)            !! places of the curves among the derived columns
+      integer, allocatable, private :: columns(:)            !! indices of the curves among the derived columns
       type(reading_t), allocatable, private :: readings(:)
       integer, allocatable, private :: case_of(:)            !! of each response
       type(case_slopes_t), allocatable, private :: cases(:)
@@ -48,7 +48,7 @@ contains
       type(deck_t), intent(in) :: deck
       type(designer_t), intent(in) :: designer               !! of the study (new_designer)
       type(study_slopes_t), intent(out) :: self
-      type(error_t), allocatable, intent(out) :: error       !! exit_deck: what has no derivative; exit_model
+      type(error_t), allocatable, intent(out) :: error       !! exit_deck: numbers without a derivative; exit_model
       type(message_list_t) :: mistakes
       logical :: is_done
       integer :: c, f, k

@@ -1,8 +1,8 @@
 !> Tolerances: mean, deviation, skewness and shares of the responses of a study by exact derivatives.
 !>
-!> The responses are expanded about the centre of the factors, in the standard form of each (ek_standard_factor): the slopes are exact
-!> derivatives, the curvatures central differences of exact derivatives at two designs next to the centre for each factor. With k
-!> factors these are 2 k + 1 designs with their derivatives.
+!> The responses are expanded about the centre of the factors, in the standard form of each (ek_standard_factor): the slopes are
+!> exact derivatives, the curvatures central differences of exact derivatives at two designs next to the centre for each factor.
+!> With k factors these are 2 k + 1 designs with their derivatives.
 module ek_tolerance
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
@@ -26,7 +26,7 @@ module ek_tolerance
    type :: tolerance_t
       type(standard_factor_t), allocatable :: factors(:)
       type(expansion_t), allocatable :: expansions(:)        !! of the responses, then of the curves
-      type(moments_t), allocatable :: moments(:)             !! the same
+      type(moments_t), allocatable :: moments(:)             !! of the responses, then of the curves
       real(wp), allocatable :: sweep(:)                      !! swept value of the states of a curve
       integer :: responses = 0
    end type tolerance_t
@@ -41,7 +41,7 @@ contains
       type(deck_t), intent(in) :: deck
       type(designer_t), intent(in) :: designer               !! of the study (new_designer)
       type(tolerance_t), intent(out) :: tolerance
-      type(error_t), allocatable, intent(out) :: error       !! exit_deck, exit_model: what has no derivative, and why
+      type(error_t), allocatable, intent(out) :: error       !! exit_deck, exit_model: numbers without a derivative, and the reason
       type(study_slopes_t) :: slopes
       type(factor_t) :: factor
       real(wp), allocatable :: here(:), low(:, :), high(:, :)

@@ -1,5 +1,5 @@
 !> A number of the results that is wanted: a column of a case at a swept value, an entry of its compliance matrix, or a key number
-!> of the report. What it is, which cases it needs, and how its value is read from their tables.
+!> of the report. Its definition, the cases it needs, and the way its value is read from their tables.
 module ek_wanted_number
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
@@ -142,10 +142,10 @@ contains
    !> range of x.
    function value_at(table, x, y, at) result(value)
       type(table_t), intent(in) :: table
-      integer, intent(in) :: x, y                          !! places of the columns
+      integer, intent(in) :: x, y                          !! indices of the columns
       real(wp), intent(in) :: at
       real(wp) :: value
-      real(wp), parameter :: rounding = 1.0e-7_wp          !! of the range of x: what a driven height may miss
+      real(wp), parameter :: rounding = 1.0e-7_wp          !! share of the range of x: deviation allowed for a driven height
       integer, allocatable :: rows(:)
       logical :: is_good(size(table%values, 2))
       real(wp) :: nearest, place, slack

@@ -1,15 +1,15 @@
-!> The values of wanted numbers of a design, and their derivatives with respect to factors: what `solve` and `fit` work with.
+!> The values of wanted numbers of a design, and their derivatives with respect to factors, for `solve` and `fit`.
 !>
 !>     call begin_values(wanted, directions, workspace, self, error)          once; solves the cases that are needed
 !>     call find_values(distances, workspace, self, is_valid)                 at each design: self%values, self%jacobian
 !>
-!> A factor is a direction of ek_direction: the design moves by a distance along each of them from the numbers that the workspace has
-!> when begin_values is called.
+!> A factor is a direction of ek_direction: the design moves by a distance along each of them from the numbers that the workspace
+!> has when begin_values is called.
 !>
 !> All numbers are differentiated in one way. ek_derivatives gives the derivative of every column at every state; the tables of the
-!> cases are moved along them, by steps that need no solution, and the number is read from the moved tables as from any other: its
-!> difference quotient is the derivative. So a fitted slope, a value between two states, a maximum and whatever number is read
-!> from tables tomorrow need no formula here.
+!> cases are moved along them, by steps that need no solution, and the number is read from the moved tables in the usual way. Its
+!> difference quotient is the derivative. So a fitted slope, a value between two states, a maximum and any future number that is
+!> read from tables need no formula in this module.
 module ek_wanted_values
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp

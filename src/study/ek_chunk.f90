@@ -1,9 +1,9 @@
 !> A chunk of a study: designs that are computed, written and resumed together, and its file.
 !>
-!> The file begins with lines of text (what it is, the study to which it belongs, the BLAS kernel, its sizes), then the numbers as bytes, then the
-!> reasons of failed designs, and ends with a checksum of everything before. It is written under a temporary name and renamed when
-!> it is whole, so that a file under its own name is a finished chunk; one that is damaged afterwards is recognised and computed
-!> again.
+!> The file begins with lines of text (file type, the study to which it belongs, the BLAS kernel, its sizes), then the numbers as
+!> bytes, then the reasons of failed designs, and ends with a checksum of everything before. It is written under a temporary name
+!> and renamed when it is complete, so that a file under its final name is a finished chunk; a chunk damaged afterwards is
+!> recognised and computed again.
 module ek_chunk
    use ek_kinds, only: wp, i8
    use ek_error, only: error_t
@@ -42,7 +42,7 @@ module ek_chunk
       real(wp), allocatable :: curves(:, :)       !! (swept value and columns, state of all designs)
       integer :: rows = 0                         !! used rows of `curves`
       type(reason_t), allocatable :: reasons(:)
-      type(error_t), allocatable :: error         !! lack of memory or of a file, which no design has caused: the chunk is not kept
+      type(error_t), allocatable :: error         !! lack of memory or of a file, not caused by a design: the chunk is not stored
    end type chunk_t
 
 contains

@@ -1,8 +1,9 @@
 !> Correlation between factors by a Gaussian copula: any distributions, tied through standard normal numbers (scores).
 !>
 !> z' = L z, where z are independent scores and L Lᵀ = R is the matrix of the correlations, has correlations R; factor j is then
-!> x_j = F_j⁻¹(Φ(z'_j)). A correlation r is therefore that of the scores. Of normal factors it is the linear correlation, of others
-!> the rank correlation is ρ = (6/π) asin(r/2), whatever their distributions are (Kruskal, J. Am. Stat. Assoc. 53 (1958) 827).
+!> x_j = F_j⁻¹(Φ(z'_j)). A correlation r is therefore a correlation of the scores. For normal factors r is the linear correlation;
+!> for other factors the rank correlation is ρ = (6/π) asin(r/2), for any distributions (Kruskal, J. Am. Stat. Assoc. 53 (1958)
+!> 827).
 !>
 !> Source: R. B. Nelsen, An introduction to copulas, 2006, section 2.3.
 module ek_copula

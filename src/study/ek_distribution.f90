@@ -1,7 +1,7 @@
 !> Distributions of a factor: uniform, normal, log-normal and triangular, each with optional bounds.
 !>
-!> A distribution is read through its quantile function x = F⁻¹(u), 0 < u < 1. Bounds truncate: what lies outside is omitted, and
-!> the rest is scaled up to a probability of one (they do not collect what lies outside).
+!> A distribution is read through its quantile function x = F⁻¹(u), 0 < u < 1. Bounds truncate: values outside are omitted, and
+!> the rest is scaled up to a probability of one (values outside are not moved to the bounds).
 !>
 !> `nominal ± tolerance` (`from_tolerance`): the tolerance is the half-width of a uniform or triangular distribution, and three
 !> standard deviations of a normal or log-normal distribution. 99.73 % of a normal distribution lie within the tolerance. nominal

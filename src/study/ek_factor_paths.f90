@@ -1,4 +1,4 @@
-!> The paths of the factors of a study: the numbers of the deck to which they lead, what is wrong with them, and the settings
+!> The paths of the factors of a study: the numbers of the deck to which they lead, errors in the paths, and the settings
 !> (as for --set) that make a design.
 module ek_factor_paths
    use ek_kinds, only: wp

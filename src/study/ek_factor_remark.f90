@@ -1,5 +1,5 @@
-!> Remarks on the factors of a study that move hardpoints: a pattern that also moves the points of a wheel, and a point that is moved
-!> away from another one at the same location.
+!> Remarks on the factors of a study that move hardpoints: a pattern that also moves the points of a wheel, and a point that is
+!> moved away from another one at the same location.
 module ek_factor_remark
    use ek_kinds, only: wp
    use ek_error, only: message_list_t
@@ -98,7 +98,8 @@ contains
       end do
    end function is_of_wheel
 
-   !> Lists, as "'strut_top', but not 'spring_upper_seat'", moved points, each with one that stays at its location; ''.
+   !> Lists moved points, each with a point at the same location that is not moved: "'strut_top', but not 'spring_upper_seat'"; or
+   !> ''.
    subroutine parted_points(design, is_moved, list)
       type(design_t), intent(in) :: design
       logical, intent(in) :: is_moved(:)

@@ -2,7 +2,7 @@
 !>
 !>     y = y₀ + Σ a_i u_i + ½ Σ b_ij u_i u_j
 !>
-!> The formulas are exact for such a response, whatever the distributions of the factors.
+!> The formulas are exact for such a response, for any distributions of the factors.
 module ek_moments
    use ek_kinds, only: wp
    use ek_contract, only: are_checked, require

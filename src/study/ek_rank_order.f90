@@ -1,9 +1,9 @@
-!> Correlated factors of a latin hypercube: which of the n equal intervals each design has, so that every interval of every factor is
-!> filled once and the ranks of the factors have the correlations that are requested.
+!> Correlated factors of a latin hypercube: which of the n equal intervals each design has, so that every interval of every factor
+!> is filled once and the ranks of the factors have the correlations that are requested.
 !>
 !> The method of Iman and Conover (Commun. Stat. Simul. Comput. 11 (1982) 311–334): the intervals of the factors, each in a random
 !> order of its own, become normal scores; their accidental correlations are removed, z ← Q⁻¹ z with Q Qᵀ the matrix of the sample;
-!> those asked for are added, z' = L z (ek_copula); the rank of a design among the z' of a factor is its interval.
+!> the requested correlations are added, z' = L z (ek_copula); the rank of a design among the z' of a factor is its interval.
 !>
 !> The numbers of all designs are needed for it: they are computed once, and every design reads its own.
 module ek_rank_order
@@ -19,11 +19,12 @@ module ek_rank_order
    private
    public :: order_ranks, most_ranked
 
-   integer(i8), parameter :: most_ranked = 10000000_i8     !! designs: 4 bytes of each correlated factor stay in memory
+   integer(i8), parameter :: most_ranked = 10000000_i8     !! designs: 4 bytes of each correlated factor are held in memory
 
 contains
 
-   !> Orders the intervals, 0 … n − 1, of the factors that have a correlation; those of the other factors are their permutations.
+   !> Orders the intervals, 0 … n − 1, of the factors that have a correlation; the intervals of the other factors are their
+   !> permutations.
    pure subroutine order_ranks(permutations, copula, tied, designs, intervals, error)
       type(permutation_t), intent(in) :: permutations(:)   !! of the intervals of each factor
       type(copula_t), intent(in) :: copula                 !! of all factors
@@ -59,7 +60,7 @@ contains
    !> Gives the scores of a sample, which have the mean 0, the correlations of the copula exactly.
    pure subroutine tie(copula, tied, factors, scores)
       type(copula_t), intent(in) :: copula
-      integer, intent(in) :: tied(:), factors              !! numbers of the factors; how many there are in all
+      integer, intent(in) :: tied(:), factors              !! indices of the factors; number of all factors
       real(wp), intent(inout) :: scores(:, :)              !! (design, position in `tied`)
       real(wp) :: root(size(tied), size(tied)), row(size(tied)), z(factors)
       integer :: info, d, i, m

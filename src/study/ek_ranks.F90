@@ -85,7 +85,7 @@ contains
    end function why_no_mpi
 #endif
 
-   !> Finds whether mpirun or srun started this process with MPI, and as one of how many (1 if that is not known). srun without
+   !> Finds whether mpirun or srun started this process with MPI, and the number of processes (1 if it is unknown). srun without
    !> --mpi gives the number of tasks only.
    subroutine look_for_launcher(is_launched, launched)
       logical, intent(out) :: is_launched

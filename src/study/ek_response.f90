@@ -2,7 +2,7 @@
 !> table. Its value is read by ek_response_value.
 !>
 !> A slope has the units of the report: deg/m over wheel travel, per kN over a force, per 100 N m over a moment,
-!> otherwise those of its two columns. The column name ends with the unit.
+!> otherwise the units of its two columns. The column name ends with the unit.
 module ek_response
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
@@ -170,7 +170,7 @@ contains
       end if
    end subroutine find_gradient
 
-   !> The tests that have a gradient: "; test 'lateral_force' has it, name its case in `case`"; '' if none has it.
+   !> The tests that have a gradient: "; this gradient belongs to 'lateral_force': give …"; '' if no test has the gradient.
    function of_other_test(quantity) result(words)
       character(*), intent(in) :: quantity
       character(:), allocatable :: words

@@ -16,9 +16,9 @@ module ek_response_value
       character(:), allocatable :: over      !! slope: the column over which it is taken
       character(:), allocatable :: head      !! name of its column, with its unit
       real(wp) :: size = 1.0_wp              !! factor from the slope in units of the columns
-      real(wp) :: noise = 0.0_wp             !! gradient: change of the column over the window that counts as none
-      integer :: of = 0                      !! what is read, one of those below
-      integer :: at_column = 0, at_over = 0  !! places of the columns in the table of the first design
+      real(wp) :: noise = 0.0_wp             !! gradient: change of the column over the window that counts as zero
+      integer :: of = 0                      !! reading to make, one of the constants below
+      integer :: at_column = 0, at_over = 0  !! indices of the columns in the table of the first design
       real(wp), allocatable :: curve(:, :)   !! rms: (factor, wanted value; point)
    end type reading_t
 
@@ -44,9 +44,8 @@ contains
    end subroutine read_response
 
    !> Reads a response of one table: the value at a factor (linear between states), the least-squares slope in a window around
-   !> it, the
-   !> span or an extreme over all states, or the root of the mean square of the deviations from a curve at its points. Where the column
-   !> is undefined at a state that is read, there is no value: minval and maxval would pass over such a state.
+   !> it, the span or an extreme over all states, or the root of the mean square of the deviations from a curve at its points. Where the
+   !> column is undefined at a state that is read, there is no value: minval and maxval would pass over such a state.
    subroutine read_value(reading, table, value, fault)
       type(reading_t), intent(in) :: reading
       type(table_t), intent(in) :: table
@@ -127,7 +126,7 @@ contains
    pure subroutine mark_states(reading, table, is_read)
       type(reading_t), intent(in) :: reading
       type(table_t), intent(in) :: table         !! swept values, and the column over which a slope is taken
-      logical, intent(inout) :: is_read(:)       !! of each state; others keep their mark
+      logical, intent(inout) :: is_read(:)       !! of each state; marks of other states are unchanged
       logical :: is_near(size(is_read))
       real(wp) :: x(size(is_read)), centre
       integer :: over, k
@@ -253,7 +252,7 @@ contains
       if (abs(at - high) <= rounding*(high - low)) rounded = high
    end function nearest_end
 
-   !> The place of a column: usually that in the table of the first design.
+   !> The index of a column; `usual`, its index in the table of the first design, is tried first.
    pure integer function place_of_column(table, name, usual) result(place)
       type(table_t), intent(in) :: table
       character(*), intent(in) :: name

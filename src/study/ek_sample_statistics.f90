@@ -34,7 +34,7 @@ contains
       error = deviation*sqrt(max(0.0_wp, sum((values - mean)**4)/n/deviation**4 - 1.0_wp)/(4.0_wp*n))
    end function error_of_deviation
 
-   !> Finds the order in which values ascend: values(order(1)) is the smallest. Equal values keep their order (merge sort).
+   !> Finds the order in which values ascend: values(order(1)) is the smallest. Equal values remain in their order (merge sort).
    pure subroutine ascending_order(values, order)
       real(wp), intent(in) :: values(:)
       integer, intent(out) :: order(:)             !! as many as values

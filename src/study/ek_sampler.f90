@@ -1,6 +1,6 @@
 !> Samplers: the designs of a study by number, x(design), a pure function of sampler and design number.
 !>
-!> Designs may be asked for in any order and by any number of workers. u below is a number in (0, 1) that becomes a value by the
+!> Designs may be computed in any order and by any number of workers. u below is a number in (0, 1) that becomes a value by the
 !> quantile function of the factor (ek_distribution), t a fraction of its range (`ends_of`, or its list of values).
 !>
 !> | kind | designs | x |
@@ -15,8 +15,8 @@
 !> | morris | n (k + 1) | n trajectories, on which each factor changes once by p/2 of its p levels (Morris 1991) |
 !> | tolerance | n | designs of monte_carlo, in addition to the moments by derivatives (ek_tolerance) |
 !>
-!> A factor with `values` takes these only: as levels, or at random each with the same probability. Correlations (ek_copula) apply
-!> to latin_hypercube, sobol and monte_carlo. A latin_hypercube keeps its intervals: which one each design has is computed once for all
+!> A factor with `values` has only these values: as levels, or at random each with the same probability. Correlations (ek_copula)
+!> apply to latin_hypercube, sobol and monte_carlo. In a latin_hypercube the interval of each design is computed once for all
 !> designs (ek_rank_order).
 !>
 !> u and t are the same to the last bit on every machine; x is as exact as the machine's logarithm.

@@ -1,4 +1,4 @@
-!> The kinds of samplers: their names in a deck and what each requires. ek_sampler describes and computes them.
+!> The kinds of samplers: their names in a study and the keys that each requires. ek_sampler describes and computes them.
 module ek_sampler_kind
    implicit none(type, external)
    private

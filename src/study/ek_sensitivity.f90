@@ -120,7 +120,7 @@ contains
 
    contains
 
-      !> Whether a point is `base` but for coordinate i, which is that of `other`.
+      !> Whether a point equals `base` except in coordinate i, which equals coordinate i of `other`.
       pure logical function is_mixed(point, base, other, i)
          real(wp), intent(in) :: point(:), base(:), other(:)
          integer, intent(in) :: i

@@ -1,4 +1,4 @@
-!> The results of a large study as one NetCDF-4 file: decides whether there is to be one, describes it, and has it written by the
+!> The results of a large study as one NetCDF-4 file: decides whether to write it, describes it, and calls the
 !> program elastokin-netcdf, which is in the same folder as elastokin if it was built with NetCDF-Fortran.
 module ek_store
    use ek_kinds, only: wp
@@ -28,11 +28,11 @@ module ek_store
    character(*), parameter :: helper_name = 'elastokin-netcdf', log_name = 'netcdf.log', &
       ended_with = 'it ended with status '         ! without a message
 
-   !> Texts that the store keeps.
+   !> Texts that are written to the store.
    type :: store_texts_t
       character(:), allocatable :: study, deck    !! the files
       character(:), allocatable :: changes        !! --set, one per line
-      character(:), allocatable :: swept, swept_unit     !! what the case sweeps: 'wheel travel', 'mm'; unit '-': none
+      character(:), allocatable :: swept, swept_unit     !! name of the swept value: 'wheel travel', 'mm'; unit '-': none
    end type store_texts_t
 
 contains

@@ -63,7 +63,7 @@ contains
       if (.not. present(kind)) call self%kinds%add(text_kind)
    end subroutine attributes_add
 
-   !> Whether responses keep their limits; one without a value for a response that has a limit does not.
+   !> Whether responses satisfy their limits. A response without a value does not satisfy its limit.
    pure logical function keeps(responses, lower, upper)
       real(wp), intent(in) :: responses(:), lower(:), upper(:)
       integer :: k

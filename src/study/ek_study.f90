@@ -50,7 +50,7 @@ module ek_study
       character(:), allocatable :: over           !! column over which the slope is taken; '': the travel of the wheel
       real(wp) :: window = 15.0_wp                !! half width of the slope's window, unit of `over`; gradient: 0 for its own
       character(:), allocatable :: file           !! rms: CSV of the curve from which the column deviates
-      real(wp) :: lower = -huge(1.0_wp), upper = huge(1.0_wp)      !! limits that a good design keeps
+      real(wp) :: lower = -huge(1.0_wp), upper = huge(1.0_wp)      !! limits that a good design satisfies
       character(word_length) :: names(2) = ''     !! difference: two responses before it, first minus second
       integer :: less(2) = 0                      !! their numbers
       character(:), allocatable :: where          !! 'file:line', for messages
@@ -91,8 +91,8 @@ contains
       is_given = ieee_is_finite(value)
    end function is_given
 
-   !> Sets the range of a factor for the sampler. `usual` is the nominal value of a factor that gives none: that of the deck for an
-   !> absolute factor (NaN if its paths lead to different numbers), else 0 (delta) or 1 (scale).
+   !> Sets the range of a factor for the sampler. `usual` is the nominal value of a factor without a given one: the value of the
+   !> deck for an absolute factor (NaN if its paths lead to different numbers), else 0 (delta) or 1 (scale).
    subroutine define_factor(given, kind, usual, factor, error)
       type(study_factor_t), intent(in) :: given
       integer, intent(in) :: kind                          !! of the sampler

@@ -1,8 +1,8 @@
 !> Solves one design of a study: the factors become a model, its cases are solved, and the observations become a row of responses
 !> and the rows of the curves.
 !>
-!> What a design costs is numbers only. A message (of a design that fails, or one that must be read from the text) is
-!> made by one thread at a time: gfortran keeps the length of a text that a function returns in one place for all threads.
+!> A design computes numbers only. A message (of a design that fails, or of a design that must be read from text) is
+!> made by one thread at a time: gfortran stores the length of a text that a function returns in one location for all threads.
 module ek_study_design
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp

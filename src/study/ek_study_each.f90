@@ -24,8 +24,8 @@ module ek_study_each
 contains
 
    !> Replaces such factors. Left out are numbers that the deck omits, zeros that would be scaled, and the distance of a point of a
-   !> mirrored deck from the centre plane in which it lies (unless `shared` names it). The two sides of a mirrored axle are one factor, unless the path has the
-   !> side in its name.
+   !> mirrored deck from the centre plane in which it lies (unless `shared` names it). The two sides of a mirrored axle are one
+   !> factor, unless the path has the side in its name.
    subroutine expand_factors(study, deck, error)
       type(study_t), intent(inout) :: study
       type(deck_t), intent(in) :: deck
@@ -57,8 +57,8 @@ contains
       call move_alloc(factors, study%factors)
    end subroutine expand_factors
 
-   !> Replaces columns with `*` by those of the results that fit, except the number of the state, the swept value (it is written
-   !> anyway) and `converged`.
+   !> Replaces columns with `*` by the matching columns of the results, except the number of the state, the swept value (it is
+   !> written anyway) and `converged`.
    subroutine expand_columns(study, deck, error)
       type(study_t), intent(inout) :: study
       type(deck_t), intent(in) :: deck

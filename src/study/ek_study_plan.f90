@@ -1,4 +1,4 @@
-!> The plan of a study: the designs by number, how they are divided into chunks, and what identifies them.
+!> The plan of a study: the designs by number, their division into chunks, and the identity of the study.
 module ek_study_plan
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp, i8
@@ -36,9 +36,9 @@ module ek_study_plan
       integer :: columns = 0                                 !! of a row of the curves: swept value and columns of the study
       integer :: states = 0                                  !! of a design, usually
       character(:), allocatable :: deck_sum                  !! checksum of the deck
-      character(:), allocatable :: identity                  !! two studies with the same one have the same results, to rounding
+      character(:), allocatable :: identity                  !! studies of equal identity have equal results, to rounding
       character(:), allocatable :: build                     !! of the program: part of the identity
-      character(:), allocatable :: kernel                    !! of the BLAS on this processor, 'Haswell'; '' if it does not name it
+      character(:), allocatable :: kernel                    !! kernel of the BLAS on this processor, 'Haswell'; '' if unknown
    end type study_plan_t
 
 contains

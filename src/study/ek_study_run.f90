@@ -1,4 +1,4 @@
-!> Runs the designs of a study in chunks, by several threads of one or several processes, and keeps what is finished.
+!> Runs the designs of a study in chunks, by several threads of one or several processes, and stores the finished chunks.
 !>
 !> The folder <out>/<study>.parts holds one file per finished chunk (ek_chunk). A run computes the chunks that are missing; so a
 !> study that was stopped, or killed at any moment, resumes. Which thread computes a chunk has no influence on it.
@@ -48,7 +48,7 @@ module ek_study_run
       integer :: before = 0                       !! of these, done before it began
       integer :: done = 0                         !! and by now, by all ranks
       integer :: failed = 0                       !! of those computed now
-      integer :: idle = 0                         !! threads that were asked for and for which there was no memory
+      integer :: idle = 0                         !! requested threads for which there was no memory
       real(wp) :: begun = 0.0_wp, now = 0.0_wp    !! s
       logical :: is_stopped = .false.             !! by a signal, or at the time limit
       logical :: is_quiet = .false.               !! for the procedure that reports, as is

@@ -27,7 +27,7 @@ module ek_study_tables
    !> Counts of the designs of a study by their status.
    type :: study_counts_t
       integer :: designs(0:design_invalid) = 0                !! per status
-      integer :: within = 0                                  !! designs that keep all limits of the responses
+      integer :: within = 0                                  !! designs that satisfy all limits of the responses
       logical :: is_missing = .false.                        !! a chunk is missing or damaged: no table was written
       type(message_list_t) :: reasons                        !! of the first failed designs, with the settings that make them
       integer :: states = 0                                  !! most of any design
@@ -272,7 +272,7 @@ contains
       has_limits = any(study%responses%lower > -huge(1.0_wp) .or. study%responses%upper < huge(1.0_wp))
    end function has_limits
 
-   !> Whether a design keeps all limits.
+   !> Whether a design satisfies all limits.
    pure logical function keeps_limits(study, responses)
       type(study_t), intent(in) :: study
       real(wp), intent(in) :: responses(:)
