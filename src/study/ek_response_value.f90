@@ -44,8 +44,8 @@ contains
    end subroutine read_response
 
    !> Reads a response of one table: the value at a factor (linear between states), the least-squares slope in a window around
-   !> it, the span or an extreme over all states, or the root of the mean square of the deviations from a curve at its points. Where the
-   !> column is undefined at a state that is read, there is no value: minval and maxval would pass over such a state.
+   !> it, the span or an extreme over all states, or the root of the mean square of the deviations from a curve at its points.
+   !> Where the column is undefined at a state that is read, there is no value: minval and maxval would pass over such a state.
    subroutine read_value(reading, table, value, fault)
       type(reading_t), intent(in) :: reading
       type(table_t), intent(in) :: table
