@@ -3,7 +3,7 @@
 !> otherwise end the process before the main program. Other libraries do not call it.
 !>
 !> A shared OpenBLAS finds it because the program shows it to libraries; in an archive of OpenBLAS (EK_BLAS_ARCHIVE) the linker
-!> replaces the call (`ld --wrap`). Not compiled for optimisation at link time, which knows neither of these calls.
+!> replaces the call (`ld --wrap`). This file is not compiled for optimisation at link time, which does not see these calls.
 module ek_one_thread
    use, intrinsic :: iso_c_binding, only: c_int
    implicit none(type, external)

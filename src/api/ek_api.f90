@@ -14,7 +14,7 @@
 !>     call copy_session(session, other, error)                                  the same deck and changes, no file is read again
 !>     call find_slopes(session, row, columns, paths, slopes, errors, error)     exact derivatives in a row of the solution
 !>
-!> `error` has the message and the exit status of the program for the same fault; look at it after every call. Nothing is printed,
+!> `error` has the message and the exit status of the program for the same error; check it after every call. Nothing is printed,
 !> nothing is stored outside the session: different sessions may be used by different threads at a time. gfortran stores the
 !> length of a text that a function returns in one location for all threads, so everything that makes texts is done in the
 !> critical section `ek_words`; solutions after the first of a case are numbers only and run at the same time.

@@ -25,7 +25,7 @@ module ek_c_handle
       integer(c_int) :: code = ek_ok                         !! of opening
       character(:), allocatable :: message                   !! of the last call, with its '\0'
       type(text_t) :: texts(kept)                            !! returned last, with their '\0'
-      integer :: last = 0                                    !! of them
+      integer :: last = 0                                    !! index of the string returned last
       type(message_list_t) :: number_names, number_units, number_definitions      !! of key numbers, made at the first request
       type(model_remarks_t) :: remarks                       !! remarks on the model at the last request
    end type handle_t

@@ -29,7 +29,7 @@ contains
    subroutine find_model_remarks(suspension, cases, chosen, is_balanced, remarks)
       type(suspension_t), intent(in) :: suspension      !! balanced if possible; on no rig
       type(case_t), intent(in) :: cases(:), chosen(:)   !! all of the deck; those to be run
-      logical, intent(in) :: is_balanced                !! if not, there is nothing to say about balance
+      logical, intent(in) :: is_balanced                !! .false.: no remark on balance
       type(model_remarks_t), intent(out) :: remarks
 
       if (is_balanced) call preload_remarks(suspension, remarks%notes)

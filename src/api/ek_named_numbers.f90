@@ -1,11 +1,11 @@
 !> Key numbers of a deck by their names: only the tests that they need are solved, of these only the states and columns that they
-!> need, and each is equal to the bit to that in key_numbers.csv of the report.
+!> need, and each number is equal to the bit to the number in key_numbers.csv of the report.
 !>
 !>     call prepare_numbers(names, suspension, cases, numbers, error)      once per deck
 !>     call read_numbers(numbers, suspension, cases, values, is_whole)     for each design
 !>
-!> `cases` are those that the report solves, in its order (standard_tests). read_numbers makes no text, so that several threads may
-!> read numbers, each with a value of its own type.
+!> `cases` are the cases that the report solves, in its order (standard_tests). read_numbers makes no text, so that several
+!> threads may read numbers, each with a value of its own type.
 module ek_named_numbers
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp

@@ -54,7 +54,7 @@ module ek_session
       ! ek_session_numbers
       class(named_numbers_t), allocatable :: named  !! key numbers requested last
       character(name_length), allocatable :: names(:)
-      logical :: is_named_ready = .false.           !! they were read before: to read them again makes no text
+      logical :: is_named_ready = .false.           !! the numbers were read before: a further reading makes no text
    end type session_t
 
 contains

@@ -21,7 +21,7 @@ contains
 
    !> Computes the derivatives of columns in one row of the last solution with respect to numbers of the deck, and estimates of
    !> their errors [unit of the column per unit of the number]. No solution is repeated (ek_derivatives). Not a number: the state
-   !> did not converge, the column has no value there, or the number cannot move.
+   !> did not converge, the column has no value at the state, or the number cannot be changed.
    subroutine find_slopes(session, row, columns, paths, slopes, errors, error)
       type(session_t), intent(inout), target :: session
       integer, intent(in) :: row                               !! of the table of the last solution

@@ -23,8 +23,8 @@ module ek_append_file
 
 contains
 
-   !> Opens a file for appending; a new one is created, empty. A file that begins with anything else than `first` is rejected: it
-   !> would be a deck or a table, named by error.
+   !> Opens a file for appending; a file that does not exist is created, empty. A file that does not begin with `first` is
+   !> rejected: it would be a deck or a table, named by error.
    subroutine open_append_file(path, first, file, error)
       character(*), intent(in) :: path
       character(1), intent(in) :: first                      !! with which every text begins

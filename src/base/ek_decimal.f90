@@ -325,7 +325,7 @@ contains
       if (is_good) is_good = abs(x) < number_limit
    end subroutine get_bounded
 
-   !> For a message about a text that get_bounded does not take: ' (write a number below 1e30)' if it is a number, else ''.
+   !> A hint for a message about a text that get_bounded rejects: ' (write a number below 1e30)' if it is a number, else ''.
    pure function size_hint(text) result(words)
       character(*), intent(in) :: text
       character(:), allocatable :: words

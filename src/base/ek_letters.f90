@@ -159,7 +159,8 @@ contains
       if (code < least(length) .or. code > 1114111 .or. (code >= 55296 .and. code < 57344)) length = 0
    end subroutine decode
 
-   !> Control characters; of all invisible ones also tab, other blanks, soft hyphen, zero-width characters, direction marks.
+   !> Whether a character is hidden: control characters; with `of_all` also tab, other blanks, soft hyphen, zero-width characters,
+   !> direction marks.
    pure logical function is_hidden(code, of_all)
       integer, intent(in) :: code
       logical, intent(in) :: of_all

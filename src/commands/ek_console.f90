@@ -1,4 +1,4 @@
-!> Output on the console: messages on standard error; findings and the paths of results on standard output. All of it also goes
+!> Output on the console: messages on standard error; findings and the paths of results on standard output. All output also goes
 !> into the log of the run.
 module ek_console
    use ek_error, only: error_t, message_list_t

@@ -84,7 +84,7 @@ contains
       end do
    end function has_image
 
-   !> Adds the line of the key of a parameter, unless it is there.
+   !> Adds the line of the key of a parameter, unless the text already contains it.
    subroutine add_line(design, x, number, is_half, lines, text)
       type(design_t), intent(in) :: design
       real(wp), intent(in) :: x(:)

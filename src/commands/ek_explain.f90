@@ -225,7 +225,7 @@ contains
       call print_text(text%text(), error)
    end subroutine print_state
 
-   !> Finds the laws of an element, or the one of `element.part`.
+   !> Finds the laws of an element, or the law of `element.part`.
    subroutine find_laws(name, table, laws, error)
       character(*), intent(in) :: name
       type(contribution_table_t), intent(in) :: table

@@ -1,4 +1,4 @@
-!> A folder is one report: report-files.csv lists what a report wrote, with checksums. The next report in the folder removes the
+!> A folder is one report: report-files.csv lists the files of a report, with checksums. The next report in the folder removes the
 !> files of that list which it does not write itself and which nobody has changed since; a changed file is not removed, and a note
 !> names it.
 module ek_report_list

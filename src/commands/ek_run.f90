@@ -37,7 +37,7 @@ module ek_run
 
 contains
 
-   !> Runs the chosen cases of a deck. Of a case that fails part way the converged states are written, and the other cases are
+   !> Runs the chosen cases of a deck. If a case fails part way, its converged states are written, and the other cases are
    !> run. The error at the end has the code of the first failure other than lack of convergence, otherwise exit_convergence.
    subroutine run(line, error)
       type(command_line_t), intent(in) :: line

@@ -24,8 +24,8 @@ module ek_run_numbers
 
 contains
 
-   !> Writes the wanted numbers of a deck. If one of them has no value or a state that it needs was not found, the results say
-   !> FAIL, which drivers look for, and the reason.
+   !> Writes the wanted numbers of a deck. If one of them has no value or a state that it needs was not found, the results contain
+   !> FAIL, for which drivers search, and the reason.
    subroutine run_numbers(line, settings, error)
       type(command_line_t), intent(in) :: line
       class(deck_settings_t), intent(in) :: settings

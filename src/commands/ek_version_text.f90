@@ -13,7 +13,7 @@ module ek_version_text
    private
    public :: build_t, program_name, version_text, build_text
 
-   !> The facts of a build from CMake (src/ek_build_facts.f90.in). It is handed over by the main program, so that a new commit
+   !> The facts of a build from CMake (src/ek_build_facts.f90.in). The main program passes it, so that a new commit
    !> compiles nothing else again.
    type :: build_t
       character(60) :: commit       !! '' if it is unknown

@@ -21,7 +21,7 @@ module ek_deck_reading
    type :: card_t
       integer :: group = 0                  !! 0: an unknown group
       character(word_length) :: name = ''
-      integer :: hash = 0                   !! of the name in lower case: equal names have equal ones
+      integer :: hash = 0                   !! of the name in lower case: equal names have equal hashes
       logical :: is_good = .false.          !! no error found so far
       integer :: index = 0                  !! its number among the parts of its kind; of a point, its vector
       real(wp) :: factor = 1.0_wp           !! measure, driver: deck unit → SI

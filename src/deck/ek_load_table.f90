@@ -38,7 +38,7 @@ contains
       type(kept_files_t), intent(in) :: files          !! which are not read again
       type(case_t), intent(inout) :: cases(:)
       type(suspension_t), intent(in) :: suspension     !! wheels and drivers, which make the heads
-      logical, intent(in) :: is_whole                  !! the suspension is complete; else heads are not compared with it
+      logical, intent(in) :: is_whole                  !! the suspension is complete; otherwise the headings are not checked
       integer :: j, k
 
       do k = 1, size(cases)

@@ -1,8 +1,9 @@
 !> &mirror: converts a deck of the left half of an axle to the deck of both sides.
 !>
-!> It works on records before names are looked up, so that the reader does not depend on it. Points off the plane y = 0 and
-!> all bodies are written twice, as left_<name> and right_<name>, except those in `shared`; so is every element that refers
-!> to one of them. An element whose name already has a side, or that refers to such a name, is not duplicated.
+!> It works on records before names are looked up, so that the reader does not depend on mirroring. Points off the plane y = 0 and
+!> all bodies are written twice, as left_<name> and right_<name>, except the names in `shared`. Every element that refers
+!> to a duplicated part is also duplicated. An element whose name already has a side, or that refers to such a name, is not
+!> duplicated.
 !>
 !> The right side is the image under y → −y: a polar vector v becomes M v with M = diag(1, −1, 1), an axial vector (a moment,
 !> the axis of a rotation) becomes −M v. The x and z axes of a bushing are mirrored as directions, so y = z × x becomes

@@ -1,7 +1,7 @@
 !> The parameters: every number of a deck, by its path as `--set` writes it.
 !>
 !> x(k) is the value of parameter k [SI, axes of the deck]. On a mirrored axle the two parameters of a number of the half deck have
-!> one path without the side, and the one on the right takes `sign` × the value.
+!> one path without the side, and the parameter on the right has `sign` × the value.
 module ek_parameter
    use ek_kinds, only: wp
    use ek_contract, only: are_checked, require

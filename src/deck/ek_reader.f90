@@ -60,8 +60,8 @@ contains
       if (present(is_whole)) is_whole = is_complete
    end subroutine build_model
 
-   !> Reads the design of a deck and realises its suspension. The reader has found no error in its numbers; should it have missed
-   !> one, nobody gets the unfinished model.
+   !> Reads the design of a deck and realises its suspension. The reader has found no error in its numbers; if it has missed
+   !> one, the unfinished model is not returned.
    subroutine build_design(deck, design, suspension, error, is_whole)
       type(deck_t), intent(in) :: deck
       type(design_t), intent(out) :: design
@@ -241,7 +241,7 @@ contains
       call add_gravity(reading%plan%prototype)
    end subroutine complete_prototype
 
-   !> Whether a file contains groups of a study and none of a deck.
+   !> Whether a file contains groups of a study and no groups of a deck.
    pure logical function is_study(records)
       type(record_t), intent(in) :: records(:)
       integer :: groups(size(records)), k

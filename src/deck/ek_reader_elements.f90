@@ -303,7 +303,7 @@ contains
    end subroutine find_laws
 
    !> Finds the marker axes. If only one is given, the other is chosen perpendicular to it; on the right side of a mirrored axle the
-   !> choice is the mirror image of that on the left.
+   !> choice is the mirror image of the choice on the left.
    subroutine find_axes(reading, plan)
       type(deck_reading_t), intent(inout) :: reading
       type(bushing_plan_t), intent(inout) :: plan

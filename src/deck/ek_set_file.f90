@@ -20,7 +20,7 @@ module ek_set_file
    private
    public :: set_file_t, read_set_file, apply_set_file, show_set_file
 
-   !> One setting and where it stands.
+   !> One setting and its location in the file.
    type :: line_t
       character(:), allocatable :: path, value
       character(:), allocatable :: where           !! 'params.in:3'

@@ -106,7 +106,7 @@ contains
          message = 'there is no '//trim(group_names(path%group))//' '//quoted(path%name)//did_you_mean(path%name, names)
    end subroutine check_target
 
-   !> Reads '*1.1' or '+2'; anything else is not relative.
+   !> Reads '*1.1' or '+2'; any other text is not relative.
    subroutine read_change(text, change)
       character(*), intent(in) :: text
       type(change_t), intent(out) :: change

@@ -17,7 +17,7 @@ module ek_case_work
    ! stages of a case at the present numbers, each after the one before
    integer, parameter :: not_examined = 0
    integer, parameter :: examined = 1       !! its model has no defect
-   integer, parameter :: on_rig = 2         !! and stands on the rig, without the preloads of balance
+   integer, parameter :: on_rig = 2         !! and the model is on the rig, without the preloads of balance
 
    type :: case_work_t
       type(case_t) :: case                        !! of the present design, as in the deck
@@ -71,7 +71,7 @@ contains
       if (is_sound) this%stage = on_rig
    end subroutine examine_again
 
-   !> Puts a case on the rig with a balanced model, unless it stands there with the same numbers already.
+   !> Puts a case on the rig with a balanced model, unless it is already on the rig with the same numbers.
    subroutine put_on_rig(suspension, this)
       type(suspension_t), intent(in) :: suspension         !! balanced
       type(case_work_t), intent(inout) :: this

@@ -6,9 +6,9 @@
 !>     workspace:  numbers_given → realised → balanced        put_numbers, take_numbers, balance_once
 !>     a case:     not_examined → examined → on_rig           examine_fully or examine_again, put_on_rig
 !>
-!> The first solution of a case, and any that may have a defect, makes texts (its columns, messages); the others are numbers
-!> only. gfortran stores the length of a text that a function returns in one location for all threads: the caller lets one thread
-!> at a time make texts (solve_case_fully, settle_fully), and ready_cases, solve_case_again and settle_again make none.
+!> The first solution of a case, and any that may have a defect, makes texts (its columns, messages); further solutions compute
+!> numbers only. gfortran stores the length of a text that a function returns in one location for all threads: the caller lets one
+!> thread at a time make texts (solve_case_fully, settle_fully), and ready_cases, solve_case_again and settle_again make no texts.
 module ek_workspace
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t, fail, exit_model
@@ -215,7 +215,7 @@ contains
       logical, intent(in) :: is_needed(:)                  !! in the order of the report
       type(workspace_t), intent(inout) :: workspace
       logical, intent(out) :: is_solvable(:)
-      type(message_list_t), intent(out) :: defects         !! of the others, each once
+      type(message_list_t), intent(out) :: defects         !! defects of the other cases, without repetition
       logical, intent(out) :: is_done                      !! .false.: the design must be read from the text
       type(error_t), allocatable, intent(out) :: error     !! exit_model: no case can be solved
       character(:), allocatable :: name, words

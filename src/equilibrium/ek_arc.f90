@@ -15,7 +15,7 @@
 !>     a·b = Σ over bodies (a_r·b_r/L² + a_π·b_π) + a_s b_s/range²        L the size of the model
 !>
 !> and are therefore dimensionless; reactions are ignored. The tangent has the sense of the previous tangent, which
-!> carries the path across a fold. A position where joints lock is passed likewise; there the reactions are unbounded.
+!> carries the path across a fold. A position where joints lock is passed likewise; the reactions at this position are unbounded.
 !>
 !> A step is accepted if its tangents agree with the motion and differ by a small angle, or at a corner of a law.
 !> Steps are reproducible: followed again from the same state, a path has the same lengths.

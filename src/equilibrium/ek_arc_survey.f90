@@ -1,6 +1,6 @@
 !> Measures a path from design to the end of a case, finds the limit points on it, and visits the states along it.
 !>
-!> Two passes: `survey` measures the path, `go_to` goes to states at given lengths. Both take the same steps (ek_arc).
+!> Two passes: `survey` measures the path, `go_to` finds states at given lengths. Both take the same steps (ek_arc).
 module ek_arc_survey
    use ek_kinds, only: wp
    use ek_suspension, only: suspension_t

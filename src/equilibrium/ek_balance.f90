@@ -5,9 +5,9 @@
 !> the one with the smallest complementary energy Σ f²/2k of the bushing preloads (k of a curve: its slope at design).
 !> Dampers, stops, torsion springs and springs with `balance = .false.` have unchanged preloads.
 !>
-!> A driver with a stiffness that acts on the body of a wheel (a tyre modelled as a spring under the patch) would carry the
-!> wheel instead of the spring: it is excluded from `all` unless its joint sets `balance = .true.`. Others (a rack, a steering
-!> column) take part.
+!> A driver with a stiffness that acts on the body of a wheel (a tyre modelled as a spring under the contact point) would carry the
+!> wheel instead of the spring: it is excluded from `all` unless its joint sets `balance = .true.`. Other drivers (a rack, a
+!> steering column) are included.
 module ek_balance
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t, fail, exit_model, exit_convergence

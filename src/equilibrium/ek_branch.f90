@@ -41,7 +41,7 @@ module ek_branch
 
    real(wp), parameter :: shortest = 2.5e3_wp      !! of the least step, 1e-6 of the range: these may bend without a law
    real(wp), parameter :: even = 0.3_wp            !! change of ln |det N| in a step: near a loss of rank it is above 0.7
-   real(wp), parameter, public :: tiny_step = 1.0e3_wp     !! of the least step: near a lock, states are found in shorter ones
+   real(wp), parameter, public :: tiny_step = 1.0e3_wp     !! times the least step: near a lock, states are found in shorter steps
    real(wp), parameter :: zero = 9.2_wp            !! fall of ln |det N|: less than 1e-4 of it is left
    real(wp), parameter :: fresh = 1.0e-2_wp        !! of the motion: factors from no further away give a good tangent
    real(wp), parameter :: exact = 5.0e-4_wp        !! of the motion: a jump across a gap is more, unless the step is 40 times wider
@@ -70,7 +70,7 @@ module ek_branch
       integer :: serial = -1                !! number of the last factorisation at or near b
       real(wp) :: missed = 0.0_wp           !! distance of this factorisation from b [m]
       logical :: is_singular = .false.      !! the joints lose rank at or too near to the end of the step compared last
-      logical :: is_over = .false.          !! they are in another assembly there
+      logical :: is_over = .false.          !! the joints are in another assembly mode at the end of this step
       logical :: was_bent = .false.         !! the step compared last passes a corner of a law
       logical :: knows_end = .false.        !! tangent_b belongs to the state evaluated last
       integer :: factorisations = 0         !! number needed by the last comparison
@@ -270,7 +270,7 @@ contains
       type(branch_t), intent(inout) :: self
       type(step_t), intent(inout) :: step
       type(suspension_t), intent(in) :: suspension
-      logical, intent(in) :: is_anew             !! from new factors there, not from the current ones
+      logical, intent(in) :: is_anew             !! from new factors at a, not from the current factors
       type(kkt_t), intent(inout) :: kkt
 
       if (is_anew) then
@@ -318,8 +318,9 @@ contains
       if (self%has_tangent) self%tangent_a = self%tangent_b
    end subroutine accept
 
-   !> Whether the joints may lose rank in a step: |det N|, which is proportional to det(Φq Φqᵀ), changes much in it or has changed
-   !> much in the one before, as it does on the way to zero. Of a pair of states on either side of the zero it says nothing.
+   !> Whether the joints may lose rank in a step: |det N|, which is proportional to det(Φq Φqᵀ), changes much in the step or has
+   !> changed much in the step before, as it does on the way to zero. For two states on either side of the zero the result has no
+   !> meaning.
    pure logical function is_uneven(self, outcome)
       type(branch_t), intent(in) :: self
       type(outcome_t), intent(in) :: outcome     !! of the iteration to b

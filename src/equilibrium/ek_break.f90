@@ -36,7 +36,7 @@ contains
    subroutine why_it_ends(suspension, state, inputs, kkt, found)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state            !! the last equilibrium
-      type(inputs_t), intent(in) :: inputs          !! there
+      type(inputs_t), intent(in) :: inputs          !! inputs at the state
       type(kkt_t), intent(inout) :: kkt             !! work space of this model
       type(break_t), intent(out) :: found
       real(wp) :: left(kkt%nc), motion(kkt%nq), closing(2), stiffness(2)

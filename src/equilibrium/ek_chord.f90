@@ -185,14 +185,15 @@ contains
       self%slope(mean, number) = min(max(slope, self%slope(least, number)), self%slope(most, number))
    end subroutine draw
 
-   !> Computes the tangent of the changed model at one end, with the factors of N there, and whether N stays regular for all slopes.
+   !> Computes the tangent of the changed model at one end, with the factors of N at this end, and whether N stays regular for all
+   !> slopes.
    !> Equation (K.16) of docs/theory/kkt.md.
    subroutine evaluate_along_chord(self, suspension, work, end, state, inputs, rate, kkt, tangent, is_regular)
       type(chord_t), intent(inout) :: self
       type(suspension_t), intent(in) :: suspension
       type(tangent_t), intent(inout) :: work
       integer, intent(in) :: end                   !! at_a or at_b
-      type(state_t), intent(in) :: state           !! there
+      type(state_t), intent(in) :: state           !! at this end
       type(inputs_t), intent(in) :: inputs, rate
       type(kkt_t), intent(inout) :: kkt
       real(wp), intent(out) :: tangent(:)

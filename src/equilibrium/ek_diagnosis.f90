@@ -6,7 +6,7 @@
 !>
 !> A stiffness counts as zero if it is below the rounding error of its own sums, vᵀ T v against |v|ᵀ |T| |v|, or below 1e-7
 !> of the softest spring or bushing (hardpoints rounded to a tenth of a millimetre leave such levers); the limit is lower if
-!> many bodies take part. It is not compared with the characteristic stiffness: a coil of 30 N/mm next to bushings of
+!> many bodies move. It is not compared with the characteristic stiffness: a coil of 30 N/mm next to bushings of
 !> 1e10 N/mm, or the bending of a chain of 160 bodies, is extremely soft in comparison, but not a mechanism.
 !>
 !> T includes the geometric stiffness of preloads. A motion without material stiffness (K) is held by preload only and

@@ -158,7 +158,8 @@ contains
 
    end subroutine natural_order
 
-   !> Stable pivots first, of these the cheapest; of unstable ones the most stable.
+   !> Whether pivot a is better than b: stable before unstable; of stable pivots the cheaper one, of unstable pivots the more
+   !> stable one.
    pure logical function is_better(a, b)
       type(candidate_t), intent(in) :: a, b
 

@@ -4,7 +4,7 @@
 !>
 !> - LAPACK (dsytrf) on the dense lower triangle: the reference;
 !> - a plan of elimination (ek_plan) on the numbers that are not zero. Where the factors by plan are large or a pivot is zero,
-!>   the same matrix goes to LAPACK.
+!>   the same matrix is factorised by LAPACK.
 module ek_kkt_factors
    use ek_kinds, only: wp
    use ek_contract, only: are_checked, require

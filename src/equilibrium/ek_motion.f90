@@ -153,7 +153,7 @@ contains
       packed(7*bodies + 1:) = reaction
    end subroutine pack_poses
 
-   !> The largest square of a distance of a body from where it is in a packed state: of its reference point, or of its rotation ×
+   !> The largest square of a distance of a body from its pose in a packed state: distance of its reference point, or its rotation ×
    !> characteristic length [m²].
    pure function squared_distance(bodies, poses, packed, length) result(largest)
       integer, intent(in) :: bodies

@@ -37,7 +37,7 @@ module ek_orientation
       type(plan_t) :: plan                                 !! of the products
       real(wp), allocatable :: rows_a(:, :), rows_b(:, :)  !! scaled Φq: (6, slot)
       type(pose_t), allocatable :: poses_b(:)              !! of rows_b
-      real(wp) :: min_b = 0.0_wp                           !! smallest pivot of Φq Φqᵀ there, as a share of the largest
+      real(wp) :: min_b = 0.0_wp                           !! smallest pivot of Φq Φqᵀ at b, as a share of the largest
       real(wp), allocatable :: lower(:), upper(:)          !! the products, row of a × row of b and row of b × row of a
       real(wp), allocatable :: factors(:)                  !! in the order of the plan
       real(wp), allocatable :: product(:, :), unit(:, :)   !! for LU factors
@@ -177,7 +177,7 @@ contains
       self%entry_column = column(:used)
    end subroutine find_products
 
-   !> Compares two states: det(Φq(a) Φq(b)ᵀ) < 0, and whether Φq loses rank at b itself, where that sign means nothing.
+   !> Compares two states: determines whether det(Φq(a) Φq(b)ᵀ) < 0, and whether Φq loses rank at b, where this sign has no meaning.
    !>
    !> x·Φq(a) Φq(b)ᵀ x > 0 for all x means a positive determinant; otherwise the LU factors give its sign.
    !> Equation (K.17) of docs/theory/kkt.md.

@@ -186,7 +186,7 @@ contains
 
    end subroutine go
 
-   !> Prepares the work space and goes to equilibrium under the constant loads; path%is_settled: the equilibrium was found.
+   !> Prepares the work space and finds the equilibrium under the constant loads; path%is_settled: the equilibrium was found.
    subroutine start(self, suspension, case, path, kkt)
       type(walk_t), intent(inout) :: self
       type(suspension_t), intent(in) :: suspension

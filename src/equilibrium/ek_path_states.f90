@@ -29,7 +29,7 @@ module ek_path_states
       integer :: limits = 0                       !! number of limit points (follow = 'arc')
       real(wp) :: limit_place(2*max_limits) = 0.0_wp
       integer :: limit_state(2*max_limits) = 0   !! index of the nearest state; 0: before the range begins
-      type(failure_t) :: failure(2)               !! towards `to`, towards `from`; or while settling; or of a table's first lost row
+      type(failure_t) :: failure(2)               !! towards `to`, towards `from`; or while settling; or first failed row of a table
    end type path_t
 
 contains

@@ -1,4 +1,4 @@
-!> Predicts the next state from earlier ones by a polynomial through the last few, in Lagrange's form.
+!> Predicts the next state by a polynomial through the last few states, in Lagrange's form.
 !>
 !> Positions, quaternions and reactions are smooth along a path, so each packed number is extrapolated separately; the
 !> quaternions are normalised afterwards. At a stop contact or a corner of a curve the path is not smooth: beyond it a

@@ -3,15 +3,15 @@
 !>     min ½ |x|²   subject to   W x + F y = b
 !>
 !> The columns of W are the forces of the bushings' components on the bodies, times the root of their rates: ½ |x|² is their
-!> complementary energy Σ f²/2k. The columns of F, of springs and joints, cost nothing. All rows are scaled by D (ek_scale).
-!> With multipliers v, displacements of the bodies, x = Wᵀ v:
+!> complementary energy Σ f²/2k. The columns of F, of springs and joints, do not contribute to it. All rows are scaled by D
+!> (ek_scale). With multipliers v, displacements of the bodies, x = Wᵀ v:
 !>
 !>     [ W Wᵀ  F ] [v]   [b]
 !>     [ Fᵀ    0 ] [y] = [0]
 !>
-!> W Wᵀ is the stiffness of the bushings at design. `hold_by_elimination` solves this system (ek_saddle), which is nearly as sparse as
-!> the tangent; `hold_by_singular_values` needs twenty times as long, and is the way for problems without a unique solution:
-!> redundant rows, dependent springs and joints, bodies that nothing holds.
+!> W Wᵀ is the stiffness of the bushings at design. `hold_by_elimination` solves this system (ek_saddle), which is nearly as
+!> sparse as the tangent; `hold_by_singular_values` needs twenty times as long, and is the way for problems without a unique
+!> solution: redundant rows, dependent springs and joints, bodies that nothing holds.
 module ek_preload_problem
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
@@ -30,7 +30,7 @@ module ek_preload_problem
    public :: preload_problem_t, set_problem, clear_preloads, hold_by_elimination, hold_by_singular_values
    public :: is_free, takes_part, rank_share
 
-   real(wp), parameter :: rank_share = 1.0e-11_wp       !! of the largest singular value: smaller ones are rounding
+   real(wp), parameter :: rank_share = 1.0e-11_wp       !! of the largest singular value: smaller values are rounding
    real(wp), parameter :: moderate = 1.0e100_wp         ! largest number whose products cannot overflow
    integer, parameter :: most_corrections = 3
    real(wp), parameter :: last_correction = 1.0e-8_wp   ! of the solution: the next one would be smaller by the same factor, or its root

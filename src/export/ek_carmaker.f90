@@ -2,7 +2,7 @@
 !>
 !> Frame of ek_wheel_motion, which is also the frame of the file. SI units, so all factors to SI are 1. Kinematics are of kind
 !> MapNL: left and right table over the wheel's own travel (Arg0) and steer or the travel of the other wheel (Arg1), Arg1 fastest.
-!> Compliance is of kind CoeffConstFr1: a row per load, own and opposite wheel; the vertical force has none, as springs carry it.
+!> Compliance is of kind CoeffConstFr1: a row per load, own and opposite wheel; the vertical force has no row, as springs carry it.
 module ek_carmaker
    use ek_kinds, only: wp
    use ek_error, only: error_t

@@ -129,7 +129,7 @@ contains
       end do
    end function length_values
 
-   !> The values of one load on the drawn wheel, where the others are 0 [N, N m].
+   !> The values of one load on the drawn wheel, at the points where the other loads are 0 [N, N m].
    function load_values(sources, part) result(values)
       type(sources_t), intent(in) :: sources
       integer, intent(in) :: part               !! Fx, Fy, Mx, My, Mz

@@ -12,7 +12,7 @@ module ek_held_compliance
 
 contains
 
-   !> The response at the wheel centres to loads there, with the wheels held.
+   !> The response at the wheel centres to loads at the wheel centres, with the wheels held.
    !>
    !> On the road the tyre of a wheel pushes its patch up with F = −kt·(its height): with B the unit vertical loads on the patches,
    !> C − C B (Bᵀ C B + 1/kt)⁻¹ Bᵀ C.

@@ -1,5 +1,5 @@
 !> Kinematics of an axle as a table over wheel travel and steer, or over the travels of both wheels, with its compliance at
-!> design. Every number is an equilibrium of the rig (a test 'table'), or the tangent there.
+!> design. Every number comes from an equilibrium of the rig (a test 'table'), or from the tangent at it.
 !>
 !> Frame ISO 8855, SI and radians: see ek_wheel_motion. A deck with one wheel gives the other side as its mirror image.
 module ek_kandc_map
@@ -129,8 +129,8 @@ contains
       map%driver_sign = sign(1.0_wp, motion(at_rz, 2) - motion(at_rz, 1))
    end subroutine find_sign
 
-   !> Lists the states to solve, the design state first, then the grid there and back, so that neighbouring rows are neighbours
-   !> of the grid.
+   !> Lists the states to solve, the design state first, then the grid in alternating direction, so that neighbouring rows are
+   !> neighbours of the grid.
    pure subroutine order_rows(map, wheels, heights, steer, at)
       type(kandc_map_t), intent(in) :: map
       integer, intent(in) :: wheels(2)

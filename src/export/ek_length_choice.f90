@@ -98,7 +98,7 @@ contains
       end select
    end subroutine choose_itself
 
-   !> Chooses an element or a measure of this name: left_NAME or right_NAME on an axle; of LEFT,RIGHT the one of this side.
+   !> Chooses an element or a measure of this name: left_NAME or right_NAME on an axle; for LEFT,RIGHT the name for this side.
    subroutine take_named(suspension, wheel, side, j, name, choice, mistakes)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: wheel, side, j

@@ -53,7 +53,7 @@ contains
    subroutine solve_table(suspension, table, vertical, result, error)
       type(suspension_t), intent(in) :: suspension
       type(load_table_t), intent(in) :: table
-      character(*), intent(in) :: vertical                  !! 'centre', 'road'; '': as the columns say
+      character(*), intent(in) :: vertical                  !! 'centre', 'road'; '': as the columns determine
       type(case_result_t), intent(out) :: result
       type(error_t), allocatable, intent(out) :: error      !! exit_model, exit_convergence
       type(case_t) :: case

@@ -176,7 +176,7 @@ contains
    end subroutine put_quoted
 
    !> Adds text without line ends and other invisible characters; an apostrophe becomes the typographic apostrophe (’), as a
-   !> string of a deck cannot contain the other.
+   !> string of a deck cannot contain the ASCII apostrophe.
    subroutine add_safe(self, text)
       class(deck_text_t), intent(inout) :: self
       character(*), intent(in) :: text

@@ -10,7 +10,7 @@ module ek_fields
    public :: lines_t, split_lines, field_t, split_fields, take_number, legal_name
 
    character, parameter :: tab = achar(9)
-   real(wp), parameter :: most = 1.0e25_wp          !! larger numbers are errors; with any unit the others are legal in a deck
+   real(wp), parameter :: most = 1.0e25_wp          !! larger numbers are errors; smaller numbers are legal in a deck in any unit
    integer, parameter :: max_fields = 64            !! of a line; no format has more
 
    !> A text with its lines.

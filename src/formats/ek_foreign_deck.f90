@@ -220,7 +220,7 @@ contains
    end subroutine import_axle
 
    !> Finds the law of a bushing: from its file, in the folder of the axle or below it as the axle names it. IPGKinematics has files
-   !> lin01000.gum for 1000 N/mm in all directions and so on: these need not be there.
+   !> lin01000.gum for 1000 N/mm in all directions and so on: these files need not exist.
    subroutine find_mount(path, named, line, mount, flaws)
       character(*), intent(in) :: path, named
       integer, intent(in) :: line

@@ -12,7 +12,7 @@ module ek_kin_mounts
    !> The law of a bushing of the file.
    type :: mount_law_t
       type(law_points_t) :: laws(6)
-      character(:), allocatable :: note       !! where it is from
+      character(:), allocatable :: note       !! source of the law
    end type mount_law_t
 
 contains

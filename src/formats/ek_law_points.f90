@@ -12,7 +12,7 @@ module ek_law_points
    type :: law_points_t
       logical :: is_given = .false.
       logical :: is_bad = .false.                !! an error was reported
-      integer :: line = 0                        !! where it begins
+      integer :: line = 0                        !! line at which the law begins
       integer :: used = 0
       real(wp), allocatable :: x(:), y(:)        !! SI
       integer, allocatable :: lines(:)           !! of the points

@@ -45,7 +45,7 @@ module ek_teimorbit
 
 contains
 
-   !> Whether a text looks like this format: its first line with a sign of its own begins a block.
+   !> Whether a text probably has this format: its first line with a sign of its own begins a block.
    pure logical function is_teimorbit(text)
       character(*), intent(in) :: text
       integer :: at, next

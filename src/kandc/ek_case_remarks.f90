@@ -74,7 +74,7 @@ contains
    end subroutine rack_remarks
 
    !> Compares the linear methods at the first wheel with one equilibrium solution at each end of the sweep, found from the
-   !> state there. An end without an equilibrium
+   !> state at this end. An end without an equilibrium
    !> nearby is a failure: the states before it are unreliable.
    subroutine drift_remarks(suspension, case, path, kkt, remarks)
       type(suspension_t), intent(in) :: suspension
@@ -238,7 +238,7 @@ contains
       end do
    end subroutine curve_reach_remarks
 
-   !> Includes the deflection of a state; a stop without contact has none.
+   !> Includes the deflection of a state; a stop without contact has no deflection.
    subroutine extend(reach, law, value, state)
       type(reach_t), intent(inout) :: reach
       type(law_t), intent(in) :: law
@@ -258,7 +258,7 @@ contains
       end if
    end subroutine extend
 
-   !> Whether another curve of the same line has a larger excess, below and above; of two equal ones the first is reported.
+   !> Whether another curve of the same line has a larger excess, below and above; of two equal excesses the first is reported.
    pure function further(other, own, is_before) result(is_further)
       type(reach_t), intent(in) :: other, own
       logical, intent(in) :: is_before

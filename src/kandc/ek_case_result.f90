@@ -25,7 +25,7 @@ module ek_case_result
 
    ! outcomes
    integer, parameter :: solved = 0           !! all states converged
-   integer, parameter :: partly_solved = 1    !! some did not; the others are there
+   integer, parameter :: partly_solved = 1    !! some states did not converge; the others are available
    integer, parameter :: not_solvable = 2     !! the model is a mechanism, or over-constrained
    integer, parameter :: not_mountable = 3    !! the load table of the case cannot be read
    integer, parameter :: out_of_memory = 4    !! the states would not fit into memory
@@ -93,7 +93,7 @@ contains
       type(case_result_t), intent(inout) :: result     !! everything except the case on the rig is replaced
       procedure(progress_procedure), optional :: progress
       type(observer_t), intent(inout), optional, target :: observer   !! reused for all designs of a deck
-      logical, intent(in), optional :: is_walked       !! .true.: its path is there, complete
+      logical, intent(in), optional :: is_walked       !! .true.: its path is complete
       type(observer_t), allocatable, target :: own
       type(observer_t), pointer :: tells
       type(remark_list_t) :: none

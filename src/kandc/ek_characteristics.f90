@@ -2,7 +2,7 @@
 !> roll, swing arms, compliances, anti features.
 !>
 !> C(i,j): displacement i per unit load j, 1–6 the wheel centre of this wheel (x y z, rotations about them), global
-!> axes. M is C with the loads at the contact points, CP with the displacements there as well (ek_loaded_wheels).
+!> axes. M is C with the loads at the contact points, CP with the displacements at the contact points as well (ek_loaded_wheels).
 !> Parallel (in phase): both wheels carry the load; opposed (anti phase): the other carries the opposite load. The
 !> slopes of steer, toe, camber and caster are the slopes of the columns of this name, by the chain rule of ek_attitude.
 !>
@@ -187,7 +187,7 @@ contains
       call respond(reader, twist, is%traction(held))
    end subroutine under_forces
 
-   !> Computes the stiffness of one wheel, load and height of the other held.
+   !> Computes the stiffness of one wheel, with the load held at the other wheel, and with its height held.
    pure subroutine single_rates(c, at, rate)
       real(wp), intent(in) :: c(12, 12)
       integer, intent(in) :: at              !! number of rows before the rows of the wheel

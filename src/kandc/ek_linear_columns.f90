@@ -34,7 +34,7 @@ module ek_linear_columns
    !> The columns of a model, and the data from which their values at a state are computed.
    type :: linear_columns_t
       integer :: used = 0
-      character(name_length), allocatable :: names(:)     !! of all
+      character(name_length), allocatable :: names(:)     !! of all columns
       integer, allocatable :: asked(:)                    !! those that are computed
       type(kandc_t) :: kandc                              !! of the state; its compliance matrix is known
       integer, allocatable, private :: column(:)          !! of kandc; the rest are entries of the matrix

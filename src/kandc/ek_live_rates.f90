@@ -17,7 +17,7 @@ module ek_live_rates
    public :: live_rate_t, live_rates_t, choose_rates, find_laws
 
    real(wp), parameter :: same = 1.0e-9_wp      !! relative: equal rates
-   real(wp), parameter :: noise = 1.0e-9_wp     !! share of a column: smaller ones are rounding
+   real(wp), parameter :: noise = 1.0e-9_wp     !! share of a column: smaller contributions are rounding
 
    !> A rate that can be changed.
    type :: live_rate_t

@@ -26,7 +26,7 @@ module ek_loaded_wheels
    !> In the order of C: x y z, rotations about them, of the left wheel, then of the right one.
    type :: loaded_t
       integer :: wheels = 0
-      real(wp) :: c(12, 12) = 0.0_wp         !! loads at the wheel centres, displacements there
+      real(wp) :: c(12, 12) = 0.0_wp         !! loads and displacements at the wheel centres
       real(wp) :: m(12, 12) = 0.0_wp         !! forces at the contact points, displacements at the centres; no moments
       real(wp) :: c_held(12, 12) = 0.0_wp    !! c with heights of the centres held: columns fx and mz
       real(wp) :: m_held(12, 12) = 0.0_wp    !! m likewise: columns fx and fy
@@ -107,7 +107,8 @@ contains
       moves(3) = twist(3) + (twist(4)*arm(2) - twist(5)*arm(1))
    end subroutine read_patch
 
-   !> Response of a wheel if both carry a load (with = 1), or the other the opposite one (with = −1); of a single wheel its own.
+   !> Response of a wheel if the other wheel carries the same load (with = 1) or the opposite load (with = −1); for a single
+   !> wheel, its own.
    !> Equation (C.8) of docs/theory/compliance.md.
    pure function phase(wheels, c, place, load, with) result(own)
       integer, intent(in) :: wheels

@@ -2,7 +2,7 @@
 !> value outside its range.
 !>
 !> A value outside its range is converted with the other units of its dimension: if one of them brings it into the range,
-!> that unit is named. Otherwise the remark gives the text of the table row. No finding is an error.
+!> this unit is named. Otherwise the remark gives the text of the table row. No finding is an error.
 module ek_plausible_range
    use ek_kinds, only: wp, units_t, degree
    use ek_error, only: message_list_t

@@ -136,7 +136,7 @@ contains
       end associate
    end function stands_there
 
-   !> Forgets that a case is on the rig: it may be put there again with another model.
+   !> Forgets that a case is on the rig: it may be mounted again with another model.
    pure subroutine take_off(mounted)
       type(mounted_case_t), intent(inout) :: mounted
       mounted%is_mounted = .false.

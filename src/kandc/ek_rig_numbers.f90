@@ -1,4 +1,4 @@
-!> The rig of a case, and its numbers for one design after the other: where its heights are measured and its loads act, the tyres under
+!> The rig of a case, and its numbers for one design after the other: the points of its heights and loads, the tyres under
 !> its road, the range of the swept value.
 !>
 !> ek_rig makes the parts of a rig once, with their names; `set_rig_numbers` computes every number of them that a design can change.

@@ -30,7 +30,7 @@ module ek_sweep_table
    !> Layout of a table of states: its columns, and the work space to fill them.
    type :: observer_t
       character(name_length), allocatable :: columns(:)     !! heads of the table
-      integer, private :: shown = 0, reported = 0, ended = 0    !! last column of the state, of the quantities, of all
+      integer, private :: shown = 0, reported = 0, ended = 0    !! last column of the state, of the quantities, of the table
       integer, allocatable, private :: kept(:)              !! the columns of the table among all
       type(column_list_t), private :: list                  !! columns of the state
       type(kandc_t), private :: kandc                       !! K&C columns, if the case requests them
@@ -80,7 +80,7 @@ contains
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
       character(name_length), intent(in) :: asked(:)
-      logical, intent(in) :: has_asked                  !! else: all columns
+      logical, intent(in) :: has_asked                  !! .false.: all columns
 
       is_for = .false.
       if (.not. allocated(self%columns)) return

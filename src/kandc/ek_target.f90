@@ -25,8 +25,8 @@ module ek_target
       character(:), allocatable :: column    !! its full name, with unit
       real(wp) :: wanted = 0.0_wp            !! in that unit
       real(wp) :: place = 0.0_wp             !! swept value, SI
-      integer :: crossings = 0               !! number of crossings of the value in the sweep; the one nearest to design is used
-      type(table_t) :: table                 !! the state there, one row
+      integer :: crossings = 0               !! number of crossings of the value in the sweep; the nearest to design is used
+      type(table_t) :: table                 !! the state at the found swept value, one row
    end type target_t
 
 contains
@@ -35,7 +35,7 @@ contains
    !> states.
    !>
    !> The unit of the column may be omitted if only one column begins with the name. Of several solutions the one nearest to
-   !> design is taken. Errors: exit_deck, no such column; exit_convergence, the sweep never has the value.
+   !> design is taken. Errors: exit_deck, no such column; exit_convergence, the sweep does not reach the value.
    subroutine find_target(suspension, case, path, table, kkt, found, error)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
@@ -73,7 +73,8 @@ contains
          str(found%wanted)//words)
    end subroutine find_target
 
-   !> Marks the rows that have the value, or whose interval to the next row crosses it, and estimates the swept value there.
+   !> Marks the rows that have the value, or whose interval to the next row crosses it, and estimates the swept value at the
+   !> crossing.
    subroutine find_crossings(path, table, c, wanted, is_crossing, place)
       type(path_t), intent(in) :: path
       type(table_t), intent(in) :: table

@@ -37,7 +37,7 @@ module ek_bounded_search
       integer :: ended = 0                           !! one of those above
       integer :: trials = 0, steps = 0               !! evaluations; of these, steps that were taken
       real(wp), allocatable :: x(:)                  !! to be evaluated next
-      real(wp), allocatable :: best(:)               !! the best so far, with r and Jacobian there
+      real(wp), allocatable :: best(:)               !! the best x so far, with its r and Jacobian
       real(wp), allocatable :: residuals(:), jacobian(:, :)
       integer, allocatable :: held(:)                !! −1, +1: held at its lower or upper bound; 0: free
       real(wp), allocatable, private :: lower(:), upper(:), scale(:)
@@ -138,8 +138,9 @@ contains
 
    !> Finds the d with low ≤ d ≤ high and the smallest |J d + r|² + μ s² |d|², s² the largest square of a column's norm.
    !>
-   !> An active set: the free unknowns are solved for; where they leave the bounds, d goes as far as the first bound, whose unknown
-   !> is then held; when all are inside, one whose bound does not hold it back is freed. Every cycle reduces the sum, so it ends.
+   !> An active set: the free unknowns are solved for; where they leave the bounds, d goes as far as the first bound, and this
+   !> unknown is then held; when all are inside, an unknown that its bound does not restrict is freed. Every cycle reduces the
+   !> sum, so it ends.
    !> Equation (E.4) of docs/theory/derivatives.md.
    subroutine bounded_step(jacobian, r, low, high, damping, d, held)
       real(wp), intent(in) :: jacobian(:, :), r(:)

@@ -49,7 +49,7 @@ contains
       end do
    end subroutine new_sobol
 
-   !> The degree of the polynomial of a dimension; the first has none.
+   !> The degree of the polynomial of a dimension; the first dimension has no polynomial.
    pure integer function degree_of(dimension) result(degree)
       integer, intent(in) :: dimension
 

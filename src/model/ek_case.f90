@@ -1,4 +1,4 @@
-!> A load case: a load or a driven value goes from one value to another in increments.
+!> A load case: a load or a driven value changes from one value to another in increments.
 module ek_case
    use ek_kinds, only: wp
    use ek_error, only: message_list_t

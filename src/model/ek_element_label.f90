@@ -1,4 +1,5 @@
-!> An element as messages name it and as pictures show it. It is not in `ek_element`: that is a kernel, and kernels make no texts.
+!> The name of an element in messages, and its shape in pictures. It is not in `ek_element`: that is a kernel, and kernels make no
+!> texts.
 module ek_element_label
    use ek_kinds, only: wp
    use ek_text, only: quoted
@@ -23,7 +24,8 @@ contains
    end function is_between_bodies
 
    !> Whether a spring is an elastic rod, as push rods and pull rods are: between two moving bodies, stiffer than a coil, and on a
-   !> body that a softer spring acts on. The coil of a strut with a top mount is between two bodies too, but the only spring there.
+   !> body that a softer spring acts on. The coil of a strut with a top mount is between two bodies too, but it is the only spring
+   !> on its bodies.
    pure logical function is_rod(elements, k)
       type(element_t), intent(in) :: elements(:)
       integer, intent(in) :: k

@@ -50,7 +50,7 @@ contains
    end function has_rate
 
    !> Finds the deflection of each law that is a rate: the change of its force per change of the rate. 0 at design, where the
-   !> preload stands for the force, except for a spring whose preload follows from its rate and its free length.
+   !> preload is the force, except for a spring whose preload follows from its rate and its free length.
    pure subroutine find_deflections(element, pose_i, pose_j, deflection)
       type(element_t), intent(in) :: element
       type(pose_t), intent(in) :: pose_i, pose_j

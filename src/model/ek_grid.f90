@@ -1,6 +1,6 @@
 !> The grid of a test over wheel travel and steering: its levels, and the order in which its states are solved.
 !>
-!> The states go there and back over the travel, one value of the steering driver after the other: neighbours in the order are
+!> The states run up and down over the travel, one value of the steering driver after the other: neighbours in the order are
 !> neighbours in the grid, and each starts from the one before it.
 module ek_grid
    use ek_kinds, only: wp

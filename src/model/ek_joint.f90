@@ -78,7 +78,7 @@ module ek_joint
       integer :: first_row = 0, rows = 0
       integer :: chosen_axis = 0             !! universal: 1 or 2 if the program chose this axis; 0: both given
       real(wp) :: axis(3, 2) = 0.0_wp        !! universal: axis and axis_2, unit vectors, global at design
-      real(wp) :: across(3) = 0.0_wp         !! direction nearest to which the rows take theirs across the axis; 0: free choice
+      real(wp) :: across(3) = 0.0_wp         !! the direction of the rows across the axis is nearest to this one; 0: free choice
       logical :: is_of_measures = .false.    !! driver, coupler: its reaction is one number, not a force at a point
       logical :: says_balance = .false.      !! driver with a stiffness: the deck gives `balance`
       logical :: is_balanced = .true.        !! the value of `balance`

@@ -215,7 +215,7 @@ contains
       end do
    end subroutine place_bushings
 
-   !> Renews a curve of an element, in SI; unchanged points leave it as it is.
+   !> Renews a curve of an element, in SI; if its points are unchanged, so is the curve.
    subroutine renew(plan, number, x, x_unit, y_unit, curve, is_good)
       type(blueprint_t), intent(in) :: plan
       integer, intent(in) :: number

@@ -35,7 +35,7 @@ module ek_key_number
    type :: key_number_t
       character(:), allocatable :: group, quantity, unit, sign
       character(:), allocatable :: name           !! for programs, without left_ or right_: 'bump_toe', 'toe_deg'
-      character(:), allocatable :: condition      !! where it is read: 'parallel_travel, within ±15 mm of design'
+      character(:), allocatable :: condition      !! test and window of the number: 'parallel_travel, within ±15 mm of design'
       character(:), allocatable :: definition     !! from which columns, and its sign
       character(48) :: held = ''                  !! condition of the wheels of a loaded axle: 'vertical force held'
       logical :: has_target = .false.
@@ -139,7 +139,7 @@ contains
    end subroutine take_extreme
 
    !> Column y at the point where column x has a given value, interpolated linearly between two neighbouring states; of
-   !> several such points the one nearest to design. Not a number if there is none.
+   !> several such points, the nearest to design. Not a number if no such point exists.
    real(wp) function value_where(table, x, wanted, y) result(value)
       type(table_t), intent(in) :: table
       integer, intent(in) :: x, y                       !! indices of the columns

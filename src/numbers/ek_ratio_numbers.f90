@@ -13,7 +13,8 @@ module ek_ratio_numbers
 
 contains
 
-   !> Appends a motion ratio per element of one measure: a change of its length per wheel travel. Stops have none: they touch late.
+   !> Appends a motion ratio per element of one measure: a change of its length per wheel travel. Stops have no motion ratio: they
+   !> are without contact near design.
    subroutine ratio_numbers(tests, numbers, wanted)
       type(test_result_t), intent(in) :: tests(:)
       type(number_list_t), intent(inout) :: numbers

@@ -1,4 +1,4 @@
-!> Steps of one design of a pack alone: a state that it does not find together with the others, and checks of a single design.
+!> Steps of one design of a pack alone: a state that is not found together with the other designs, and checks of a single design.
 module ek_pack_alone
    use ek_kinds, only: wp
    use ek_lanes, only: lanes_t, lanes

@@ -71,7 +71,7 @@ contains
       end associate
    end subroutine compare_tangents
 
-   !> Computes dz/ds at poses with the factors there, from the inputs at two swept values.
+   !> Computes dz/ds at poses with the factors at these poses, from the inputs at two swept values.
    subroutine find_tangents(self, members, places, is_common, from, to, poses, factors, tangent)
       type(walker_t), intent(inout) :: self
       type(member_t), intent(in) :: members(lanes)
@@ -99,7 +99,7 @@ contains
       end associate
    end subroutine find_tangents
 
-   !> Predicts the first state: from design along the tangent there. Poses and factors belong to the design state.
+   !> Predicts the first state: from design along the tangent at design. Poses and factors belong to the design state.
    subroutine go_along(self, members, places, is_common, value)
       type(walker_t), intent(inout) :: self
       type(member_t), intent(in) :: members(lanes)

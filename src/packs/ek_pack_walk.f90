@@ -2,8 +2,8 @@
 !>
 !> All designs of the pack take each step together: prediction, Newton's method, and the tests of ek_reach and ek_branch that the
 !> state is on the path (the prediction was close, or the tangents agree with the motion; the joints are in the same assembly). A
-!> state of a design that does not pass them is found by ek_reach, which looks closer and halves steps; a design that fails there,
-!> or does not settle close to its design position, is left to the sweep of a single design.
+!> state of a design that does not pass these checks is found by ek_reach, which checks in detail and halves steps; a design that
+!> fails in ek_reach, or does not settle close to its design position, is left to the sweep of a single design.
 module ek_pack_walk
    use ek_kinds, only: wp
    use ek_lanes, only: lanes_t, lanes

@@ -19,7 +19,7 @@ module ek_carpet_figure
    !> Of lines of equal factor 1 and 2.
    character(*), parameter :: colours(2) = ["rgb '#0072B2'", "rgb '#D55E00'"]
 
-   !> A grid of two factors, in the order of their levels, and the responses there.
+   !> A grid of two factors, in the order of their levels, and the responses at its points.
    type :: carpet_t
       integer :: levels(2) = 0
       type(message_list_t) :: factors                !! their labels

@@ -16,9 +16,9 @@ module ek_compare_charts
 
    !> The distances of the curves of a chart from the curves of the first result.
    type :: chart_change_t
-      real(wp) :: change = 0.0_wp             !! with its sign, where it is largest, as a share (see ek_change)
+      real(wp) :: change = 0.0_wp             !! largest change, with its sign, as a share (see ek_change)
       real(wp) :: largest = 0.0_wp            !! the same in the unit of the chart
-      real(wp) :: at = 0.0_wp                 !! there, on the abscissa
+      real(wp) :: at = 0.0_wp                 !! abscissa of the largest change
       logical :: is_changed = .false.         !! by more than the threshold
       logical :: is_known = .false.           !! some states can be compared
    end type chart_change_t
@@ -135,7 +135,7 @@ contains
    !> Joins one chart of all results.
    subroutine join(own, places, design, threshold, test, chart, change, curves)
       type(chart_list_t), intent(in) :: own(:)
-      integer, intent(in) :: places(:)             !! of the chart in each list; 0: not there
+      integer, intent(in) :: places(:)             !! index of the chart in each list; 0: not in the list
       integer, intent(in) :: design(:)             !! rows of the design state
       real(wp), intent(in) :: threshold
       character(*), intent(in) :: test
@@ -223,7 +223,8 @@ contains
       largest = one
    end subroutine take
 
-   !> The curves of a chart that a curve of another result is compared with: of the same name; one for both sides stands for each.
+   !> The curves of a chart with which a curve of another result is compared: curves of the same name; a curve for both sides
+   !> counts for each side.
    pure function partners(chart, title) result(found)
       type(chart_t), intent(in) :: chart
       character(*), intent(in) :: title
@@ -240,7 +241,8 @@ contains
       end do
    end function partners
 
-   !> Whether a curve of both sides, 'left = right' or 'coil (left = right)', stands for one of a side, 'left' or 'right_coil'.
+   !> Whether a curve of both sides, 'left = right' or 'coil (left = right)', includes the curve of one side, 'left' or
+   !> 'right_coil'.
    pure logical function stands_for(joint, single)
       character(*), intent(in) :: joint, single
       integer :: at

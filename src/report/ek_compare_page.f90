@@ -288,7 +288,7 @@ contains
       call add_cell(page, row%test//', '//row%window, 's')
    end subroutine add_number
 
-   !> Adds the charts of a test: the changed ones by the size of the change, the first few open; then, folded, those that did
+   !> Adds the charts of a test: the changed ones by the size of the change, the first few open; then, folded, the charts that did
    !> not change.
    subroutine add_test(page, this, test)
       type(page_t), intent(inout) :: page

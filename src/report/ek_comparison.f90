@@ -25,11 +25,11 @@ module ek_comparison
 
    type :: comparison_t
       character(:), allocatable :: folder               !! of the page
-      type(results_t), allocatable :: results(:)        !! the first is the one compared with
+      type(results_t), allocatable :: results(:)        !! the others are compared with the first
       real(wp) :: threshold = 0.01_wp                   !! a larger change counts
       type(deck_difference_t), allocatable :: facts(:), deck(:)     !! differences of the runs and of the decks
       type(difference_t), allocatable :: rows(:), numbers(:)        !! gradients, key numbers
-      type(difference_t), allocatable :: shown(:)       !! both, each once, sorted by change
+      type(difference_t), allocatable :: shown(:)       !! gradients and key numbers without repetition, sorted by change
       type(chart_t), allocatable :: charts(:)           !! of the tests of the first
       type(chart_change_t), allocatable :: changes(:)   !! of each chart
       type(curve_difference_t), allocatable :: curves(:)
@@ -228,7 +228,7 @@ contains
       end do
    end function largest_lines
 
-   !> Leaves one row of the two sides of an axle where they show the same numbers, or the opposite ones.
+   !> Reduces the rows of both sides of an axle to one row if they show equal or opposite numbers.
    subroutine join_sides(list)
       type(difference_t), allocatable, intent(inout) :: list(:)
       logical :: is_twin(size(list))
@@ -254,7 +254,7 @@ contains
       list = pack(list, .not. is_twin)
    end subroutine join_sides
 
-   !> Whether two rows show the same numbers, or with sign = −1 the opposite ones, for every result.
+   !> Whether two rows show equal numbers, or with sign = −1 opposite numbers, for every result.
    logical function are_same(one, other, sign)
       type(difference_t), intent(in) :: one, other
       real(wp), intent(in) :: sign

@@ -147,7 +147,7 @@ contains
       if (y > x) text = '+'//text
    end function step_text
 
-   !> Joins the rows of the two sides of an axle, where both have the same values or the opposite ones.
+   !> Joins the rows of the two sides of an axle, where both have equal or opposite values.
    subroutine join_sides(list)
       type(deck_difference_t), allocatable, intent(inout) :: list(:)
       logical :: is_twin(size(list))

@@ -86,7 +86,7 @@ contains
    end subroutine add_curves
 
    !> The factor that explains most of the scatter of a column: its squared correlation with the column, over all swept values,
-   !> weighted with the variance of the column there.
+   !> weighted with the variance of the column at each swept value.
    pure integer function curve_leader(study, column) result(leader)
       type(study_data_t), intent(in) :: study
       integer, intent(in) :: column

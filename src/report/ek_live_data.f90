@@ -96,7 +96,7 @@ contains
       call json%close('}')
    end subroutine add_rate
 
-   !> Finds the columns of the design state that a key number is read from; 0: it is not read there, or has no value.
+   !> Finds the columns of the design state from which a key number is read; 0: it is not read at design, or has no value.
    subroutine find_columns(design, number, columns)
       type(live_test_t), intent(in) :: design
       type(key_number_t), intent(in) :: number

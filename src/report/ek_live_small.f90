@@ -19,10 +19,10 @@ module ek_live_small
    type :: small_t
       integer, allocatable :: of_law(:)             !! rate of each law that is left
       integer, allocatable :: column(:)             !! of the test
-      integer, allocatable :: read(:), load(:)      !! vectors of each of them
+      integer, allocatable :: read(:), load(:)      !! vectors of each column
       integer :: vectors = 0                        !! number of vectors
       logical :: has_self = .false., has_held = .false.      !! which of both matrices the columns need
-      logical :: is_whole = .false.                 !! a matrix is not symmetric: all of it stands there, not the lower triangle
+      logical :: is_whole = .false.                 !! a matrix is not symmetric: it is stored in full, not as lower triangle
       real(wp), allocatable :: numbers(:, :)        !! (number, state): values, A, A with heights held, vectors
    end type small_t
 

@@ -26,7 +26,7 @@ module ek_report_data
 
 contains
 
-   !> The data of a report as JSON. The text has no '<', so that it can stand in a page as it is.
+   !> The data of a report as JSON. The text has no '<', so that it can be inserted into a page unchanged.
    function report_data(report) result(text)
       type(report_t), intent(in) :: report
       character(:), allocatable :: text

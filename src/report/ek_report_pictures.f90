@@ -150,7 +150,7 @@ contains
          suspension%name//': design, and the ends of its travel'), error, can_be_redrawn=.true.)
    end subroutine write_picture
 
-   !> Writes the animation: there and back through the travel, then through the steering.
+   !> Writes the animation: up and down through the travel, then through the steering.
    subroutine write_animation(report, suspension, camera, error)
       type(report_t), intent(inout) :: report                !! has_animation: something moves
       type(suspension_t), intent(in) :: suspension

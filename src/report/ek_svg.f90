@@ -27,8 +27,8 @@ module ek_svg
 
 contains
 
-   !> The <svg> element of a file, with ids `<prefix>_…` and a title; '' if the text has none. One pass over the text: the
-   !> pictures of a page are megabytes.
+   !> The <svg> element of a file, with ids `<prefix>_…` and a title; '' if the text does not contain one. One pass over the text:
+   !> the pictures of a page are megabytes.
    pure function embedded_svg(text, prefix, title) result(svg)
       character(*), intent(in) :: text       !! content of the file
       character(*), intent(in) :: prefix     !! unique in the page: letters and digits

@@ -78,7 +78,7 @@ contains
       end do
    end subroutine set_contact
 
-   !> Joins the lines of the two sides where they are the same: within a thousandth of the least span, over the same abscissa.
+   !> Joins the curves of the two sides where they are equal: within a thousandth of the least span, over the same abscissa.
    pure subroutine join_sides(chart)
       type(chart_t), intent(inout) :: chart
       logical :: is_twin(size(chart%traces))
@@ -107,7 +107,7 @@ contains
       if (any(is_twin)) chart%traces = pack(chart%traces, .not. is_twin)
    end subroutine join_sides
 
-   !> Whether two curves have the same values where they have any, within a tolerance.
+   !> Whether two curves are equal within a tolerance, at all points with values.
    pure logical function all_same(a, b, tolerance)
       real(wp), intent(in) :: a(:), b(:), tolerance
       integer :: k

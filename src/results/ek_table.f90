@@ -81,7 +81,7 @@ contains
       if (place > 0) values = table%values(place, :)
    end function column
 
-   !> Minimum and maximum finite value of a column; both nan if it has none or does not exist.
+   !> Minimum and maximum finite value of a column; both nan if the column has no finite value or does not exist.
    pure function column_range(table, name) result(range)
       type(table_t), intent(in) :: table
       character(*), intent(in) :: name

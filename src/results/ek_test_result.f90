@@ -37,7 +37,7 @@ module ek_test_result
       real(wp) :: abscissa_size = 1.0_wp
       real(wp) :: factor_size = 1.0_wp       !! load or displacement at `factor` = 1 [N, N m or mm]
       character(48) :: held = ''             !! condition of the wheels: 'vertical force held'; '': unknown
-      logical :: is_anti = .false.           !! the load on the right wheel is opposite to that on the left
+      logical :: is_anti = .false.           !! the loads on the right and left wheels are opposite
       logical :: is_iso = .false.            !! vectors in the table are in ISO 8855 axes (x forward, y left)
       character(name_length), allocatable :: prefixes(:)   !! of the wheels: '', or 'left_' and 'right_'
       integer, allocatable :: sides(:)       !! of the wheels: −1 left, +1 right
@@ -150,7 +150,7 @@ contains
 
    end subroutine choose_abscissa
 
-   !> The column of a wheel, or of the axle if the wheel has none of this name; 0 if there is neither.
+   !> The column of a wheel, or of the axle if the wheel has no column of this name; 0 if neither exists.
    pure integer function wheel_column(test, wheel, name) result(place)
       type(test_result_t), intent(in) :: test
       integer, intent(in) :: wheel

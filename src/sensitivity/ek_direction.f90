@@ -111,7 +111,7 @@ contains
    end subroutine gather
 
    !> The direction of a factor of a study: all its numbers move together. A sign is all that a direction needs to know of the
-   !> size of a number that is scaled. Its value is not set.
+   !> size. The value of the factor is not set.
    function factor_direction(design, name, paths) result(direction)
       type(design_t), intent(in) :: design
       character(*), intent(in) :: name

@@ -26,7 +26,7 @@ module ek_fit_problem
       real(wp) :: lower = -huge(1.0_wp), upper = huge(1.0_wp)
       real(wp) :: nominal = 0.0_wp, deviation              !! of the prior; deviation is not a number without one
       real(wp) :: scale = 1.0_wp                           !! a change that counts as large
-      logical :: is_positive = .false.                     !! a rate, a mass, a multiple: known only if it is known to be above zero
+      logical :: is_positive = .false.                     !! a rate, a mass, a multiple: known only if known to be above zero
    end type fit_variable_t
 
    !> One number that is fitted.

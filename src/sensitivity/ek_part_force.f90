@@ -1,4 +1,4 @@
-!> ∂F/∂p at a state: the changes of the parts that a number of the deck touches, times their responses there.
+!> ∂F/∂p at a state: the changes of the parts that a number of the deck affects, times their responses at the state.
 !>
 !> So ∂F/∂p costs in proportion to the number of affected parts, and no digits are lost in differences of large forces. Only a law
 !> that is not linear in its numbers (a curve, a rounded contact) is looked up in each of the neighbouring designs, at the

@@ -29,7 +29,7 @@ module ek_study_slopes
    type :: study_slopes_t
       real(wp), allocatable :: values(:)                     !! of the responses, then of the curves, column by column
       real(wp), allocatable :: slopes(:, :)                  !! (value, factor): per unit of the factor
-      integer :: responses = 0                               !! that come first
+      integer :: responses = 0                               !! number of responses, which precede the curves
       real(wp), allocatable :: sweep(:)                      !! swept value of the states of a curve
       integer, allocatable, private :: columns(:)            !! indices of the curves among the derived columns
       type(reading_t), allocatable, private :: readings(:)

@@ -20,7 +20,7 @@ module ek_chunk
    integer, parameter :: design_solved = 0         !! all states converged, all responses are known
    integer, parameter :: design_incomplete = 1     !! a state did not converge, or a response has no value
    integer, parameter :: design_unsolvable = 2     !! a mechanism or redundant constraint, or no balance
-   integer, parameter :: design_invalid = 3        !! its numbers make no model
+   integer, parameter :: design_invalid = 3        !! its numbers do not define a valid model
    character(*), parameter :: status_names(0:3) = [character(12) :: 'solved', 'incomplete', 'not_solvable', 'invalid']
 
    character(*), parameter :: mark = 'elastokin chunk 2'

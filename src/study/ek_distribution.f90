@@ -31,7 +31,7 @@ module ek_distribution
       real(wp) :: center = 0.5_wp                      !! mean of x (normal) or of ln x (log-normal), peak of a triangle
       real(wp) :: deviation = 1.0_wp                   !! of x (normal) or of ln x (log-normal)
       real(wp) :: from = 0.0_wp, to = 1.0_wp           !! F of the bounds, untruncated; reflected: 1 − F(upper), 1 − F(lower)
-      logical :: is_reflected = .false.                !! both bounds above the median of a normal: calculated from the other end
+      logical :: is_reflected = .false.                !! both bounds above the median of a normal: computed from mirrored bounds
    end type distribution_t
 
 contains

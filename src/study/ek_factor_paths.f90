@@ -49,7 +49,8 @@ contains
    end subroutine check_paths
 
    !> Rejects factors that move a point out of the centre plane of a mirrored deck: every design would be invalid, as a point
-   !> off the plane exists on both sides. A factor that multiplies leaves the point where it is; the rows of a list may have zeros.
+   !> off the plane exists on both sides. A factor that multiplies does not move the point out of the plane; the rows of a list
+   !> may have zeros.
    subroutine check_planes(study, design, paths, error)
       type(study_t), intent(in) :: study
       type(design_t), intent(in) :: design

@@ -1,8 +1,8 @@
 !> The processes (ranks) that compute one study together, started by mpirun or srun; without such a launcher, one.
 !>
 !> MPI is called only if the environment shows a launcher, so that a usual run neither starts nor waits for it. The ranks share
-!> counters, which lie in the memory of rank 0: the work is handed out by tickets, to whoever asks next. The procedures may be
-!> called by one thread at a time; those that say `all ranks` return when every rank has called them.
+!> counters, which lie in the memory of rank 0: the work is distributed by tickets in the order of requests. The procedures may be
+!> called by one thread at a time; procedures marked `all ranks` return when every rank has called them.
 !>
 !> elastokin itself is not linked with MPI, whose libraries would make every start longer by 2 ms: under a launcher it becomes
 !> elastokin-mpi, the same program with this module compiled with EK_MPI. Both see the same types.

@@ -275,7 +275,7 @@ contains
          str(ceiling(second/unit*(1.0_wp - 1.0e-9_wp))*unit, 3)//' or more in the response'
    end function remedy
 
-   !> The default column over which a slope is taken: the travel of the only wheel; with two wheels, that on the side of the
+   !> The default column over which a slope is taken: the travel of the only wheel; with two wheels, the travel on the side of the
    !> column, or else of the left wheel.
    pure function usual_over(column, table) result(over)
       character(*), intent(in) :: column

@@ -256,7 +256,7 @@ contains
       i = image_of(sampler%permutations(j), design - 1)
    end function interval_of
 
-   !> A point in interval number i of n equal ones of (0, 1), at a fraction of it; rounding never moves it into another one.
+   !> A point in interval number i of n equal ones of (0, 1), at a fraction of it; rounding never moves it into another interval.
    !>
    !> Equation (D.6) of docs/theory/sampling.md.
    pure real(wp) function point_in_interval(i, n, fraction) result(u)

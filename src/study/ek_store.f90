@@ -21,7 +21,7 @@ module ek_store
    private
    public :: store_texts_t, keep_texts, wants_store, choose_store, write_store, read_store, store_name
 
-   integer, parameter :: many_designs = 10000     !! more than these are stored in NetCDF if the study does not say
+   integer, parameter :: many_designs = 10000     !! more designs are stored in NetCDF by default
    integer, parameter :: time_limit = 86400       !! s, for the helper; a million designs take a minute
    integer, parameter :: room = 2000000           !! bytes that must fit on the disk, or it is full
    integer, parameter :: longest_log = 2000       !! characters of the helper's message
@@ -56,15 +56,16 @@ contains
       name = study%name//'.nc'
    end function store_name
 
-   !> Whether a study has its results in a store if there is the helper: it says so, or it says nothing and has many designs.
+   !> Whether a study stores its results in NetCDF if the helper exists: `format` is 'netcdf', or it is not given and there are
+   !> many designs.
    pure logical function wants_store(study, designs)
       type(study_t), intent(in) :: study
       integer, intent(in) :: designs
       wants_store = study%format == 'netcdf' .or. (study%format == '' .and. designs > many_designs)
    end function wants_store
 
-   !> Decides whether the results go into a store: if the study says so; if it says nothing, for many designs where the helper
-   !> is there.
+   !> Decides whether the results go into a store: if the study requests it; by default, for many designs if the helper
+   !> exists.
    subroutine choose_store(study, plan, is_wanted, error)
       type(study_t), intent(in) :: study
       type(study_plan_t), intent(in) :: plan
@@ -148,7 +149,7 @@ contains
          trouble)
    end subroutine read_store
 
-   !> Runs the helper. HDF5 need not lock a file that nobody else knows, and some network disks refuse the lock.
+   !> Runs the helper. HDF5 need not lock a file that no other process uses, and some network disks reject the lock.
    subroutine run_helper(arguments, folder, trouble)
       type(message_list_t), intent(in) :: arguments
       character(*), intent(in) :: folder                   !! for its messages

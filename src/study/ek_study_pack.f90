@@ -2,8 +2,8 @@
 !>
 !> The plan of elimination, the scale and the swept values of the states come from the deck's own design, so that the result of
 !> a design does not depend on the other designs of the pack. A case that packs cannot walk (linear methods, along an arc,
-!> tables, paths that do not go through design) sweeps every design by itself. So do runs with LAPACK as solver, and builds by
-!> compilers whose lanes are slow.
+!> tables, paths that do not go through design) sweeps every design by itself. The same holds for runs with LAPACK as solver, and
+!> for builds by compilers whose lanes are slow.
 module ek_study_pack
    use, intrinsic :: iso_fortran_env, only: compiler_version
    use ek_lanes, only: lanes

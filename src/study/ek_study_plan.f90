@@ -53,7 +53,7 @@ contains
       type(error_t), allocatable, intent(out) :: error     !! exit_deck, exit_file
       integer, intent(in) :: shards                        !! of this run
       character(*), intent(in) :: build                    !! of this program: version, commit, compiler, options
-      integer, intent(in) :: chunk                         !! designs of the chunks that are there; 0: there are none
+      integer, intent(in) :: chunk                         !! designs of the existing chunks; 0: there are no chunks
       type(sampler_settings_t) :: settings
       type(checksum_t) :: sum
       integer :: k

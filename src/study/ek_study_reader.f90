@@ -91,7 +91,7 @@ contains
       call include_records(reading%records, study%sum)
    end subroutine read_study
 
-   !> Whether a file contains groups of a deck and none of a study.
+   !> Whether a file contains groups of a deck and no groups of a study.
    pure logical function is_deck(file)
       type(deck_t), intent(in) :: file
       integer :: groups(file%used), k

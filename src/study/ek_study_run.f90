@@ -146,7 +146,7 @@ contains
          str(plan%designs)//' in chunks of '//str(plan%chunk)//line_end//build_word//plan%build//line_end
    end function content_of
 
-   !> The number of designs per chunk of the folder that is there; 0 if there is none. Shards may have chosen smaller chunks.
+   !> The number of designs per chunk of the existing folder; 0 if no folder exists. Shards may have chosen smaller chunks.
    integer function chunk_of_parts(study, out) result(chunk)
       type(study_t), intent(in) :: study
       character(*), intent(in) :: out
@@ -167,7 +167,7 @@ contains
       chunk = max(0, chunk)
    end function chunk_of_parts
 
-   !> Counts the designs whose chunks are there and whole.
+   !> Counts the designs whose chunks exist and are complete.
    subroutine count_parts(study, plan, out, done)
       type(study_t), intent(in) :: study
       type(study_plan_t), intent(in) :: plan
@@ -186,7 +186,7 @@ contains
       type(study_plan_t), intent(in) :: plan
       character(*), intent(in) :: out
       type(scratch_t), intent(inout) :: hold               !! of this run; ended
-      integer, intent(out) :: user                         !! nobody: they are removed; this_machine, other_machine
+      integer, intent(out) :: user                         !! nobody: the chunks are removed; this_machine, other_machine
       character(:), allocatable :: folder
       logical :: is_in_use, is_here
       integer :: k
