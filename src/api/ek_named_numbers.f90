@@ -113,6 +113,7 @@ contains
 
    contains
 
+      !> Adds a column to the columns of the case, unless its name is blank or already listed.
       subroutine add(name)
          character(name_length), intent(in) :: name
          integer :: c

@@ -56,6 +56,7 @@ contains
 
    contains
 
+      !> Computes the derivatives at the row, and gathers them by column and path.
       subroutine find(workspace, derived)
          class(workspace_t), intent(inout) :: workspace
          class(derived_t), intent(inout) :: derived

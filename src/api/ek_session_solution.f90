@@ -95,6 +95,7 @@ contains
       session%solved = k
    end subroutine solve_with_words
 
+   !> Finds a case by name; an unknown name is an error with a suggestion.
    subroutine find_case(name, workspace, file, k, error)
       character(*), intent(in) :: name, file
       type(workspace_t), intent(in) :: workspace

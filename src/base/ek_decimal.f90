@@ -84,6 +84,7 @@ contains
       text = buffer(:used)
    end function decimal
 
+   !> Appends a string to the buffer.
    pure subroutine put(word, buffer, used)
       character(*), intent(in) :: word
       character(*), intent(inout) :: buffer
@@ -159,6 +160,7 @@ contains
       call spell_four(mod(low, 10000), text(12:15))
    end subroutine spell
 
+   !> Writes an integer below 10000 with four digits.
    pure subroutine spell_four(number, text)
       integer, intent(in) :: number
       character(4), intent(out) :: text

@@ -200,6 +200,7 @@ contains
       end associate
    end subroutine time_columns
 
+   !> Times the derivatives of one use, and stores the shortest time so far.
    subroutine time_use(workspace, states, this)
       type(workspace_t), intent(inout) :: workspace
       integer, intent(in) :: states(:)

@@ -48,6 +48,7 @@ contains
       if (allocated(unprinted) .and. .not. allocated(error)) call move_alloc(unprinted, error)
    end subroutine check
 
+   !> The exit status of an error; 0 without an error.
    pure integer function status_of(error)
       type(error_t), allocatable, intent(in) :: error
       status_of = 0

@@ -46,12 +46,14 @@ contains
 
    contains
 
+      !> Appends the number of messages of a list, if it is not empty.
       subroutine count(list, one, many)
          type(message_list_t), intent(in) :: list
          character(*), intent(in) :: one, many
          if (list%count() > 0) text = text//', '//plural(list%count(), one, many)
       end subroutine count
 
+      !> Appends the first line of the first message, truncated if it is long.
       subroutine add_first(list)
          type(message_list_t), intent(in) :: list
          character(:), allocatable :: first
@@ -88,6 +90,7 @@ contains
 
    contains
 
+      !> Adds all messages of a list with one severity.
       subroutine add(list, severity)
          type(message_list_t), intent(in) :: list
          character(*), intent(in) :: severity
@@ -208,6 +211,7 @@ contains
 
    contains
 
+      !> Accepts a candidate as the key, if the group has this key and no key was found before.
       subroutine look_up(candidate)
          character(*), intent(in) :: candidate
          if (len(name) > 0) return
@@ -217,6 +221,7 @@ contains
 
    end function key_of
 
+   !> A name without its quotation marks.
    pure function unquoted(word) result(inner)
       character(*), intent(in) :: word
       character(len(word)) :: inner

@@ -240,6 +240,7 @@ contains
 
    contains
 
+      !> Adds one line with the values of all results.
       subroutine add_change(change)
          type(deck_difference_t), intent(in) :: change
          character(:), allocatable :: step
@@ -256,6 +257,7 @@ contains
          call out%line('')
       end subroutine add_change
 
+      !> A value as text, or 'not given'.
       pure function given(words) result(text)
          character(*), intent(in) :: words
          character(:), allocatable :: text

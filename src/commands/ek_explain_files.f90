@@ -133,6 +133,7 @@ contains
       if (.not. allocated(error)) call self%paths%finish(error)
    end subroutine end_explain_files
 
+   !> The ratio value/whole; 0 if whole is 0.
    pure real(wp) function share_of(value, whole) result(share)
       real(wp), intent(in) :: value, whole
 

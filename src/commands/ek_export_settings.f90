@@ -69,6 +69,7 @@ contains
 
    contains
 
+      !> Reads an option whose value must be in a list.
       subroutine take_word(option, words, word)
          character(*), intent(in) :: option, words(:)
          character(:), allocatable, intent(out) :: word
@@ -78,6 +79,7 @@ contains
          call mistakes%add(option//': expected '//list(words)//', found '//quoted(word))
       end subroutine take_word
 
+      !> Reads an option of the form from:to:n.
       subroutine take_range(option, range, least)
          character(*), intent(in) :: option
          type(range_t), intent(out) :: range

@@ -57,6 +57,7 @@ contains
 
    contains
 
+      !> Writes one file and prints its path; does nothing after an error.
       subroutine write_one(ending, text)
          character(*), intent(in) :: ending, text
          if (allocated(error)) return
@@ -185,6 +186,7 @@ contains
 
    contains
 
+      !> The path of a number of the design.
       function path_of(number, is_of_pair) result(path)
          integer, intent(in) :: number
          logical, intent(in) :: is_of_pair
@@ -261,6 +263,7 @@ contains
          end associate
       end function abscissa
 
+      !> The part of a plot command that draws one column of a target.
       function part(column, style) result(words)
          integer, intent(in) :: column
          character(*), intent(in) :: style

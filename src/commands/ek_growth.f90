@@ -166,6 +166,7 @@ contains
 
    contains
 
+      !> The exponent of the growth of the time with the matrix size, from the last two sizes.
       real(wp) function power(solver)
          integer, intent(in) :: solver
          power = log(sizes(last)%parts(solver)%increment/sizes(last - 1)%parts(solver)%increment)/ &

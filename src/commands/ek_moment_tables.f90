@@ -60,6 +60,7 @@ contains
 
    contains
 
+      !> Copies the effects of the factors on response r.
       subroutine take_effects(r)
          integer, intent(in) :: r
          real(wp) :: ends(2)
@@ -142,6 +143,7 @@ contains
       end do
    end subroutine take_sample
 
+   !> A NaN.
    pure real(wp) function nothing()
       nothing = ieee_value(1.0_wp, ieee_quiet_nan)
    end function nothing
@@ -268,6 +270,7 @@ contains
 
    contains
 
+      !> Reads one table and checks that it has the expected number of rows.
       subroutine read_one(ending, rows, table)
          character(*), intent(in) :: ending
          integer, intent(in) :: rows

@@ -223,6 +223,7 @@ contains
 
    contains
 
+      !> Reports a table that does not belong to the study.
       subroutine wrong()
          if (.not. allocated(error)) call fail(error, exit_file, path//': this is not the table of the '// &
             plural(data%designs, 'design', 'designs')//' of the study; run the study again')

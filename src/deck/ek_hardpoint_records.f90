@@ -154,6 +154,7 @@ contains
 
    contains
 
+      !> Appends a &point record for one hardpoint.
       subroutine put(name, at, line)
          character(*), intent(in) :: name
          real(wp), intent(in) :: at(3)

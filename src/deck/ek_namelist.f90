@@ -98,6 +98,7 @@ contains
          end associate
       end function fits
 
+      !> Reports an error in one entry of the record.
       subroutine complain(entry, what)
          integer, intent(in) :: entry
          character(*), intent(in) :: what

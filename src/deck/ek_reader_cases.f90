@@ -233,6 +233,7 @@ contains
 
    contains
 
+      !> Checks that a load exists and is scaled by cases; a constant load is an error.
       subroutine find_load(name)
          character(*), intent(in) :: name
          integer :: found
@@ -318,6 +319,7 @@ contains
 
    contains
 
+      !> Rejects a key that the test of the case does not allow.
       subroutine refuse_in_test(key, is_wrong, why)
          character(*), intent(in) :: key, why
          logical, intent(in) :: is_wrong

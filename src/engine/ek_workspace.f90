@@ -242,6 +242,7 @@ contains
       end if
    end subroutine settle_fully
 
+   !> Reports the defects of the model as one error.
    pure subroutine fail_unsolvable(defects, error)
       type(message_list_t), intent(in) :: defects
       type(error_t), allocatable, intent(out) :: error

@@ -302,6 +302,7 @@ contains
 
    contains
 
+      !> The weight of unknown j in the scalar product: 1/L² for displacements, 1 for rotations.
       pure real(wp) function weight(j)
          integer, intent(in) :: j
          weight = 1.0_wp

@@ -148,6 +148,7 @@ contains
 
    contains
 
+      !> Adds an unknown to the rows of pivot k, unless it is already one of them.
       subroutine add(unknown)
          integer, intent(in) :: unknown
          if (mark(unknown) == k) return

@@ -111,6 +111,7 @@ contains
 
    contains
 
+      !> Finds the slot of a body in row k; 0: the chassis, or a new slot if the row has none yet.
       subroutine find_slot(this, slot)
          integer, intent(in) :: this             ! body
          integer, intent(out) :: slot

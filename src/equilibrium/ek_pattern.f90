@@ -222,6 +222,7 @@ contains
 
    contains
 
+      !> Appends an entry of the matrix with its position in the store.
       subroutine add_entry(row, column, from)
          integer, intent(in) :: row, column, from
          self%entries = self%entries + 1

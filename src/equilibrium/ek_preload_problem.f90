@@ -278,6 +278,7 @@ contains
       if (is_moderate) is_moderate = are_moderate(12*problem%pieces, problem%piece)
    end function is_moderate
 
+   !> Whether all numbers are finite and below `moderate` in magnitude.
    pure logical function are_moderate(n, numbers)
       integer, intent(in) :: n
       real(wp), intent(in) :: numbers(n)

@@ -58,6 +58,7 @@ contains
 
    contains
 
+      !> Adds the logarithms of the rates above zero.
       subroutine include_rates(rates)
          real(wp), intent(in) :: rates(3)      !! N/m
          real(wp) :: sum_of_three
@@ -72,6 +73,7 @@ contains
          sum_log = sum_log + sum_of_three
       end subroutine include_rates
 
+      !> Adds the lengths of the arms of a measure on moving bodies.
       subroutine include_arms(measure)
          type(measure_t), intent(in) :: measure
 

@@ -66,6 +66,7 @@ contains
 
    contains
 
+      !> Adds an actuation of a load, a driver row, or both, as found by name.
       subroutine include(load, drive, law, share, values)
          character(*), intent(in) :: load, drive
          integer, intent(in) :: law
@@ -89,6 +90,7 @@ contains
 
    end subroutine make_schedule
 
+   !> Sets law, share and table values of an actuator.
    pure subroutine put(this, law, share, values)
       type(actuator_t), intent(inout) :: this
       integer, intent(in) :: law
@@ -117,6 +119,7 @@ contains
 
    contains
 
+      !> Whether two actuators have the same law and share; never for a table.
       pure logical function same_law(one, other)
          type(actuator_t), intent(in) :: one, other
          same_law = one%law == other%law .and. abs(one%share - other%share) <= 0.0_wp .and. one%law /= follows_table

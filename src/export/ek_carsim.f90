@@ -80,6 +80,7 @@ contains
 
    contains
 
+      !> Adds a comment line.
       subroutine remark(words)
          character(*), intent(in) :: words
          call file%line('# '//words)

@@ -60,6 +60,7 @@ contains
 
    contains
 
+      !> Adds a panel of one column over the wheel travel.
       subroutine over_travel(name, unit, column, scale, source, sign)
          character(*), intent(in) :: name, unit, source
          integer, intent(in) :: column
@@ -77,6 +78,7 @@ contains
             decimal(scale)//')'//point_style, x, sign*y)
       end subroutine over_travel
 
+      !> Adds a panel of one column over steer.
       subroutine over_steering(name, column, source, sign)
          character(*), intent(in) :: name, source
          integer, intent(in) :: column
@@ -110,6 +112,7 @@ contains
       end do
    end function list_of
 
+   !> The swept values of the solved steering test.
    function source_factor(sources) result(values)
       type(sources_t), intent(in) :: sources
       real(wp), allocatable :: values(:)

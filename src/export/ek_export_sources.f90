@@ -66,6 +66,7 @@ contains
 
    contains
 
+      !> Solves a case and returns its table.
       subroutine run(this, table, error)
          type(case_t), intent(in) :: this
          type(table_t), intent(out) :: table

@@ -132,6 +132,7 @@ contains
          'damper, stop or measure '//quoted(wanted)//' that is a length'//suggestion(wanted, names))
    end subroutine take_named
 
+   !> Accepts a measure as the length, with its label.
    subroutine take(choice, label)
       type(length_choice_t), intent(inout) :: choice
       character(*), intent(in) :: label

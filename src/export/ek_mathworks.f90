@@ -196,6 +196,7 @@ contains
       end select
    end function of_axle
 
+   !> A quantity of one side at design.
    pure real(wp) function at_design(map, side, quantity)
       type(kandc_map_t), intent(in) :: map
       integer, intent(in) :: side, quantity

@@ -198,6 +198,7 @@ contains
       end do
    end subroutine add_head
 
+   !> The point whose height defines the wheel travel.
    pure function place(map) result(text)
       type(kandc_map_t), intent(in) :: map
       character(13) :: text

@@ -60,6 +60,7 @@ contains
       call put_point(deck, 'carrier_mass', middle(kin, [wheel_centre, wheel_centre, lower_ball, upper_ball]))
    end subroutine put_points
 
+   !> Writes a point with its number in the .kin file as note.
    subroutine put_numbered(deck, kin, name, k)
       type(deck_text_t), intent(inout) :: deck
       type(kin_t), intent(in) :: kin
@@ -69,6 +70,7 @@ contains
       call put_point(deck, name, kin%at(:, k), 'point '//str(k))
    end subroutine put_numbered
 
+   !> Writes a &point.
    subroutine put_point(deck, name, at, note)
       type(deck_text_t), intent(inout) :: deck
       character(*), intent(in) :: name
@@ -82,6 +84,7 @@ contains
       call deck%end()
    end subroutine put_point
 
+   !> The mean of several points.
    pure function middle(kin, numbers) result(at)
       type(kin_t), intent(in) :: kin
       integer, intent(in) :: numbers(:)

@@ -116,6 +116,7 @@ contains
       end if
    end function kind_of
 
+   !> Whether a string equals a lower-case word, apart from case and blanks.
    pure logical function is_same(a, b)
       character(*), intent(in) :: a, b
       is_same = lower(trim(adjustl(a))) == b

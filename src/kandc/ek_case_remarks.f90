@@ -74,8 +74,7 @@ contains
    end subroutine rack_remarks
 
    !> Compares the linear methods at the first wheel with one equilibrium solution at each end of the sweep, found from the
-   !> state at this end. An end without an equilibrium
-   !> nearby is a failure: the states before it are unreliable.
+   !> state at this end. An end without an equilibrium nearby is a failure: the states before it are unreliable.
    subroutine drift_remarks(suspension, case, path, kkt, remarks)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
@@ -298,6 +297,7 @@ contains
 
    contains
 
+      !> Adds a warning that a curve was used beyond one of its ends.
       subroutine warn(verb, limit, used, state, beyond)
          character(*), intent(in) :: verb, beyond
          real(wp), intent(in) :: limit, used

@@ -82,6 +82,7 @@ contains
 
    contains
 
+      !> Appends a share of an element, joint or load.
       subroutine add(kind, item, part)
          integer, intent(in) :: kind, item, part
          type(share_t) :: new

@@ -240,6 +240,7 @@ contains
 
    contains
 
+      !> Adds a warning on stability at a swept value.
       subroutine report(before, place, after)
          character(*), intent(in) :: before, after
          real(wp), intent(in) :: place

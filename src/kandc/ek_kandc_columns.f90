@@ -99,6 +99,7 @@ contains
          self%stand%track)
    end subroutine set_stand
 
+   !> Stores axes, centre and arm of the contact point of wheel k.
    pure subroutine stand_wheel(now, k, stand)
       type(attitude_t), intent(in) :: now
       integer, intent(in) :: k

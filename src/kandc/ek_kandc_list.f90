@@ -115,6 +115,7 @@ contains
 
    contains
 
+      !> Adds the columns of a section, with the prefix of its wheel, as one block.
       subroutine add_section(section, number, wheel)
          type(quantity_t), intent(in) :: section(:)
          integer, intent(in) :: number
@@ -152,6 +153,7 @@ contains
 
    contains
 
+      !> Adds the columns of a section of this wheel as one block.
       subroutine add(section, number, condition)
          type(quantity_t), intent(in) :: section(:)
          integer, intent(in) :: number

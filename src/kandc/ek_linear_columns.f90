@@ -192,6 +192,7 @@ contains
 
    contains
 
+      !> Computes the responses with the heights of the wheel centres held.
       subroutine respond_held(c, share, stand, place, is_asked, is)
          real(wp), intent(in) :: c(:, :), share(:, :)
          type(stand_t), intent(in) :: stand

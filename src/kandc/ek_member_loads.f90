@@ -97,6 +97,7 @@ contains
 
    contains
 
+      !> Adds both ends of a member.
       subroutine add_pair(name, measure)
          character(*), intent(in) :: name
          type(measure_t), intent(in) :: measure
@@ -105,6 +106,7 @@ contains
          call add_end(name, 2, measure%body_j, measure%arm_j)
       end subroutine add_pair
 
+      !> Adds the end of a member on one body.
       subroutine add_end(name, side, number, arm)
          character(*), intent(in) :: name
          integer, intent(in) :: side, number
@@ -231,6 +233,7 @@ contains
 
    contains
 
+      !> Stores the load at end e if it exceeds the peak so far.
       subroutine keep(e, number, factor, values)
          integer, intent(in) :: e, number
          real(wp), intent(in) :: factor, values(size(components))

@@ -112,6 +112,7 @@ contains
 
    contains
 
+      !> Whether a measure connects the rack to another moving body.
       pure logical function leads(m)
          type(measure_t), intent(in) :: m
          leads = any([m%body_i, m%body_j] == rack) .and. min(m%body_i, m%body_j) > 0

@@ -76,6 +76,7 @@ contains
 
    contains
 
+      !> Marks both bodies of a measure as reached, if one of them is reached.
       subroutine pass(m)
          type(measure_t), intent(in) :: m
          if (min(m%body_i, m%body_j) == 0) return
@@ -112,6 +113,7 @@ contains
       end do
    end subroutine doubt_bar_axes
 
+   !> Whether joint j is a revolute joint between the chassis and a body of the measure.
    pure logical function is_hinge_of(suspension, j, m)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: j
@@ -177,6 +179,7 @@ contains
       end do
    end function mounts_of
 
+   !> Whether bushing k is coaxial with another bushing between the same body and the chassis.
    pure logical function is_coaxial_with_own(suspension, k)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: k
@@ -211,6 +214,7 @@ contains
       end associate
    end function off_axis
 
+   !> The point of an element on its first body.
    pure function centre_of(suspension, k) result(at)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: k

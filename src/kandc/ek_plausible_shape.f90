@@ -139,6 +139,7 @@ contains
 
    contains
 
+      !> Adds a joint to the mean of a body.
       subroutine include(body, arm)
          integer, intent(in) :: body
          real(wp), intent(in) :: arm(3)

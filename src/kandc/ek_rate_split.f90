@@ -81,6 +81,7 @@ contains
       end do
    end subroutine add_up
 
+   !> The class of a share: bushings, springs, bars, stops, joints or preloads.
    pure integer function class_of(suspension, share) result(group)
       type(suspension_t), intent(in) :: suspension
       type(share_t), intent(in) :: share

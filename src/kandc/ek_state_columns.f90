@@ -95,6 +95,7 @@ contains
 
    contains
 
+      !> Adds the columns x, y and z of a vector.
       subroutine add_three(stem, unit)
          character(*), intent(in) :: stem, unit
          call add_column(list, stem//'x_'//unit)

@@ -104,12 +104,14 @@ contains
 
    contains
 
+      !> Ends the search with a reason.
       subroutine finish(why)
          integer, intent(in) :: why
          search%is_finished = .true.
          search%ended = why
       end subroutine finish
 
+      !> Computes the next bounded step from the best x.
       subroutine next_step()
          real(wp) :: d(size(search%x)), low(size(d)), high(size(d)), scaled(size(r), size(d)), before
          integer :: j

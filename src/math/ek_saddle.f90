@@ -167,6 +167,7 @@ contains
       call apply(saddle%n, saddle%m, saddle%f, b)
    end subroutine reduce
 
+   !> Applies the row operations of F to a vector.
    pure subroutine apply(n, m, f, b)
       integer, intent(in) :: n, m
       real(wp), intent(in) :: f(n, m)

@@ -43,6 +43,7 @@ contains
 
    contains
 
+      !> Whether an element is a linear spring at least as stiff as a rod.
       pure logical function is_stiff(element)
          type(element_t), intent(in) :: element
          is_stiff = element%kind == axial_spring .and. .not. element%law%has_curve .and. element%law%rate >= stiff

@@ -38,6 +38,7 @@ contains
       end do
    end function grid_levels
 
+   !> The value of level k of `increments`.
    pure real(wp) function level(from, to, increments, k)
       real(wp), intent(in) :: from, to
       integer, intent(in) :: increments, k

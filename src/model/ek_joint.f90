@@ -180,6 +180,7 @@ contains
 
    contains
 
+      !> Appends a row with one term.
       subroutine add(measure_kind, u, v)
          integer, intent(in) :: measure_kind
          real(wp), intent(in) :: u(3)

@@ -48,6 +48,7 @@ contains
       call move_alloc(places, self%places)
    end subroutine walk_pack
 
+   !> Walks the paths of all members from design to both ends of the range.
    subroutine walk_together(self, members, places)
       type(walker_t), intent(inout) :: self
       type(member_t), intent(inout) :: members(lanes)

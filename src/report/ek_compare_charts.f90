@@ -104,6 +104,7 @@ contains
       end do
    end subroutine add_lone
 
+   !> The change of a chart without a counterpart: NaN.
    pure type(chart_change_t) function missing_change()
       real(wp) :: nothing
 

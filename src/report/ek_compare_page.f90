@@ -172,6 +172,7 @@ contains
 
    contains
 
+      !> The remark on numbers that cannot be compared; '' if there are none.
       function others(number) result(text)
          integer, intent(in) :: number
          character(:), allocatable :: text

@@ -122,6 +122,7 @@ contains
       if (are_numbers(a, b, x, y)) is_equal = abs(x - y) <= 1.0e-12_wp*max(abs(x), abs(y))
    end function is_equal
 
+   !> Whether two texts are numbers; x and y return their values.
    logical function are_numbers(a, b, x, y)
       character(*), intent(in) :: a, b
       real(wp), intent(out) :: x, y

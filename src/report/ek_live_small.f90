@@ -94,6 +94,7 @@ contains
       end do
    end subroutine take_sums
 
+   !> Replaces laws l and l + 1 of a state by their sum and difference, over √2.
    subroutine take_sum(l, sign, state)
       integer, intent(in) :: l                      !! the first law of a pair
       real(wp), intent(in) :: sign
@@ -107,6 +108,7 @@ contains
       call turn_rows(l, sign, state%load)
    end subroutine take_sum
 
+   !> Replaces rows l and l + 1 of a matrix by their sum and difference, over √2.
    pure subroutine turn_rows(l, sign, a)
       integer, intent(in) :: l
       real(wp), intent(in) :: sign
@@ -118,6 +120,7 @@ contains
       end do
    end subroutine turn_rows
 
+   !> Replaces columns l and l + 1 of a matrix by their sum and difference, over √2.
    pure subroutine turn_columns(l, sign, a)
       integer, intent(in) :: l
       real(wp), intent(in) :: sign
@@ -129,7 +132,7 @@ contains
       end do
    end subroutine turn_columns
 
-   !> Computes sum and difference of two numbers, over √2.
+   !> Replaces two numbers by their sum and difference, over √2.
    pure subroutine turn(sign, first, second)
       real(wp), intent(in) :: sign
       real(wp), intent(inout) :: first, second
@@ -219,12 +222,14 @@ contains
 
    contains
 
+      !> Gives a vector the next number.
       subroutine number(vector)
          integer, intent(out) :: vector
          small%vectors = small%vectors + 1
          vector = small%vectors
       end subroutine number
 
+      !> Whether the vectors of columns c and e are equal at all known states.
       logical function is_same(c, e, is_read)
          integer, intent(in) :: c, e
          logical, intent(in) :: is_read

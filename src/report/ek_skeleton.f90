@@ -86,6 +86,7 @@ contains
 
    contains
 
+      !> Adds a node, or merges it with a node at the same point.
       subroutine add_node(arm, is_held, is_spring)
          real(wp), intent(in) :: arm(3)
          logical, intent(in) :: is_held, is_spring

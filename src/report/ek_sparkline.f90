@@ -78,12 +78,14 @@ contains
 
    contains
 
+      !> The point of a row as 'x,y'.
       function point(row) result(text)
          integer, intent(in) :: row
          character(:), allocatable :: text
          text = across(row)//','//down(row)
       end function point
 
+      !> The horizontal position of a row [pixels].
       function across(row) result(text)
          integer, intent(in) :: row
          character(:), allocatable :: text
@@ -91,6 +93,7 @@ contains
             (x_range(2) - x_range(1)))
       end function across
 
+      !> The vertical position of a row [pixels], positive downward.
       function down(row) result(text)
          integer, intent(in) :: row
          character(:), allocatable :: text

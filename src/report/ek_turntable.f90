@@ -129,6 +129,7 @@ contains
 
    contains
 
+      !> Adds a line between the two points of a measure.
       subroutine add_measure(measure, kind)
          type(measure_t), intent(in) :: measure
          character(*), intent(in) :: kind

@@ -97,6 +97,7 @@ contains
          call move_all(1, step, moved%poses(b:b + 1))
       end subroutine move
 
+      !> Restores the pose of a body, or the reactions.
       subroutine put_back(b)
          integer, intent(in) :: b
 

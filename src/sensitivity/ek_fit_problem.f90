@@ -269,6 +269,7 @@ contains
 
    contains
 
+      !> The value of a column in the row of the curve; not given without the column.
       real(wp) function cell(place)
          integer, intent(in) :: place
          cell = not_given()

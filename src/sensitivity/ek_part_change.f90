@@ -201,6 +201,7 @@ contains
          any(abs(a%spin - b%spin) > 0.0_wp) .or. any(abs(a%steer_axis - b%steer_axis) > 0.0_wp))
    end function same_wheel
 
+   !> Adds the weighted change of a row (target, compliance) between two designs.
    pure subroutine learn_row(here, there, number, weight, change)
       type(row_t), intent(in) :: here, there
       integer, intent(in) :: number
@@ -214,6 +215,7 @@ contains
       change%compliance = change%compliance + weight*(there%compliance - here%compliance)
    end subroutine learn_row
 
+   !> Adds the weighted change of a term of a row between two designs.
    pure subroutine learn_term(here, there, number, row, weight, change)
       type(term_t), intent(in) :: here, there
       integer, intent(in) :: number, row
@@ -229,6 +231,7 @@ contains
       change%is_touched = .true.
    end subroutine learn_term
 
+   !> Adds the weighted change of arms and directions of a measure between two designs.
    pure subroutine learn_measure(here, there, weight, arms, u, v, has_arms, has_directions)
       type(measure_t), intent(in) :: here, there
       real(wp), intent(in) :: weight
@@ -276,6 +279,7 @@ contains
       call keep_neighbour(here, there, k, change%there)
    end subroutine learn_spring
 
+   !> Adds the weighted change of a bushing between two designs.
    pure subroutine learn_bushing(here, there, number, k, all, change, bends)
       type(element_t), intent(in) :: here, there
       integer, intent(in) :: number, k
@@ -326,6 +330,7 @@ contains
       laws(k)%measure = here%measure
    end subroutine keep_neighbour
 
+   !> Adds the weighted change of a load between two designs.
    pure subroutine learn_load(here, there, number, k, change)
       type(load_t), intent(in) :: here, there
       integer, intent(in) :: number, k

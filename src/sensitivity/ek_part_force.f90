@@ -100,6 +100,7 @@ contains
       if (allocated(change%rates)) call add_rates(suspension, state, change%rates(rate), nq, force)
    end subroutine add_force
 
+   !> Adds the effect of a changed term of a row to ∂F/∂p.
    pure subroutine add_term(term, state, change, response, nq, force)
       type(term_t), intent(in) :: term
       type(state_t), intent(in) :: state
@@ -139,6 +140,7 @@ contains
       end do
    end subroutine add_columns
 
+   !> Adds the effect of a changed element to ∂F/∂p.
    pure subroutine add_element(element, state, change, response, all, force, corner)
       type(element_t), intent(in) :: element
       type(state_t), intent(in) :: state
@@ -186,6 +188,7 @@ contains
       end associate
    end subroutine add_element
 
+   !> Adds the effect of a changed load to ∂F/∂p.
    pure subroutine add_load(suspension, state, inputs, change, weight, force)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state

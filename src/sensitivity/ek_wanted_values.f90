@@ -145,6 +145,7 @@ contains
       many = size(cases)
    end function count_cases
 
+   !> The index of a case among the needed cases; 0 if it is not needed.
    pure integer function needed_number(case, needed) result(j)
       integer, intent(in) :: case
       type(needed_t), intent(in) :: needed(:)

@@ -196,6 +196,7 @@ contains
 
    contains
 
+      !> Reports a column name that is used twice.
       subroutine add(who, head, other)
          character(*), intent(in) :: who, head, other
          call mistakes%add(who//': its column would have the name '//quoted(head)//', like that of '//other//'; rename one')

@@ -101,6 +101,7 @@ contains
 
    contains
 
+      !> The probability of a value below a limit.
       pure real(wp) function below(limit)
          real(wp), intent(in) :: limit
          real(wp) :: z

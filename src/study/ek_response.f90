@@ -56,11 +56,13 @@ contains
 
    contains
 
+      !> Adds a column name, unless it is already listed.
       subroutine add(name)
          character(*), intent(in) :: name
          if (.not. any(names == name)) names = [character(len(names)) :: names, name]
       end subroutine add
 
+      !> Adds a column name, also with left_ and right_.
       subroutine add_of_wheels(name)
          character(*), intent(in) :: name
          call add(name)

@@ -139,6 +139,7 @@ contains
 
    contains
 
+      !> Reports an error of the factor.
       subroutine complain(what)
          character(*), intent(in) :: what
          call fail(error, exit_deck, given%where//': factor '//quoted(given%name)//': '//what)

@@ -71,6 +71,7 @@ contains
 
    contains
 
+      !> Sets the pointers of a member to the data of the case in a workspace.
       subroutine point_to(from, member)
          type(workspace_t), intent(inout), target :: from
          type(member_t), intent(inout) :: member
