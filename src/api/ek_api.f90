@@ -6,7 +6,7 @@
 !>     type(error_t), allocatable :: error
 !>     type(model_remarks_t) :: remarks
 !>     call open_file('axle.nml', session, error)
-!>     call find_remarks(session, remarks, error)                                remarks%warnings, remarks%doubts: as run prints them
+!>     call find_remarks(session, remarks, error)                                remarks%warnings, remarks%doubts, as printed by run
 !>     call set_number(session, 'bushing.lca_front.kt(1)', 500.0_wp, error)      in the unit of the deck, as --set
 !>     call solve(session, 'parallel_travel', error)
 !>     result => result_of(session)

@@ -194,8 +194,8 @@ contains
       call add(findings, 'unused points', unused(3:))
    end subroutine add_model
 
-   !> The size of the system of an increment without the rows of a rig, for LAPACK and for the plan of elimination. Numbers are those
-   !> of the lower triangle.
+   !> The size of the system of an increment without the rows of a rig, for LAPACK and for the plan of elimination. Numbers of
+   !> entries refer to the lower triangle.
    function matrix_text(suspension) result(text)
       type(suspension_t), intent(in) :: suspension
       character(:), allocatable :: text

@@ -29,7 +29,8 @@ contains
 
    !> Runs a study. Tables are written to DIR (default: out, in the folder of the study) when all designs are done; until then
    !> DIR/<study>.parts holds the finished chunks, with which the next run resumes. gnuplot then runs the study's plot script;
-   !> its variable `out` is the folder of the tables and figures. Under mpirun all ranks compute; rank 0 prints and writes the tables.
+   !> its variable `out` is the folder of the tables and figures. Under mpirun all ranks compute; rank 0 prints and writes the
+   !> tables.
    subroutine run_study_command(line, error)
       type(command_line_t), intent(in) :: line
       type(error_t), allocatable, intent(out) :: error

@@ -20,7 +20,7 @@ module ek_kkt_factors
    public :: max_growth, proven_growth
 
    real(wp), parameter :: max_growth = 1.0e4_wp     !! of the factors by plan: the error of a solution is some 1e-16 times this
-   real(wp), parameter :: proven_growth = 100.0_wp  !! likewise where nothing corrects it: |S − L D Lᵀ| is some 1e-16 |S| times its square
+   real(wp), parameter :: proven_growth = 100.0_wp  !! likewise without a correction: |S − L D Lᵀ| ≈ 1e-16 |S| growth²
 
 contains
 

@@ -38,8 +38,8 @@ module ek_case_result
       logical :: is_compared = .true.              !! a linear method is compared with equilibrium at the ends of the path
       real(wp) :: min_settling = 1.0e-8_wp       !! displacement of a wheel under the constant loads that is noted [m]
       character(name_length), allocatable :: columns(:)   !! quantities that are computed; not allocated: all
-      logical :: defers_kandc = .false.            !! the caller fills the K&C quantities of the table where it reads them (read_states)
-      real(wp) :: reach = huge(1.0_wp)             !! swept value beyond which on either side of design no state is needed
+      logical :: defers_kandc = .false.            !! the caller fills the K&C quantities at the states that it reads (read_states)
+      real(wp) :: reach = huge(1.0_wp)             !! on either side of design, swept value beyond which no state is needed
       character(:), allocatable :: checksum        !! of the deck, for the header of the table; not allocated: no header
    end type solve_options_t
 

@@ -1,5 +1,6 @@
 !> elastokin-netcdf PARTS OUT.nc: writes the store of a study from the folder of its chunks; elastokin runs it when all designs are
-!> done. elastokin-netcdf --csv STORE.nc FOLDER [N]: writes the tables of a store as CSV (the curves of every N-th design). It is a program of its own because the NetCDF libraries would make every start of elastokin longer by 6 ms.
+!> done. elastokin-netcdf --csv STORE.nc FOLDER [N]: writes the tables of a store as CSV (the curves of every N-th design). It is
+!> a separate program because the NetCDF libraries would make every start of elastokin longer by 6 ms.
 program elastokin_netcdf
    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
    use, intrinsic :: iso_c_binding, only: c_int

@@ -1,6 +1,7 @@
 !> The figures of a study: which of them apply follows from its kind and its columns, by one table.
 !>
-!> A new figure: its row in `rules`, its case in `script_of`, and its procedure in ek_sample_figures, ek_effect_figures or a file of its own.
+!> A new figure: its row in `rules`, its case in `script_of`, and its procedure in ek_sample_figures, ek_effect_figures or a file
+!> of its own.
 module ek_study_figures
    use ek_text, only: plural
    use ek_study_data, only: study_data_t, has_indices

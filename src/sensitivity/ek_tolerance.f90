@@ -20,7 +20,7 @@ module ek_tolerance
    private
    public :: tolerance_t, find_tolerance
 
-   real(wp), parameter :: step = 0.1_wp         !! of the difference of two gradients, standard deviations: the curvature is in error by
+   real(wp), parameter :: step = 0.1_wp         !! of the difference of two gradients [standard deviations]: error of the curvature:
                                                 !! its relative change over this, squared, over six
 
    type :: tolerance_t

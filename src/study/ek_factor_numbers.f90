@@ -16,9 +16,9 @@ module ek_factor_numbers
 
 contains
 
-   !> Changes to the design with these values of the factors, from the numbers alone, with its cases on the rig. is_done is .false. if
-   !> it must be read from the text: a factor is not a number of the design space, a value is outside its range, or the design may
-   !> have a defect.
+   !> Changes to the design with these values of the factors, from the numbers alone, with its cases on the rig. is_done is
+   !> .false. if it must be read from the text: a factor is not a number of the design space, a value is outside its range, or the
+   !> design may have a defect.
    subroutine change_design(factors, values, workspace, is_done)
       type(factor_paths_t), intent(in) :: factors(:)
       real(wp), intent(in) :: values(:)                    !! in the units of the deck
