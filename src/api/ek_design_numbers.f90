@@ -70,8 +70,8 @@ contains
    end subroutine reset_numbers
 
    !> A number as a person would have written it, with at most 15 digits: the conversion to SI and back changes its last digit. A
-   !> whole number of 15 digits and a power of ten up to 1e22 are exact, and one division or product rounds once: the nearest
-   !> number to the decimal one, as reading its text gives (W. D. Clinger, PLDI 1990).
+   !> integer of 15 digits and a power of ten up to 1e22 are exact, and one division or product rounds once. The result is the
+   !> number nearest to the decimal, as if read from its text (W. D. Clinger, PLDI 1990).
    real(wp) function written(value)
       real(wp), intent(in) :: value
       integer :: places                            ! after the decimal point

@@ -37,7 +37,7 @@ module ek_rig_test
 
    type :: rig_test_t
       character(19) :: name = ''
-      integer :: action = 0                  !! one of those above; 0: no test of the rig
+      integer :: action = 0                  !! one of the constants above; 0: no test of the rig
       integer :: charts = of_none            !! set of charts and gradients
       character(6) :: control = ''           !! how the wheels are held, unless the case gives it
       character(3) :: unit = '-'             !! of the swept value: mm, deg, N, N m or '' for the unit of the steered joint
@@ -45,7 +45,7 @@ module ek_rig_test
       character(18) :: abscissa = 'wheel_travel_mm'    !! column over which the charts are drawn and the gradients fitted
       character(56) :: label = 'wheel travel [mm]    (+ bump)'   !! of the abscissa
       real(wp) :: shares(2) = 0.0_wp         !! moves_heights: height per swept value, left and right
-      real(wp) :: force(3) = 0.0_wp          !! loads_wheels: force and moment per swept value on the left wheel, at the patch
+      real(wp) :: force(3) = 0.0_wp          !! loads_wheels: force and moment per swept value, at the left contact point
       real(wp) :: moment(3) = 0.0_wp
       logical :: is_at_centre = .false.      !! the force acts at the wheel centre, except in a solid axle that takes the torque
       logical :: has_phase = .false.         !! the load on the right wheel may be reversed

@@ -86,8 +86,8 @@ contains
       if (is_terminal(2)) call write_standard_error(achar(13)//repeat(' ', 40)//achar(13))
    end subroutine clear_progress
 
-   !> Prints the remarks on a model before its cases are run: of those on implausible values the first, and a reference to the
-   !> others. `page` collects the warnings, and every remark.
+   !> Prints the remarks on a model before its cases are run: of the remarks on implausible values only the first, with a
+   !> reference to the others. `page` collects the warnings and all remarks.
    subroutine print_model_remarks(quiet, remarks, page)
       logical, intent(in) :: quiet
       type(model_remarks_t), intent(in) :: remarks

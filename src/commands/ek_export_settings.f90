@@ -83,7 +83,7 @@ contains
       subroutine take_range(option, range, least)
          character(*), intent(in) :: option
          type(range_t), intent(out) :: range
-         integer, intent(in) :: least      !! of the points
+         integer, intent(in) :: least      !! smallest number of points
          character(:), allocatable :: text
          real(wp) :: numbers(3)
          integer :: k, colon

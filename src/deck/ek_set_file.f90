@@ -39,7 +39,8 @@ module ek_set_file
 
 contains
 
-   !> Reads a file. Nothing is compared with a deck yet; lines that are not settings are reported with those that do not fit.
+   !> Reads a file. Nothing is compared with a deck yet; lines that are not settings are reported with the settings that do not
+   !> match the deck.
    subroutine read_set_file(path, file, error)
       character(*), intent(in) :: path
       type(set_file_t), intent(out) :: file

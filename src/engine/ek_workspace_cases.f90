@@ -59,7 +59,7 @@ contains
       end if
    end subroutine read_checked
 
-   !> Reads a deck and lists its cases, then the standard tests that it does not have; reports all errors together.
+   !> Reads a deck and lists its cases, then the standard tests that it does not define; reports all errors together.
    subroutine open_workspace(deck, workspace, error)
       type(deck_t), intent(in) :: deck
       type(workspace_t), intent(inout) :: workspace          !! its former content is deleted
@@ -149,7 +149,7 @@ contains
       workspace%stage = numbers_given
    end subroutine empty_workspace
 
-   !> Finds a case of the deck, or a standard test of the report that it does not have.
+   !> Finds a case of the deck, or a standard test of the report that the deck does not define.
    subroutine take_case(file, name, cases, suspension, found, error)
       character(*), intent(in) :: file, name           !! '': the first of the deck
       type(case_t), intent(in) :: cases(:)
@@ -157,7 +157,7 @@ contains
       type(case_work_t), intent(inout) :: found
       type(error_t), allocatable, intent(out) :: error
       type(case_t), allocatable :: tests(:)
-      character(word_length), allocatable :: names(:)      !! of all that could be meant
+      character(word_length), allocatable :: names(:)      !! of all cases and tests that could be meant
       integer :: k, j
 
       call make_room(found)

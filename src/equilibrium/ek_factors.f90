@@ -36,7 +36,7 @@ contains
       self%is_kept = .false.
    end subroutine mark
 
-   !> Stores the factors of the state, if they are those in kkt_t.
+   !> Stores the factors of the state, if kkt_t contains them.
    pure subroutine keep(self, kkt)
       type(factors_t), intent(inout) :: self
       type(kkt_t), intent(inout) :: kkt

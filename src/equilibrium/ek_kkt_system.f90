@@ -187,7 +187,7 @@ contains
    end function whole_matrix
 
    !> Whether the system is assembled and factorised at a state under these inputs, the state after the proof of soundness
-   !> (is_at_design): at design without inputs. Whoever sets other numbers of the model renews the system (renew_kkt).
+   !> (is_at_design): at design without inputs. After other numbers of the model are set, the system must be renewed (renew_kkt).
    pure logical function holds(kkt, suspension, state, inputs)
       type(kkt_t), intent(in) :: kkt
       type(suspension_t), intent(in) :: suspension

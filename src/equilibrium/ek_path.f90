@@ -157,7 +157,8 @@ contains
          end do
       end subroutine walk_rows
 
-      !> Walks from state `first` to state `last`, and to the first from design, in increments of the same size, unless it is that.
+      !> Walks from state `first` to state `last`, and to the first from design, in increments of the same size, unless `first` is
+      !> the design state.
       subroutine walk_way(first, last, least, failure)
          integer, intent(in) :: first, last
          integer, intent(in) :: least                 ! states that the way on the other side begins with (seed)

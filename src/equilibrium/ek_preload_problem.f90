@@ -366,7 +366,7 @@ contains
       end do
    end subroutine subtract_free
 
-   !> Solves by singular values: the smallest x of those that leave the least remainder, and the smallest y with it.
+   !> Solves by singular values: the smallest of all x with the least remainder, and the smallest y with this x.
    pure subroutine hold_by_singular_values(problem, x, y, remainder, is_found)
       type(preload_problem_t), intent(in) :: problem
       real(wp), intent(out) :: x(:), y(:)             !! as in hold_by_elimination

@@ -20,7 +20,7 @@ module ek_reach
    real(wp), parameter :: widest = 100.0_wp           !! of branch%width: a step across a bifurcation that is too near for tangents
    integer, parameter :: quick = 6                    !! iterations: Newton's method needs more only where N is singular
    real(wp), parameter :: coarse = 10.0_wp            !! of branch%width: a step across a loss of rank of the joints
-   real(wp), parameter :: away = 0.6_wp               !! of a step that ends at one: the next
+   real(wp), parameter :: away = 0.6_wp               !! times a step that ends at a loss of rank: the next step
    integer, parameter :: max_attempts = 400          !! per increment
 
    !> Where and how a sweep stopped.

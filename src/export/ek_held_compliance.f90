@@ -14,8 +14,8 @@ contains
 
    !> The response at the wheel centres to loads at the wheel centres, with the wheels held.
    !>
-   !> On the road the tyre of a wheel pushes its patch up with F = −kt·(its height): with B the unit vertical loads on the patches,
-   !> C − C B (Bᵀ C B + 1/kt)⁻¹ Bᵀ C.
+   !> On the road the tyre of a wheel pushes its contact point up with F = −kt·(its height): with B the unit vertical loads on the
+   !> contact points, C − C B (Bᵀ C B + 1/kt)⁻¹ Bᵀ C.
    pure function held_compliance(c, arm, tyre_rate, held) result(response)
       real(wp), intent(in) :: c(:, :)          !! at the wheel centres, vertical loads held; six rows and columns per wheel
       real(wp), intent(in) :: arm(:, :)        !! contact point less wheel centre of each wheel [m]

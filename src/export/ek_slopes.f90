@@ -96,8 +96,8 @@ contains
       wheel_rate = slope_at_zero(x, y)
    end function wheel_rate
 
-   !> Roll stiffness of the axle at design [N m/rad]: with the bar, from equal and opposite vertical forces on the patches; without,
-   !> from the rates of the wheels in parallel travel, in which a bar carries nothing.
+   !> Roll stiffness of the axle at design [N m/rad]: with the bar, from equal and opposite vertical forces on the contact points;
+   !> without, from the rates of the wheels in parallel travel, in which a bar carries nothing.
    pure function roll_rates(map) result(rates)
       type(kandc_map_t), intent(in) :: map
       real(wp) :: rates(2)

@@ -107,7 +107,7 @@ contains
       text = deck%text()
    end function put_model
 
-   !> Writes &point for each hardpoint; of a pair the left and the right one.
+   !> Writes &point for each hardpoint; for a pair, the left and the right point.
    subroutine import_points(content, path, text, flaws)
       character(*), intent(in) :: content, path
       character(:), allocatable, intent(inout) :: text

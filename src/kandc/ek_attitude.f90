@@ -38,8 +38,8 @@ module ek_attitude
       logical :: is_known = .false.
       real(wp) :: caster = 0.0_wp               !! rad, positive: top rearward
       real(wp) :: kingpin_inclination = 0.0_wp  !! rad, positive: top inward
-      real(wp) :: scrub_radius = 0.0_wp         !! m, positive: axis meets the ground inboard of the patch
-      real(wp) :: caster_trail = 0.0_wp         !! m, positive: axis meets the ground ahead of the patch
+      real(wp) :: scrub_radius = 0.0_wp         !! m, positive: axis meets the ground inboard of the contact point
+      real(wp) :: caster_trail = 0.0_wp         !! m, positive: axis meets the ground ahead of the contact point
       real(wp) :: spindle_length = 0.0_wp       !! m, wheel centre to steering axis, lateral at its height, positive outboard
       real(wp) :: spindle_offset = 0.0_wp       !! m, likewise longitudinal, positive: centre aft of the axis
    end type steer_axis_t
@@ -109,7 +109,7 @@ contains
       static_toe = atan2(-wheel%spin(1), wheel%side*wheel%spin(2))
    end function static_toe
 
-   !> Angles of a line, and its distances from patch and wheel centre, each in the horizontal plane through the point.
+   !> Angles of a line, and its distances from contact point and wheel centre, each in the horizontal plane through the point.
    !>
    !> is_known is false for a horizontal line (the angles are set nevertheless).
    !> Equation (S.7) of docs/theory/suspension.md.

@@ -23,8 +23,8 @@ contains
    !> t²/(cos²φ Δ), Δ as in in_roll.
    !>
    !> Force-based roll centre (W. C. Mitchell, "Asymmetric roll centers", SAE 983085; Milliken, Race Car Vehicle Dynamics, ch. 17):
-   !> the height at which the lateral forces do not roll the body. With the patches held at their heights, a unit force to the
-   !> right at each of them causes the vertical forces V of the ground: 2 h + y_left V_left + y_right V_right = 0.
+   !> the height at which the lateral forces do not roll the body. With the contact points held at their heights, a unit force to
+   !> the right at each of them causes the vertical forces V of the ground: 2 h + y_left V_left + y_right V_right = 0.
    !> Equation (C.12) of docs/theory/compliance.md.
    !> Equation (S.6) of docs/theory/suspension.md.
    pure subroutine axle_characteristics(loaded, stand, has_centres, is)
@@ -80,19 +80,19 @@ contains
       end associate
    end function jacking_forces
 
-   !> CP33 − CP39 − CP93 + CP99: difference in height of the patches per force up on the left, down on the right.
+   !> CP33 − CP39 − CP93 + CP99: difference in height of the contact points per force up on the left, down on the right.
    pure real(wp) function roll_compliance(patch)
       real(wp), intent(in) :: patch(2:3, 2, 2:3, 2)
       roll_compliance = patch(3, 1, 3, 1) - patch(3, 1, 3, 2) - patch(3, 2, 3, 1) + patch(3, 2, 3, 2)
    end function roll_compliance
 
-   !> Intersection of the normals to the paths of both patches in the front view: dz (z − z0) + dy (y − y0) = 0 through each,
-   !> (dy, dz) the displacement of the patch in roll, plus the deflection of the tyre. Not a number if the two displacements are
-   !> parallel to 1e-8.
+   !> Intersection of the normals to the paths of both contact points in the front view: dz (z − z0) + dy (y − y0) = 0 through each,
+   !> (dy, dz) the displacement of the contact point in roll, plus the deflection of the tyre. Not a number if the two
+   !> displacements are parallel to 1e-8.
    !> Equations (S.3), (S.4) of docs/theory/suspension.md.
    pure function roll_centre(patch, at, tyre) result(centre)
       real(wp), intent(in) :: patch(2:3, 2, 2:3, 2)
-      real(wp), intent(in) :: at(2:3, 2)             !! lateral and vertical position of the patches [m]
+      real(wp), intent(in) :: at(2:3, 2)             !! lateral and vertical position of the contact points [m]
       real(wp), intent(in) :: tyre(2)                !! m/N
       real(wp) :: centre(2), left(2:3), right(2:3), of_left, of_right, determinant, size_of_both
 

@@ -45,7 +45,7 @@ module ek_case_result
 
    !> The solution of a case; its work space serves for further solutions at its states.
    type, extends(mounted_case_t) :: case_result_t
-      integer :: outcome = solved                  !! one of those above
+      integer :: outcome = solved                  !! one of the constants above
       type(path_t) :: path                         !! its states
       type(table_t) :: table                       !! observations: one row per state; only if the case was run
       type(remark_list_t) :: remarks

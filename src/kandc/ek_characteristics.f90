@@ -57,7 +57,7 @@ module ek_characteristics
       type(response_t) :: lateral(2, 2), lateral_trail(2, 2)             !! (phase, held), per N to the right
       type(response_t) :: aligning(2, 2)                                 !! (phase, held), per N m to the left
       type(response_t) :: braking(2), traction(2)                        !! (held), per N rearward, forward
-      real(wp) :: jacking(2) = 0.0_wp          !! (phase): vertical force per lateral force, patch heights held
+      real(wp) :: jacking(2) = 0.0_wp          !! (phase): vertical force per lateral force, contact points held in height
       real(wp) :: anti_brake = 0.0_wp, anti_drive = 0.0_wp    !! −: anti-dive, anti-lift (drive) or anti-lift (brake), anti-squat
       real(wp) :: brake_travel = 0.0_wp, drive_travel = 0.0_wp           !! wheel travel per g [m]
       real(wp) :: stiffness(6) = 0.0_wp        !! 1/C(i,i), parallel loads, at the wheel centre [N/m, N m/rad]
@@ -275,8 +275,8 @@ contains
    !>
    !> Braking with a force 1 rearward: this axle's wheels carry half its share each, at the contact point, and the load
    !> transfer h/2L more (front) or less (rear). Driving with a force 1 forward: with opposite signs, at the
-   !> centre or the patch. Zf, Zw: upward displacement of the wheel centres under the force and under the load transfer; their
-   !> sum times the weight of the car is the travel per g.
+   !> centre or the contact point. Zf, Zw: upward displacement of the wheel centres under the force and under the load transfer;
+   !> their sum times the weight of the car is the travel per g.
    !> Equations (S.11), (S.12), (S.13) of docs/theory/suspension.md.
    pure subroutine anti_features(loaded, place, axle, is)
       type(loaded_t), intent(in) :: loaded

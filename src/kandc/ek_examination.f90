@@ -23,7 +23,7 @@ module ek_examination
    !> Data of a case from a design that was examined before; one value for all designs of a case.
    type :: known_case_t
       logical :: is_known = .false.          !! a design of the case had no defect
-      integer :: unknowns = 0, constraints = 0   !! of that design
+      integer :: unknowns = 0, constraints = 0   !! of the examined design
       integer :: negative = 0                !! its inertia: negative eigenvalues of the KKT matrix at design
       integer :: diagnoses = 0               !! full diagnoses so far
    end type known_case_t

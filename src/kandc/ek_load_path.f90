@@ -28,7 +28,7 @@ module ek_load_path
    type :: load_path_t
       real(wp), allocatable :: force(:, :, :)       !! (axis, load, item): global axes [N/N]
       real(wp), allocatable :: moment(:, :, :)      !! at the point of the second body [N m/N]
-      real(wp) :: unbalanced = 0.0_wp               !! largest force [N/N], or moment [N m/N], that a body is out of equilibrium by
+      real(wp) :: unbalanced = 0.0_wp               !! largest unbalanced force [N/N] or moment [N m/N] on a body
    end type load_path_t
 
    !> The changes of the forces on a body.

@@ -328,8 +328,8 @@ contains
       rig%is_table = .true.
    end subroutine take_rows
 
-   !> Adds a driver of Σ sign × height relative to the vehicle body, of wheel centres, patches, or of the road under the tyres.
-   !> Its value is the change from design [m]. The tyres on the road deflect under the loads at the patches, so that
+   !> Adds a driver of Σ sign × height relative to the vehicle body, of wheel centres, contact points, or of the road under the
+   !> tyres. Its value is the change from design [m]. The tyres on the road deflect under the loads at the contact points, so that
    !> Σ sign × height = value + λ Σ sign²/rate.
    pure subroutine add_height(rig, suspension, name, where, wheels, signs, control)
       type(rig_t), intent(inout) :: rig        !! its numbers still without a meaning

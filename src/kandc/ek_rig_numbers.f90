@@ -21,7 +21,7 @@ module ek_rig_numbers
       integer :: wheels(2) = 0                           !! 0: none
       real(wp) :: signs(2) = 0.0_wp
       logical :: is_at_centre = .false.                  !! of the wheel; otherwise at the contact point of the deck
-      logical :: is_road = .false.                       !! the height of the road, on which the patch rests through its tyre
+      logical :: is_road = .false.                       !! the height of the road under the tyre of the contact point
    end type height_t
 
    !> The point of application of a load, and its value at factor 1.
@@ -40,7 +40,7 @@ module ek_rig_numbers
       type(load_t), allocatable :: loads(:)
       type(height_t), allocatable :: heights(:)          !! of each row
       type(acting_t), allocatable :: acting(:)           !! of each load
-      type(actuation_t), allocatable :: actuations(:)    !! of its own loads and rows, and of those that the case names
+      type(actuation_t), allocatable :: actuations(:)    !! of loads and rows of the rig, and of loads and rows that the case names
       logical :: is_table = .false.                      !! the rows of a table are the path of the case
       real(wp) :: from = 0.0_wp, to = 0.0_wp             !! swept values, SI
       integer :: increments = 0

@@ -93,7 +93,7 @@ contains
       if (case%has_all) is_for = same_columns(suspension, self%kandc)
    end function is_for
 
-   !> Makes makes the table of a sweep: all states that were reached, and on either side the first that was not,
+   !> Makes the table of a sweep: all states that were reached, and on either side the first state that was not reached,
    !> marked by converged = 0 and values that are not numbers.
    !>
    !> If the case requests all columns, the K&C quantities precede the last columns, from the compliance matrix
@@ -281,7 +281,7 @@ contains
       end associate
    end subroutine fill_quantities
 
-   !> Makes makes the table of a single path, as observe with an observer of its own.
+   !> Makes the table of a single path, like `observe`, but with an observer of its own.
    subroutine sweep_table(suspension, case, path, kkt, table, wanted)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
@@ -357,7 +357,7 @@ contains
       bytes = margin + 8*int(case%increments + 2, i8)*(coordinates(suspension) + of_a_path + 2*size(observer%columns))
    end function sweep_bytes
 
-   !> Finds finds the states in the table: those reached, and one more on a side that failed; of a load table every row.
+   !> Finds the states in the table: all reached states, and one more on a side that failed; for a load table, every row.
    pure subroutine reached_rows(path, first, last)
       type(path_t), intent(in) :: path
       integer, intent(out) :: first, last

@@ -34,7 +34,7 @@ module ek_bounded_search
    !> A search. x and the bounds are in the units of the caller; the scale of each x is a change of it that counts as large.
    type :: bounded_search_t
       logical :: is_finished = .false.
-      integer :: ended = 0                           !! one of those above
+      integer :: ended = 0                           !! one of the constants above
       integer :: trials = 0, steps = 0               !! evaluations; of these, steps that were taken
       real(wp), allocatable :: x(:)                  !! to be evaluated next
       real(wp), allocatable :: best(:)               !! the best x so far, with its r and Jacobian

@@ -61,7 +61,7 @@ contains
       parts%rank = count(parts%values > share*most)
    end subroutine decompose
 
-   !> Finds the shortest x of those with the smallest |A x − b|.
+   !> Finds the shortest of all x with the smallest |A x − b|.
    pure subroutine min_norm(parts, b, x)
       type(singular_values_t), intent(in) :: parts       !! of A
       real(wp), intent(in) :: b(:)

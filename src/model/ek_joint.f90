@@ -44,7 +44,7 @@ module ek_joint
    type :: joint_kind_t
       character(17) :: name
       integer :: min_points, max_points   !! of `at`; 2 and 2: two that do not coincide
-      integer :: axes, angle                 !! of those above
+      integer :: axes, angle                 !! one of the constants above
       integer :: part
       logical :: is_of_measures = .false.    !! made of named measures, not of points and axes
    end type joint_kind_t

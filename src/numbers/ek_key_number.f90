@@ -20,7 +20,7 @@ module ek_key_number
    integer, parameter :: at_design = 0, largest = 1, least = 2, slope = 3, in_phase = 4, anti_phase = 5, at_place = 6, &
       to_contact = 7, largest_of_all = 8
 
-   !> Where a number stands in the table of one test: (left wheel, single wheel or axle; right wheel).
+   !> The columns of a number in the table of one test: (left wheel, single wheel or axle; right wheel).
    type :: key_source_t
       integer :: test = 0                               !! index in the list of tests
       character(name_length) :: column(2) = ''          !! '': this wheel does not have the number
@@ -42,7 +42,7 @@ module ek_key_number
       real(wp) :: target(2) = 0.0_wp              !! lower and upper limit that the deck gives, in `unit`
       real(wp) :: left = 0.0_wp, right = 0.0_wp      !! not a number if missing
       logical :: is_of_axle = .false.                !! one number, in `left`
-      integer :: how = at_design                     !! one of those above
+      integer :: how = at_design                     !! one of the constants above
       type(key_source_t), allocatable :: sources(:)  !! tests that may have it; the first that has a value counts
    end type key_number_t
 

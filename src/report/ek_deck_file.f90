@@ -16,7 +16,7 @@ module ek_deck_file
    type :: deck_record_t
       type(message_list_t) :: names, facts      !! 'Deck checksum' and its text
       type(message_list_t) :: paths, texts      !! values of the deck
-      logical :: is_known = .false.             !! the values are
+      logical :: is_known = .false.             !! the values of the deck are known
    end type deck_record_t
 
 contains

@@ -1,5 +1,5 @@
-!> The contributions to the rates and the key compliances of a report: the parts of the rates, and of each compliance its largest
-!> contributions at design, as bars.
+!> The contributions to the rates and the key compliances of a report: the parts of the rates, and the largest
+!> contributions to each compliance at design, as bars.
 module ek_explanation
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp

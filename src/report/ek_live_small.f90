@@ -13,7 +13,7 @@ module ek_live_small
    public :: small_t, make_small, entries
 
    real(wp), parameter :: nothing = 1.0e-8_wp       !! relative: a coupling that 7 digits do not show
-   real(wp), parameter :: same = 1.0e-12_wp         !! relative: vectors that are one
+   real(wp), parameter :: same = 1.0e-12_wp         !! relative: vectors that differ less are equal
 
    !> Some columns of a test with few numbers.
    type :: small_t

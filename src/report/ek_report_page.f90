@@ -292,7 +292,7 @@ contains
    subroutine add_pictures(page, charts, numbers, folder)
       type(page_t), intent(inout) :: page
       type(chart_t), intent(in) :: charts(:)
-      integer, intent(in) :: numbers(:)              !! of those that are shown
+      integer, intent(in) :: numbers(:)              !! of the charts that are shown
       character(*), intent(in) :: folder
       type(error_t), allocatable :: error
       character(:), allocatable :: svg

@@ -1,7 +1,8 @@
 !> Directions in the space of designs: one number of the deck each, with its image on the other side of a mirrored axle.
 !>
-!> A derivative with respect to a number is that along its direction: x + (distance × sign × unit) of its parameters. All numbers of
-!> a deck with one path are one direction; a path with the name of a side ('point.left_tie_rod.z') is the number of this side alone.
+!> A derivative with respect to a number is the derivative along its direction: x + (distance × sign × unit) of its parameters.
+!> All numbers of a deck with one path are one direction; a path with the name of a side ('point.left_tie_rod.z') is the number of
+!> this side alone.
 module ek_direction
    use ek_kinds, only: wp, millimetre
    use ek_error, only: error_t, message_list_t, fail, exit_usage

@@ -21,7 +21,7 @@ module ek_fit_statistics
       real(wp), allocatable :: half_alone(:)         !! the same by the targets alone
       real(wp), allocatable :: width(:)              !! half width before the fit: from bounds, prior, or the value itself
       logical, allocatable :: is_learned(:)          !! the targets narrow it down within that width
-      real(wp), allocatable :: correlation(:, :)     !! of the factors; 0 with those that are held or unknown
+      real(wp), allocatable :: correlation(:, :)     !! of the factors; 0 with factors that are held or unknown
       real(wp), allocatable :: singular(:)           !! of the Jacobian, differences in deviations, factors in widths; largest first
       integer :: rank = 0
       real(wp), allocatable :: unseen(:, :)          !! (factor, k): directions in which the targets narrow nothing down

@@ -137,9 +137,9 @@ contains
       end if
    end subroutine read_number
 
-   !> Column y where column x has a given value: of a state that has it, otherwise on the cubic curve through the two states on
-   !> either side (a straight line next to an end). Where x has the value several times, next to design. Not a number outside the
-   !> range of x.
+   !> Column y where column x has a given value: at a state with this value, otherwise on the cubic curve through the two states on
+   !> either side (a straight line next to an end). If x has the value several times, the point nearest to design is used. Not a
+   !> number outside the range of x.
    function value_at(table, x, y, at) result(value)
       type(table_t), intent(in) :: table
       integer, intent(in) :: x, y                          !! indices of the columns

@@ -219,7 +219,7 @@ contains
       end do
    end subroutine find_window
 
-   !> A swept value that differs from an end of the range by rounding only is that end.
+   !> A swept value that differs from an end of the range by rounding only is replaced by the end.
    pure real(wp) function rounded(at, x)
       real(wp), intent(in) :: at, x(:)
       real(wp) :: low, high

@@ -31,7 +31,7 @@ module ek_study
       character(:), allocatable :: name
       character(note_length), allocatable :: paths(:)      !! as in --set
       logical :: is_each = .false.                         !! every number is a factor of its own, see ek_study_each
-      logical :: is_of_pattern = .false.                   !! one of those numbers, of a path with *
+      logical :: is_of_pattern = .false.                   !! one of several numbers of a path with *
       integer :: change = by_value
       integer :: distribution = uniform_kind
       real(wp) :: lower, upper, nominal, tolerance, deviation    !! NaN: not given

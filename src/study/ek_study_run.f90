@@ -47,7 +47,7 @@ module ek_study_run
       integer :: wanted = 0                       !! designs of this run
       integer :: before = 0                       !! of these, done before it began
       integer :: done = 0                         !! and by now, by all ranks
-      integer :: failed = 0                       !! of those computed now
+      integer :: failed = 0                       !! of the designs computed now
       integer :: idle = 0                         !! requested threads for which there was no memory
       real(wp) :: begun = 0.0_wp, now = 0.0_wp    !! s
       logical :: is_stopped = .false.             !! by a signal, or at the time limit
