@@ -16,7 +16,7 @@ module ek_model_remark
    !> The remarks on a model, in the order in which they are printed.
    type :: model_remarks_t
       type(message_list_t) :: notes        !! preloads found by balance
-      type(message_list_t) :: warnings     !! contact points, springs, joints omitted by balance
+      type(message_list_t) :: warnings     !! contact points, springs, drivers excluded by balance
       type(message_list_t) :: doubts       !! implausible values: file:line: item: finding
       type(message_list_t) :: faults       !! why no case can be solved; the commands stop with them
    contains

@@ -131,7 +131,7 @@ contains
    end subroutine begin_opened
 
    !> Replaces the deck; if the new deck has errors, the session is unchanged. The last solution is not deleted in either case: its
-   !> workspace is kept until the next one.
+   !> workspace is stored until the next solution.
    subroutine begin(deck, session, error)
       type(deck_t), intent(in) :: deck
       type(session_t), intent(inout) :: session

@@ -27,7 +27,7 @@ contains
       shown = with_numbers(text, .false.)
    end function printable
 
-   !> A text with numbers in place of control characters, or (`of_all`) of every invisible character and bad byte.
+   !> A text with numbers instead of control characters, or (`of_all`) of every invisible character and bad byte.
    pure function with_numbers(text, of_all) result(seen)
       character(*), intent(in) :: text
       logical, intent(in) :: of_all

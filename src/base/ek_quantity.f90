@@ -206,7 +206,7 @@ module ek_quantity
 
    character(*), parameter :: conditions(2) = [character(11) :: 'load_held', 'height_held']
 
-   !> Endings of the columns of elements, measures and joints after the name in the deck.
+   !> Suffixes of the columns of elements, measures and joints, after the name in the deck.
    character(*), parameter, public :: element_endings(*) = [character(15) :: '_mm', '_deg', '_cosine', '_length_mm', '_force_n', &
       '_angle_deg', '_moment_nm', '_motion_ratio', '_gap_mm', '_travel_left_mm', '_reaction_n', '_reaction_nm', '_fx_n', '_mx_nm']
 

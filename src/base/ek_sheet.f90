@@ -26,8 +26,8 @@ module ek_sheet
    !> The content of a file. Rows with an error are not among the values.
    type :: sheet_t
       character(:), allocatable :: file
-      integer :: head_line = 0                          !! 0: no heads
-      character(name_length), allocatable :: heads(:)   !! '' for a column without head
+      integer :: head_line = 0                          !! 0: no headings
+      character(name_length), allocatable :: heads(:)   !! '' for a column without heading
       real(wp), allocatable :: values(:, :)             !! (column, row)
       type(message_list_t) :: head_mistakes, row_mistakes
       integer :: untold = 0                             !! number of errors beyond the largest number reported
@@ -175,7 +175,7 @@ contains
       integer, intent(in) :: line
       type(sheet_t), intent(inout) :: sheet
       integer, intent(inout) :: rows
-      logical, intent(inout) :: is_unnamed(:)     !! columns without a head that have values
+      logical, intent(inout) :: is_unnamed(:)     !! columns without a heading that have values
       type(message_list_t) :: cells
       character(:), allocatable :: fault, where, cell
       real(wp) :: row(size(sheet%heads))

@@ -73,7 +73,7 @@ contains
    !> Logs a deck that was read.
    subroutine log_deck(name, checksum)
       character(*), intent(in) :: name
-      character(*), intent(in) :: checksum                    !! with the changes of --set, as in the heads of tables
+      character(*), intent(in) :: checksum                    !! with the changes of --set, as in the headings of tables
       if (.not. file%is_open()) return
       call log%files%add(name)
       call log%checksums%add(checksum)

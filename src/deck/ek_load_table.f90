@@ -37,7 +37,7 @@ contains
    subroutine read_tables(files, cases, suspension, is_whole)
       type(kept_files_t), intent(in) :: files          !! which are not read again
       type(case_t), intent(inout) :: cases(:)
-      type(suspension_t), intent(in) :: suspension     !! wheels and drivers, which make the heads
+      type(suspension_t), intent(in) :: suspension     !! wheels and drivers, which determine the headings
       logical, intent(in) :: is_whole                  !! the suspension is complete; otherwise the headings are not checked
       integer :: j, k
 

@@ -313,7 +313,7 @@ contains
 
    end subroutine scan_value
 
-   !> Reports an error in a group: '&spring: what'.
+   !> Reports an error in a group: '&spring: error'.
    subroutine complain_of(deck_errors, record, line, what)
       type(deck_errors_t), intent(inout) :: deck_errors
       type(record_t), intent(in) :: record

@@ -29,7 +29,7 @@ module ek_teimorbit
       integer :: line = 0
       character(name_length) :: key = ''    !! of an entry, lower case
       integer :: used = 0
-      type(field_t), allocatable :: fields(:)   !! of a row, of heads; the value of an entry
+      type(field_t), allocatable :: fields(:)   !! of a row, of headings; the value of an entry
    end type item_t
 
    !> The file; a part of a block is a block of its own, with the name of the block.

@@ -98,8 +98,8 @@ contains
       values(6) = wall_to_wall(outer, axle%wheelbase, track, axle%front_overhang, axle%front_width)
    end subroutine axle_geometry_values
 
-   !> Of a stop the remaining wheel travel to its contact [m], with equal travel of all wheels: its gap over the change of
-   !> the gap per travel.
+   !> Of a stop the remaining wheel travel to its contact [m], with equal travel of all wheels: its clearance over the change of
+   !> the clearance per travel.
    pure real(wp) function travel_left(suspension, compliance, state, k) result(travel)
       type(suspension_t), intent(in) :: suspension
       type(compliance_t), intent(in) :: compliance
@@ -114,7 +114,7 @@ contains
       end associate
    end function travel_left
 
-   !> gap/|ratio|; not a number for a stop that is independent of the wheels, or wheels that do not move.
+   !> clearance/|ratio|; not a number for a stop that is independent of the wheels, or wheels that do not move.
    pure real(wp) function gap_over(gap, ratio)
       real(wp), intent(in) :: gap, ratio      !! m, -
       gap_over = ieee_value(1.0_wp, ieee_quiet_nan)

@@ -7,9 +7,8 @@
 !>
 !> A column that is linear in C is the reading rᵀC b of a load b, so it changes by −ρᵀ (I + E A)⁻¹ E β with ρ = G_v r and β = G b:
 !> 2m numbers per column in addition to the m(m + 1)/2 of A. They are found by the kernels that compute the columns, of the
-!> matrices
-!> g_v,a g_bᵀ, so a new column needs nothing here. With heights held the same formula holds with G and A of the suspension whose
-!> heights are held. Of a stiffness, which is the inverse of such a column, the inverse changes so.
+!> matrices g_v,a g_bᵀ, so a new column needs nothing here. With heights held the same formula holds with G and A of the
+!> suspension whose heights are held. Of a stiffness, which is the inverse of such a column, the inverse changes so.
 module ek_live_state
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp

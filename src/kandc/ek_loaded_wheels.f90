@@ -51,7 +51,7 @@ contains
       real(wp), intent(in) :: c(:, :)             !! six rows and columns per wheel
       real(wp), intent(in) :: arm(:, :)           !! contact point less wheel centre of each wheel [m]
       logical, intent(in) :: has_patch            !! forces at the contact points are requested
-      logical, intent(in) :: has_held             !! held heights are requested; implies has_patch
+      logical, intent(in) :: has_held             !! held heights are requested; requires has_patch
       type(lock_t), intent(in) :: lock            !! holds the heights of the centres; used only if has_held
       type(loaded_t), intent(inout) :: loaded
       integer :: n, w, v, j, at

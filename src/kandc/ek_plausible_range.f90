@@ -136,7 +136,7 @@ contains
    pure subroutine examine(self, where, thing)
       class(doubts_t), intent(inout) :: self
       character(*), intent(in) :: where        !! file:line
-      character(*), intent(in) :: thing        !! "spring 'coil'", '' for a text without a head
+      character(*), intent(in) :: thing        !! "spring 'coil'", '' for a text without a heading
 
       self%where = where
       self%thing = thing

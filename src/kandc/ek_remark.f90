@@ -32,7 +32,7 @@ module ek_remark
       logical :: has_place = .false.
       real(wp) :: place = 0.0_wp             !! swept value to which it applies, SI
    contains
-      procedure :: whole                     !! text of the remark with its head
+      procedure :: whole                     !! text of the remark with its heading
    end type remark_t
 
    !> The remarks on a case.
@@ -72,7 +72,7 @@ contains
       type(case_t), intent(in) :: case
       character(*), intent(in) :: text
       real(wp), intent(in), optional :: place           !! swept value, SI
-      logical, intent(in), optional :: is_of_method     !! the head names the method
+      logical, intent(in), optional :: is_of_method     !! the heading names the method
       type(remark_t) :: new
 
       if (len(text) == 0) return

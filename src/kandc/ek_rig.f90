@@ -4,10 +4,10 @@
 !> ek_rig_test.
 !>
 !> `put_on` makes one flat model of a suspension and a rig, with its rows and loads after the rows and loads of the suspension:
-!> an increment needs
-!> one list of rows, one of loads and one reaction vector λ. The split is by number: `own_rows` of the suspension come first in Φ
-!> and in λ, and "released" means without the rows after them. In the same way the case on the rig is the case with the
-!> actuations of its rig. A separate rig would be one more argument of every procedure, without any other benefit.
+!> an increment needs one list of rows, one of loads and one reaction vector λ. The split is by number: `own_rows` of the
+!> suspension come first in Φ and in λ, and "released" means without the rows after them. In the same way the case on the rig is
+!> the case with the actuations of its rig. A separate rig would be one more argument of every procedure, without any other
+!> benefit.
 !>
 !> A wheel held by height has a driver on its centre, or on its contact point (vertical = 'patch'). On the road (vertical =
 !> 'road') this driver is the height of the road, on which the contact point rests through the tyre rate. Held by vertical

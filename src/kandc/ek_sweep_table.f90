@@ -29,7 +29,7 @@ module ek_sweep_table
 
    !> Layout of a table of states: its columns, and the work space to fill them.
    type :: observer_t
-      character(name_length), allocatable :: columns(:)     !! heads of the table
+      character(name_length), allocatable :: columns(:)     !! column headings of the table
       integer, private :: shown = 0, reported = 0, ended = 0    !! last column of the state, of the quantities, of the table
       integer, allocatable, private :: kept(:)              !! the columns of the table among all
       type(column_list_t), private :: list                  !! columns of the state

@@ -44,9 +44,9 @@ contains
       !$ processor_count = omp_get_num_procs()
    end function processor_count
 
-   !> The number of threads for which the free memory is sufficient, 1 to `wanted`. Without room for the work space of a
-   !> thread, OpenBLAS would
-   !> try again forever, and the process would not hear SIGTERM. The first thread has its work space, heap and stack.
+   !> The number of threads for which the free memory is sufficient, 1 to `wanted`. Without room for the work space of a thread,
+   !> OpenBLAS would try again forever, and the process would not hear SIGTERM. The first thread has its work space, heap and
+   !> stack.
    integer function threads_in_memory(wanted, bytes) result(threads)
       integer, intent(in) :: wanted
       integer(i8), intent(in) :: bytes                        !! required by a thread in addition

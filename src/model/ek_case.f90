@@ -31,7 +31,7 @@ module ek_case
 
    !> A column of a load table: a load or a height of a wheel, or the value of a driver joint, in every row.
    type :: table_column_t
-      character(:), allocatable :: name       !! its head; of a driver joint the name of the joint
+      character(:), allocatable :: name       !! its column heading; of a driver joint the name of the joint
       integer :: wheel = 0                    !! number of the wheel; 0: a driver joint of the deck
       integer :: component = 0                !! 1–3 force and 4–6 moment at the contact point, 7–9 force at the centre; 0: a height
       real(wp), allocatable :: values(:)      !! N, N m, m or rad

@@ -49,7 +49,7 @@ module ek_element
       character(8) :: label       !! in messages: the group of the deck
       character(20) :: one, many  !! counted by `check`, in the order of the table; '': not counted
       logical :: carries          !! its rate at design carries the car (a deck without such an element gives a warning)
-      logical :: has_gap          !! a stop: free up to contact; its column is the gap instead of the value of its measure
+      logical :: has_gap          !! a stop: free up to contact; its column is the clearance, not the value of its measure
       logical :: is_axial_spring        !! its preload may be set by balance; its motion ratio is reported
       integer :: shape            !! in pictures, of an element on a distance, or a bushing
    end type element_kind_t

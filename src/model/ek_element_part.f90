@@ -36,7 +36,7 @@ contains
       if (element%kind /= bushing_element) is_angle = is_of_angle(element%measure%kind)
    end function is_part_of_angle
 
-   !> Whether a law is a rate: its force is proportional to its deflection, without a curve or a gap.
+   !> Whether a law is a rate: its force is proportional to its deflection, without a curve or a clearance.
    pure logical function has_rate(element, part)
       type(element_t), intent(in) :: element
       integer, intent(in) :: part

@@ -78,7 +78,7 @@ contains
       slope = slope*share
    end subroutine look_up_law
 
-   !> e: compression of a spring, penetration of a stop (negative: its gap).
+   !> e: compression of a spring, penetration of a stop (negative: its clearance).
    pure real(num) function deflection(law, value)
       type(law_t), intent(in) :: law
       real(num), intent(in) :: value

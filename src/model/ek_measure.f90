@@ -32,8 +32,8 @@ module ek_measure
    public :: evaluate, measure_value, is_of_angle, add_measure_hessian
 
    integer, parameter :: axis_axis = 1    !! cosine between an axis of i and an axis of j [-]
-   integer, parameter :: body_gap = 2     !! gap of two points along a direction fixed in i [m]
-   integer, parameter :: global_gap = 3   !! gap of two points along a global direction [m]
+   integer, parameter :: body_gap = 2     !! displacement between two points along a direction fixed in i [m]
+   integer, parameter :: global_gap = 3   !! displacement between two points along a global direction [m]
    integer, parameter :: distance = 4     !! distance of two points [m]
    integer, parameter :: rotation = 5     !! component of the relative rotation vector [rad]
 

@@ -13,10 +13,9 @@ module ek_key_number
    public :: key_number_t, key_source_t, nothing, read_source, has_value, needs_path
    public :: at_design, largest, least, slope, in_phase, anti_phase, at_place, to_contact, largest_of_all
 
-   !> The source of a number: a column at design; its maximum and minimum over the test; a gradient, also of parallel or
-   !> opposed loads
-   !> alone; a column where another one has a given value; the travel from design to where a gap closes; the largest magnitude over
-   !> all tests.
+   !> The source of a number: a column at design; its maximum and minimum over the test; a gradient, also with the loads in
+   !> phase or anti-phase alone; a column where another one has a given value; the travel from design to the contact of a stop;
+   !> the largest magnitude over all tests.
    integer, parameter :: at_design = 0, largest = 1, least = 2, slope = 3, in_phase = 4, anti_phase = 5, at_place = 6, &
       to_contact = 7, largest_of_all = 8
 

@@ -78,7 +78,7 @@ contains
       if (is_gap) is_gap = column(at + 1:) == ending
    end function is_gap
 
-   !> The rows in which a gap is closed.
+   !> The rows in which a stop is in contact.
    pure function is_closed(table, column) result(closed)
       type(table_t), intent(in) :: table
       integer, intent(in) :: column

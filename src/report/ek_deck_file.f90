@@ -24,7 +24,7 @@ contains
    !> Writes deck.csv: the facts and the values of the deck.
    subroutine write_deck_file(path, names, facts, paths, texts, error)
       character(*), intent(in) :: path
-      type(message_list_t), intent(in) :: names, facts     !! of the head of the page
+      type(message_list_t), intent(in) :: names, facts     !! at the top of the page
       type(message_list_t), intent(in) :: paths, texts     !! of the values (ek_deck_values)
       type(error_t), allocatable, intent(out) :: error
       type(text_table_t) :: table

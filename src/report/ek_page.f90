@@ -141,7 +141,7 @@ contains
       call page%body%line('</dl>')
    end subroutine add_facts
 
-   !> Begins a table with its column headings; a head that begins with '>' marks a column of numbers, aligned right.
+   !> Begins a table with its column headings; a heading that begins with '>' marks a column of numbers, aligned right.
    pure subroutine begin_table(page, heads, class)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: heads(:)

@@ -1,4 +1,4 @@
-!> The content of a report: its tests, their charts, gradients and key numbers, and the facts at the head of the page.
+!> The content of a report: its tests, their charts, gradients and key numbers, and the facts at the top of the page.
 module ek_report_content
    use ek_error, only: message_list_t
    use ek_path, only: path_t
@@ -17,7 +17,7 @@ module ek_report_content
    !> A report: its tests, and the other contents of its page.
    type :: report_t
       character(:), allocatable :: title, folder
-      type(message_list_t) :: names, values            !! facts for the head of the page
+      type(message_list_t) :: names, values            !! facts for the top of the page
       type(message_list_t) :: warnings                 !! on the model as a whole
       type(message_list_t) :: deck_paths, deck_texts   !! values of the deck (ek_deck_values)
       type(test_result_t), allocatable :: tests(:)
@@ -38,7 +38,7 @@ module ek_report_content
 
 contains
 
-   !> Adds a fact for the head of the page.
+   !> Adds a fact for the top of the page.
    subroutine add_fact(report, name, value)
       type(report_t), intent(inout) :: report
       character(*), intent(in) :: name, value

@@ -35,7 +35,7 @@ module ek_condition_solver
    end type findings_t
 
    real(wp), parameter :: close = 1.0e-7_wp         !! share of the possible change: a smaller deviation counts as met
-   real(wp), parameter :: closest = 1.0e-9_wp       !! the same: no further sweep is worth it
+   real(wp), parameter :: closest = 1.0e-9_wp       !! share of the possible change: below it the search ends
    real(wp), parameter :: no_effect = 1.0e-9_wp     !! of the largest effect: errors of the derivatives
 
 contains

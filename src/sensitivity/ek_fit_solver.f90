@@ -108,7 +108,7 @@ contains
       end do
    end subroutine find_residuals
 
-   !> The distance of a value from its target, in deviations; 0 between limits.
+   !> The signed difference of a value from its target, in deviations; 0 between limits.
    !> Equation (E.5) of docs/theory/derivatives.md.
    pure real(wp) function difference_of(point, value) result(difference)
       type(fit_point_t), intent(in) :: point

@@ -292,8 +292,8 @@ contains
    end subroutine triangle_moments
 
    !> Lists points x (ln x of a log-normal distribution) with weights, so that Σ weight f(x) is the mean of f: four Gauss points
-   !> in each of
-   !> some intervals. Exact for polynomials up to the sixth power over a triangle, and to 1e-12 over a normal distribution.
+   !> in each of some intervals. Exact for polynomials up to the sixth power over a triangle, and to 1e-12 over a normal
+   !> distribution.
    pure subroutine integration_points(distribution, x, weight)
       type(distribution_t), intent(in) :: distribution
       real(wp), allocatable, intent(out) :: x(:), weight(:)
