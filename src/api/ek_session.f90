@@ -252,7 +252,6 @@ contains
       !$omp end critical (ek_words)
    end subroutine set_text
 
-   !> Sets a key in the text of the deck, and reads the deck again.
    subroutine take_text(session, path, text, error)
       type(session_t), intent(inout) :: session
       character(*), intent(in) :: path, text

@@ -33,7 +33,7 @@ module ek_preload_problem
    real(wp), parameter :: rank_share = 1.0e-11_wp       !! of the largest singular value: smaller values are rounding
    real(wp), parameter :: moderate = 1.0e100_wp         ! largest number whose products cannot overflow
    integer, parameter :: most_corrections = 3
-   real(wp), parameter :: last_correction = 1.0e-8_wp   ! of the solution: the next would be smaller by this factor, or its root
+   real(wp), parameter :: last_correction = 1.0e-8_wp   ! of the solution: the next one would be smaller by the same factor, or its root
    real(wp), parameter :: closed = 1.0e-10_wp           ! of |b|: remainder of W x + F y = b
 
    !> The columns as gradients of two bodies.
@@ -278,7 +278,6 @@ contains
       if (is_moderate) is_moderate = are_moderate(12*problem%pieces, problem%piece)
    end function is_moderate
 
-   !> Whether all numbers are finite and below `moderate` in magnitude.
    pure logical function are_moderate(n, numbers)
       integer, intent(in) :: n
       real(wp), intent(in) :: numbers(n)

@@ -137,8 +137,7 @@ contains
    end subroutine keep_responses
 
    !> Computes the compliance of the wheels alone, without factorising, close to the state and design of the stored responses X:
-   !> C ≈ PᵀX + XᵀP − XᵀKX, with K and P of this state. The error is of second order in the distance, and even. For symmetric
-   !> matrices.
+   !> C ≈ PᵀX + XᵀP − XᵀKX, with K and P of this state. The error is even, of second order in the distance. Symmetric matrices.
    !> Equation (E.8) of docs/theory/derivatives.md.
    subroutine wheel_compliance_nearby(suspension, state, inputs, kept, kkt, self)
       type(suspension_t), intent(in) :: suspension
