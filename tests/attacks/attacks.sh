@@ -423,7 +423,7 @@ same_bytes_again() {
 
 little_address_space() { # the library for linear algebra would ask for memory for ever
   local k
-  for k in 40000 60000 80000 100000 120000 140000; do
+  for k in 55000 60000 80000 100000 120000 140000; do     # below 50 MB the loader dies before the first line of the program
     timeout 20 bash -c "ulimit -v $k; exec '$program' check '$tiny'" >out.txt 2>said.txt
     case $? in
       0) ;;
