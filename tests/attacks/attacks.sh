@@ -423,12 +423,15 @@ same_bytes_again() {
 
 little_address_space() { # the library for linear algebra would ask for memory for ever
   local k
-  for k in 55000 60000 80000 100000 120000 140000; do     # below 50 MB the loader dies before the first line of the program
-    timeout 20 bash -c "ulimit -v $k; exec '$program' check '$tiny'" >out.txt 2>said.txt
+  for k in 40000 42000 44000 46000 47000 47500 48000 50000 55000 60000 80000 100000 120000 140000; do
+    rm -f loader.*
+    LD_DEBUG=files LD_DEBUG_OUTPUT=loader timeout 20 bash -c "ulimit -v $k; exec '$program' check '$tiny'" >out.txt 2>said.txt
     case $? in
       0) ;;
       5) says 'not enough memory' || return 1 ;;
       127) ;;      # not even its libraries can be loaded: the words are the system's
+      139) if grep -F "transferring control: $program" loader.*; then echo "ulimit -v $k: the program crashed"; return 1; fi ;;
+      # otherwise the system could not map the program, or a library of the compiler died before the program began
       *) echo "ulimit -v $k: status $?: $(head -c 300 said.txt)"; return 1 ;;
     esac
   done
