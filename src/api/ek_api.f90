@@ -23,7 +23,8 @@ module ek_api
    use ek_error, only: error_t
    use ek_table, only: table_t, column, column_index
    use ek_case_result, only: case_result_t
-   use ek_session, only: session_t, open_file, open_text, set_number, set_text, get_number, set_all, reset, checksum_of
+   use ek_session, only: session_t, open_file, open_text, checksum_of
+   use ek_session_settings, only: set_number, set_text, get_number, set_all, reset
    use ek_session_copy, only: copy_session, opened_files, open_files, used_deck
    use ek_kept_files, only: kept_files_t
    use ek_session_solution, only: solve, result_of, read_remark, compliance_at

@@ -5,7 +5,7 @@ module ek_c_parameters
    use ek_error, only: error_t
    use ek_parameter, only: parameter_path
    use ek_factor_unit, only: parameter_unit
-   use ek_session, only: set_number, set_text, get_number, set_all, reset
+   use ek_session_settings, only: set_number, set_text, get_number, set_all, reset
    use ek_c_handle, only: handle_t, open_handle, take_handle, take_array, take_text, finish, refuse, say, &
       is_position, ek_ok
    implicit none(type, external)

@@ -7,7 +7,7 @@ module ek_design_numbers
    use ek_decimal, only: number_limit
    use ek_error, only: error_t
    use ek_parameter, only: choice_t, parameters_t, parameter_path
-   use ek_group, only: is_inside
+   use ek_number_range, only: is_inside
    use ek_reader, only: design_t
    use ek_deck, only: deck_t, set_value
    use ek_factor_paths, only: shortest

@@ -1,27 +1,20 @@
-!> A deck opened for a program that calls elastokin: its numbers. Part of the Fortran interface (ek_api, where it is described).
+!> A deck opened for a program that calls elastokin. Part of the Fortran interface (ek_api, where it is described).
 module ek_session
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
-   use ek_decimal, only: number_limit
-   use ek_error, only: error_t, message_list_t, fail, exit_usage, exit_deck
-   use ek_text, only: quoted, replace
-   use ek_deck, only: deck_t, read_deck, parse_deck, move_deck, set_value, deck_checksum
-   use ek_parameter, only: choice_t, find_parameters, parameter_path
-   use ek_reader, only: design_t, read_design
+   use ek_error, only: error_t
+   use ek_text, only: replace
+   use ek_deck, only: deck_t, read_deck, parse_deck, move_deck, deck_checksum
    use ek_case_result, only: solve_options_t
-   use ek_factor_paths, only: shortest
    use ek_table, only: name_length
-   use ek_design_numbers, only: design_numbers_t, begin_numbers, reset_numbers, place_number, add_path, put_path, put_at, &
-      is_legal_path, is_legal_at, apply_settings
+   use ek_design_numbers, only: design_numbers_t, begin_numbers, apply_settings
    use ek_workspace, only: workspace_t, put_numbers
    use ek_workspace_cases, only: open_workspace
    use ek_named_numbers, only: named_numbers_t
    use ek_derivatives, only: derivatives_t
    implicit none(type, external)
    private
-   public :: session_t, prepared_t, derived_t, open_file, open_text, open_deck, take_deck, set_number, set_text
-   public :: get_number, set_all, reset
-   public :: take_new_numbers, changed_deck, checksum_of, without_option, begin_opened, begin_workspace, empty_session
+   public :: session_t, prepared_t, derived_t, open_file, open_text, open_deck, take_deck
+   public :: take_new_numbers, changed_deck, checksum_of, without_option, begin_opened, begin_again, begin_workspace, empty_session
 
    !> A case that was solved with these columns: a further solution makes no text.
    type :: prepared_t
@@ -132,7 +125,7 @@ contains
 
    !> Replaces the deck; if the new deck has errors, the session is unchanged. The last solution is not deleted in either case: its
    !> workspace is stored until the next solution.
-   subroutine begin(deck, session, error)
+   subroutine begin_again(deck, session, error)
       type(deck_t), intent(in) :: deck
       type(session_t), intent(inout) :: session
       type(error_t), allocatable, intent(out) :: error
@@ -145,7 +138,7 @@ contains
       if (session%solved > 0 .and. .not. allocated(session%other)) call move_alloc(session%workspace, session%other)
       call move_alloc(workspace, session%workspace)
       call begin_workspace(session)
-   end subroutine begin
+   end subroutine begin_again
 
    !> Begins the parts of a session that depend on its workspace's deck.
    subroutine begin_workspace(session)
@@ -158,208 +151,6 @@ contains
       session%is_named_ready = .false.
       if (allocated(session%derived)) session%derived%derivatives%case = 0      ! of another workspace: kept as room
    end subroutine begin_workspace
-
-   !> Sets all numbers to which a path leads, as --set path=value: both sides of a mirrored axle, and * in names. Legal numbers that
-   !> together do not define a valid model are stored, and the next solution reports them.
-   subroutine set_number(session, path, value, error)
-      type(session_t), intent(inout) :: session
-      character(*), intent(in) :: path
-      real(wp), intent(in) :: value                        !! in the unit of the deck
-      type(error_t), allocatable, intent(out) :: error     !! exit_usage; exit_deck, outside its legal range: nothing was changed
-      integer :: setting
-
-      setting = place_number(session%numbers, path)
-      if (setting == 0 .or. .not. ieee_is_finite(value)) then
-         !$omp critical (ek_words)
-         call first_number(session, trim(adjustl(path)), value, setting, error)
-         !$omp end critical (ek_words)
-      end if
-      if (allocated(error) .or. setting == 0) return
-      if (is_legal_path(session%numbers, setting, value, session%workspace%design%parameters)) then
-         call put_path(session%numbers, setting, value)
-      else
-         !$omp critical (ek_words)
-         call fail(error, exit_deck, range_message(session, trim(adjustl(path)), value))
-         !$omp end critical (ek_words)
-      end if
-   end subroutine set_number
-
-   !> The message about a number outside its legal range, as the reader of decks gives it.
-   function range_message(session, path, value) result(message)
-      type(session_t), intent(in) :: session
-      character(*), intent(in) :: path
-      real(wp), intent(in) :: value                        !! in the unit of the deck
-      character(:), allocatable :: message
-      type(error_t), allocatable :: error
-      type(message_list_t) :: lines
-      type(deck_t) :: trial
-      type(design_t) :: design
-      character(:), allocatable :: setting, rest
-      integer :: last
-
-      setting = path//'='//shortest(value)
-      trial = session%deck
-      call set_value(trial, path, shortest(value), error)
-      if (.not. allocated(error)) call read_design(trial, design, error)
-      call without_option(error)
-      rest = ''
-      if (allocated(error)) rest = error%message
-      do while (len(rest) > 0)                             ! other mistakes are not of this call
-         last = index(rest//new_line('a'), new_line('a')) - 1
-         if (index(rest, setting//':') == 1) call lines%add(rest(:last))
-         rest = rest(min(last + 2, len(rest) + 1):)
-      end do
-      message = lines%text()
-      if (lines%count() == 0) message = setting//': the number is outside its legal range'
-   end function range_message
-
-   !> Finds a path that is used for the first time: checks it as --set does. setting is 0 if the path leads to no number of the
-   !> design space, and the value was set in the text.
-   subroutine first_number(session, path, value, setting, error)
-      type(session_t), intent(inout) :: session
-      character(*), intent(in) :: path
-      real(wp), intent(in) :: value
-      integer, intent(inout) :: setting
-      type(error_t), allocatable, intent(out) :: error
-      type(choice_t), allocatable :: found(:)
-      type(deck_t) :: trial
-
-      if (.not. ieee_is_finite(value)) then
-         call fail(error, exit_usage, quoted(path)//': expected a finite number')
-         return
-      end if
-      trial = session%deck
-      ! of a value that is too large, whether the path is right: set_number refuses the value
-      call set_value(trial, path, shortest(merge(value, 1.0_wp, abs(value) < number_limit)), error)
-      call without_option(error)
-      if (allocated(error)) return
-      call find_parameters(session%workspace%design%parameters, session%workspace%design%records, path, found)
-      if (size(found) == 0) then
-         call take_text(session, path, shortest(value), error)
-      else
-         call add_path(session%numbers, path, found, setting)
-      end if
-   end subroutine first_number
-
-   !> Sets a value as --set path=text does: '*1.1', '+2', a number or a word. The deck is read again, which takes some milliseconds.
-   subroutine set_text(session, path, text, error)
-      type(session_t), intent(inout) :: session
-      character(*), intent(in) :: path, text
-      type(error_t), allocatable, intent(out) :: error     !! exit_usage, exit_deck: nothing was changed
-
-      !$omp critical (ek_words)
-      call take_text(session, path, text, error)
-      !$omp end critical (ek_words)
-   end subroutine set_text
-
-   subroutine take_text(session, path, text, error)
-      type(session_t), intent(inout) :: session
-      character(*), intent(in) :: path, text
-      type(error_t), allocatable, intent(out) :: error
-      type(deck_t) :: changed
-
-      call changed_deck(session, changed, error)
-      if (.not. allocated(error)) call set_value(changed, path, text, error)
-      if (.not. allocated(error)) call begin(changed, session, error)
-      call without_option(error)
-      if (.not. allocated(error)) session%is_text_changed = .true.
-   end subroutine take_text
-
-   !> Returns the number to which a path leads; not a number if it leads to several that differ.
-   subroutine get_number(session, path, value, error)
-      type(session_t), intent(inout) :: session
-      character(*), intent(in) :: path
-      real(wp), intent(out) :: value                       !! in the unit of the deck
-      type(error_t), allocatable, intent(out) :: error     !! exit_usage: it leads to no number that the deck gives
-      type(choice_t), allocatable :: found(:)
-      type(deck_t) :: trial
-      real(wp) :: this
-      logical :: is_one
-      integer :: j
-
-      value = 0.0_wp
-      is_one = .true.
-      !$omp critical (ek_words)
-      call find_parameters(session%workspace%design%parameters, session%workspace%design%records, path, found)
-      if (size(found) == 0) then
-         trial = session%deck
-         call set_value(trial, path, '1', error)           ! its message says what is wrong with the path
-         if (allocated(error)) call replace(error%message, '=1: ', ': ')
-         call without_option(error)
-         if (.not. allocated(error)) call fail(error, exit_usage, quoted(path)//' leads to no number that can be read')
-      end if
-      do j = 1, size(found)
-         this = found(j)%sign*session%numbers%value(found(j)%number)
-         if (j == 1) value = this
-         if (abs(this - value) > 0.0_wp) is_one = .false.
-      end do
-      !$omp end critical (ek_words)
-      if (.not. is_one) value = ieee_value(value, ieee_quiet_nan)
-   end subroutine get_number
-
-   !> Sets all numbers, or from number `first` on as many as there are values.
-   subroutine set_all(session, values, error, first)
-      type(session_t), intent(inout) :: session
-      real(wp), intent(in) :: values(:)                    !! in the units of the deck
-      type(error_t), allocatable, intent(out) :: error     !! exit_usage; exit_deck, every number outside its legal range: nothing
-      !!                                                      was changed
-      integer, intent(in), optional :: first               !! default 1
-      logical :: is_legal
-      integer :: k, before
-
-      before = 0
-      if (present(first)) before = first - 1
-      if (.not. all(ieee_is_finite(values))) then
-         call fail(error, exit_usage, 'expected finite numbers')
-         return
-      end if
-      is_legal = .true.
-      do k = 1, size(values)
-         is_legal = is_legal .and. is_legal_at(session%numbers, before + k, values(k), session%workspace%design%parameters)
-      end do
-      if (is_legal) then
-         do k = 1, size(values)
-            call put_at(session%numbers, before + k, values(k))
-         end do
-      else
-         !$omp critical (ek_words)
-         call refuse_all(session, values, before, error)
-         !$omp end critical (ek_words)
-      end if
-   end subroutine set_all
-
-   !> Makes the message about all numbers outside their legal ranges.
-   subroutine refuse_all(session, values, before, error)
-      type(session_t), intent(in) :: session
-      real(wp), intent(in) :: values(:)
-      integer, intent(in) :: before                        !! numbers before the first
-      type(error_t), allocatable, intent(out) :: error
-      type(message_list_t) :: lines
-      integer :: k
-
-      associate (design => session%workspace%design)
-         do k = 1, size(values)
-            if (is_legal_at(session%numbers, before + k, values(k), design%parameters)) cycle
-            call lines%add(range_message(session, parameter_path(design%parameters%list(before + k), design%records), values(k)))
-         end do
-      end associate
-      call fail(error, exit_deck, lines%text())
-   end subroutine refuse_all
-
-   !> Resets all numbers and strings to their values when the deck was opened.
-   subroutine reset(session, error)
-      type(session_t), intent(inout) :: session
-      type(error_t), allocatable, intent(out) :: error
-
-      if (session%is_text_changed) then
-         !$omp critical (ek_words)
-         call begin(session%original, session, error)
-         !$omp end critical (ek_words)
-         session%is_text_changed = .false.
-      else
-         call reset_numbers(session%numbers)
-      end if
-   end subroutine reset
 
    !> Gives the workspace the numbers that were changed since.
    subroutine take_new_numbers(session)

@@ -76,10 +76,9 @@ contains
       type(case_t), allocatable :: cases(:), chosen(:)                  ! with the tests; those of this report
       type(examination_t) :: found
       type(model_remarks_t) :: remarks
-      type(message_list_t) :: warnings
       type(chart_t), allocatable :: scales(:)                           ! of another report
       type(error_t), allocatable :: undrawn, unprinted, incomplete
-      character(:), allocatable :: checksum, message
+      character(:), allocatable :: checksum
 
       call read_settings(line, settings, error)
       if (.not. allocated(error) .and. line%has('--scales')) &
@@ -125,21 +124,8 @@ contains
             'a design state at which a bushing, spring or bar with a constant rate contributes to a key compliance')
       end if
       if (allocated(scales)) call take_scales(scales, page%charts)
-      call write_gradients(page%gradients, workspace%suspension%name, checksum, join_path(page%folder, gradients_file), &
-         join_path(page%folder, 'gradients.json'), error)
+      call write_numbers(workspace, checksum, page, unprinted, error)
       if (allocated(error)) return
-      call print_path(join_path(page%folder, gradients_file), unprinted)
-      call print_path(join_path(page%folder, 'gradients.json'), unprinted)
-      call key_numbers(page%tests, page%gradients, page%numbers)
-      call set_targets(workspace%design%targets, page%numbers, page%warnings)
-      call write_key_numbers(page%numbers, size(workspace%suspension%wheels) > 1, workspace%suspension%name, checksum, &
-         join_path(page%folder, numbers_file), join_path(page%folder, 'key_numbers.json'), error)
-      if (allocated(error)) return
-      call print_path(join_path(page%folder, numbers_file), unprinted)
-      call print_path(join_path(page%folder, 'key_numbers.json'), unprinted)
-      call write_contents(page%tests, join_path(page%folder, contents_file), error)
-      if (allocated(error)) return
-
       if (.not. page%is_static) call make_turntable(workspace%suspension, page%tests, page%paths, page%turntable)
       call set_head(settings, workspace%suspension, checksum, page)
       call list_values(deck, page%deck_paths, page%deck_texts)
@@ -153,24 +139,7 @@ contains
       call write_whole(join_path(page%folder, 'data.json'), report_data(page), error)
       if (allocated(error)) return
       call print_path(join_path(page%folder, 'data.json'), unprinted)
-      ! first the page without pictures: it then exists even if gnuplot fails or never ends
-      if (settings%has_plots) then
-         warnings = page%warnings
-         call page%warnings%add('The page has no pictures: gnuplot has not finished')
-         call write_whole(join_path(page%folder, 'report.html'), report_page(page), error, can_be_redrawn=.true.)
-         if (allocated(error)) return
-         page%warnings = warnings
-      end if
-      call draw_pictures(page, workspace%suspension, settings%has_plots, settings%is_animated, message, undrawn)
-      if (allocated(undrawn)) then
-         call print_error(undrawn%message)
-         call page%warnings%add('The page lacks pictures: '//undrawn%message)
-      else if (len(message) > 0) then
-         if (settings%has_plots) call print_note(settings%is_quiet, message)
-         call page%warnings%add('The page has no pictures: '//message)
-      end if
-      page%has_pictures = .not. allocated(undrawn) .and. len(message) == 0
-      call write_whole(join_path(page%folder, 'report.html'), report_page(page), error)
+      call write_page(settings, workspace%suspension, page, undrawn, error)
       if (allocated(error)) return
       call renew_list(page, settings%is_quiet, error)
       if (allocated(error)) return
@@ -184,6 +153,59 @@ contains
          call move_alloc(unprinted, error)
       end if
    end subroutine report
+
+   !> Writes gradients, key numbers with their targets, and the list of tests.
+   subroutine write_numbers(workspace, checksum, page, unprinted, error)
+      type(workspace_t), intent(in) :: workspace                !! balanced
+      character(*), intent(in) :: checksum
+      type(report_t), intent(inout) :: page                     !! with the gradients; gets the key numbers
+      type(error_t), allocatable, intent(inout) :: unprinted    !! a path could not be printed
+      type(error_t), allocatable, intent(out) :: error          !! exit_file
+
+      call write_gradients(page%gradients, workspace%suspension%name, checksum, join_path(page%folder, gradients_file), &
+         join_path(page%folder, 'gradients.json'), error)
+      if (allocated(error)) return
+      call print_path(join_path(page%folder, gradients_file), unprinted)
+      call print_path(join_path(page%folder, 'gradients.json'), unprinted)
+      call key_numbers(page%tests, page%gradients, page%numbers)
+      call set_targets(workspace%design%targets, page%numbers, page%warnings)
+      call write_key_numbers(page%numbers, size(workspace%suspension%wheels) > 1, workspace%suspension%name, checksum, &
+         join_path(page%folder, numbers_file), join_path(page%folder, 'key_numbers.json'), error)
+      if (allocated(error)) return
+      call print_path(join_path(page%folder, numbers_file), unprinted)
+      call print_path(join_path(page%folder, 'key_numbers.json'), unprinted)
+      call write_contents(page%tests, join_path(page%folder, contents_file), error)
+   end subroutine write_numbers
+
+   !> Draws the pictures and writes the page.
+   subroutine write_page(settings, suspension, page, undrawn, error)
+      type(settings_t), intent(in) :: settings
+      type(suspension_t), intent(in) :: suspension
+      type(report_t), intent(inout) :: page
+      type(error_t), allocatable, intent(out) :: undrawn        !! some pictures are missing; the page says so
+      type(error_t), allocatable, intent(out) :: error          !! exit_file
+      type(message_list_t) :: warnings
+      character(:), allocatable :: message
+
+      ! first the page without pictures: it then exists even if gnuplot fails or never ends
+      if (settings%has_plots) then
+         warnings = page%warnings
+         call page%warnings%add('The page has no pictures: gnuplot has not finished')
+         call write_whole(join_path(page%folder, 'report.html'), report_page(page), error, can_be_redrawn=.true.)
+         if (allocated(error)) return
+         page%warnings = warnings
+      end if
+      call draw_pictures(page, suspension, settings%has_plots, settings%is_animated, message, undrawn)
+      if (allocated(undrawn)) then
+         call print_error(undrawn%message)
+         call page%warnings%add('The page lacks pictures: '//undrawn%message)
+      else if (len(message) > 0) then
+         if (settings%has_plots) call print_note(settings%is_quiet, message)
+         call page%warnings%add('The page has no pictures: '//message)
+      end if
+      page%has_pictures = .not. allocated(undrawn) .and. len(message) == 0
+      call write_whole(join_path(page%folder, 'report.html'), report_page(page), error)
+   end subroutine write_page
 
    subroutine read_settings(line, settings, error)
       type(command_line_t), intent(in) :: line

@@ -8,7 +8,8 @@ module ek_deck_reading
    use ek_text, only: str, lower, quoted
    use ek_decimal, only: checked_number
    use ek_record, only: deck_errors_t, place_in, record_t, entry_index, is_given, place_of, line_text
-   use ek_group, only: group_names, record_head, word_length, key_t, find_key, is_inside, range_text, acute
+   use ek_group, only: group_names, record_head, word_length, key_t, find_key
+   use ek_number_range, only: is_inside, range_text, acute
    use ek_blueprint, only: blueprint_t
    use ek_parameter, only: parameters_t, add_parameter
    implicit none(type, external)
@@ -301,7 +302,8 @@ contains
       associate (this => reading%parameters%list(reading%parameters%used), x => reading%parameters%x(reading%parameters%used))
          if (is_inside(acute, x)) return
          call find_key(reading%cards(reading%k)%group, key, row, is_known)
-         call complain(reading, key, key//' '//range_text(row, str(x/this%unit)//trim(merge(' rad', ' deg', this%unit >= 1.0_wp))))
+         call complain(reading, key, key//' '//range_text(row%range, row%unit, str(x/this%unit)// &
+            trim(merge(' rad', ' deg', this%unit >= 1.0_wp))))
       end associate
    end subroutine check_angle
 

@@ -2,13 +2,13 @@
 !>
 !> To add a key: its row here, and the reader of the group, which asks for its value.
 module ek_group
-   use ek_kinds, only: wp, pi
    use ek_text, only: quoted, did_you_mean
    use ek_quantity, only: name_length
+   use ek_number_range, only: any_number, positive, not_negative, not_zero, share, acute
    implicit none(type, external)
    private
    public :: group_names, group_number, is_deck_group, has_results, names_of_groups, is_single, is_element, can_be_doubled
-   public :: key_t, keys, find_key, record_head, unknown_key, is_inside, range_text, spring_groups
+   public :: key_t, keys, find_key, record_head, unknown_key, spring_groups
 
    integer, parameter, public :: model_group = 1, point_group = 2, body_group = 3, measure_group = 4, joint_group = 5, &
       bushing_group = 6, spring_group = 7, wheel_group = 8, load_group = 9, case_group = 10, &
@@ -43,11 +43,6 @@ module ek_group
    integer, parameter, public :: max_paths = 50       !! of numbers that a factor moves together
    integer, parameter, public :: max_loads = 12       !! scaled together by one case
 
-   ! legal ranges of a number
-   integer, parameter, public :: any_number = 0
-   integer, parameter :: positive = 1, not_negative = 2, not_zero = 3, share = 4
-   integer, parameter, public :: acute = 5     !! an angle, to either side: the only range whose limits have a unit
-
    ! roles under &mirror, y → −y, of the keys that differ between the sides: the name of a record that may be duplicated (its
    ! group), a vector, and the rest
    integer, parameter, public :: polar = 101    !! (x, y, z) → (x, −y, z)
@@ -61,7 +56,7 @@ module ek_group
       integer :: type
       integer :: least, most     !! number of values
       logical :: is_required
-      integer :: range = any_number
+      integer :: range = any_number     !! see ek_number_range
       character(20) :: unit = ''   !! of the range, in messages
       integer :: role = 0
    end type key_t
@@ -347,40 +342,6 @@ contains
          return
       end do
    end subroutine find_key
-
-   !> Whether a number is inside a legal range.
-   pure logical function is_inside(range, value)
-      integer, intent(in) :: range
-      real(wp), intent(in) :: value            !! SI; in any unit if the range is not acute
-      real(wp), parameter :: right_angle = 0.5_wp*pi*(1.0_wp - 4.0_wp*epsilon(1.0_wp))     ! 90 in degrees may fall short by rounding
-
-      select case (range)
-      case (positive)
-         is_inside = value > 0.0_wp
-      case (not_negative)
-         is_inside = value >= 0.0_wp
-      case (not_zero)
-         is_inside = abs(value) > 0.0_wp
-      case (share)
-         is_inside = value >= 0.0_wp .and. value <= 1.0_wp
-      case (acute)
-         is_inside = abs(value) < right_angle
-      case default
-         is_inside = .true.
-      end select
-   end function is_inside
-
-   !> 'must be above 0 kg, found -1': the message about a number outside the range of its key.
-   pure function range_text(key, shown) result(words)
-      type(key_t), intent(in) :: key
-      character(*), intent(in) :: shown       !! the value as text
-      character(:), allocatable :: words
-      character(*), parameter :: ranges(5) = [character(22) :: 'above 0', '0 or more', 'not be zero', '0 to 1', &
-         'above -90 and below 90']
-
-      words = 'must be '//trim(ranges(key%range))//trim(key%unit)//', found '//shown
-      if (key%range == not_zero) words = 'must not be zero'
-   end function range_text
 
    !> "bushing 'top_mount': "
    pure function record_head(group, name) result(head)

@@ -10,7 +10,8 @@ module ek_namelist
    use ek_letters, only: bad_byte, visible
    use ek_quantity, only: column_of_stem
    use ek_record, only: deck_errors_t, record_t, entry_t, value_t, entry_index, is_given, place_of
-   use ek_group, only: key_t, keys, find_key, unknown_key, is_inside, range_text, any_number, acute, longest, number, &
+   use ek_number_range, only: is_inside, range_text, any_number, acute
+   use ek_group, only: key_t, keys, find_key, unknown_key, longest, number, &
       whole, heading
    implicit none(type, external)
    private
@@ -123,7 +124,7 @@ contains
       value = checked_number(entry%values(k)%text)
       if (is_inside(key%range, value)) return
       if (key%least == key%most) words = element_text(key, entry%first + k - 1)
-      words = trim(key%name)//words//' '//range_text(key, str(value))
+      words = trim(key%name)//words//' '//range_text(key%range, key%unit, str(value))
    end function out_of_range
 
    !> 'needs 3 values'

@@ -9,7 +9,8 @@ module ek_parameter
    use ek_record, only: record_t, right_side, element, own_name, sign_of_image
    use ek_group, only: group_names, group_number, is_deck_group, names_of_groups, is_single, include_group, hardpoints_group, &
       point_group, &
-      key_t, find_key, is_inside
+      key_t, find_key
+   use ek_number_range, only: is_inside
    implicit none(type, external)
    private
    public :: parameter_t, parameters_t, choice_t, add_parameter, find_parameters, put_value, put_change, in_range

@@ -62,7 +62,6 @@ contains
       character(:), allocatable :: name, path, curve, content
       real(wp) :: x_unit, y_unit
       integer :: c, j
-      logical :: is_fit
 
       name = trim(element(records(k), 'name', 1))
       if (name == '') return                       ! the check of the record reports it
@@ -87,15 +86,7 @@ contains
          call report(flaws, source, seen, deck_errors)
          return
       end if
-      select case (group_number(records(k)%group))
-      case (bushing_group)
-         is_fit = property%kind == bushing_file
-      case (spring_group)
-         is_fit = property%kind == spring_file
-      case default
-         is_fit = property%kind == bump_file .or. property%kind == rebound_file
-      end select
-      if (.not. is_fit) then
+      if (.not. fits_group(property, group_number(records(k)%group))) then
          call complain(records(k), 'property_file', 'property_file: expected the file of a '//records(k)%group//', found that '// &
             'of a '//trim(file_kinds(property%kind))//': '//quoted(path), deck_errors)
          return
@@ -147,6 +138,21 @@ contains
       end subroutine add_curve
 
    end subroutine attach_property
+
+   !> Whether a property file is of the kind that a group takes.
+   pure logical function fits_group(property, group)
+      type(property_t), intent(in) :: property
+      integer, intent(in) :: group
+
+      select case (group)
+      case (bushing_group)
+         fits_group = property%kind == bushing_file
+      case (spring_group)
+         fits_group = property%kind == spring_file
+      case default
+         fits_group = property%kind == bump_file .or. property%kind == rebound_file
+      end select
+   end function fits_group
 
    !> Element `at` of a number key; of a key with a single value, this value. `default` if it is not given or no number, which the
    !> check of the record reports.

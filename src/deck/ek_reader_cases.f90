@@ -65,7 +65,7 @@ contains
       this%increments = whole_of(reading, 'increments', merge(test%increments, this%increments, has_grid))
       if (this%increments < 1 .or. this%increments > max_increments) call complain(reading, 'increments', &
          'increments must be 1 to '//str(max_increments)//', found '//str(this%increments))
-      if (has_grid) call read_grid()
+      if (has_grid) call read_grid(reading, steer_unit, this, plan)
       call choice(reading, 'method', method_names, c)
       this%says_solver = has_key(reading, 'solver')
       call choice(reading, 'solver', solver_names, c)
@@ -78,8 +78,8 @@ contains
       call choice(reading, 'quantities', [character(5) :: 'basic', 'all'], c, default=merge(2, 1, has_key(reading, 'test')))
       this%has_all = c == 2
       this%method = lower(text_of(reading, 'method', 'equilibrium'))
-      call read_target()
-      call read_follow()
+      call read_target(reading, this)
+      call read_follow(reading, test, this)
 
       this%name = text_of(reading, 'name')
       this%where = where_of(reading)
@@ -91,82 +91,88 @@ contains
       this%to = to*unit
       reading%plan%cases = [reading%plan%cases, plan]
       reading%cards(reading%k)%index = size(reading%plan%cases)
-
-   contains
-
-      !> Reads the range of the driver in a grid; by default the travel of the rack, which the design gives.
-      subroutine read_grid()
-         character(*), parameter :: keys(2) = [character(10) :: 'steer_from', 'steer_to']
-         integer :: k, j
-         logical :: is_rack
-
-         this%steer_increments = whole_of(reading, 'steer_increments', this%steer_increments)
-         if (this%steer_increments < 1 .or. this%steer_increments > max_increments) then
-            call complain(reading, 'steer_increments', 'steer_increments must be 1 to '//str(max_increments)//', found '// &
-               str(this%steer_increments))
-         else if ((this%increments + 1.0_wp)*(this%steer_increments + 1.0_wp) > max_increments) then
-            call complain(reading, 'steer_increments', 'the grid must have at most '//str(max_increments)//' states, found '// &
-               str(this%increments + 1)//' x '//str(this%steer_increments + 1)//': use fewer increments')
-         end if
-         call slot(reading, 'steer_from', steer_unit, plan%steer_from)
-         call slot(reading, 'steer_to', steer_unit, plan%steer_to)
-         j = findloc(reading%cards%group, steering_group, dim=1)
-         is_rack = .false.
-         if (j > 0) is_rack = lower(element(reading%records(j), 'driver', 1)) == lower(this%drive)
-         if (is_rack .and. .not. any([has_key(reading, keys(1)), has_key(reading, keys(2))])) return
-         do k = 1, 2
-            if (.not. has_key(reading, trim(keys(k)))) call complain(reading, '', quoted(trim(keys(k)))// &
-               ' is missing: give both, or neither for the travel of &steering')
-         end do
-         this%steer_from = number_of(reading, 'steer_from', 0.0_wp)*steer_unit
-         this%steer_to = number_of(reading, 'steer_to', 0.0_wp)*steer_unit
-         if (reading%cards(reading%k)%is_good .and. .not. abs(this%steer_to - this%steer_from) > 0.0_wp) &
-            call complain(reading, 'steer_to', 'steer_from and steer_to must differ, found '// &
-            str(number_of(reading, 'steer_to', 0.0_wp))//' twice')
-      end subroutine read_grid
-
-      !> Reads target = 'column=value', the value in the unit of the column.
-      subroutine read_target()
-         type(value_t) :: value
-         character(:), allocatable :: hint, words
-         integer :: equals
-
-         words = text_of(reading, 'target')
-         this%target = words
-         if (words == '') return
-         equals = index(words, '=')
-         value%text = trim(adjustl(words(equals + 1:)))
-         value%is_empty = value%text == ''
-         if (equals == 0 .or. words(:max(equals - 1, 0)) == '' .or. value_fault(value, number) /= '') then
-            hint = ''
-            if (index(value%text, ',') > 0) hint = ' (write the number with a decimal point)'
-            call complain(reading, 'target', &
-               "target: expected 'column=value', as in 'coil_length_mm=250', found "//quoted(words)//hint)
-         else if (this%method /= 'equilibrium') then
-            call complain(reading, 'target', "target: only method = 'equilibrium' can search for one, found "// &
-               quoted(text_of(reading, 'method')))
-         end if
-      end subroutine read_target
-
-      !> Reads follow = 'arc': needs method 'equilibrium'; tables and targets, which need a unique factor, are not allowed.
-      subroutine read_follow()
-         integer :: c
-
-         call choice(reading, 'follow', follow_names, c)
-         this%follows_arc = c == 2
-         if (c /= 2) return
-         if (has_table .or. has_grid) then
-            call complain(reading, 'follow', "follow = 'arc' is not allowed in test "//quoted(this%test)//': '//trim(merge( &
-               'each row of the table is one state', 'the states of a grid form no path ', has_table)))
-         else if (this%target /= '') then
-            call complain(reading, 'follow', "follow = 'arc' is not allowed with a target: a path that turns back "// &
-               'passes the same factor more than once')
-         end if
-         if (this%method /= 'equilibrium') call complain(reading, 'follow', &
-            "follow = 'arc' needs method = 'equilibrium', found "//quoted(text_of(reading, 'method')))
-      end subroutine read_follow
-
    end subroutine read_case
+
+   !> Reads the range of the driver in a grid; by default the travel of the rack, which the design gives.
+   subroutine read_grid(reading, steer_unit, this, plan)
+      type(deck_reading_t), intent(inout) :: reading
+      real(wp), intent(in) :: steer_unit       !! of the driver → SI
+      type(case_t), intent(inout) :: this
+      type(case_plan_t), intent(inout) :: plan
+      character(*), parameter :: keys(2) = [character(10) :: 'steer_from', 'steer_to']
+      integer :: k, j
+      logical :: is_rack
+
+      this%steer_increments = whole_of(reading, 'steer_increments', this%steer_increments)
+      if (this%steer_increments < 1 .or. this%steer_increments > max_increments) then
+         call complain(reading, 'steer_increments', 'steer_increments must be 1 to '//str(max_increments)//', found '// &
+            str(this%steer_increments))
+      else if ((this%increments + 1.0_wp)*(this%steer_increments + 1.0_wp) > max_increments) then
+         call complain(reading, 'steer_increments', 'the grid must have at most '//str(max_increments)//' states, found '// &
+            str(this%increments + 1)//' x '//str(this%steer_increments + 1)//': use fewer increments')
+      end if
+      call slot(reading, 'steer_from', steer_unit, plan%steer_from)
+      call slot(reading, 'steer_to', steer_unit, plan%steer_to)
+      j = findloc(reading%cards%group, steering_group, dim=1)
+      is_rack = .false.
+      if (j > 0) is_rack = lower(element(reading%records(j), 'driver', 1)) == lower(this%drive)
+      if (is_rack .and. .not. any([has_key(reading, keys(1)), has_key(reading, keys(2))])) return
+      do k = 1, 2
+         if (.not. has_key(reading, trim(keys(k)))) call complain(reading, '', quoted(trim(keys(k)))// &
+            ' is missing: give both, or neither for the travel of &steering')
+      end do
+      this%steer_from = number_of(reading, 'steer_from', 0.0_wp)*steer_unit
+      this%steer_to = number_of(reading, 'steer_to', 0.0_wp)*steer_unit
+      if (reading%cards(reading%k)%is_good .and. .not. abs(this%steer_to - this%steer_from) > 0.0_wp) &
+         call complain(reading, 'steer_to', 'steer_from and steer_to must differ, found '// &
+         str(number_of(reading, 'steer_to', 0.0_wp))//' twice')
+   end subroutine read_grid
+
+   !> Reads target = 'column=value', the value in the unit of the column.
+   subroutine read_target(reading, this)
+      type(deck_reading_t), intent(inout) :: reading
+      type(case_t), intent(inout) :: this      !! with its method
+      type(value_t) :: value
+      character(:), allocatable :: hint, words
+      integer :: equals
+
+      words = text_of(reading, 'target')
+      this%target = words
+      if (words == '') return
+      equals = index(words, '=')
+      value%text = trim(adjustl(words(equals + 1:)))
+      value%is_empty = value%text == ''
+      if (equals == 0 .or. words(:max(equals - 1, 0)) == '' .or. value_fault(value, number) /= '') then
+         hint = ''
+         if (index(value%text, ',') > 0) hint = ' (write the number with a decimal point)'
+         call complain(reading, 'target', &
+            "target: expected 'column=value', as in 'coil_length_mm=250', found "//quoted(words)//hint)
+      else if (this%method /= 'equilibrium') then
+         call complain(reading, 'target', "target: only method = 'equilibrium' can search for one, found "// &
+            quoted(text_of(reading, 'method')))
+      end if
+   end subroutine read_target
+
+   !> Reads follow = 'arc': needs method 'equilibrium'; tables and targets, which need a unique factor, are not allowed.
+   subroutine read_follow(reading, test, this)
+      type(deck_reading_t), intent(inout) :: reading
+      type(rig_test_t), intent(in) :: test
+      type(case_t), intent(inout) :: this      !! with its method and target
+      integer :: c
+
+      call choice(reading, 'follow', follow_names, c)
+      this%follows_arc = c == 2
+      if (c /= 2) return
+      if (test%action == takes_table .or. test%action == covers_grid) then
+         call complain(reading, 'follow', "follow = 'arc' is not allowed in test "//quoted(this%test)//': '//trim(merge( &
+            'each row of the table is one state', 'the states of a grid form no path ', test%action == takes_table)))
+      else if (this%target /= '') then
+         call complain(reading, 'follow', "follow = 'arc' is not allowed with a target: a path that turns back "// &
+            'passes the same factor more than once')
+      end if
+      if (this%method /= 'equilibrium') call complain(reading, 'follow', &
+         "follow = 'arc' needs method = 'equilibrium', found "//quoted(text_of(reading, 'method')))
+   end subroutine read_follow
 
    !> Rejects two cases with one file: the target of a case has its own file, <case>_target, so no other case may have this name.
    subroutine refuse_one_file_for_two(reading, cases)
@@ -282,14 +288,14 @@ contains
       call refuse_in_test('target', test%action == takes_table, 'the rows of a table form no path to search')
       call refuse_in_test('target', test%action == covers_grid, 'the states of a grid form no path to search')
 
-      call count_wheels()
+      call count_wheels(reading, wheels)
       call choice(reading, 'vertical', verticals, c)
       if (c > 0) this%vertical = trim(verticals(c))
       if (any(test%action == [rolls, covers_grid])) call refuse_in_test('vertical', c == 3, &
          'the test prescribes heights: ''centre'', ''patch'' or ''road''')
       if (test%action == loads_wheels .and. lifts(test)) call refuse_in_test('vertical', c > 0 .and. c /= 3, &
          'the test prescribes the force')
-      if (c == 4) call check_tyres()
+      if (c == 4) call check_tyres(reading)
       call choice(reading, 'phase', [character(4) :: 'in', 'anti'], c)
       this%is_anti = c == 2
       if (this%is_anti .or. needs_both(test)) then
@@ -327,34 +333,37 @@ contains
             quoted(this%test)//': '//why)
       end subroutine refuse_in_test
 
-      !> Counts wheels: at most one wheel per side, and at least one wheel.
-      subroutine count_wheels()
-         integer :: j, side
-
-         wheels = 0
-         do j = 1, size(reading%cards)
-            if (reading%cards(j)%group /= wheel_group) cycle
-            side = merge(2, 1, lower(element(reading%records(j), 'side', 1)) == 'right')
-            if (wheels(side) > 0) call complain(reading, 'test', &
-               'the rig tests one axle, but the deck has two wheels on one side')
-            wheels(side) = reading%cards(j)%index
-         end do
-         if (all(wheels == 0)) call complain(reading, 'test', 'the rig needs a &wheel')
-      end subroutine count_wheels
-
-      !> Checks that with vertical = 'road', each wheel has a tyre rate.
-      subroutine check_tyres()
-         integer :: j
-
-         do j = 1, size(reading%cards)
-            if (reading%cards(j)%group /= wheel_group) cycle
-            if (is_given(reading%records(j), 'tyre_rate') .or. reading%records(j)%side == right_side) cycle
-            call complain(reading, 'vertical', "vertical = 'road' needs the tyre_rate of wheel "// &
-               quoted(reading%cards(j)%name)//' in '//line_of(reading, j))
-         end do
-      end subroutine check_tyres
-
    end subroutine read_test
+
+   !> Counts wheels: at most one wheel per side, and at least one wheel.
+   subroutine count_wheels(reading, wheels)
+      type(deck_reading_t), intent(inout) :: reading
+      integer, intent(out) :: wheels(2)      !! index of the left and of the right wheel; 0: the deck has none
+      integer :: j, side
+
+      wheels = 0
+      do j = 1, size(reading%cards)
+         if (reading%cards(j)%group /= wheel_group) cycle
+         side = merge(2, 1, lower(element(reading%records(j), 'side', 1)) == 'right')
+         if (wheels(side) > 0) call complain(reading, 'test', &
+            'the rig tests one axle, but the deck has two wheels on one side')
+         wheels(side) = reading%cards(j)%index
+      end do
+      if (all(wheels == 0)) call complain(reading, 'test', 'the rig needs a &wheel')
+   end subroutine count_wheels
+
+   !> Checks that with vertical = 'road', each wheel has a tyre rate.
+   subroutine check_tyres(reading)
+      type(deck_reading_t), intent(inout) :: reading
+      integer :: j
+
+      do j = 1, size(reading%cards)
+         if (reading%cards(j)%group /= wheel_group) cycle
+         if (is_given(reading%records(j), 'tyre_rate') .or. reading%records(j)%side == right_side) cycle
+         call complain(reading, 'vertical', "vertical = 'road' needs the tyre_rate of wheel "// &
+            quoted(reading%cards(j)%name)//' in '//line_of(reading, j))
+      end do
+   end subroutine check_tyres
 
    !> Finds the steered joint: `drive` of the case, or else the driver of &steering, or else the only driver.
    subroutine find_steering(reading, drive, unit)

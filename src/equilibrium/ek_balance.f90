@@ -19,8 +19,8 @@ module ek_balance
    use ek_suspension, only: suspension_t
    use ek_state, only: state_t, inputs_t, design_state
    use ek_kkt, only: kkt_t, new_kkt, assemble, factorise, solve, whole_tangent
-   use ek_preload_problem, only: preload_problem_t, set_problem, clear_preloads, hold_by_elimination, hold_by_singular_values, &
-      is_free, takes_part, rank_share
+   use ek_preload_problem, only: preload_problem_t, set_problem, clear_preloads, is_free, takes_part
+   use ek_preload_solution, only: hold_by_elimination, hold_by_singular_values, rank_share
    use ek_reach, only: settle, failure_t
    use ek_singular_values, only: singular_values_t, decompose, min_norm
    implicit none(type, external)

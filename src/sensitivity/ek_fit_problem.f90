@@ -5,7 +5,7 @@ module ek_fit_problem
    use ek_error, only: error_t, message_list_t, fail, exit_deck
    use ek_text, only: str, quoted
    use ek_table, only: table_t, read_csv, column_index, name_length
-   use ek_group, only: is_inside
+   use ek_number_range, only: is_inside
    use ek_deck, only: deck_t
    use ek_study, only: by_value, by_scale, is_given, not_given
    use ek_key_number, only: key_number_t, key_source_t, slope
@@ -185,14 +185,11 @@ contains
       type(fit_problem_t), intent(inout) :: problem
       type(message_list_t), intent(inout) :: mistakes
       type(wanted_number_t) :: wanted
-      type(wanted_number_t), allocatable :: list(:)
       type(fit_point_t) :: point
-      type(fit_point_t), allocatable :: points(:)
-      type(table_t) :: curve
       type(error_t), allocatable :: error
       character(name_length), allocatable :: heads(:)
       character(:), allocatable :: case, head
-      integer :: c, row, used, places(4)
+      integer :: c
 
       associate (this => fit%targets(k))
          head = this%where//': target '//quoted(this%name)//': '
@@ -235,37 +232,59 @@ contains
             call mistakes%add(head//'a key number is one value and has no curve; give value')
             return
          end if
-         call read_csv(path_of(this%file), curve, error)
-         if (allocated(error)) then
-            call mistakes%add(head//error%message)
-            return
-         end if
-         places = [column_index(curve, trim(this%over)), column_index(curve, trim(this%column)), column_index(curve, 'low'), &
-            column_index(curve, 'high')]
-         if (places(1) == 0 .or. all(places(2:) == 0)) then
-            call mistakes%add(head//path_of(this%file)//' must have the columns '//trim(this%over)//' and '//trim(this%column)// &
-               ', or low, or high')
-            return
-         end if
-         allocate (points(size(curve%values, 2)))
-         allocate (list(size(points)), source=wanted)
-         used = 0
-         do row = 1, size(curve%values, 2)
-            point%value = cell(places(2))
-            point%low = cell(places(3))
-            point%high = cell(places(4))
-            wanted%at = curve%values(places(1), row)
-            if (.not. ieee_is_finite(wanted%at)) cycle
-            if (.not. (is_given(point%value) .or. is_given(point%low) .or. is_given(point%high))) cycle
-            wanted%reach = merge(0.0_wp, huge(1.0_wp), abs(wanted%at) <= 0.0_wp .and. this%over == 'factor')
-            used = used + 1
-            list(used) = wanted
-            points(used) = point
-         end do
-         problem%wanted = [problem%wanted, list(:used)]
-         problem%points = [problem%points, points(:used)]
-         if (used == 0) call mistakes%add(head//path_of(this%file)//' has no row with a number')
+         call add_curve(this, head, home, wanted, point, problem, mistakes)
       end associate
+   end subroutine add_target
+
+   !> Adds the points of a target that is a curve: one for each row of its file with a number.
+   subroutine add_curve(this, head, home, first, model, problem, mistakes)
+      type(fit_target_t), intent(in) :: this
+      character(*), intent(in) :: head              !! of messages
+      character(*), intent(in) :: home
+      type(wanted_number_t), intent(in) :: first    !! the quantity, at any swept value
+      type(fit_point_t), intent(in) :: model        !! with target and deviation
+      type(fit_problem_t), intent(inout) :: problem
+      type(message_list_t), intent(inout) :: mistakes
+      type(wanted_number_t), allocatable :: list(:)
+      type(fit_point_t), allocatable :: points(:)
+      type(table_t) :: curve
+      type(error_t), allocatable :: error
+      type(wanted_number_t) :: wanted
+      type(fit_point_t) :: point
+      integer :: row, used, places(4)
+
+      call read_csv(path_of(this%file), curve, error)
+      if (allocated(error)) then
+         call mistakes%add(head//error%message)
+         return
+      end if
+      places = [column_index(curve, trim(this%over)), column_index(curve, trim(this%column)), column_index(curve, 'low'), &
+         column_index(curve, 'high')]
+      if (places(1) == 0 .or. all(places(2:) == 0)) then
+         call mistakes%add(head//path_of(this%file)//' must have the columns '//trim(this%over)//' and '//trim(this%column)// &
+            ', or low, or high')
+         return
+      end if
+      allocate (points(size(curve%values, 2)))
+      wanted = first
+      point = model
+      allocate (list(size(points)), source=first)
+      used = 0
+      do row = 1, size(curve%values, 2)
+         point%value = cell(places(2))
+         point%low = cell(places(3))
+         point%high = cell(places(4))
+         wanted%at = curve%values(places(1), row)
+         if (.not. ieee_is_finite(wanted%at)) cycle
+         if (.not. (is_given(point%value) .or. is_given(point%low) .or. is_given(point%high))) cycle
+         wanted%reach = merge(0.0_wp, huge(1.0_wp), abs(wanted%at) <= 0.0_wp .and. this%over == 'factor')
+         used = used + 1
+         list(used) = wanted
+         points(used) = point
+      end do
+      problem%wanted = [problem%wanted, list(:used)]
+      problem%points = [problem%points, points(:used)]
+      if (used == 0) call mistakes%add(head//path_of(this%file)//' has no row with a number')
 
    contains
 
@@ -283,7 +302,7 @@ contains
          if (index(file, '/') /= 1) path = home//file
       end function path_of
 
-   end subroutine add_target
+   end subroutine add_curve
 
    !> Makes a slope within a window of design, read as a gradient of the report is.
    subroutine make_slope(target, wanted)

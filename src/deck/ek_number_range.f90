@@ -1,0 +1,49 @@
+!> Legal ranges of a number of a deck.
+module ek_number_range
+   use ek_kinds, only: wp, pi
+   implicit none(type, external)
+   private
+   public :: any_number, positive, not_negative, not_zero, share, acute, is_inside, range_text
+
+   integer, parameter :: any_number = 0, positive = 1, not_negative = 2, not_zero = 3
+   integer, parameter :: share = 4      !! 0 to 1
+   integer, parameter :: acute = 5      !! an angle, to either side: the only range whose limits have a unit
+
+contains
+
+   !> Whether a number is inside a legal range.
+   pure logical function is_inside(range, value)
+      integer, intent(in) :: range
+      real(wp), intent(in) :: value            !! SI; in any unit if the range is not acute
+      real(wp), parameter :: right_angle = 0.5_wp*pi*(1.0_wp - 4.0_wp*epsilon(1.0_wp))     ! 90 in degrees may fall short by rounding
+
+      select case (range)
+      case (positive)
+         is_inside = value > 0.0_wp
+      case (not_negative)
+         is_inside = value >= 0.0_wp
+      case (not_zero)
+         is_inside = abs(value) > 0.0_wp
+      case (share)
+         is_inside = value >= 0.0_wp .and. value <= 1.0_wp
+      case (acute)
+         is_inside = abs(value) < right_angle
+      case default
+         is_inside = .true.
+      end select
+   end function is_inside
+
+   !> 'must be above 0 kg, found -1': the message about a number outside the range of its key.
+   pure function range_text(range, unit, shown) result(words)
+      integer, intent(in) :: range            !! not any_number
+      character(*), intent(in) :: unit        !! of the limits: ' kg'; '' for none
+      character(*), intent(in) :: shown       !! the value as text
+      character(:), allocatable :: words
+      character(*), parameter :: ranges(5) = [character(22) :: 'above 0', '0 or more', 'not be zero', '0 to 1', &
+         'above -90 and below 90']
+
+      words = 'must be '//trim(ranges(range))//trim(unit)//', found '//shown
+      if (range == not_zero) words = 'must not be zero'
+   end function range_text
+
+end module ek_number_range
