@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # setup.sh [PACKAGE...]: installs what is missing to build elastokin and draw its figures.
 #
-# Checks for gfortran 12 or newer, CMake 3.25 or newer, make, a LAPACK, and gnuplot with a font. Missing packages
+# Checks for gfortran 12 or newer, CMake 3.25 or newer, make, Ninja, a LAPACK, and gnuplot with a font. Missing packages
 # are installed with apt-get, as root or through sudo without a password; if neither
 # is possible, the command is printed and the status is 1. PACKAGE: further Debian or Ubuntu packages.
 # Quick when nothing is missing. FC selects another compiler than gfortran.
@@ -49,6 +49,7 @@ check_all() {
   has_compiler || lacks gfortran 'gfortran 12 or newer'
   has_cmake || lacks cmake 'CMake 3.25 or newer'
   command -v make >/dev/null || lacks make make
+  command -v ninja >/dev/null || lacks ninja-build Ninja
   if ! has_compiler || ! has_lapack; then
     # without a compiler LAPACK cannot be tested; installing it again costs nothing
     lacks libopenblas-dev LAPACK

@@ -124,8 +124,8 @@ END
 compile_times() {
   local folder=$logs/compile_times start=$SECONDS
   rm -rf "$folder" "$folder.txt"
-  cmake -S . -B "$folder" -DCMAKE_BUILD_TYPE=Release -DCMAKE_Fortran_COMPILER_LAUNCHER="$top/tests/support/time_compilation.sh" || return 1
-  EK_TIMES=$folder.txt cmake --build "$folder" --target elastokin --parallel "$EK_JOBS" || return 1
+  EK_TIMES=$folder.txt EK_BUILD=$folder tools/build.sh release elastokin \
+    -DCMAKE_Fortran_COMPILER_LAUNCHER="$top/tests/support/time_compilation.sh" || return 1
   start=$((SECONDS - start))
   sort -rn "$folder.txt" | awk '{sub(/.*\//, "", $2); seconds[NR] = $1; name[NR] = $2; if ($2 == "ek_kkt.f90") unit = $1; sum += $1}
     END {if (!unit || NR < 300) exit 1
