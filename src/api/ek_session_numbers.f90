@@ -6,7 +6,7 @@ module ek_session_numbers
    use ek_deck, only: deck_t
    use ek_case, only: case_t
    use ek_named_numbers, only: named_numbers_t, prepare_numbers, read_numbers, needed_tests, explain_missing
-   use ek_workspace, only: workspace_t, settle_fully, settle_again
+   use ek_workspace, only: workspace_t, settle_numbers, settle_or_explain, was_solved
    use ek_workspace_cases, only: open_workspace, report_cases
    use ek_session, only: session_t, without_option, take_new_numbers, changed_deck
    implicit none(type, external)
@@ -27,7 +27,7 @@ contains
       type(case_t), allocatable :: cases(:)
       type(message_list_t) :: none                         ! a case with a defect is not read from numbers alone
       logical :: is_done, is_whole
-      integer :: k
+      integer :: k, outcome
 
       values = ieee_value(1.0_wp, ieee_quiet_nan)
       call take_new_numbers(session)
@@ -36,7 +36,10 @@ contains
       do k = 1, size(names)
          if (is_done) is_done = session%names(k) == names(k)
       end do
-      if (is_done) call settle_again(needed_tests(session%named), session%workspace, is_done)
+      if (is_done) then
+         call settle_numbers(needed_tests(session%named), session%workspace, outcome)
+         is_done = outcome == was_solved
+      end if
       if (is_done) then
          call report_cases(session%workspace, cases)
          call read_numbers(session%named, session%workspace%suspension, cases, values, is_whole)
@@ -88,7 +91,7 @@ contains
          call report_cases(workspace, cases)
          call prepare_numbers(names, workspace%raw, cases, numbers, error)
          is_done = .false.
-         if (.not. allocated(error)) call settle_fully(needed_tests(numbers), workspace, is_solvable, defects, is_done, error)
+         if (.not. allocated(error)) call settle_or_explain(needed_tests(numbers), workspace, is_solvable, defects, is_done, error)
          if (allocated(error) .or. .not. is_done) return
          call report_cases(workspace, cases)                 ! with the present numbers
          call read_numbers(numbers, workspace%suspension, cases, values, is_whole, is_solvable)

@@ -13,7 +13,7 @@ module ek_session_solution
    use ek_schedule, only: new_schedule
    use ek_compliance_table, only: state_compliance
    use ek_wheel_side, only: deck_frame
-   use ek_workspace, only: workspace_t, solve_case_fully, solve_case_again
+   use ek_workspace, only: workspace_t, solve_numbers, solve_or_explain, was_solved, out_of_range
    use ek_workspace_cases, only: open_workspace, heads_of_case, case_number
    use ek_session, only: session_t, without_option, prepared_t, take_new_numbers, changed_deck
    implicit none(type, external)
@@ -31,8 +31,7 @@ contains
       !!                                                          exit_convergence: there is one, with the states that converged
       character(*), intent(in), optional :: columns(:)         !! * stands for any characters; absent or of size 0: all
       character(name_length), allocatable :: asked(:)
-      logical :: is_done
-      integer :: k
+      integer :: k, outcome
 
       session%solved = 0
       if (allocated(session%other)) then
@@ -42,16 +41,16 @@ contains
       allocate (asked(0))
       if (present(columns)) asked = columns
       k = case_number(name, session%workspace)
-      is_done = .false.
+      outcome = out_of_range
       call take_new_numbers(session)
       if (k > 0) then
          if (is_ready(session%prepared(k), asked)) then
-            call solve_case_again(k, session%prepared(k)%options, session%workspace, is_done)
-            if (is_done) session%solved = k
+            call solve_numbers(k, session%prepared(k)%options, session%workspace, outcome)
+            if (outcome == was_solved) session%solved = k
          end if
       end if
       !$omp critical (ek_words)
-      if (.not. is_done) call solve_with_words(session, name, asked, error)
+      if (outcome /= was_solved) call solve_with_words(session, name, asked, error)
       if (session%solved > 0) call end_solution(session, error)
       !$omp end critical (ek_words)
    end subroutine solve
@@ -79,7 +78,7 @@ contains
 
       call find_case(name, session%workspace, session%deck%file, k, error)
       if (.not. allocated(error)) call prepare(session%workspace, k, asked, session%prepared(k), error)
-      if (.not. allocated(error)) call solve_case_fully(k, session%prepared(k)%options, session%workspace, is_done, error)
+      if (.not. allocated(error)) call solve_or_explain(k, session%prepared(k)%options, session%workspace, is_done, error)
       if (allocated(error)) return
       session%prepared(k)%is_ready = is_done
       if (.not. is_done) then
@@ -88,7 +87,7 @@ contains
          if (.not. allocated(error)) call open_workspace(changed, session%other, error)
          if (.not. allocated(error)) call find_case(name, session%other, session%deck%file, k, error)
          if (.not. allocated(error)) call prepare(session%other, k, asked, prepared, error)
-         if (.not. allocated(error)) call solve_case_fully(k, prepared%options, session%other, is_done, error)
+         if (.not. allocated(error)) call solve_or_explain(k, prepared%options, session%other, is_done, error)
          call without_option(error)
          if (allocated(error)) return
       end if

@@ -13,7 +13,7 @@ module ek_bench
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t, is_mountable, method_names
    use ek_kkt, only: kkt_t, new_kkt
-   use ek_workspace, only: workspace_t, balance_once
+   use ek_workspace, only: workspace_t, balance_or_explain
    use ek_path, only: path_t, sweep
    use ek_rig, only: mount
    use ek_examination, only: examination_t
@@ -128,7 +128,7 @@ contains
       call load_deck(settings, workspace, checksum, error)
       if (.not. allocated(error)) call chosen_cases(settings, workspace%design%cases, chosen, error)
       if (.not. allocated(error)) call examine_chosen(settings%file, workspace%raw, chosen(1:1), found, error)
-      if (.not. allocated(error)) call balance_once(chosen(1)%tolerance, .false., workspace, error)
+      if (.not. allocated(error)) call balance_or_explain(chosen(1)%tolerance, workspace, error)
       if (allocated(error)) return
       if (.not. is_mountable(chosen(1))) then
          call fail(error, exit_file, chosen(1)%table%fault)

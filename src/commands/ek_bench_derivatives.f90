@@ -17,7 +17,7 @@ module ek_bench_derivatives
    use ek_compliance_table, only: compliance_columns
    use ek_wheel_side, only: prefix_of
    use ek_case_result, only: solve_options_t
-   use ek_workspace, only: workspace_t, solve_case_fully
+   use ek_workspace, only: workspace_t, solve_or_explain
    use ek_workspace_cases, only: case_number
    use ek_session, only: session_t
    use ek_column_observer, only: column_observer_t, new_column_observer, observe_columns
@@ -66,7 +66,7 @@ contains
          if (settings%increments > 0) workspace%cases(k)%case%increments = settings%increments
          if (settings%increments > 0) workspace%design%cases%increments = settings%increments
          allocate (options%columns(0))
-         call solve_case_fully(k, options, workspace, is_done, error)
+         call solve_or_explain(k, options, workspace, is_done, error)
          if (allocated(error)) return
          if (.not. is_done) then
             call fail(error, exit_model, settings%file//': its numbers give no model')

@@ -14,7 +14,7 @@ module ek_check
    use ek_examination, only: add_distinct, examine_case
    use ek_state, only: design_state
    use ek_kkt, only: kkt_t, new_kkt
-   use ek_workspace, only: workspace_t, balance_once
+   use ek_workspace, only: workspace_t, balance_or_explain
    use ek_diagnosis, only: diagnosis_t, diagnose
    use ek_model_remark, only: model_remarks_t, find_model_remarks
    use ek_check_messages, only: check_messages_t, check_json, last_line
@@ -141,7 +141,7 @@ contains
       associate (cases => workspace%design%cases)
          tolerance = default_tolerance
          if (size(cases) > 0) tolerance = cases(1)%tolerance
-         if (is_solvable) call balance_once(tolerance, .false., workspace, error)
+         if (is_solvable) call balance_or_explain(tolerance, workspace, error)
          if (is_solvable .and. .not. allocated(error)) then
             call find_model_remarks(workspace%suspension, cases, chosen, .true., remarks)
          else

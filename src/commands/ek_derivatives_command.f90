@@ -12,7 +12,7 @@ module ek_derivatives_command
    use ek_path_states, only: nearest_state
    use ek_compliance_table, only: compliance_columns
    use ek_table, only: name_length
-   use ek_workspace, only: workspace_t, solve_case_fully
+   use ek_workspace, only: workspace_t, solve_or_explain
    use ek_session, only: session_t
    use ek_direction, only: direction_t, all_directions, find_directions
    use ek_derivatives, only: derivatives_t, begin_derivatives, find_derivatives, refuse_case
@@ -162,7 +162,7 @@ contains
       logical :: is_done
 
       allocate (options%columns(0))
-      call solve_case_fully(k, options, workspace, is_done, error)
+      call solve_or_explain(k, options, workspace, is_done, error)
       if (allocated(error)) return
       if (.not. is_done) then
          call fail(error, exit_model, settings%file//': its numbers give no model')

@@ -8,7 +8,7 @@ module ek_explain
    use ek_file, only: make_folder, join_path, write_whole
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t
-   use ek_workspace, only: workspace_t, balance_once
+   use ek_workspace, only: workspace_t, balance_or_explain
    use ek_examination, only: examination_t
    use ek_schedule, only: new_schedule
    use ek_path_states, only: nearest_reached
@@ -57,7 +57,7 @@ contains
       if (.not. allocated(error)) call chosen_cases(settings, workspace%design%cases, chosen, error)
       if (.not. allocated(error)) call examine_chosen(settings%file, workspace%raw, chosen, found, error)
       if (.not. allocated(error)) call make_folder(settings%out, error)
-      if (.not. allocated(error)) call balance_once(chosen(1)%tolerance, .false., workspace, error)
+      if (.not. allocated(error)) call balance_or_explain(chosen(1)%tolerance, workspace, error)
       if (allocated(error)) return
       call find_model_remarks(workspace%suspension, workspace%design%cases, chosen, .true., remarks)
       call print_model_remarks(settings%is_quiet, remarks)

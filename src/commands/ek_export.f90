@@ -5,7 +5,7 @@ module ek_export
    use ek_file, only: make_folder, write_whole, join_path
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t, default_tolerance
-   use ek_workspace, only: workspace_t, balance_once
+   use ek_workspace, only: workspace_t, balance_or_explain
    use ek_table, only: table_t
    use ek_model_remark, only: model_remarks_t, find_model_remarks
    use ek_command_line, only: command_line_t
@@ -97,7 +97,7 @@ contains
       if (.not. allocated(error)) call make_request(settings, workspace%raw, workspace%design%cases, axle%request, error)
       if (.not. allocated(error) .and. (settings%target == 'carmaker' .or. settings%target == 'matlab-kc')) &
          call front_of(settings, workspace%raw, axle%is_front, error)
-      if (.not. allocated(error)) call balance_once(default_tolerance, .false., workspace, error)
+      if (.not. allocated(error)) call balance_or_explain(default_tolerance, workspace, error)
       if (allocated(error)) return
       axle%suspension = workspace%suspension
       call find_model_remarks(axle%suspension, workspace%design%cases, workspace%design%cases, .true., remarks)

@@ -7,7 +7,7 @@ module ek_report
    use ek_file, only: make_folder, write_whole, join_path, remove_file
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t, default_tolerance
-   use ek_workspace, only: workspace_t, balance_once
+   use ek_workspace, only: workspace_t, balance_or_explain
    use ek_examination, only: examination_t
    use ek_standard_tests, only: standard_tests
    use ek_table, only: table_t, new_table
@@ -95,7 +95,7 @@ contains
       if (workspace%raw%axle%has_axle) page%axle = merge(-1, 1, workspace%raw%axle%is_front)
       call make_folder(page%folder, error)
       if (.not. allocated(error)) call make_folder(join_path(page%folder, 'figures'), error)
-      if (.not. allocated(error)) call balance_once(default_tolerance, .false., workspace, error)
+      if (.not. allocated(error)) call balance_or_explain(default_tolerance, workspace, error)
       if (allocated(error)) return
       call planned_tests(workspace%suspension, chosen, page%tests)
       call name_files(page%tests)

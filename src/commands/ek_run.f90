@@ -7,7 +7,7 @@ module ek_run
    use ek_rig_test, only: rig_test, lifts, is_scattered
    use ek_suspension, only: suspension_t, load_number
    use ek_case, only: case_t
-   use ek_workspace, only: workspace_t, balance_once
+   use ek_workspace, only: workspace_t, balance_or_explain
    use ek_examination, only: examination_t
    use ek_case_result, only: case_result_t, solve_options_t, solve_case, failure_of, add_header
    use ek_compliance_table, only: compliance_table
@@ -74,7 +74,7 @@ contains
       if (settings%has_compliance) call refuse_double_files(chosen, error)
       if (.not. allocated(error)) call examine_chosen(settings%file, workspace%raw, chosen, found, error)
       if (.not. allocated(error) .and. settings%out /= '-') call make_folder(settings%out, error)
-      if (.not. allocated(error)) call balance_once(chosen(1)%tolerance, .false., workspace, error)
+      if (.not. allocated(error)) call balance_or_explain(chosen(1)%tolerance, workspace, error)
       if (allocated(error)) return
       call find_model_remarks(workspace%suspension, cases, chosen, .true., remarks)
       call print_model_remarks(settings%is_quiet, remarks)

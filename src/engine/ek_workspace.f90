@@ -4,11 +4,13 @@
 !> procedure:
 !>
 !>     workspace:  numbers_given → realised → balanced        put_numbers, take_numbers, balance_once
-!>     a case:     not_examined → examined → on_rig           examine_fully or examine_again, put_on_rig
+!>     a case:     not_examined → examined → on_rig           prove_case or examine_again, put_on_rig
 !>
-!> The first solution of a case, and any that may have a defect, makes texts (its columns, messages); further solutions compute
-!> numbers only. gfortran stores the length of a text that a function returns in one location for all threads: the caller lets one
-!> thread at a time make texts (solve_case_fully, settle_fully), and ready_cases, solve_case_again and settle_again make no texts.
+!> A solution computes numbers, and its outcome is a code: solve_numbers, settle_numbers, ready_cases and balance_once make no text.
+!> Texts are made where a case is solved for the first time (its columns), where a defect is to be found, and for messages:
+!> solve_or_explain, settle_or_explain and balance_or_explain prove the design, call the procedure above, and explain its outcome.
+!> gfortran stores the length of a text that a function returns in one location for all threads, so the caller lets one thread at a
+!> time call these.
 module ek_workspace
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t, fail, exit_model
@@ -18,22 +20,28 @@ module ek_workspace
    use ek_realise, only: realise, realise_cases
    use ek_suspension, only: suspension_t, copy_numbers
    use ek_case, only: is_mountable, default_tolerance
-   use ek_balance, only: balance
+   use ek_balance, only: balance_failure_t, set_preloads, fail_balance
    use ek_preload_problem, only: preload_problem_t
    use ek_diagnosis, only: diagnosis_t
-   use ek_case_result, only: solve_options_t, solve_case, solve_mounted
+   use ek_case_result, only: solve_options_t, solve_case, solve_mounted, failure_of
    use ek_examination, only: examine_case, add_distinct
    use ek_case_work, only: case_work_t, renew_case, make_room, examine_again, put_on_rig, not_examined, examined
    implicit none(type, external)
    private
-   public :: workspace_t, put_numbers, ready_cases, mount_numbers, solve_case_fully, solve_case_again, settle_fully, settle_again, &
-      settle_model, balance_once
-   public :: numbers_given, realised
+   public :: workspace_t, put_numbers, ready_cases, mount_numbers, solve_numbers, solve_or_explain, settle_numbers, &
+      settle_or_explain, settle_model, balance_or_explain
+   public :: numbers_given, realised, was_solved, out_of_range, in_doubt, not_balanced
 
    ! stages of the numbers, each after the one before
    integer, parameter :: numbers_given = 0
    integer, parameter :: realised = 1       !! raw and the cases of the design have these numbers
    integer, parameter :: balanced = 2       !! suspension has these numbers and the preloads of balance
+
+   ! outcomes of numbers alone
+   integer, parameter :: was_solved = 0
+   integer, parameter :: out_of_range = 1   !! of the blueprint: the design must be read from the text
+   integer, parameter :: in_doubt = 2       !! the design may have a defect: prove_case finds it
+   integer, parameter :: not_balanced = 3   !! fail_balance explains it
 
    type :: workspace_t
       type(design_t) :: design
@@ -44,6 +52,7 @@ module ek_workspace
       type(case_work_t), allocatable :: cases(:)        !! see ek_workspace_cases
       integer, allocatable :: report_order(:)           !! the cases in the order of the report
       real(wp), private :: tolerance = 0.0_wp           !! of the balance [m]
+      type(balance_failure_t), private :: failure       !! of the last balance
       type(preload_problem_t), private :: space         !! of balance
    end type workspace_t
 
@@ -73,12 +82,10 @@ contains
       if (is_done) workspace%stage = realised
    end subroutine take_numbers
 
-   !> Balances the suspension, once for all cases of one tolerance.
-   subroutine balance_once(tolerance, is_terse, workspace, error)
+   !> Balances the suspension, once for all cases of one tolerance; workspace%failure is the outcome. No text is made.
+   subroutine balance_once(tolerance, workspace)
       real(wp), intent(in) :: tolerance                    !! m
-      logical, intent(in) :: is_terse                      !! no texts
       type(workspace_t), intent(inout) :: workspace        !! realised
-      type(error_t), allocatable, intent(out) :: error
 
       if (workspace%stage == balanced .and. abs(tolerance - workspace%tolerance) <= 0.0_wp) return
       if (allocated(workspace%suspension%bodies)) then
@@ -86,13 +93,23 @@ contains
       else
          workspace%suspension = workspace%raw
       end if
-      call balance(workspace%suspension, tolerance, error, is_terse, workspace%space)
-      workspace%stage = merge(realised, balanced, allocated(error))
+      call set_preloads(workspace%suspension, tolerance, workspace%space, workspace%failure)
+      workspace%stage = merge(balanced, realised, workspace%failure%reason == 0)
       workspace%tolerance = tolerance
    end subroutine balance_once
 
-   !> Examines a case with texts.
-   subroutine examine_fully(k, workspace, defects)
+   !> Balances the suspension, once for all cases of one tolerance, with a message if no preloads hold it.
+   subroutine balance_or_explain(tolerance, workspace, error)
+      real(wp), intent(in) :: tolerance                    !! m
+      type(workspace_t), intent(inout) :: workspace        !! realised
+      type(error_t), allocatable, intent(out) :: error     !! exit_model, exit_convergence
+
+      call balance_once(tolerance, workspace)
+      call fail_balance(workspace%suspension, workspace%failure, error)
+   end subroutine balance_or_explain
+
+   !> Examines a case in full. The case is then examined, or `defects` lists its defects.
+   subroutine prove_case(k, workspace, defects)
       integer, intent(in) :: k
       type(workspace_t), intent(inout) :: workspace        !! realised
       character(:), allocatable, intent(out) :: defects    !! '' if the case can be solved
@@ -104,22 +121,21 @@ contains
          defects = ''
          if (this%stage == not_examined) defects = diagnosis%words()
       end associate
-   end subroutine examine_fully
+   end subroutine prove_case
 
    !> Takes the present numbers as far as all cases on the rig, balanced with the tolerance of the first. No text is made. is_done
    !> is .false. if the design must be read from the text: a number is outside its range, or the design may have a defect.
    subroutine ready_cases(workspace, is_done)
       type(workspace_t), intent(inout) :: workspace
       logical, intent(out) :: is_done
-      type(error_t), allocatable :: error
       integer :: k
 
       call take_numbers(workspace, is_done)
       do k = 1, size(workspace%cases)
          if (is_done) call examine_again(workspace%raw, workspace%design, workspace%cases(k), is_done)
       end do
-      if (is_done) call balance_once(workspace%cases(1)%case%tolerance, .true., workspace, error)
-      is_done = is_done .and. .not. allocated(error)
+      if (is_done) call balance_once(workspace%cases(1)%case%tolerance, workspace)
+      is_done = is_done .and. workspace%stage == balanced
       if (.not. is_done) return
       do k = 1, size(workspace%cases)
          call put_on_rig(workspace%suspension, workspace%cases(k))
@@ -134,27 +150,53 @@ contains
       real(wp), intent(in) :: tolerance                    !! of balance [m]
       type(workspace_t), intent(inout) :: workspace
       logical, intent(out) :: is_done
-      type(error_t), allocatable :: error
 
       call take_numbers(workspace, is_done)
       if (.not. is_done) return
       call renew_case(workspace%raw, workspace%design, workspace%cases(k))
-      call balance_once(tolerance, .true., workspace, error)
-      is_done = .not. allocated(error)
+      call balance_once(tolerance, workspace)
+      is_done = workspace%stage == balanced
       if (.not. is_done) return
       call put_on_rig(workspace%suspension, workspace%cases(k))
       workspace%cases(k)%stage = min(workspace%cases(k)%stage, examined)      ! the caller uses its work space
    end subroutine mount_numbers
 
+   !> Solves a case at the present numbers. No text is made if the case was solved before with the same columns.
+   subroutine solve_numbers(k, options, workspace, outcome)
+      integer, intent(in) :: k
+      type(solve_options_t), intent(in) :: options       !! without remarks, which are texts
+      type(workspace_t), intent(inout) :: workspace
+      integer, intent(out) :: outcome                    !! was_solved, or why nothing was solved
+      logical :: is_done
+
+      outcome = out_of_range
+      call take_numbers(workspace, is_done)
+      if (.not. is_done) return
+      outcome = in_doubt
+      if (workspace%cases(k)%stage == not_examined) &
+         call examine_again(workspace%raw, workspace%design, workspace%cases(k), is_done)
+      if (.not. is_done) return
+      outcome = not_balanced
+      call balance_once(workspace%cases(k)%case%tolerance, workspace)
+      if (workspace%stage < balanced) return
+      associate (this => workspace%cases(k))
+         call put_on_rig(workspace%suspension, this)
+         this%stage = examined                             ! the solution uses up the proof of soundness
+         call solve_mounted(options, this%result, observer=this%observer)
+      end associate
+      outcome = was_solved
+   end subroutine solve_numbers
+
    !> Solves a case at the present numbers, with full examination and messages. is_done is .false. if these numbers are outside the
    !> range of the blueprint: then the design must be read from the text.
-   subroutine solve_case_fully(k, options, workspace, is_done, error)
+   subroutine solve_or_explain(k, options, workspace, is_done, error)
       integer, intent(in) :: k
       type(solve_options_t), intent(in) :: options
       type(workspace_t), intent(inout) :: workspace
       logical, intent(out) :: is_done
-      type(error_t), allocatable, intent(out) :: error     !! exit_model, exit_convergence: nothing was solved
+      type(error_t), allocatable, intent(out) :: error     !! exit_model, exit_convergence, exit_file: nothing was solved
       character(:), allocatable :: defects
+      integer :: outcome
 
       call take_numbers(workspace, is_done)
       if (.not. is_done) return
@@ -163,65 +205,61 @@ contains
          if (.not. is_mountable(this%case)) then           ! the result gives the reason
             call make_room(this)
             call solve_case(workspace%raw, this%case, options, this%result)
+            call failure_of(this%result, error)
             return
          end if
-         call examine_fully(k, workspace, defects)
+         call prove_case(k, workspace, defects)
          if (this%stage == not_examined) then
             call fail(error, exit_model, 'case '//quoted(this%case%name)//': the model cannot be solved'//new_line('a')// &
                defects)
             return
          end if
       end associate
-      call solve_balanced(k, options, .false., workspace, error)
-   end subroutine solve_case_fully
+      call solve_numbers(k, options, workspace, outcome)
+      if (outcome == not_balanced) call fail_balance(workspace%suspension, workspace%failure, error)
+   end subroutine solve_or_explain
 
-   !> Solves a case that was solved before, with the same columns, at the present numbers. No text is made. is_done is .false. if
-   !> the design must be read from the text: a number is outside its range, or the design may have a defect.
-   subroutine solve_case_again(k, options, workspace, is_done)
-      integer, intent(in) :: k
-      type(solve_options_t), intent(in) :: options       !! without remarks
+   !> Examines the needed cases of the report at the present numbers, and balances the suspension as the report does. No text is
+   !> made if these cases were examined before.
+   subroutine settle_numbers(is_needed, workspace, outcome)
+      logical, intent(in) :: is_needed(:)                  !! in the order of the report
       type(workspace_t), intent(inout) :: workspace
-      logical, intent(out) :: is_done
-      type(error_t), allocatable :: error
+      integer, intent(out) :: outcome                      !! was_solved: the model is balanced
+      logical :: is_done
+      integer :: j, k
 
+      outcome = out_of_range
       call take_numbers(workspace, is_done)
       if (.not. is_done) return
-      if (workspace%cases(k)%stage == not_examined) &
-         call examine_again(workspace%raw, workspace%design, workspace%cases(k), is_done)
-      if (.not. is_done) return
-      call solve_balanced(k, options, .true., workspace, error)
-      is_done = .not. allocated(error)
-   end subroutine solve_case_again
+      outcome = in_doubt
+      do j = 1, size(is_needed)
+         k = workspace%report_order(j)
+         if (.not. is_needed(j)) then
+            call renew_case(workspace%raw, workspace%design, workspace%cases(k))
+         else if (workspace%cases(k)%stage == not_examined) then
+            call examine_again(workspace%raw, workspace%design, workspace%cases(k), is_done)
+            if (.not. is_done) return
+         end if
+      end do
+      call balance_once(default_tolerance, workspace)
+      outcome = merge(was_solved, not_balanced, workspace%stage == balanced)
+   end subroutine settle_numbers
 
-   !> Mounts and solves a case of a design that was examined.
-   subroutine solve_balanced(k, options, is_terse, workspace, error)
-      integer, intent(in) :: k
-      type(solve_options_t), intent(in) :: options
-      logical, intent(in) :: is_terse                      !! no texts
-      type(workspace_t), intent(inout) :: workspace
-      type(error_t), allocatable, intent(out) :: error
-
-      call balance_once(workspace%cases(k)%case%tolerance, is_terse, workspace, error)
-      if (allocated(error)) return
-      associate (this => workspace%cases(k))
-         call put_on_rig(workspace%suspension, this)
-         this%stage = examined                             ! the solution uses up the proof of soundness
-         call solve_mounted(options, this%result, observer=this%observer)
-      end associate
-   end subroutine solve_balanced
-
-   !> Examines the needed cases of the report at the present numbers and balances the suspension as the report does; with messages.
-   subroutine settle_fully(is_needed, workspace, is_solvable, defects, is_done, error)
+   !> Settles as settle_numbers does, with full examination of the needed cases and with messages. is_done is .false. if the design
+   !> must be read from the text.
+   subroutine settle_or_explain(is_needed, workspace, is_solvable, defects, is_done, error)
       logical, intent(in) :: is_needed(:)                  !! in the order of the report
       type(workspace_t), intent(inout) :: workspace
       logical, intent(out) :: is_solvable(:)
       type(message_list_t), intent(out) :: defects         !! defects of the other cases, without repetition
-      logical, intent(out) :: is_done                      !! .false.: the design must be read from the text
-      type(error_t), allocatable, intent(out) :: error     !! exit_model: no case can be solved
+      logical, intent(out) :: is_done
+      type(error_t), allocatable, intent(out) :: error     !! exit_model: no case can be solved; exit_convergence
       character(:), allocatable :: name, words
-      integer :: j, k
+      logical :: is_proved(size(is_needed))
+      integer :: j, k, outcome
 
       is_solvable = .true.
+      is_proved = .false.
       name = ''
       call take_numbers(workspace, is_done)
       if (.not. is_done) return
@@ -229,18 +267,20 @@ contains
          k = workspace%report_order(j)
          call renew_case(workspace%raw, workspace%design, workspace%cases(k))
          if (.not. is_needed(j) .or. .not. is_mountable(workspace%cases(k)%case)) cycle
-         call examine_fully(k, workspace, words)
+         call prove_case(k, workspace, words)
          call add_distinct(defects, words)
-         is_solvable(j) = workspace%cases(k)%stage > not_examined
+         is_proved(j) = workspace%cases(k)%stage > not_examined
+         is_solvable(j) = is_proved(j)
          name = workspace%cases(k)%case%name
       end do
       if (any(is_needed) .and. .not. any(is_solvable .and. is_needed)) then
          call fail_unsolvable(defects, error)
          if (count(is_needed) == 1) error%message = 'case '//quoted(name)//': '//error%message
-      else
-         call balance_once(default_tolerance, .false., workspace, error)
+         return
       end if
-   end subroutine settle_fully
+      call settle_numbers(is_proved, workspace, outcome)
+      if (outcome == not_balanced) call fail_balance(workspace%suspension, workspace%failure, error)
+   end subroutine settle_or_explain
 
    !> Reports the defects of the model as one error.
    pure subroutine fail_unsolvable(defects, error)
@@ -248,28 +288,6 @@ contains
       type(error_t), allocatable, intent(out) :: error
       call fail(error, exit_model, 'the model cannot be solved'//new_line('a')//defects%text())
    end subroutine fail_unsolvable
-
-   !> Settles as settle_fully does, for cases that were solved before: no text is made. is_done is .false. if there is a doubt.
-   subroutine settle_again(is_needed, workspace, is_done)
-      logical, intent(in) :: is_needed(:)                  !! in the order of the report
-      type(workspace_t), intent(inout) :: workspace
-      logical, intent(out) :: is_done
-      type(error_t), allocatable :: error
-      integer :: j, k
-
-      call take_numbers(workspace, is_done)
-      do j = 1, size(is_needed)
-         if (.not. is_done) return
-         k = workspace%report_order(j)
-         if (.not. is_needed(j)) then
-            call renew_case(workspace%raw, workspace%design, workspace%cases(k))
-         else if (workspace%cases(k)%stage == not_examined) then
-            call examine_again(workspace%raw, workspace%design, workspace%cases(k), is_done)
-         end if
-      end do
-      if (is_done) call balance_once(default_tolerance, .true., workspace, error)
-      is_done = is_done .and. .not. allocated(error)
-   end subroutine settle_again
 
    !> Balances the model at the present numbers as the report does, if a case can be solved; with messages.
    subroutine settle_model(workspace, is_balanced, is_done, error)
@@ -287,7 +305,7 @@ contains
       do k = 1, merge(0, size(workspace%cases), any(workspace%cases%stage > not_examined))
          call renew_case(workspace%raw, workspace%design, workspace%cases(k))
          if (.not. is_mountable(workspace%cases(k)%case)) cycle
-         call examine_fully(k, workspace, words)
+         call prove_case(k, workspace, words)
          if (workspace%cases(k)%stage > not_examined) exit
          call add_distinct(defects, words)
       end do
@@ -295,7 +313,7 @@ contains
          call fail_unsolvable(defects, error)
          return
       end if
-      call balance_once(default_tolerance, .false., workspace, error)
+      call balance_or_explain(default_tolerance, workspace, error)
       is_balanced = .not. allocated(error)
    end subroutine settle_model
 

@@ -14,7 +14,7 @@ module ek_workspace_cases
    use ek_sweep_table, only: sweep_columns
    use ek_table, only: name_length
    use ek_case_work, only: case_work_t, make_room, examined
-   use ek_workspace, only: workspace_t, balance_once, numbers_given, realised
+   use ek_workspace, only: workspace_t, balance_or_explain, numbers_given, realised
    implicit none(type, external)
    private
    public :: open_model, open_workspace, open_cases, report_cases, restrict_cases, heads_of_case, case_number
@@ -140,7 +140,7 @@ contains
             this%stage = examined
          end associate
       end do
-      call balance_once(workspace%cases(1)%case%tolerance, .false., workspace, error)
+      call balance_or_explain(workspace%cases(1)%case%tolerance, workspace, error)
    end subroutine open_cases
 
    !> Empties a workspace: one procedure where gfortran writes out how all of it is given back.

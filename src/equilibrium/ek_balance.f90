@@ -25,35 +25,78 @@ module ek_balance
    use ek_singular_values, only: singular_values_t, decompose, min_norm
    implicit none(type, external)
    private
-   public :: balance, balance_remarks
+   public :: balance_failure_t, balance, set_preloads, fail_balance, balance_remarks
+
+   ! why no preloads were found; fail_balance has the messages
+   integer, parameter :: has_no_spring = 1          !! or no wheel
+   integer, parameter :: does_not_settle = 2
+   integer, parameter :: misses_height = 3
+   integer, parameter :: is_singular_there = 4      !! the tangent where the suspension settles
+   integer, parameter :: springs_not_finite = 5
+   integer, parameter :: all_not_finite = 6
+   integer, parameter :: does_not_hold = 7
+
+   type :: balance_failure_t
+      integer :: reason = 0                         !! one of the constants above; 0: none
+      real(wp) :: misfit = 0.0_wp                   !! largest distance of a wheel from its design height [m]
+   end type balance_failure_t
 
    character(*), parameter :: not_finite = 'the forces or stiffnesses at design are too large to calculate with'
 
 contains
 
-   !> Sets the preloads according to suspension%balance ('none': no change).
-   subroutine balance(suspension, tolerance, error, is_terse, space)
+   !> Sets the preloads according to suspension%balance ('none': no change), with a message if there is no solution.
+   subroutine balance(suspension, tolerance, error)
       type(suspension_t), intent(inout) :: suspension
       real(wp), intent(in) :: tolerance                    !! m
-      type(error_t), allocatable, intent(out) :: error     !! exit_model: no solution
-      logical, intent(in), optional :: is_terse            !! .true.: a message without numbers and names, safe in a thread
-      type(preload_problem_t), intent(inout), optional :: space     !! work space, for one design of a model after the other
-      type(preload_problem_t) :: problem
-      logical :: has_details
+      type(error_t), allocatable, intent(out) :: error     !! exit_model, exit_convergence: no solution
+      type(preload_problem_t) :: space
+      type(balance_failure_t) :: failure
 
-      has_details = .true.
-      if (present(is_terse)) has_details = .not. is_terse
+      call set_preloads(suspension, tolerance, space, failure)
+      call fail_balance(suspension, failure, error)
+   end subroutine balance
+
+   !> Sets the preloads according to suspension%balance ('none': no change). No text is made.
+   subroutine set_preloads(suspension, tolerance, space, failure)
+      type(suspension_t), intent(inout) :: suspension
+      real(wp), intent(in) :: tolerance                    !! m
+      type(preload_problem_t), intent(inout) :: space      !! work space, for one design of a model after the other
+      type(balance_failure_t), intent(out) :: failure
+
       select case (suspension%balance)
       case ('spring')
-         call balance_springs(suspension, tolerance, has_details, error)
+         call balance_springs(suspension, tolerance, failure)
       case ('all')
-         if (present(space)) then
-            call balance_all(suspension, has_details, space, error)
-         else
-            call balance_all(suspension, has_details, problem, error)
-         end if
+         call balance_all(suspension, space, failure)
       end select
-   end subroutine balance
+   end subroutine set_preloads
+
+   !> Reports a failure of set_preloads as an error.
+   subroutine fail_balance(suspension, failure, error)
+      type(suspension_t), intent(in) :: suspension
+      type(balance_failure_t), intent(in) :: failure
+      type(error_t), allocatable, intent(out) :: error     !! not allocated if there was no failure
+
+      select case (failure%reason)
+      case (has_no_spring)
+         call fail(error, exit_model, "balance = 'spring' needs a spring and a wheel")
+      case (does_not_settle)
+         call fail(error, exit_convergence, "balance = 'spring': the suspension does not settle")
+      case (misses_height)
+         call fail(error, exit_convergence, "balance = 'spring': no preload brings the wheels to design height; "// &
+            'the remaining error is '//str(failure%misfit*1000.0_wp, 4)//' mm')
+      case (is_singular_there)
+         call fail(error, exit_convergence, "balance = 'spring': the matrix is singular where the suspension settles")
+      case (springs_not_finite)
+         call fail(error, exit_convergence, "balance = 'spring': "//not_finite)
+      case (all_not_finite)
+         call fail(error, exit_model, "balance = 'all': "//not_finite)
+      case (does_not_hold)
+         call fail(error, exit_model, "balance = 'all': no preload of springs and bushings holds the constant loads at design"// &
+            kept_out(suspension))
+      end select
+   end subroutine fail_balance
 
    !> Lists remarks about a balance: excluded drivers, preloads that are not unique.
    subroutine balance_remarks(suspension, words)
@@ -97,19 +140,18 @@ contains
    !>
    !> The first change is the solution of the linear problem at design, close to the final one. A wheel with too little preload
    !> would settle on its stop, where the slope would give a change many times too large.
-   subroutine balance_springs(suspension, tolerance, has_details, error)
+   subroutine balance_springs(suspension, tolerance, failure)
       type(suspension_t), intent(inout) :: suspension
       real(wp), intent(in) :: tolerance
-      logical, intent(in) :: has_details
-      type(error_t), allocatable, intent(out) :: error
+      type(balance_failure_t), intent(inout) :: failure
       type(kkt_t) :: kkt
       type(state_t) :: state
-      type(failure_t) :: failure
+      type(failure_t) :: lost
       real(wp) :: height(size(suspension%wheels))
       integer :: w, iteration
 
       if (.not. any(is_free(suspension%elements)) .or. size(suspension%wheels) == 0) then
-         call fail(error, exit_model, "balance = 'spring' needs a spring and a wheel")
+         failure%reason = has_no_spring
          return
       end if
       kkt = new_kkt(suspension)
@@ -119,15 +161,15 @@ contains
       if (.not. kkt%is_singular) then
          call solve(kkt)
          height = [(rise(suspension, state, w, kkt%rhs), w=1, size(height))]
-         call lower_by(height, suspension, state, kkt, error)
-         if (allocated(error)) return
+         call lower_by(height, suspension, state, kkt, failure)
+         if (failure%reason /= 0) return
       end if
       do iteration = 1, 30
          state = design_state(suspension)
-         failure = failure_t()
-         call settle(suspension, tolerance, state, kkt, failure)
-         if (failure%state > 0) then
-            call fail(error, exit_convergence, "balance = 'spring': the suspension does not settle")
+         lost = failure_t()
+         call settle(suspension, tolerance, state, kkt, lost)
+         if (lost%state > 0) then
+            failure%reason = does_not_settle
             return
          end if
          do w = 1, size(height)
@@ -139,20 +181,19 @@ contains
          if (maxval(abs(height)) <= 10.0_wp*tolerance) return
          call assemble(suspension, state, inputs_t(), whole_tangent, kkt)
          call factorise(kkt)
-         call lower_by(height, suspension, state, kkt, error)
-         if (allocated(error)) return
+         call lower_by(height, suspension, state, kkt, failure)
+         if (failure%reason /= 0) return
       end do
-      call fail(error, exit_convergence, "balance = 'spring': no preload brings the wheels to design height")
-      if (has_details) error%message = error%message//'; the remaining error is '//str(maxval(abs(height))*1000.0_wp, 4)//' mm'
+      failure = balance_failure_t(misses_height, maxval(abs(height)))
    end subroutine balance_springs
 
    !> Changes the spring preloads so that, according to the tangent at a state, the wheels move down by `height`.
-   subroutine lower_by(height, suspension, state, kkt, error)
+   subroutine lower_by(height, suspension, state, kkt, failure)
       real(wp), intent(in) :: height(:)                    !! per wheel [m]
       type(suspension_t), intent(inout) :: suspension
       type(state_t), intent(in) :: state
       type(kkt_t), intent(inout) :: kkt                    !! with the factors at this state
-      type(error_t), allocatable, intent(out) :: error     !! exit_convergence: the tangent is singular
+      type(balance_failure_t), intent(inout) :: failure
       type(singular_values_t) :: parts
       type(evaluation_t) :: evaluation
       real(wp) :: slope(size(suspension%wheels), suspension%scalars)
@@ -160,7 +201,7 @@ contains
       integer :: s, w
 
       if (kkt%is_singular) then
-         call fail(error, exit_convergence, "balance = 'spring': the matrix is singular where the suspension settles")
+         failure%reason = is_singular_there
          return
       end if
       slope = 0.0_wp
@@ -176,7 +217,7 @@ contains
       end do
       call decompose(slope, rank_share, parts)
       if (.not. parts%is_found) then
-         call fail(error, exit_convergence, "balance = 'spring': "//not_finite)
+         failure%reason = springs_not_finite
          return
       end if
       call min_norm(parts, -height, change)
@@ -200,11 +241,10 @@ contains
    end function rise
 
    !> Solves one linear problem: min Σ f²/2k, subject to equilibrium of preloads, Φqᵀλ and loads at design.
-   subroutine balance_all(suspension, has_details, problem, error)
+   subroutine balance_all(suspension, problem, failure)
       type(suspension_t), intent(inout) :: suspension
-      logical, intent(in) :: has_details
       type(preload_problem_t), intent(inout) :: problem    !! work space
-      type(error_t), allocatable, intent(out) :: error
+      type(balance_failure_t), intent(inout) :: failure
       real(wp), allocatable :: x(:), y(:)
       real(wp) :: remainder
       logical :: is_sure, is_found
@@ -217,12 +257,11 @@ contains
       if (.not. is_sure) then
          call hold_by_singular_values(problem, x, y, remainder, is_found)
          if (.not. is_found) then
-            call fail(error, exit_model, "balance = 'all': "//not_finite)
+            failure%reason = all_not_finite
             return
          end if
          if (.not. remainder <= 1.0e-8_wp*max(norm2(problem%load), tiny(1.0_wp))) then
-            call fail(error, exit_model, "balance = 'all': no preload of springs and bushings holds the constant loads at design")
-            if (has_details) error%message = error%message//kept_out(suspension)
+            failure%reason = does_not_hold
             return
          end if
       end if

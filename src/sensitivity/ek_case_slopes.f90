@@ -7,7 +7,7 @@ module ek_case_slopes
    use ek_table, only: table_t, new_table, name_length, column_index
    use ek_case_result, only: solve_options_t
    use ek_number_reach, only: lacks_state
-   use ek_workspace, only: workspace_t, solve_case_fully, solve_case_again
+   use ek_workspace, only: workspace_t, solve_numbers, solve_or_explain, was_solved
    use ek_derivatives, only: derivatives_t, find_derivatives
    implicit none(type, external)
    private
@@ -33,12 +33,15 @@ contains
       logical, intent(out) :: is_valid
       type(error_t), allocatable :: error
       integer, allocatable :: states(:)
-      integer :: c, k, s
+      integer :: c, k, s, outcome
 
       is_valid = is_solved
-      if (.not. is_valid) call solve_case_again(this%case, this%options, workspace, is_valid)
       if (.not. is_valid) then
-         call solve_case_fully(this%case, this%options, workspace, is_valid, error)      ! with another proof that it is sound
+         call solve_numbers(this%case, this%options, workspace, outcome)
+         is_valid = outcome == was_solved
+      end if
+      if (.not. is_valid) then
+         call solve_or_explain(this%case, this%options, workspace, is_valid, error)      ! with another proof that it is sound
          is_valid = is_valid .and. .not. allocated(error)
       end if
       if (is_valid) is_valid = .not. lacks_state(workspace%cases(this%case)%result, this%options%reach)

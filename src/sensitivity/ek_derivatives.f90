@@ -64,7 +64,7 @@ contains
 
    !> Prepares the derivatives of a case that is solved by `workspace`. Makes texts.
    subroutine begin_derivatives(workspace, k, columns, directions, self)
-      type(workspace_t), intent(in) :: workspace          !! the case was solved at its present numbers (solve_case_fully)
+      type(workspace_t), intent(in) :: workspace          !! the case was solved at its present numbers (solve_or_explain)
       integer, intent(in) :: k                             !! the case, not refused by refuse_case
       character(*), intent(in) :: columns(:)               !! of the table of the case, or of the table of its compliance matrix
       type(direction_t), intent(in) :: directions(:)

@@ -14,7 +14,7 @@ module ek_study_slopes
    use ek_table, only: column_index, name_length
    use ek_study, only: study_t
    use ek_response_value, only: reading_t, read_response, is_difference
-   use ek_workspace, only: workspace_t, put_numbers, solve_case_fully
+   use ek_workspace, only: workspace_t, put_numbers, solve_or_explain
    use ek_factor_numbers, only: factor_paths_t, put_factor
    use ek_designer, only: designer_t
    use ek_workspace_cases, only: open_workspace, case_number
@@ -89,7 +89,7 @@ contains
       end if
       do c = 1, size(self%cases)
          associate (this => self%cases(c), workspace => self%workspace)
-            call solve_case_fully(this%case, this%options, workspace, is_done, error)
+            call solve_or_explain(this%case, this%options, workspace, is_done, error)
             if (.not. allocated(error) .and. .not. is_done) call fail(error, exit_model, deck%file//': its numbers give no model')
             if (allocated(error)) return
             allocate (this%derivatives)

@@ -19,7 +19,7 @@ module ek_wanted_values
    use ek_case_result, only: failure_of
    use ek_key_number, only: nothing, largest_of_all
    use ek_number_reach, only: lacks_state
-   use ek_workspace, only: workspace_t, put_numbers, solve_case_fully
+   use ek_workspace, only: workspace_t, put_numbers, solve_or_explain
    use ek_direction, only: direction_t, move_along
    use ek_derivatives, only: begin_derivatives, refuse_case
    use ek_case_slopes, only: case_slopes_t, solve_with_slopes, move_table
@@ -202,7 +202,7 @@ contains
       logical :: is_done
 
       if (.not. allocated(this%table%columns)) then
-         call solve_case_fully(this%case, this%options, workspace, is_done, error)
+         call solve_or_explain(this%case, this%options, workspace, is_done, error)
          if (.not. allocated(error) .and. .not. is_done) call fail(error, exit_model, 'its numbers give no model')
          if (allocated(error)) return
          if (workspace%cases(this%case)%result%is_run()) this%table = workspace%cases(this%case)%result%table

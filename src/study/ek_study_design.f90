@@ -1,18 +1,18 @@
 !> Solves one design of a study: the factors become a model, its cases are solved, and the observations become a row of responses
 !> and the rows of the curves.
 !>
-!> A design computes numbers only. A message (of a design that fails, or of a design that must be read from text) is
-!> made by one thread at a time: gfortran stores the length of a text that a function returns in one location for all threads.
+!> solve_designs computes numbers only. The designs of a chunk that failed, or that must be read from the text, are completed after
+!> the last design, by complete_design, which makes texts and is called by one thread at a time: gfortran stores the length of a text
+!> that a function returns in one location for all threads.
 module ek_study_design
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
-   use ek_error, only: error_t, message_list_t, exit_deck, exit_file
-   use ek_text, only: str, quoted, replace
+   use ek_error, only: error_t, exit_deck, exit_file
+   use ek_text, only: quoted, replace
    use ek_deck, only: deck_t, set_value
-   use ek_case_result, only: case_result_t, solve_case, solve_mounted, failure_of
+   use ek_case_result, only: case_result_t, solve_case, solve_mounted
    use ek_table, only: table_t, column_index
    use ek_study, only: study_t, not_given
-   use ek_response, only: fault_text
    use ek_response_value, only: read_response, is_difference
    use ek_read_states, only: observe_read_states
    use ek_study_pack, only: walk_case, lanes
@@ -22,22 +22,24 @@ module ek_study_design
    use ek_factor_paths, only: setting_of, shortest
    use ek_chunk, only: chunk_t, add_reason, put_error, design_solved, design_incomplete, design_unsolvable, design_invalid
    use ek_designer, only: designer_t
+   use ek_design_cause, only: cause_t, causes_t, add_cause, add_unread, find_cause, cause_text
    implicit none(type, external)
    private
-   public :: solve_designs
+   public :: solve_designs, complete_design
 
 contains
 
    !> Solves some designs of a chunk, at most `lanes`, whose factors the chunk has, and fills their rows.
-   subroutine solve_designs(study, deck, designer, first, last, chunk)
+   subroutine solve_designs(study, designer, first, last, chunk, causes)
       type(study_t), intent(in) :: study
-      type(deck_t), intent(in) :: deck
       type(designer_t), intent(inout) :: designer
       integer, intent(in) :: first, last
       type(chunk_t), intent(inout) :: chunk
+      type(causes_t), intent(inout) :: causes          !! for complete_design; first = 1 empties it
       logical :: is_done(lanes), is_walked(lanes, size(designer%options))
       integer :: k, l, c
 
+      if (first == 1) causes%used = 0
       is_done = .false.
       do k = first, last
          l = k - first + 1
@@ -55,25 +57,40 @@ contains
          l = k - first + 1
          if (.not. is_done(l)) then
             chunk%responses(:, k) = not_given()
-            !$omp critical (ek_words)
-            call solve_from_text(study, deck, designer, k, chunk)
-            !$omp end critical (ek_words)
+            call add_unread(k, causes)
          else if (l == 1) then
-            call finish_design(study, designer, is_walked(l, :), k, designer%workspace, chunk)
+            call finish_design(study, designer, is_walked(l, :), k, designer%workspace, chunk, causes)
          else
-            call finish_design(study, designer, is_walked(l, :), k, designer%packs%workspaces(l - 1), chunk)
+            call finish_design(study, designer, is_walked(l, :), k, designer%packs%workspaces(l - 1), chunk, causes)
          end if
       end do
    end subroutine solve_designs
 
+   !> Completes a failed design after the last design of its chunk: reads it from the text, or explains why it failed.
+   subroutine complete_design(study, deck, designer, cause, chunk)
+      type(study_t), intent(in) :: study
+      type(deck_t), intent(in) :: deck
+      type(designer_t), intent(in) :: designer
+      type(cause_t), intent(in) :: cause
+      type(chunk_t), intent(inout) :: chunk
+
+      if (cause%is_unread) then
+         call solve_from_text(study, deck, designer, cause%design, chunk)
+      else
+         call add_reason(chunk, cause%design, cause_text(cause, designer%case_of, designer%readings, designer%workspace))
+      end if
+   end subroutine complete_design
+
    !> Solves the cases of a design whose paths were not walked in a pack, and fills its row.
-   subroutine finish_design(study, designer, is_walked, k, workspace, chunk)
+   subroutine finish_design(study, designer, is_walked, k, workspace, chunk, causes)
       type(study_t), intent(in) :: study
       type(designer_t), intent(in) :: designer
       logical, intent(in) :: is_walked(:)         !! of each case
       integer, intent(in) :: k
       type(workspace_t), intent(inout) :: workspace     !! with the numbers of the design
       type(chunk_t), intent(inout) :: chunk
+      type(causes_t), intent(inout) :: causes
+      type(cause_t) :: cause
       integer :: faults(size(designer%readings)), c
 
       chunk%responses(:, k) = not_given()
@@ -82,12 +99,15 @@ contains
             call solve_mounted(designer%options(c), this%result, observer=this%observer, is_walked=is_walked(c))
          end associate
       end do
+      if (any([(.not. workspace%cases(c)%result%is_run(), c=1, size(workspace%cases))])) then
+         call add_unread(k, causes)               ! too little memory, perhaps not any more
+         return
+      end if
       call complete_tables(designer, workspace)
       call take_row(study, designer, workspace, k, chunk, faults)
       if (chunk%status(k) == design_solved) return
-      !$omp critical (ek_words)
-      call explain(designer, workspace, k, faults, chunk)
-      !$omp end critical (ek_words)
+      call find_cause(k, designer%case_of, faults, workspace, cause)
+      call add_cause(cause, causes)
    end subroutine finish_design
 
    !> Solves a design that is read from the deck with its factors as settings, with a workspace of its own.
@@ -100,6 +120,7 @@ contains
       type(deck_t) :: changed
       type(workspace_t) :: workspace
       type(error_t), allocatable :: error
+      type(cause_t) :: cause
       integer :: faults(size(designer%readings)), f, j, case
 
       changed = deck
@@ -132,7 +153,10 @@ contains
       end do
       call complete_tables(designer, workspace)
       call take_row(study, designer, workspace, k, chunk, faults)
-      if (chunk%status(k) /= design_solved) call explain(designer, workspace, k, faults, chunk)
+      if (chunk%status(k) == design_solved) return
+      call find_cause(k, designer%case_of, faults, workspace, cause)
+      if (allocated(cause%error%message) .and. cause%error%code == exit_file) call put_error(chunk, cause%error)
+      call add_reason(chunk, k, cause_text(cause, designer%case_of, designer%readings, workspace))
    end subroutine solve_from_text
 
    !> Observes the K&C quantities, which solving does not compute, at the states where a response reads them.
@@ -182,7 +206,7 @@ contains
       if (is_whole) is_whole = all(result%path%failure%state == 0)
    end function is_whole
 
-   !> Appends the states of a design; columns that its model does not define are nan.
+   !> Inserts the states of a design after those of the designs before it; columns that its model does not define are nan.
    pure subroutine take_curves(study, table, k, chunk)
       type(study_t), intent(in) :: study
       type(table_t), intent(in) :: table
@@ -190,7 +214,7 @@ contains
       type(chunk_t), intent(inout) :: chunk
       real(wp), allocatable :: more(:, :)
       logical :: is_next
-      integer :: place, j, rows
+      integer :: place, j, rows, before
 
       if (size(study%columns) == 0) return
       rows = size(table%values, 2)
@@ -199,7 +223,11 @@ contains
          more(:, :chunk%rows) = chunk%curves(:, :chunk%rows)
          call move_alloc(more, chunk%curves)
       end if
-      associate (curves => chunk%curves(:, chunk%rows + 1:chunk%rows + rows))
+      before = sum(chunk%states(:k - 1))
+      do j = chunk%rows, before + 1, -1
+         chunk%curves(:, j + rows) = chunk%curves(:, j)
+      end do
+      associate (curves => chunk%curves(:, before + 1:before + rows))
          curves(1, :) = table%values(2, :)
          place = 2
          do j = 1, size(study%columns)
@@ -214,37 +242,5 @@ contains
       chunk%states(k) = rows
       chunk%rows = chunk%rows + rows
    end subroutine take_curves
-
-   !> Explains why a design is incomplete.
-   subroutine explain(designer, workspace, k, faults, chunk)
-      type(designer_t), intent(in) :: designer
-      type(workspace_t), intent(in) :: workspace        !! with the results of its cases
-      integer, intent(in) :: k, faults(:)
-      type(chunk_t), intent(inout) :: chunk
-      type(message_list_t) :: words
-      type(error_t), allocatable :: error
-      integer :: j, side
-
-      do j = 1, size(workspace%cases)
-         associate (result => workspace%cases(j)%result, path => workspace%cases(j)%result%path)
-            if (.not. result%is_run()) then
-               call failure_of(result, error)
-               call words%add(error%message)
-               if (error%code == exit_file) call put_error(chunk, error)
-               cycle
-            end if
-            do side = 1, 2
-               if (path%failure(side)%state > 0) call words%add('case '//quoted(result%case%name)// &
-                  ': no equilibrium at factor '//str(path%value(path%failure(side)%state)/result%case%unit))
-            end do
-         end associate
-      end do
-      do j = 1, size(faults)
-         if (faults(j) /= 0) call words%add('response '//quoted(designer%readings(j)%asked%name)//': '// &
-            fault_text(designer%readings(j), workspace%cases(designer%case_of(j))%result%table, faults(j)))
-      end do
-      if (words%count() == 0) call words%add('a response has no value')
-      call add_reason(chunk, k, words%text())
-   end subroutine explain
 
 end module ek_study_design

@@ -18,7 +18,8 @@ module ek_study_run
    use ek_deck, only: deck_t
    use ek_study, only: study_t
    use ek_designer, only: designer_t
-   use ek_study_design, only: solve_designs
+   use ek_study_design, only: solve_designs, complete_design
+   use ek_design_cause, only: causes_t
    use ek_ranks, only: ranks_t, count_up, share, agree, help_others, ticket_counter, done_counter, failed_counter, stopped_counter
    use ek_study_plan, only: study_plan_t, begin_chunk, first_of, designs_in
    use ek_chunk, only: chunk_t, write_chunk, read_chunk, chunk_name
@@ -291,6 +292,7 @@ contains
       procedure(report_procedure) :: report
       type(designer_t), allocatable :: mine
       type(chunk_t) :: chunk
+      type(causes_t) :: causes
       real(wp) :: begun
       integer :: number, k
       logical :: is_whole
@@ -308,7 +310,7 @@ contains
          call begin_chunk(plan, number, chunk)
          is_whole = .true.
          do k = 1, size(chunk%status), size(mine%packs%workspaces) + 1
-            call solve_designs(study, deck, mine, k, min(k + size(mine%packs%workspaces), size(chunk%status)), chunk)
+            call solve_designs(study, mine, k, min(k + size(mine%packs%workspaces), size(chunk%status)), chunk, causes)
             is_whole = .not. (is_stop_asked() .or. allocated(chunk%error))
             if (.not. is_whole) exit
             if (ranks%count == 1) cycle
@@ -317,6 +319,12 @@ contains
             !$omp end critical (ek_words)
          end do
          !$omp critical (ek_words)
+         do k = 1, merge(causes%used, 0, is_whole)
+            call complete_design(study, deck, mine, causes%list(k), chunk)
+            is_whole = .not. (is_stop_asked() .or. allocated(chunk%error))
+            if (.not. is_whole) exit
+            if (ranks%count > 1) call help_others(ranks)
+         end do
          call put_chunk(plan, number, chunk, is_whole, seconds() - begun, ranks, shared, report)
          !$omp end critical (ek_words)
       end do

@@ -1,0 +1,119 @@
+!> Why designs of a chunk failed. While the designs of a chunk are solved, causes are stored as numbers; their messages are made after
+!> the last design, by one thread at a time.
+module ek_design_cause
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
+   use ek_kinds, only: wp
+   use ek_error, only: error_t, message_list_t
+   use ek_text, only: str, quoted
+   use ek_case_result, only: failure_of
+   use ek_table, only: table_t
+   use ek_study, only: not_given
+   use ek_response, only: fault_text
+   use ek_response_value, only: reading_t
+   use ek_workspace, only: workspace_t
+   implicit none(type, external)
+   private
+   public :: cause_t, causes_t, add_cause, add_unread, find_cause, cause_text
+
+   type :: cause_t
+      integer :: design = 0                        !! in the chunk, from 1
+      logical :: is_unread = .false.               !! the design must be read from the text, which gives the cause
+      type(error_t) :: error                       !! a case was not run: the first such case; message not allocated: none
+      real(wp), allocatable :: lost(:, :)          !! (side, case): first swept value without an equilibrium; NaN: none
+      integer, allocatable :: faults(:)            !! of each response, see read_response
+      type(table_t), allocatable :: tables(:)      !! of each case; empty where no response has a fault
+   end type cause_t
+
+   !> The causes of a chunk, in the order of its designs.
+   type :: causes_t
+      integer :: used = 0
+      type(cause_t), allocatable :: list(:)
+   end type causes_t
+
+contains
+
+   !> Adds a design that must be read from the text.
+   pure subroutine add_unread(design, causes)
+      integer, intent(in) :: design
+      type(causes_t), intent(inout) :: causes
+      type(cause_t) :: cause
+
+      cause%design = design
+      cause%is_unread = .true.
+      call add_cause(cause, causes)
+   end subroutine add_unread
+
+   !> Adds a cause to a list.
+   pure subroutine add_cause(cause, causes)
+      type(cause_t), intent(in) :: cause
+      type(causes_t), intent(inout) :: causes
+      type(cause_t), allocatable :: more(:)
+
+      if (.not. allocated(causes%list)) allocate (causes%list(8))
+      if (causes%used == size(causes%list)) then
+         allocate (more(2*causes%used))
+         more(:causes%used) = causes%list
+         call move_alloc(more, causes%list)
+      end if
+      causes%used = causes%used + 1
+      causes%list(causes%used) = cause
+   end subroutine add_cause
+
+   !> Finds why a design is incomplete. No text is made if all its cases were run.
+   subroutine find_cause(design, case_of, faults, workspace, cause)
+      integer, intent(in) :: design
+      integer, intent(in) :: case_of(:), faults(:)         !! of each response
+      type(workspace_t), intent(in) :: workspace           !! with the results of its cases
+      type(cause_t), intent(out) :: cause
+      type(error_t), allocatable :: error
+      integer :: c, j, side
+
+      cause%design = design
+      cause%faults = faults
+      allocate (cause%lost(2, size(workspace%cases)), source=not_given())
+      allocate (cause%tables(size(workspace%cases)))
+      do c = 1, size(workspace%cases)
+         associate (result => workspace%cases(c)%result, path => workspace%cases(c)%result%path)
+            if (.not. result%is_run()) then
+               call failure_of(result, error)
+               if (.not. allocated(cause%error%message)) cause%error = error
+               cycle
+            end if
+            do side = 1, 2
+               if (path%failure(side)%state > 0) cause%lost(side, c) = path%value(path%failure(side)%state)/result%case%unit
+            end do
+         end associate
+      end do
+      do j = 1, size(faults)
+         if (faults(j) == 0) cycle
+         c = case_of(j)
+         if (.not. allocated(cause%tables(c)%columns)) cause%tables(c) = workspace%cases(c)%result%table
+      end do
+   end subroutine find_cause
+
+   !> The message of a cause.
+   function cause_text(cause, case_of, readings, workspace) result(text)
+      type(cause_t), intent(in) :: cause
+      integer, intent(in) :: case_of(:)                    !! of each response
+      type(reading_t), intent(in) :: readings(:)
+      type(workspace_t), intent(in) :: workspace           !! with the names of the cases
+      character(:), allocatable :: text
+      type(message_list_t) :: words
+      integer :: c, j, side
+
+      if (allocated(cause%error%message)) call words%add(cause%error%message)
+      do c = 1, size(cause%lost, 2)
+         do side = 1, 2
+            if (.not. ieee_is_nan(cause%lost(side, c))) call words%add('case '//quoted(workspace%cases(c)%case%name)// &
+               ': no equilibrium at factor '//str(cause%lost(side, c)))
+         end do
+      end do
+      do j = 1, size(cause%faults)
+         if (cause%faults(j) /= 0) call words%add('response '//quoted(readings(j)%asked%name)//': '// &
+            fault_text(readings(j), cause%tables(case_of(j)), cause%faults(j)))
+      end do
+      if (words%count() == 0) call words%add('a response has no value')
+      text = words%text()
+   end function cause_text
+
+end module ek_design_cause
