@@ -4,8 +4,8 @@
 # PRESET: release (default), debug or asan, see CMakePresets.json. TARGET: the target to compile, default all.
 # The output of CMake and the compiler goes to build/PRESET/build.log; its end is printed when they fail.
 # EK_BUILD sets another folder, so that one preset can be built with different arguments.
-# A new folder is for Ninja, which starts each file as soon as its modules are there, and uses the processors a third better than
-# make; for make with a compiler other than gfortran, or where Ninja is missing. CMAKE_GENERATOR selects another generator.
+# A new folder is built by Ninja with gfortran (docs/compilers.md), by make with another compiler or without Ninja. CMAKE_GENERATOR
+# selects the generator. An existing folder keeps its generator.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 

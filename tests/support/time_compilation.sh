@@ -5,6 +5,6 @@ TIMEFORMAT='%U %S'
 exec 3>&1 4>&2
 times=$({ time "$@" >&3 2>&4; } 2>&1)
 status=$?
-for word in "$@"; do case $word in *.f90 | *.F90) file=$word ;; esac; done
+for word in "$@"; do case $word in *.f90 | *.F90) file=${word%-pp.f90} ;; esac; done     # of Ninja: x.f90-pp.f90
 [ -z "${file:-}" ] || awk -v file="$file" '{printf "%.3f %s\n", $1 + $2, file}' <<<"$times" >>"$EK_TIMES"
 exit $status
