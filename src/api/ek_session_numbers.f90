@@ -6,7 +6,7 @@ module ek_session_numbers
    use ek_deck, only: deck_t
    use ek_case, only: case_t
    use ek_named_numbers, only: named_numbers_t, prepare_numbers, read_numbers, needed_tests, explain_missing
-   use ek_workspace, only: workspace_t, settle_numbers, settle_or_explain, was_solved
+   use ek_workspace, only: workspace_t, settle_numbers, settle_or_explain, succeeded
    use ek_workspace_cases, only: open_workspace, report_cases
    use ek_session, only: session_t, without_option, take_new_numbers, changed_deck
    implicit none(type, external)
@@ -38,7 +38,7 @@ contains
       end do
       if (is_done) then
          call settle_numbers(needed_tests(session%named), session%workspace, outcome)
-         is_done = outcome == was_solved
+         is_done = outcome == succeeded
       end if
       if (is_done) then
          call report_cases(session%workspace, cases)

@@ -13,7 +13,7 @@ module ek_session_solution
    use ek_schedule, only: new_schedule
    use ek_compliance_table, only: state_compliance
    use ek_wheel_side, only: deck_frame
-   use ek_workspace, only: workspace_t, solve_numbers, solve_or_explain, was_solved, out_of_range
+   use ek_workspace, only: workspace_t, solve_numbers, solve_or_explain, succeeded, out_of_range
    use ek_workspace_cases, only: open_workspace, heads_of_case, case_number
    use ek_session, only: session_t, without_option, prepared_t, take_new_numbers, changed_deck
    implicit none(type, external)
@@ -46,11 +46,11 @@ contains
       if (k > 0) then
          if (is_ready(session%prepared(k), asked)) then
             call solve_numbers(k, session%prepared(k)%options, session%workspace, outcome)
-            if (outcome == was_solved) session%solved = k
+            if (outcome == succeeded) session%solved = k
          end if
       end if
       !$omp critical (ek_words)
-      if (outcome /= was_solved) call solve_with_words(session, name, asked, error)
+      if (outcome /= succeeded) call solve_with_words(session, name, asked, error)
       if (session%solved > 0) call end_solution(session, error)
       !$omp end critical (ek_words)
    end subroutine solve

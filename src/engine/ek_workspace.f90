@@ -6,11 +6,10 @@
 !>     workspace:  numbers_given → realised → balanced        put_numbers, take_numbers, balance_once
 !>     a case:     not_examined → examined → on_rig           prove_case or examine_again, put_on_rig
 !>
-!> A solution computes numbers, and its outcome is a code: solve_numbers, settle_numbers, ready_cases and balance_once make no text.
-!> Texts are made where a case is solved for the first time (its columns), where a defect is to be found, and for messages:
-!> solve_or_explain, settle_or_explain and balance_or_explain prove the design, call the procedure above, and explain its outcome.
-!> gfortran stores the length of a text that a function returns in one location for all threads, so the caller lets one thread at a
-!> time call these.
+!> solve_numbers and settle_numbers compute numbers and return a code. They make no text, nor do ready_cases and balance_once.
+!> solve_or_explain and settle_or_explain examine the cases in full, call solve_numbers or settle_numbers, and explain a failure.
+!> balance_or_explain calls balance_once and explains a failure. These three make texts. gfortran stores the length of a text that a
+!> function returns in one location for all threads: the caller allows one thread at a time to call them.
 module ek_workspace
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t, fail, exit_model
@@ -30,15 +29,15 @@ module ek_workspace
    private
    public :: workspace_t, put_numbers, ready_cases, mount_numbers, solve_numbers, solve_or_explain, settle_numbers, &
       settle_or_explain, settle_model, balance_or_explain
-   public :: numbers_given, realised, was_solved, out_of_range, in_doubt, not_balanced
+   public :: numbers_given, realised, succeeded, out_of_range, in_doubt, not_balanced
 
    ! stages of the numbers, each after the one before
    integer, parameter :: numbers_given = 0
    integer, parameter :: realised = 1       !! raw and the cases of the design have these numbers
    integer, parameter :: balanced = 2       !! suspension has these numbers and the preloads of balance
 
-   ! outcomes of numbers alone
-   integer, parameter :: was_solved = 0
+   ! outcomes of solve_numbers and settle_numbers
+   integer, parameter :: succeeded = 0
    integer, parameter :: out_of_range = 1   !! of the blueprint: the design must be read from the text
    integer, parameter :: in_doubt = 2       !! the design may have a defect: prove_case finds it
    integer, parameter :: not_balanced = 3   !! fail_balance explains it
@@ -166,7 +165,7 @@ contains
       integer, intent(in) :: k
       type(solve_options_t), intent(in) :: options       !! without remarks, which are texts
       type(workspace_t), intent(inout) :: workspace
-      integer, intent(out) :: outcome                    !! was_solved, or why nothing was solved
+      integer, intent(out) :: outcome                    !! succeeded, or the reason why nothing was solved
       logical :: is_done
 
       outcome = out_of_range
@@ -184,7 +183,7 @@ contains
          this%stage = examined                             ! the solution uses up the proof of soundness
          call solve_mounted(options, this%result, observer=this%observer)
       end associate
-      outcome = was_solved
+      outcome = succeeded
    end subroutine solve_numbers
 
    !> Solves a case at the present numbers, with full examination and messages. is_done is .false. if these numbers are outside the
@@ -224,7 +223,7 @@ contains
    subroutine settle_numbers(is_needed, workspace, outcome)
       logical, intent(in) :: is_needed(:)                  !! in the order of the report
       type(workspace_t), intent(inout) :: workspace
-      integer, intent(out) :: outcome                      !! was_solved: the model is balanced
+      integer, intent(out) :: outcome                      !! succeeded: the cases are examined, the model is balanced
       logical :: is_done
       integer :: j, k
 
@@ -242,7 +241,7 @@ contains
          end if
       end do
       call balance_once(default_tolerance, workspace)
-      outcome = merge(was_solved, not_balanced, workspace%stage == balanced)
+      outcome = merge(succeeded, not_balanced, workspace%stage == balanced)
    end subroutine settle_numbers
 
    !> Settles as settle_numbers does, with full examination of the needed cases and with messages. is_done is .false. if the design

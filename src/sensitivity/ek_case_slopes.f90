@@ -7,7 +7,7 @@ module ek_case_slopes
    use ek_table, only: table_t, new_table, name_length, column_index
    use ek_case_result, only: solve_options_t
    use ek_number_reach, only: lacks_state
-   use ek_workspace, only: workspace_t, solve_numbers, solve_or_explain, was_solved
+   use ek_workspace, only: workspace_t, solve_numbers, solve_or_explain, succeeded
    use ek_derivatives, only: derivatives_t, find_derivatives
    implicit none(type, external)
    private
@@ -38,7 +38,7 @@ contains
       is_valid = is_solved
       if (.not. is_valid) then
          call solve_numbers(this%case, this%options, workspace, outcome)
-         is_valid = outcome == was_solved
+         is_valid = outcome == succeeded
       end if
       if (.not. is_valid) then
          call solve_or_explain(this%case, this%options, workspace, is_valid, error)      ! with another proof that it is sound

@@ -1,5 +1,5 @@
-!> Why designs of a chunk failed. While the designs of a chunk are solved, causes are stored as numbers; their messages are made after
-!> the last design, by one thread at a time.
+!> Causes of failed designs. While the designs of a chunk are solved, their causes are stored as numbers. Messages are made of them
+!> after the last design, by one thread at a time.
 module ek_design_cause
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use ek_kinds, only: wp
