@@ -17,7 +17,7 @@ module ek_named_numbers
    use ek_rig, only: mount_case
    use ek_table, only: name_length
    use ek_sweep_table, only: observer_t
-   use ek_case_result, only: case_result_t, solve_options_t, solve_mounted
+   use ek_case_result, only: case_result_t, solve_options_t, solve_mounted, add_remarks
    use ek_failure_text, only: failure_text
    use ek_test_result, only: test_result_t
    use ek_key_number, only: key_number_t, nothing, read_source, largest_of_all
@@ -74,7 +74,6 @@ contains
       allocate (numbers%reach(most, size(names)), source=0.0_wp)
       do k = 1, size(numbers%cases)
          allocate (numbers%cases(k)%options%columns(0))
-         numbers%cases(k)%options%has_remarks = .false.
          numbers%cases(k)%options%reach = 0.0_wp
       end do
       is_complete = .true.
@@ -212,6 +211,7 @@ contains
          associate (result => numbers%cases(c)%result)
             if (.not. result%is_run()) then
                code = exit_model
+               call add_remarks(numbers%cases(c)%options, result)
                call words%add('case '//quoted(result%case%name)//': '//result%remarks%failures())
                cycle
             end if

@@ -123,7 +123,6 @@ contains
       logical, allocatable :: is_wanted(:), fits(:)
       integer :: j, h
 
-      prepared%options%has_remarks = .false.
       prepared%asked = asked
       if (size(asked) == 0) return
       call heads_of_case(k, workspace, heads)
@@ -146,7 +145,7 @@ contains
       type(case_result_t), pointer :: result
 
       result => result_of(session)
-      if (result%is_run()) call add_remarks(options, result)
+      call add_remarks(options, result)
       call failure_of(result, error)
       if (.not. result%is_run()) session%solved = 0
       if (allocated(session%other)) then

@@ -206,7 +206,6 @@ contains
          value = x(k)/list(k)%unit
       end associate
       workspace%design%cases%increments = short_sweep
-      options%has_remarks = .false.
       allocate (options%columns(1))
       options%columns = 'toe_deg'
       if (size(workspace%suspension%wheels) > 1) options%columns = prefix_of(workspace%suspension, 1)//'toe_deg'

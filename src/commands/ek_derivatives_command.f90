@@ -8,7 +8,7 @@ module ek_derivatives_command
    use ek_decimal, only: decimal, get_bounded, size_hint
    use ek_file, only: make_folder, join_path, write_whole, write_standard_output
    use ek_case, only: case_t
-   use ek_case_result, only: solve_options_t, failure_of
+   use ek_case_result, only: solve_options_t, add_remarks, failure_of
    use ek_path_states, only: nearest_state
    use ek_compliance_table, only: compliance_columns
    use ek_table, only: name_length
@@ -169,6 +169,7 @@ contains
          return
       end if
       associate (result => workspace%cases(k)%result)
+         call add_remarks(options, result)
          call print_remarks(settings%is_quiet, result%remarks)
          call failure_of(result, unreached)
          if (.not. result%is_run()) call move_alloc(unreached, error)

@@ -12,7 +12,7 @@ module ek_explain
    use ek_examination, only: examination_t
    use ek_schedule, only: new_schedule
    use ek_path_states, only: nearest_reached
-   use ek_case_result, only: case_result_t, solve_options_t, solve_case, failure_of
+   use ek_case_result, only: case_result_t, solve_options_t, solve_case, add_remarks, failure_of
    use ek_contribution_table, only: contribution_table_t, start_contributions, choose_contributions, find_contributions, &
       key_compliances
    use ek_explain_files, only: explain_files_t, begin_explain_files, add_explain_state, end_explain_files, begin_explain_json, &
@@ -124,6 +124,7 @@ contains
       options%fault = fault
       allocate (options%columns(0))
       call solve_case(base, wanted, options, result, show_progress)
+      call add_remarks(options, result)
       call print_remarks(settings%is_quiet, result%remarks)
       call failure_of(result, error)
       if (.not. result%is_run()) return

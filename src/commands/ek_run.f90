@@ -9,7 +9,7 @@ module ek_run
    use ek_case, only: case_t
    use ek_workspace, only: workspace_t, balance_or_explain
    use ek_examination, only: examination_t
-   use ek_case_result, only: case_result_t, solve_options_t, solve_case, failure_of, add_header
+   use ek_case_result, only: case_result_t, solve_options_t, solve_case, add_remarks, failure_of, add_header
    use ek_compliance_table, only: compliance_table
    use ek_target, only: target_t, find_target
    use ek_table, only: table_t, print_csv, name_length
@@ -191,6 +191,7 @@ contains
       options%checksum = checksum
       if (allocated(settings%columns)) options%columns = settings%columns
       call solve_case(base, wanted, options, result, show_progress)
+      call add_remarks(options, result)
       if (result%path%states > 1000) call clear_progress()
       call print_remarks(settings%is_quiet, result%remarks)
       call failure_of(result, error)

@@ -3,8 +3,7 @@ module ek_case_work
    use ek_suspension, only: suspension_t
    use ek_reader, only: design_t
    use ek_case, only: case_t, copy_case_numbers, is_mountable
-   use ek_diagnosis, only: diagnosis_t
-   use ek_examination, only: examine_case, known_case_t
+   use ek_examination, only: recognise_case, known_case_t
    use ek_rig, only: mount_again
    use ek_standard_tests, only: cover_rack_travel
    use ek_sweep_table, only: observer_t
@@ -59,15 +58,12 @@ contains
       type(design_t), intent(in) :: design                 !! with the cases of these numbers
       type(case_work_t), intent(inout) :: this
       logical, intent(out) :: is_sound
-      type(diagnosis_t) :: diagnosis
-      logical :: is_in_doubt
 
       call renew_case(suspension, design, this)
       is_sound = is_mountable(this%case)
       if (.not. is_sound) return
       call make_room(this)
-      call examine_case(suspension, this%case, diagnosis, this%known, this%result%mounted_case_t, is_in_doubt)
-      is_sound = .not. is_in_doubt
+      call recognise_case(suspension, this%case, this%known, this%result%mounted_case_t, is_sound)
       if (is_sound) this%stage = on_rig
    end subroutine examine_again
 

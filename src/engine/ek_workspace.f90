@@ -22,7 +22,7 @@ module ek_workspace
    use ek_balance, only: balance_failure_t, set_preloads, fail_balance
    use ek_preload_problem, only: preload_problem_t
    use ek_diagnosis, only: diagnosis_t
-   use ek_case_result, only: solve_options_t, solve_case, solve_mounted, failure_of
+   use ek_case_result, only: solve_options_t, solve_case, solve_mounted, add_remarks, failure_of
    use ek_examination, only: examine_case, add_distinct
    use ek_case_work, only: case_work_t, renew_case, make_room, examine_again, put_on_rig, not_examined, examined
    implicit none(type, external)
@@ -163,7 +163,7 @@ contains
    !> Solves a case at the present numbers. No text is made if the case was solved before with the same columns.
    subroutine solve_numbers(k, options, workspace, outcome)
       integer, intent(in) :: k
-      type(solve_options_t), intent(in) :: options       !! without remarks, which are texts
+      type(solve_options_t), intent(in) :: options
       type(workspace_t), intent(inout) :: workspace
       integer, intent(out) :: outcome                    !! succeeded, or the reason why nothing was solved
       logical :: is_done
@@ -204,6 +204,7 @@ contains
          if (.not. is_mountable(this%case)) then           ! the result gives the reason
             call make_room(this)
             call solve_case(workspace%raw, this%case, options, this%result)
+            call add_remarks(options, this%result)
             call failure_of(this%result, error)
             return
          end if

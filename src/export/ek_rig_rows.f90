@@ -9,7 +9,7 @@ module ek_rig_rows
    use ek_schedule, only: schedule_t, new_schedule, inputs_at
    use ek_diagnosis, only: diagnosis_t
    use ek_examination, only: examine_case
-   use ek_case_result, only: case_result_t, solve_options_t, solve_case
+   use ek_case_result, only: case_result_t, solve_options_t, solve_case, add_remarks
    use ek_wheel_motion, only: wheel_motion, lengths, length_choice_t, quantities
    implicit none(type, external)
    private
@@ -73,6 +73,7 @@ contains
       allocate (options%columns(0))
       options%is_compared = .false.
       call solve_case(suspension, case, options, result)
+      call add_remarks(options, result)
       if (.not. result%is_run()) then
          call fail(error, exit_model, result%remarks%failures())
          return

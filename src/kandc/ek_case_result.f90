@@ -1,6 +1,7 @@
-!> Solves one case of a deck: its path of states, their table, remarks, and how it ended.
+!> Solves one case of a deck: its path of states, their table, and how it ended.
 !>
-!> Every command and every study solves its cases here; they choose options and print or write the result.
+!> Every command and every study solves its cases here; they choose options and print or write the result. A solution is numbers
+!> and a code, its outcome. add_remarks describes both in words, on request.
 module ek_case_result
    use ek_kinds, only: wp, i8, millimetre
    use ek_error, only: error_t, fail, exit_model, exit_convergence, exit_file
@@ -33,7 +34,6 @@ module ek_case_result
    !> The requested results of a solution.
    type :: solve_options_t
       character(:), allocatable :: fault           !! defect of the model in this case, which is then not solved; '' for none
-      logical :: has_remarks = .true.              !! otherwise failures can be seen in the path only
       logical :: has_violation = .true.            !! otherwise constraint_error of equilibria is not a number
       logical :: is_compared = .true.              !! a linear method is compared with equilibrium at the ends of the path
       real(wp) :: min_settling = 1.0e-8_wp       !! displacement of a wheel under the constant loads that is noted [m]
@@ -46,9 +46,10 @@ module ek_case_result
    !> The solution of a case; its work space serves for further solutions at its states.
    type, extends(mounted_case_t) :: case_result_t
       integer :: outcome = solved                  !! one of the constants above
+      integer(i8) :: bytes = 0                     !! that its states need
       type(path_t) :: path                         !! its states
       type(table_t) :: table                       !! observations: one row per state; only if the case was run
-      type(remark_list_t) :: remarks
+      type(remark_list_t) :: remarks               !! of add_remarks
    contains
       procedure :: is_run                          !! there are a path and a table
    end type case_result_t
@@ -70,17 +71,11 @@ contains
       type(observer_t), intent(inout), optional :: observer   !! reused for all designs of a deck
 
       if (allocated(options%fault)) then
-         if (len(options%fault) > 0) then
-            call give_up(result, not_solvable, case, options%fault)
-            return
-         end if
+         if (len(options%fault) > 0) result%outcome = not_solvable
       end if
-      if (.not. is_mountable(case)) then
-         if (allocated(case%table%fault)) then
-            call give_up(result, not_mountable, case, case%table%fault)
-         else
-            call give_up(result, not_mountable, case, 'case '//quoted(case%name)//': its table was not read')
-         end if
+      if (result%outcome == solved .and. .not. is_mountable(case)) result%outcome = not_mountable
+      if (result%outcome /= solved) then
+         result%case = case
          return
       end if
       call mount_case(base, case, result%mounted_case_t)
@@ -97,7 +92,6 @@ contains
       type(observer_t), allocatable, target :: own
       type(observer_t), pointer :: tells
       type(remark_list_t) :: none
-      integer(i8) :: bytes
       logical :: has_path
 
       has_path = .false.
@@ -111,16 +105,14 @@ contains
          tells => own
       end if
       call make_observer(result%suspension, result%case, tells, options%columns, options%has_violation)
-      bytes = sweep_bytes(result%suspension, result%case, tells)
-      if (.not. has_memory(bytes)) then
-         call give_up(result, out_of_memory, result%case, memory_remarks(bytes, 'case '//quoted(result%case%name)//' with '// &
-            plural(result%case%increments, 'increment', 'increments')))
+      result%bytes = sweep_bytes(result%suspension, result%case, tells)
+      if (.not. has_memory(result%bytes)) then
+         result%outcome = out_of_memory
          return
       end if
       if (.not. has_path) call sweep(result%suspension, result%case, result%path, result%kkt, progress, options%reach, result%space)
       call observe(result%suspension, result%case, result%path, result%kkt, tells, result%table, options%defers_kandc)
       if (any(result%path%failure%state > 0)) result%outcome = partly_solved
-      if (options%has_remarks) call add_remarks(options, result)
       if (allocated(options%checksum)) call add_header(result%table, result%suspension, result%case, options%checksum)
    end subroutine solve_mounted
 
@@ -138,27 +130,41 @@ contains
       if (size(result%suspension%wheels) > 0) call find_wheels(test, result%suspension%wheels(1)%side)
    end function test_of
 
-   !> Records why a case was not run.
-   subroutine give_up(result, outcome, case, words)
-      type(case_result_t), intent(inout) :: result
-      integer, intent(in) :: outcome
-      type(case_t), intent(in) :: case
-      character(*), intent(in) :: words
-
-      result%outcome = outcome
-      call result%remarks%add(failure, on_case, case, words)
-   end subroutine give_up
-
-   !> Adds the remarks on a result that was solved without them: notes, warnings, failures. They are texts, which only one thread at
-   !> a time may make.
+   !> Describes the outcome of a solution: notes, warnings, failures. They are texts, which only one thread at a time may make.
    subroutine add_remarks(options, result)
-      type(solve_options_t), intent(in) :: options
-      type(case_result_t), intent(inout) :: result     !! is_run
+      type(solve_options_t), intent(in) :: options     !! of the solution
+      type(case_result_t), intent(inout) :: result     !! its remarks are replaced
+      type(remark_list_t) :: none
 
-      call remark_on_path(options, result)
-      call closure_remarks(result%case, result%table, result%remarks)
-      if (result%remarks%has_failed()) result%outcome = partly_solved
+      result%remarks = none
+      if (result%is_run()) then
+         call remark_on_path(options, result)
+         call closure_remarks(result%case, result%table, result%remarks)
+         if (result%remarks%has_failed()) result%outcome = partly_solved
+      else
+         call result%remarks%add(failure, on_case, result%case, reason(options, result))
+      end if
    end subroutine add_remarks
+
+   !> The reason why a case was not run.
+   function reason(options, result) result(words)
+      type(solve_options_t), intent(in) :: options
+      type(case_result_t), intent(in) :: result
+      character(:), allocatable :: words
+
+      associate (case => result%case)
+         select case (result%outcome)
+         case (not_solvable)
+            words = options%fault
+         case (not_mountable)
+            words = 'case '//quoted(case%name)//': its table was not read'
+            if (allocated(case%table%fault)) words = case%table%fault
+         case default
+            words = memory_remarks(result%bytes, 'case '//quoted(case%name)//' with '// &
+               plural(case%increments, 'increment', 'increments'))
+         end select
+      end associate
+   end function reason
 
    !> Adds remarks on the states of a path.
    subroutine remark_on_path(options, result)
@@ -182,7 +188,7 @@ contains
 
    !> Returns the failures of a result as an error; none if all states converged.
    subroutine failure_of(result, error)
-      type(case_result_t), intent(in) :: result
+      type(case_result_t), intent(in) :: result             !! with its remarks
       type(error_t), allocatable, intent(out) :: error      !! exit_convergence, exit_model or exit_file
       integer, parameter :: codes(partly_solved:out_of_memory) = [exit_convergence, exit_model, exit_file, exit_file]
 

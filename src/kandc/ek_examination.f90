@@ -18,7 +18,7 @@ module ek_examination
    use ek_table, only: name_length, name_index
    implicit none(type, external)
    private
-   public :: examination_t, examine_cases, examine_case, known_case_t, add_distinct, check_inputs
+   public :: examination_t, examine_cases, examine_case, recognise_case, known_case_t, add_distinct, check_inputs
 
    !> Data of a case from a design that was examined before; one value for all designs of a case.
    type :: known_case_t
@@ -92,18 +92,16 @@ contains
    !> With `known`, the first design is diagnosed in full. A later one that is certainly sound, with the same number of unknowns and
    !> rows and the same inertia, is not: `diagnosis` then contains no message and no rank. A case that cannot be mounted
    !> has no defect here: the run reports the reason.
-   subroutine examine_case(base, case, diagnosis, known, mounted, is_in_doubt)
+   subroutine examine_case(base, case, diagnosis, known, mounted)
       type(suspension_t), intent(in) :: base       !! not balanced
       type(case_t), intent(in) :: case
       type(diagnosis_t), intent(out) :: diagnosis
       type(known_case_t), intent(inout), optional :: known
       type(mounted_case_t), intent(inout), optional, target :: mounted     !! unless the case cannot be mounted
-      !> if present, a doubtful design is not diagnosed, which takes text; `mounted` is of this case of an earlier design, or empty
-      logical, intent(out), optional :: is_in_doubt
       type(mounted_case_t), allocatable, target :: own
       type(mounted_case_t), pointer :: this
+      logical :: is_sound
 
-      if (present(is_in_doubt)) is_in_doubt = .false.
       if (.not. is_mountable(case)) return
       if (present(mounted)) then
          this => mounted
@@ -111,43 +109,45 @@ contains
          allocate (own)
          this => own
       end if
-      if (present(is_in_doubt)) then
-         call mount_again(base, case, this)
-      else
-         call mount_case(base, case, this)
-      end if
-      call examine_mounted(this%suspension, this%kkt, diagnosis, known, is_in_doubt)
-   end subroutine examine_case
-
-   !> Diagnoses a case on the rig, see examine_case.
-   subroutine examine_mounted(suspension, kkt, diagnosis, known, is_in_doubt)
-      type(suspension_t), intent(in) :: suspension
-      type(kkt_t), intent(inout) :: kkt
-      type(diagnosis_t), intent(inout) :: diagnosis
-      type(known_case_t), intent(inout), optional :: known
-      logical, intent(inout), optional :: is_in_doubt
-
-      if (present(known)) then
-         if (known%is_known .and. known%unknowns == kkt%nq .and. known%constraints == kkt%nc) then
-            if (is_surely_sound(suspension, design_state(suspension), known%negative, kkt)) then
-               kkt%is_at_design = kkt%fallbacks == 0      ! for the first state of its path
-               return
-            end if
-         end if
-      end if
-      if (present(is_in_doubt)) then
-         is_in_doubt = .true.
-         return
-      end if
-      call diagnose(suspension, design_state(suspension), kkt, diagnosis)
+      call mount_case(base, case, this)
+      is_sound = .false.
+      if (present(known)) call recognise(known, this%suspension, this%kkt, is_sound)
+      if (is_sound) return
+      call diagnose(this%suspension, design_state(this%suspension), this%kkt, diagnosis)
       if (.not. present(known)) return
       known%diagnoses = known%diagnoses + 1
       if (known%is_known .or. .not. diagnosis%is_solvable()) return
       known%is_known = .true.
-      known%unknowns = kkt%nq
-      known%constraints = kkt%nc
+      known%unknowns = this%kkt%nq
+      known%constraints = this%kkt%nc
       known%negative = diagnosis%negative
-   end subroutine examine_mounted
+   end subroutine examine_case
+
+   !> Puts a later design of a case on the rig and finds whether it is certainly sound, as an earlier design was. Otherwise
+   !> examine_case diagnoses it. No text is made.
+   subroutine recognise_case(base, case, known, mounted, is_sound)
+      type(suspension_t), intent(in) :: base       !! not balanced
+      type(case_t), intent(in) :: case             !! is_mountable
+      type(known_case_t), intent(in) :: known
+      type(mounted_case_t), intent(inout) :: mounted       !! of this case of an earlier design, or empty
+      logical, intent(out) :: is_sound
+
+      call mount_again(base, case, mounted)
+      call recognise(known, mounted%suspension, mounted%kkt, is_sound)
+   end subroutine recognise_case
+
+   !> Finds whether a model on the rig is certainly sound, as an earlier design of the same size was.
+   subroutine recognise(known, suspension, kkt, is_sound)
+      type(known_case_t), intent(in) :: known
+      type(suspension_t), intent(in) :: suspension
+      type(kkt_t), intent(inout) :: kkt
+      logical, intent(out) :: is_sound
+
+      is_sound = .false.
+      if (.not. (known%is_known .and. known%unknowns == kkt%nq .and. known%constraints == kkt%nc)) return
+      is_sound = is_surely_sound(suspension, design_state(suspension), known%negative, kkt)
+      if (is_sound) kkt%is_at_design = kkt%fallbacks == 0      ! for the first state of its path
+   end subroutine recognise
 
    !> A text without its digits, signs and points.
    pure function without_numbers(text) result(rest)

@@ -16,7 +16,7 @@ module ek_wanted_values
    use ek_error, only: error_t, message_list_t, fail, exit_model, exit_convergence
    use ek_text, only: quoted, str
    use ek_table, only: name_length, column_index
-   use ek_case_result, only: failure_of
+   use ek_case_result, only: add_remarks, failure_of
    use ek_key_number, only: nothing, largest_of_all
    use ek_number_reach, only: lacks_state
    use ek_workspace, only: workspace_t, put_numbers, solve_or_explain
@@ -106,7 +106,6 @@ contains
          j = needed_number(0, needed)
          needed(j)%case = wanted%cases(source)
          allocate (needed(j)%options%columns(0))
-         needed(j)%options%has_remarks = .false.
          needed(j)%options%reach = 0.0_wp
       end if
       associate (options => needed(j)%options)
@@ -209,6 +208,7 @@ contains
       end if
       associate (result => workspace%cases(this%case)%result)
          if (.not. lacks_state(result, reach)) return
+         call add_remarks(this%options, result)
          call failure_of(result, error)
          if (.not. allocated(error)) call fail(error, exit_convergence, 'case '//quoted(result%case%name)// &
             ' lacks a state that it needs')

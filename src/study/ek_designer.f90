@@ -5,7 +5,7 @@ module ek_designer
    use ek_error, only: error_t, message_list_t, fail, exit_deck
    use ek_text, only: quoted
    use ek_deck, only: deck_t
-   use ek_case_result, only: solve_options_t, solve_case, failure_of, test_of
+   use ek_case_result, only: solve_options_t, solve_case, add_remarks, failure_of, test_of
    use ek_sweep_table, only: sweep_columns
    use ek_table, only: column_index, name_length
    use ek_quantity, only: head_with_unit
@@ -78,10 +78,12 @@ contains
       allocate (designer%options(size(designer%case_names)))
       do k = 1, size(designer%case_names)
          call list_columns(study, designer, k)
-         designer%options(k)%has_remarks = .false.
          associate (this => designer%workspace%cases(k))
             call solve_case(designer%workspace%suspension, this%case, designer%options(k), this%result, observer=this%observer)
-            if (.not. this%result%is_run()) call failure_of(this%result, error)
+            if (.not. this%result%is_run()) then
+               call add_remarks(designer%options(k), this%result)
+               call failure_of(this%result, error)
+            end if
          end associate
          if (allocated(error)) return
       end do

@@ -10,7 +10,7 @@ module ek_study_design
    use ek_error, only: error_t, exit_deck, exit_file
    use ek_text, only: quoted, replace
    use ek_deck, only: deck_t, set_value
-   use ek_case_result, only: case_result_t, solve_case, solve_mounted
+   use ek_case_result, only: case_result_t, solve_case, solve_mounted, add_remarks
    use ek_table, only: table_t, column_index
    use ek_study, only: study_t, not_given
    use ek_response_value, only: read_response, is_difference
@@ -149,6 +149,7 @@ contains
       do case = 1, size(workspace%cases)
          associate (this => workspace%cases(case))
             call solve_case(workspace%suspension, this%case, designer%options(case), this%result, observer=this%observer)
+            if (.not. this%result%is_run()) call add_remarks(designer%options(case), this%result)
          end associate
       end do
       call complete_tables(designer, workspace)
