@@ -21,6 +21,7 @@ if [ ! -f "$folder/CTestTestfile.cmake" ]; then
   echo "0 passed, 1 failed"
   exit 1
 fi
-sh tests/support/run_tests.sh "$folder" --parallel "$jobs"
+# one more than the processors: some tests wait, for a pipe or another process
+sh tests/support/run_tests.sh "$folder" --parallel $((jobs + 1))
 passed=$?
 exit $((passed != 0 ? passed : built))

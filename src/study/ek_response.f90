@@ -15,9 +15,9 @@ module ek_response
    use ek_gradient_definition, only: definition_t, definitions_of, windows_t, fitted
    use ek_gradient, only: gradient_t, test_gradients, noise_of
    use ek_study, only: response_t, of_names
-   use ek_response_value, only: reading_t, read_response, mark_states, is_slope, find_window, rounded, place_of_column, &
-      an_rms, a_gradient, a_difference, no_fault, column_is_missing, over_is_missing, is_outside, has_no_slope, has_few_states, &
-      is_undefined
+   use ek_response_value, only: reading_t, read_response, mark_states, is_slope, find_window, unplaced_states, &
+      mark_neighbours, rounded, place_of_column, an_rms, a_gradient, a_difference, no_fault, column_is_missing, over_is_missing, &
+      is_outside, has_no_slope, has_few_states, is_undefined
    implicit none(type, external)
    private
    public :: needed_columns, no_column, prepare_reading, prepare_difference, fault_text
@@ -100,6 +100,7 @@ contains
       if (is_slope(reading)) then
          if (reading%over == '') reading%over = usual_over(asked%column, table)
          reading%at_over = column_index(table, reading%over)
+         reading%at_converged = column_index(table, 'converged')
          if (message == '' .and. reading%at_over == 0) then
             message = no_column(reading%over, names)
             if (asked%over == '') message = "give 'over': the results have no wheel travel, over which a slope is taken by default"
@@ -225,7 +226,7 @@ contains
       character(:), allocatable :: text
       logical :: is_near(size(table%values, 2))
       real(wp) :: centre, x(size(table%values, 2))
-      integer :: first
+      integer :: first, over
 
       select case (fault)
       case (column_is_missing)
@@ -242,8 +243,21 @@ contains
          call mark_states(reading, table, is_near)
          is_near = is_near .and. .not. ieee_is_finite(table%values(place_of_column(table, reading%asked%column, &
             reading%at_column), :))
+         text = quoted(reading%asked%column)
+         if (is_slope(reading) .and. .not. any(is_near)) then
+            over = place_of_column(table, reading%over, reading%at_over)
+            x = table%values(2, :)
+            call find_window(reading, table, over, rounded(reading%asked%at, x), centre, is_near)
+            if (ieee_is_finite(centre)) then
+               is_near = unplaced_states(reading, table, over, is_near)
+            else
+               call mark_neighbours(x, rounded(reading%asked%at, x), is_near)
+               is_near = is_near .and. .not. ieee_is_finite(table%values(over, :))
+            end if
+            text = quoted(reading%over)
+         end if
          first = findloc(is_near, .true., dim=1)
-         text = quoted(reading%asked%column)//' has no value at '//plural(count(is_near), 'state', 'states')
+         text = text//' has no value at '//plural(count(is_near), 'state', 'states')
          if (first > 0) text = text//', the first at factor '//str(table%values(2, first))
       case (has_few_states)
          text = 'no gradient: it needs 3 states within the window of ± '//str(reading%asked%window)// &

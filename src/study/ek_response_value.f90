@@ -8,7 +8,8 @@ module ek_response_value
    use ek_study, only: response_t
    implicit none(type, external)
    private
-   public :: reading_t, read_response, mark_states, reads_all_states, is_difference, is_slope, find_window, rounded, place_of_column
+   public :: reading_t, read_response, mark_states, reads_all_states, is_difference, is_slope, find_window, unplaced_states, &
+      mark_neighbours, rounded, place_of_column
 
    !> A response, prepared for tables with given columns.
    type :: reading_t
@@ -18,7 +19,7 @@ module ek_response_value
       real(wp) :: size = 1.0_wp              !! factor from the slope in units of the columns
       real(wp) :: noise = 0.0_wp             !! gradient: change of the column over the window that counts as zero
       integer :: of = 0                      !! reading to make, one of the constants below
-      integer :: at_column = 0, at_over = 0  !! indices of the columns in the table of the first design
+      integer :: at_column = 0, at_over = 0, at_converged = 0     !! indices of the columns in the table of the first design
       real(wp), allocatable :: curve(:, :)   !! rms: (factor, wanted value; point)
    end type reading_t
 
@@ -101,6 +102,7 @@ contains
          call find_window(reading, table, over, at, centre, is_near)
          x = table%values(over, :)
          if (.not. ieee_is_finite(centre)) return       ! the state did not converge, or the column is undefined there
+         if (any(unplaced_states(reading, table, over, is_near))) return
          if (count(is_near) < 2) then
             fault = has_no_slope
             return
@@ -218,6 +220,27 @@ contains
          if (is_near(k)) is_near(k) = abs(x(k) - centre) <= reading%asked%window*(1.0_wp + rounding)
       end do
    end subroutine find_window
+
+   !> States that may lie in the window of a slope, although the column over which it is taken has no value there: they converged, and
+   !> a state before or after them is in the window.
+   pure function unplaced_states(reading, table, over, is_near) result(is_unplaced)
+      type(reading_t), intent(in) :: reading
+      type(table_t), intent(in) :: table
+      integer, intent(in) :: over                !! column over which the slope is taken
+      logical, intent(in) :: is_near(:)          !! of find_window
+      logical :: is_unplaced(size(is_near))
+      integer :: converged, k, n
+
+      n = size(is_near)
+      is_unplaced = .not. ieee_is_finite(table%values(over, :))
+      if (.not. any(is_unplaced)) return
+      do k = 1, n
+         if (is_unplaced(k)) is_unplaced(k) = is_near(max(k - 1, 1)) .or. is_near(min(k + 1, n))
+      end do
+      converged = place_of_column(table, 'converged', reading%at_converged)
+      if (converged > 0) is_unplaced = is_unplaced .and. table%values(converged, :) > 0.5_wp
+      if (converged == 0) is_unplaced = .false.
+   end function unplaced_states
 
    !> A swept value that differs from an end of the range by rounding only is replaced by the end.
    pure real(wp) function rounded(at, x)
