@@ -30,7 +30,7 @@ module ek_quantity
    real(wp), parameter :: fine = 0.05_wp, middle = 1.0_wp, wide = 10.0_wp
    character(*), parameter :: inward = '+ top inward', outward = '+ top outward', rearward = '+ top rearward', &
       right = '+ patch moves with the force', to_left = '+ to the left', under = ' under a force to the right', &
-      parallel = ', parallel (in phase), *', at_centre = 'at the wheel centre', body_down = '+ body moves down', &
+      parallel = ', in phase, *', at_centre = 'at the wheel centre', body_down = '+ body moves down', &
       body_up = '+ body moves up', shortest = 'shortest distance'
 
    type(quantity_t), parameter, public :: wheel_position(*) = [ &
@@ -66,7 +66,7 @@ module ek_quantity
       quantity_t('instant_spindle_length_mm', matrix), quantity_t('instant_spindle_offset_mm', matrix)]
 
    type(quantity_t), parameter, public :: wheel_rates(*) = [ &
-      quantity_t('wheel_rate_n_per_mm', matrix, 'Wheel rate', 'wheels parallel (in phase)', middle), &
+      quantity_t('wheel_rate_n_per_mm', matrix, 'Wheel rate', 'wheels in parallel travel', middle), &
       quantity_t('single_wheel_rate_load_held_n_per_mm', own), quantity_t('single_wheel_rate_height_held_n_per_mm', own), &
       quantity_t('ride_rate_n_per_mm', shod, 'Ride rate', 'with the tyre', middle), &
       quantity_t('hop_rate_n_per_mm', shod, 'Hop rate', 'tyre in parallel')]
@@ -126,7 +126,7 @@ module ek_quantity
       quantity_t('traction_*_rotation_z_deg_per_kn', matrix)]
 
    type(quantity_t), parameter, public :: wheel_jacking(*) = [ &
-      quantity_t('lateral_in_jacking_n_per_kn', own, 'Jacking, parallel (in phase)', '+ the ground pushes up'//under), &
+      quantity_t('lateral_in_jacking_n_per_kn', own, 'Jacking, in phase', '+ the ground pushes up'//under), &
       quantity_t('lateral_anti_jacking_n_per_kn', own)]
 
    type(quantity_t), parameter, public :: wheel_stiffness(*) = [ &
@@ -175,7 +175,7 @@ module ek_quantity
       quantity_t('centre_axis_distance_mm', axis, 'Steer-axis offset, wheel centre', shortest), &
       quantity_t('patch_axis_distance_mm', axis, 'Steer-axis offset, patch', shortest), &
       quantity_t('along_spindle_length_mm', axis, 'Spindle length, along', '+ wheel centre outboard, along the spin axis'), &
-      quantity_t('across_spindle_offset_mm', axis, 'Spindle offset, across', '+ spin axis behind the steer axis'), &
+      quantity_t('across_spindle_offset_mm', axis, 'Spindle offset, across', '+ spin axis aft of the steering axis'), &
       quantity_t('spin_axis_x'), quantity_t('spin_axis_y'), quantity_t('spin_axis_z')]
 
    type(quantity_t), parameter, public :: instant_distances(*) = [ &
@@ -272,8 +272,8 @@ contains
       character(*), intent(in) :: text
       character(:), allocatable :: words
       ! the longest first: each contains parts of the next ones
-      character(*), parameter :: phases(*) = [character(32) :: '    (wheels parallel (in phase))', &
-         'wheels parallel (in phase)', ', parallel (in phase)']
+      character(*), parameter :: phases(*) = [character(31) :: '    (wheels in parallel travel)', &
+         'wheels in parallel travel', ', in phase']
       integer :: k, at, length
 
       words = trim(text)

@@ -63,7 +63,7 @@ module ek_rig_test
    type(rig_test_t), parameter :: rig_tests(*) = [ &
       rig_test_t('parallel_travel', moves_heights, of_travel, 'centre', 'mm', 'wheel travel', shares=[1.0_wp, 1.0_wp], &
          place=1, reach=80.0_wp, increments=80), &
-      rig_test_t('opposite_travel', moves_heights, of_tilt, 'centre', 'mm', 'travel of the left wheel, right wheel opposed', &
+      rig_test_t('opposite_travel', moves_heights, of_tilt, 'centre', 'mm', 'travel of the left wheel, right wheel opposite', &
          shares=[1.0_wp, -1.0_wp], place=2, reach=60.0_wp, increments=60, prefix='opposite '), &
       rig_test_t('single_travel', moves_heights, of_tilt, 'centre', 'mm', shares=[1.0_wp, 0.0_wp], prefix='single '), &
       rig_test_t('roll', rolls, of_roll, 'patch', 'deg', 'axle roll, left wheel up', 'axle_roll_deg', &

@@ -94,10 +94,10 @@ module ek_plausible_range
       range_t('test moment', moment, 1.0_wp, 5000.0_wp, .false., 'the moment is in N m, regardless of the deck''s units'), &
       range_t('offset of the force', length, 0.0_wp, 200.0_wp, .true., 'give a pneumatic trail'), &
       range_t('caster of a front axle', angle, -3.0_wp, 20.0_wp, .true., 'usually the top is rearward; check axes and sign of x'), &
-      range_t('caster', angle, -25.0_wp, 25.0_wp, .true., 'check the points of the steer axis'), &
+      range_t('caster', angle, -25.0_wp, 25.0_wp, .true., 'check the points of the steering axis'), &
       range_t('kingpin inclination', angle, -6.0_wp, 30.0_wp, .true., 'is the upper point outboard of the lower one?'), &
-      range_t('scrub radius', length, -150.0_wp, 250.0_wp, .true., 'check the points of the steer axis'), &
-      range_t('caster trail', length, -100.0_wp, 200.0_wp, .true., 'check the points of the steer axis'), &
+      range_t('scrub radius', length, -150.0_wp, 250.0_wp, .true., 'check the points of the steering axis'), &
+      range_t('caster trail', length, -100.0_wp, 200.0_wp, .true., 'check the points of the steering axis'), &
       range_t('link length', length, 20.0_wp, 2500.0_wp, .false., 'check its two points'), &
       ! response at design; sources below the table
       range_t('wheel rate', derived_rate, 2.0_wp, 3000.0_wp, .false., 'check the rods and levers between wheel and spring'), &
