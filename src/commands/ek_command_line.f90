@@ -148,7 +148,7 @@ contains
          word = line%names%line(k)
          if (allocated(error)) return
          if (.not. any((options%command == line%command .or. options%command == '') .and. option_name(options) == word)) &
-            call fail(error, exit_usage, line%command//' takes no '//word)
+            call fail(error, exit_usage, line%command//' does not accept '//word)
       end do
    end subroutine read_command_line
 
@@ -178,7 +178,7 @@ contains
       value = ''
       if (equals > 0) then
          value = word(equals + 1:)
-         if (expected == '') call fail(error, exit_usage, name//' takes no value, found '//quoted(value))
+         if (expected == '') call fail(error, exit_usage, name//' does not accept a value, found '//quoted(value))
       else if (expected /= '' .and. k == command_argument_count()) then
          call fail(error, exit_usage, name//' needs a value after it')
       else if (expected /= '') then
@@ -190,7 +190,7 @@ contains
       if (expected /= '' .and. len_trim(value) == 0) then      ! for instance an unset variable of the shell
          call fail(error, exit_usage, name//' needs a value, found an empty one')
       else if (expected == 'N' .and. number < 1) then
-         call fail(error, exit_usage, name//': expected a whole number of at least 1, found '//quoted(value))
+         call fail(error, exit_usage, name//': expected an integer of at least 1, found '//quoted(value))
       end if
       call line%names%add(name)
       call line%texts%add(value)

@@ -44,7 +44,7 @@ contains
       call begin_file(self%paths, name//'_load_paths.csv', error)
       if (allocated(error)) return
       call self%shares%add('# '//header//nl// &
-         '# the values of a column and state add up to column_value; rows of 0 are left out'//nl// &
+         '# the values of a column and state add up to column_value; rows of 0 are omitted'//nl// &
          'case,state,factor,column,column_value,row,kind,part,value,unit,share'//nl)
       call self%paths%add('# '//header//nl// &
          '# per newton at a contact point: on the second body, at its point, frame of the deck'//nl// &

@@ -50,11 +50,11 @@ contains
       character(13), parameter :: of_decks(*) = [character(13) :: '--case', '--increments', '--set', '--derivatives']
       integer :: k, solver
 
-      if (line%files%count() > 0) call fail(error, exit_usage, '--growth makes its own models and takes no deck')
+      if (line%files%count() > 0) call fail(error, exit_usage, '--growth builds its own models; omit the deck')
       do k = 1, size(of_decks)
          if (allocated(error)) return
          if (line%has(trim(of_decks(k)))) &
-            call fail(error, exit_usage, '--growth makes its own models and takes no '//trim(of_decks(k)))
+            call fail(error, exit_usage, '--growth builds its own models; omit '//trim(of_decks(k)))
       end do
       if (.not. allocated(error) .and. line%number('--growth') < rows(1)) &
          call fail(error, exit_usage, '--growth: expected a size of at least '//str(rows(1))//', found '//line%value('--growth'))

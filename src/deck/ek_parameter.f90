@@ -102,7 +102,7 @@ contains
          if (path%key(len(path%key):) == ')' .and. inside /= '' .and. len(inside) < 7 .and. verify(inside, '0123456789') == 0) &
             read (inside, *, iostat=status) path%first
          if (status /= 0) then
-            message = 'the subscript must be one whole number, found '//path%key(mark:)
+            message = 'the subscript must be one integer, found '//path%key(mark:)
             return
          end if
          path%key = path%key(:mark - 1)

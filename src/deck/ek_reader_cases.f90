@@ -206,7 +206,7 @@ contains
          call complain(reading, '', "give 'load', 'drive' or 'test'")
       end if
       call refuse(reading, [character(16) :: 'vertical', 'phase', 'offset', 'file', 'steer_from', 'steer_to', 'steer_increments'], &
-         "only a case with a 'test' takes this key")
+         "only a case with a 'test' accepts this key")
       load = texts_of(reading, 'load', max_loads)
       loads = count(load /= '')
       refused = 0

@@ -117,7 +117,7 @@ contains
          measure = reading%plan%prototype%readouts(plan%readout)%measure
          if (is_of_angle(measure%kind)) plan%force_unit = plan%force_unit*reading%units%length
          if (measure%kind /= distance) call refuse(reading, ['free_length'], &
-            'only a spring on a distance takes this key; give preload instead')
+            'only a spring on a distance accepts this key; give preload instead')
       end subroutine find_measure
 
    end subroutine read_spring

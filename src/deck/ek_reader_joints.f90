@@ -45,12 +45,12 @@ contains
          if (.not. has_key(reading, 'at')) call complain(reading, '', "'at' is missing")
          reading%cards(reading%k)%factor = reading%units%length
       case default
-         call refuse(reading, ['at'], 'a measure of type '//quoted(type)//' takes no points')
+         call refuse(reading, ['at'], 'a measure of type '//quoted(type)//' does not accept points')
          reading%cards(reading%k)%factor = merge(reading%units%angle, 1.0_wp, kind == rotation)
       end select
       if (kind == distance) then
          call need_two_points(reading, plan%ends, has_points, 'a distance')
-         call refuse(reading, ['axis       ', 'axis_vector'], 'a distance takes no axis')
+         call refuse(reading, ['axis       ', 'axis_vector'], 'a distance does not accept an axis')
       else if (.not. has_u) then
          call complain(reading, '', "give 'axis' or 'axis_vector'")
       end if
@@ -168,7 +168,7 @@ contains
       if (.not. reading%cards(reading%k)%is_good .or. readout == 0) return
       plan%readouts = [readout]
       plan%units = [place_unit]
-      if (.not. has_key(reading, 'stiffness')) call refuse(reading, ['balance'], 'only a driver with a stiffness takes this key')
+      if (.not. has_key(reading, 'stiffness')) call refuse(reading, ['balance'], 'only a driver with a stiffness accepts this key')
       associate (model => reading%plan%prototype)
          reaction_unit = reading%units%force
          if (is_of_angle(model%readouts(readout)%measure%kind)) reaction_unit = reaction_unit*reading%units%length
@@ -237,7 +237,7 @@ contains
       must(2) = kind%min_points > 0
       must([3, 4, 5, 6, 10, 11]) = .false.
       do j = 1, size(joint_keys)
-         if (.not. may(j)) call refuse(reading, joint_keys(j:j), a_joint//' does not take this key')
+         if (.not. may(j)) call refuse(reading, joint_keys(j:j), a_joint//' does not accept this key')
          if (must(j) .and. .not. has_key(reading, trim(joint_keys(j)))) &
             call complain(reading, '', quoted(joint_keys(j))//' is missing')
       end do

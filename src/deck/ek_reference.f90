@@ -322,7 +322,7 @@ contains
       if (text_of(reading, 'wheel') == '') return
       call look_up(reading, 'wheel', wheel_group, text_of(reading, 'wheel'), found)
       if (found > 0) wheel = reading%cards(found)%index
-      if (.not. may_have_one) call refuse(reading, ['wheel'], 'only a case '//which//' takes this key')
+      if (.not. may_have_one) call refuse(reading, ['wheel'], 'only a case '//which//' accepts this key')
    end subroutine find_wheel
 
 end module ek_reference

@@ -200,7 +200,7 @@ contains
             read (subscript, *, iostat=status) entry%first
          if (status /= 0 .or. entry%first < 1) then
             call complain_of(deck_errors, record, entry%line, 'the subscript of '//quoted(entry%key)// &
-               ' must be one positive whole number, found ('//subscript//')')
+               ' must be one positive integer, found ('//subscript//')')
             entry%first = 1
          end if
          call skip_blanks(text, cursor)

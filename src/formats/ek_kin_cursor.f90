@@ -109,7 +109,7 @@ contains
       choice = 0
       if (flaws%count() > before .or. cursor%is_lost) return
       if (value < 0.0_wp .or. value > most .or. abs(value - aint(value)) > 0.0_wp) then
-         call flaws%add(cursor%line, 'expected a whole number from 0 to '//str(most)//', found '//str(value))
+         call flaws%add(cursor%line, 'expected an integer from 0 to '//str(most)//', found '//str(value))
          return
       end if
       choice = int(value)

@@ -288,7 +288,7 @@ contains
       integer :: side
 
       is_at_patch = .not. test%is_at_centre .or. suspension%axle%drives_at_patch
-      if (test%is_at_centre .and. is_at_patch) rig%place_name = 'traction force at each patch'
+      if (test%is_at_centre .and. is_at_patch) rig%place_name = 'driving force at each contact point'
       do side = 1, 2
          if (wheels(side) > 0) call add_load(rig, suspension, case, trim(side_name(side)), &
             acting_t(wheels(side), is_at_patch, test%force, test%moment, test%has_trail), &

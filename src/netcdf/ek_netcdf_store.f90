@@ -141,7 +141,7 @@ contains
       end do
       if (store%has_limits) then
          call over_designs('within', nf90_byte, file%within)
-         call put_flags(file, file%within, 'whether the design keeps all limits of the responses', 'no yes', 1)
+         call put_flags(file, file%within, 'whether the design satisfies all limits of the responses', 'no yes', 1)
       end if
       call over_designs('status', nf90_byte, file%status)
       call put_flags(file, file%status, 'how the design ended', flag_meanings(), design_invalid)

@@ -52,7 +52,7 @@ contains
       call add('Program', 'elastokin '//version)
       call add_facts(page, names, values)
       call add_warnings(page, plural(study%failed, 'design', 'designs')//' of '//str(study%designs)// &
-         ' failed and are left out below', study%reasons)
+         ' failed and are omitted below', study%reasons)
       if (message /= '') call trouble%add(message)
       call add_warnings(page, 'Figures', trouble)
       call add_responses(page, study)

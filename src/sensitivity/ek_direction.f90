@@ -199,7 +199,7 @@ contains
          call replace(text, '=1: ', ': ')
          call replace(text, 'group.name.key=value', 'group.name.key')
       else
-         text = quoted(path)//' has no derivative: it is a whole number, a name or a switch, or the deck does not give it; '// &
+         text = quoted(path)//' has no derivative: it is an integer, a name or a switch, or the deck does not give it; '// &
             'only numbers that vary continuously have one'
       end if
    end function fault_of

@@ -115,7 +115,7 @@ contains
       call run_helper(words, scratch%path, trouble)
       if (len(trouble) > 0) then
          call fail(error, exit_file, helper_name//' could not write '//join_path(out, store_name(study))//': '//trouble// &
-            '; the designs are kept: the same command writes it, with format = ''csv'' in the study as CSV')
+            '; the designs are stored: the same command writes it, with format = ''csv'' in the study as CSV')
       else
          call move_file(join_path(scratch%path, store_name(study)), join_path(out, store_name(study)), error, is_awaited=.true.)
       end if

@@ -369,7 +369,7 @@ contains
       if (allocated(chunk%error)) then
          if (.not. allocated(shared%error)) then
             call move_alloc(chunk%error, shared%error)
-            shared%error%message = shared%error%message//'; finished designs are kept: run the same command again to resume'
+            shared%error%message = shared%error%message//'; finished designs are stored: run the same command again to resume'
          end if
          return
       end if
