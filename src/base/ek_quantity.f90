@@ -49,7 +49,7 @@ module ek_quantity
       quantity_t('scrub_radius_mm', axis, 'Scrub radius', '+ axis meets the ground inboard of the patch', middle), &
       quantity_t('caster_trail_mm', axis, 'Caster trail', '+ axis meets the ground ahead of the patch', middle), &
       quantity_t('spindle_length_mm', axis, 'Spindle length', '+ wheel centre outboard of the axis', middle), &
-      quantity_t('spindle_offset_mm', axis, 'Spindle offset', '+ wheel centre behind the axis')]
+      quantity_t('spindle_offset_mm', axis, 'Spindle offset', '+ wheel centre aft of the axis')]
 
    type(quantity_t), parameter, public :: wheel_now(*) = [ &
       quantity_t('steer_deg', 0, 'Steer', to_left, fine), &

@@ -52,8 +52,8 @@ contains
       if (user == other_machine) call print_note(is_quiet, parts_folder(this%study, this%out)//' is not deleted: a run on '// &
          'another machine is at work in it, or died there within a day; remove it if there is none')
       if (counts%kernels%count() > 1) call print_warning('the designs were computed with different BLAS kernels ('// &
-         kernels_text(counts)//'): on processors of one kind all would be equal to the last digit; OPENBLAS_CORETYPE='// &
-         counts%kernels%line(1)//' makes them so everywhere')
+         kernels_text(counts)//'): their last digits may differ; set OPENBLAS_CORETYPE='// &
+         counts%kernels%line(1)//' on every machine to get equal digits')
       name = results_name(this)
       if (this%plan%columns > 0 .and. .not. this%has_store) call tables%add(curves_name(this%study))
       call tables%add(name)

@@ -324,7 +324,7 @@ contains
       if (self%used <= most) return
       text = text//new_line('a')//'and '//str(self%used - most)
       if (self%is_cut) text = text//' or more'
-      text = text//' other mistake'
+      text = text//' other error'
       if (self%used > most + 1 .or. self%is_cut) text = text//'s'
       text = text//'; is this a deck?'
    end function complaints_text

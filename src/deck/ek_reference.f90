@@ -87,7 +87,7 @@ contains
          end if
          found = 0
          if (find_card(reading, group, name(first:)) > 0) words = ' (without &mirror the deck has only '// &
-            quoted(name(first:))//'; &mirror makes left_'//name(first:)//' and right_'//name(first:)//' of it)'
+            quoted(name(first:))//'; &mirror creates left_'//name(first:)//' and right_'//name(first:)//')'
       end function mirror_or
 
    end subroutine look_up

@@ -253,7 +253,7 @@ contains
          inner = new_flaws(found)
          call parse_property(content, property, inner)
          if (inner%count() > 0) then
-            call flaws%add(line, 'mistakes in the bushing:'//new_line('a')//inner%text())
+            call flaws%add(line, 'errors in the bushing:'//new_line('a')//inner%text())
             return
          end if
          if (property%kind /= bushing_file) then
@@ -275,7 +275,7 @@ contains
          mount%note = name//': the rate is that of its name, as the file is not there'
          return
       end if
-      call flaws%add(line, 'cannot find the bushing '//shown(named)//'; put '//shown(name)//' beside '//shown(path))
+      call flaws%add(line, 'cannot find the bushing '//shown(named)//'; put '//shown(name)//' in the folder of '//shown(path))
    end subroutine find_mount
 
    !> Whether the name of a bushing gives its rate: lin01000.gum.

@@ -143,7 +143,7 @@ contains
       logical :: is_good
 
       if (gum%axis == 0 .or. size(fields) == 0) then
-         call flaws%add(line, 'expected a number for '//trim(label)//' behind the lists of an axis')
+         call flaws%add(line, 'expected a number for '//trim(label)//' after the lists of an axis')
          return
       end if
       associate (stiffness => gum%stiffness(gum%axis))
@@ -201,7 +201,7 @@ contains
          if (.not. gum%halves(k, axis)%is_given) then
             call flaws%add(0, 'expected displacements '//merge('+', '-', k == 1)//axes(axis:axis)//', found none')
          else if (gum%force_line(k, axis) == 0) then
-            call flaws%add(gum%halves(k, axis)%line, 'expected forces behind these displacements, found none')
+            call flaws%add(gum%halves(k, axis)%line, 'expected forces after these displacements, found none')
          else if (.not. gum%halves(k, axis)%is_bad) then
             call finish_half(gum%halves(k, axis), k, flaws)
          end if

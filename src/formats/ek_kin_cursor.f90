@@ -41,7 +41,7 @@ contains
                used = 0
                cycle
             end if
-            call flaws%add(k, 'expected '//str(least)//' values behind '//shown(trim(adjustl(fields(1)%text)))//', found '// &
+            call flaws%add(k, 'expected '//str(least)//' values after '//shown(trim(adjustl(fields(1)%text)))//', found '// &
                str(used - 1))
             used = 0
             cursor%line = k

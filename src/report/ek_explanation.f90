@@ -170,7 +170,7 @@ contains
       integer :: c, k
 
       if (size(list) == 0) return
-      call begin_section(page, 'contributions', 'What makes these numbers', is_printed=.false.)
+      call begin_section(page, 'contributions', 'Contributions to these numbers', is_printed=.false.)
       call add_text(page, 'p', 'Each compliance at design is the exact sum of what every axis of every bushing, spring, bar '// &
          'and preload adds to it; elastokin explain lists all of them at every state. Geometric: by the force that the part '// &
          'carries, not by its rate. A rate that is 1 % higher lowers the compliance by 1 % of its contribution. '// &

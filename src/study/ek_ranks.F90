@@ -54,7 +54,7 @@ contains
       call look_for_launcher(is_launched, launched)
       if (.not. is_launched) then
          if (launched > 1) call fail(error, exit_usage, 'srun started this as one of '//str(launched)// &
-            ' tasks that do not know of each other: each would compute the whole study. Use '// &
+            ' tasks without a connection: each would compute the whole study. Use '// &
             'srun --mpi=pmix, mpirun, --ntasks=1 or --shard. '// &
             'In a shell that srun --pty started: env -u SLURM_STEP_NUM_TASKS elastokin …')
          return
@@ -78,7 +78,7 @@ contains
    function why_no_mpi() result(text)
       character(:), allocatable :: text
 
-      text = 'there is no '//mpi_program//' beside this program (compiled without MPI)'
+      text = 'there is no '//mpi_program//' in the folder of this program (compiled without MPI)'
       if (program_folder() == '') return
       if (file_exists(join_path(program_folder(), mpi_program))) text = join_path(program_folder(), mpi_program)// &
          ' cannot be started (is it executable?)'

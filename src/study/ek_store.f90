@@ -77,7 +77,7 @@ contains
       if (.not. is_wanted) return
       has_helper = helper_exists()
       if (study%format == 'netcdf' .and. .not. has_helper) call fail(error, exit_file, study%where//': format = ''netcdf'' '// &
-         'needs the program '//helper_name//' beside elastokin ('//program_folder()//'), and it is not there; install '// &
+         'needs the program '//helper_name//' in the folder of elastokin, '//program_folder()//'; install '// &
          'NetCDF-Fortran (Debian, Ubuntu: libnetcdff-dev) and build elastokin again, or write format = ''csv''')
       is_wanted = has_helper
    end subroutine choose_store
@@ -135,7 +135,7 @@ contains
 
       if (.not. helper_exists()) then
          call fail(error, exit_file, join_path(out, store_name(study))//' can be read only with the program '//helper_name// &
-            ' beside elastokin ('//program_folder()//'), and it is not there; install NetCDF-Fortran (Debian, Ubuntu: '// &
+            ' in the folder of elastokin, '//program_folder()//'; install NetCDF-Fortran (Debian, Ubuntu: '// &
             'libnetcdff-dev) and build elastokin again, or run the study with format = ''csv''')
          return
       end if
