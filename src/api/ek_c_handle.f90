@@ -134,7 +134,7 @@ contains
       end do
    end subroutine take_names
 
-   !> Keeps the message of a call; the code for the caller.
+   !> The exit code of a call; also stores the message of the call in the handle.
    integer(c_int) function finish(handle, error) result(code)
       type(handle_t), intent(inout) :: handle
       type(error_t), allocatable, intent(in) :: error

@@ -1,7 +1,7 @@
 !> The numbers of a design space as a caller has set them: in SI for the workspace, in the units of the deck for the caller, and
 !> as the settings (as for --set) with which the deck gives the same design when it is read as text.
 !>
-!> After begin_numbers and add_path nothing here makes a text, except apply_settings.
+!> After begin_numbers and add_path, only apply_settings creates strings.
 module ek_design_numbers
    use ek_kinds, only: wp
    use ek_decimal, only: number_limit
@@ -180,7 +180,7 @@ contains
       numbers%is_new = .true.
    end subroutine put_at
 
-   !> Makes the settings in a deck, in the order in which they were made.
+   !> Applies the settings to a deck, in their original order.
    subroutine apply_settings(numbers, design, deck, error)
       type(design_numbers_t), intent(in) :: numbers
       type(design_t), intent(in) :: design                 !! prepared by begin_numbers

@@ -72,7 +72,7 @@ contains
       call put_digits(text, decade, buffer, used)
    end subroutine put_decimal
 
-   !> The number as a text of its own length, unlike put_decimal.
+   !> The number as a string with exactly its length. put_decimal writes into a longer string instead.
    pure function decimal(x) result(text)
       real(wp), intent(in) :: x
       character(:), allocatable :: text
@@ -355,7 +355,7 @@ contains
       read (text, *) x                           ! −0, or far beyond what is written by hand
    end function checked_number
 
-   !> Skips digits and takes the first 18 of them into the number.
+   !> Skips digits and appends the first 18 of them to the number.
    pure subroutine take_digits(text, at, number, figures)
       character(*), intent(in) :: text
       integer, intent(inout) :: at, figures

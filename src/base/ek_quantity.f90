@@ -1,10 +1,10 @@
 !> The quantities of the results: name, unit, requirements on the model, title, sign, least span of a chart.
 !>
-!> A row stands at the position of its column in the table of results, section by section. The kernel of a section returns the
-!> values in SI, in the same order: ek_state_columns (wheel_position, steer_axis), ek_kandc_columns (wheel_now to of_rack) with
-!> ek_wheel_columns and ek_geometry_columns. A section is computed as a whole, and only if one of its columns is requested. So a new
-!> quantity is a row here and a value at the same position in the kernel; its unit is the end of its name. Headings, charts, key
-!> numbers and reserved names follow from the row. input/QUANTITIES.md defines each of them.
+!> Rows are in the order of the columns in the table of results, section by section. The kernel of a section returns the values in
+!> SI, in the same order: ek_state_columns (wheel_position, steer_axis), ek_kandc_columns (wheel_now to of_rack) with
+!> ek_wheel_columns and ek_geometry_columns. A section is computed as a whole, and only if one of its columns is requested. So a
+!> new quantity is a row here and a value at the same position in the kernel; its unit is the end of its name. Headings, charts,
+!> key numbers and reserved names follow from the row. input/QUANTITIES.md defines each of them.
 module ek_quantity
    use ek_kinds, only: wp, degree, millimetre
    implicit none(type, external)
@@ -353,7 +353,7 @@ contains
       if (upper /= '') unit = upper//'_'//unit
    end subroutine slope_unit
 
-   !> A heading that ends with a unit: 'seat' and 'mm' make 'seat_mm'; the heading 'seat_mm' is unchanged.
+   !> A column heading with a unit at its end: 'seat' and 'mm' give 'seat_mm'; the heading 'seat_mm' is unchanged.
    pure function head_with_unit(name, ending) result(head)
       character(*), intent(in) :: name
       character(*), intent(in) :: ending             !! as in column names; '': none

@@ -238,7 +238,7 @@ contains
       end if
    end function did_you_mean
 
-   !> Whether a text has the form of a pattern, in which * stands for any characters, also none.
+   !> Whether a string matches a pattern, in which * stands for any number of characters.
    pure recursive logical function is_like(text, pattern) result(fits)
       character(*), intent(in) :: text, pattern
       integer :: star, k

@@ -1,5 +1,5 @@
-!> The command line: a command, its files and its options. It is read by the tables of ek_command, so that it contains only options
-!> of its command. Every error message states the expected form.
+!> The command line: a command, its files and its options. It is checked against the tables of ek_command, so that it contains
+!> only options of its command. Every error message states the expected form.
 module ek_command_line
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t, fail, exit_usage
@@ -23,7 +23,7 @@ module ek_command_line
       character(15) :: alone = '' !! option that is given instead of the files
    end type command_t
 
-   !> An option that a command takes.
+   !> An option of a command.
    type :: option_t
       character(11) :: command    !! '' for every command
       character(19) :: label      !! '--plot', '--out DIR': the name and its value; N: a number, a=b: may be repeated
@@ -152,7 +152,7 @@ contains
       end do
    end subroutine read_command_line
 
-   !> Takes an option, and its value: --out DIR or --out=DIR.
+   !> Reads an option with its value: --out DIR or --out=DIR.
    subroutine take_option(options, word, k, line, error)
       type(option_t), intent(in) :: options(:)
       character(*), intent(in) :: word

@@ -133,7 +133,7 @@ contains
       if (.not. allocated(error)) call self%paths%finish(error)
    end subroutine end_explain_files
 
-   !> The ratio value/whole; 0 if whole is 0.
+   !> The ratio value/whole [-]; 0 if whole is 0.
    pure real(wp) function share_of(value, whole) result(share)
       real(wp), intent(in) :: value, whole
 
@@ -153,7 +153,7 @@ contains
       call json%open('[', 'cases')
    end subroutine begin_explain_json
 
-   !> Begins a case: the rows, which are the same at every state.
+   !> Begins the output of a case. The rows are the same at every state.
    subroutine begin_explain_case(name, unit_name, table, json)
       character(*), intent(in) :: name, unit_name      !! of the swept value
       type(contribution_table_t), intent(in) :: table

@@ -136,7 +136,7 @@ contains
       text = unit_text(unit_of(heading(table, c)))
    end function unit
 
-   !> A name in a column of its own.
+   !> A name, padded with blanks to the width of its column.
    pure function padded(name) result(text)
       character(*), intent(in) :: name
       character(:), allocatable :: text

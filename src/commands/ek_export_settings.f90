@@ -126,7 +126,8 @@ contains
       end do
    end function list
 
-   !> Makes the request for a model: ranges of the command line, else the ranges of its tests of travel and steering.
+   !> Builds the request for a model. Ranges are those of the command line; without them, the ranges of the travel and steering
+   !> tests.
    subroutine make_request(settings, suspension, cases, request, error)
       type(export_settings_t), intent(in) :: settings
       type(suspension_t), intent(in) :: suspension

@@ -218,7 +218,7 @@ contains
       end associate
    end subroutine add_group
 
-   !> Whether two factors are rates of the same unit.
+   !> Whether two factors are rates with the same unit.
    pure logical function are_rates(problem, a, b)
       type(fit_problem_t), intent(in) :: problem
       integer, intent(in) :: a, b

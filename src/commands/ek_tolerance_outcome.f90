@@ -23,8 +23,8 @@ module ek_tolerance_outcome
 
 contains
 
-   !> Computes the derivatives of a tolerance study before its designs, so that a missing one is reported at once. Other kinds
-   !> need none.
+   !> Computes the derivatives of a tolerance study before its designs, so that a missing derivative is reported before any design
+   !> is solved. Other kinds of study do not need derivatives.
    subroutine expand_study(this, error)
       type(opened_study_t), intent(inout) :: this
       type(error_t), allocatable, intent(out) :: error     !! exit_deck, exit_model

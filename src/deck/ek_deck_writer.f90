@@ -1,6 +1,6 @@
-!> The deck as it was used: one file with all records after included files, hardpoints, property files, both sides and settings.
-!> Comments give the file and the line of each record, the setting of each value that was set, and the numbers that are not given.
-!> The file gives the same results as the deck from which it was made.
+!> The deck as used: one file with the records of all included files, hardpoints and property files, of both sides, and with all
+!> settings. Comments give the file and the line of each record, the setting of each value that was set, and the numbers that are
+!> not given. The file gives the same results as the deck from which it was made.
 module ek_deck_writer
    use ek_error, only: error_t, fail, exit_usage
    use ek_text, only: str, quoted
@@ -29,7 +29,7 @@ module ek_deck_writer
 
 contains
 
-   !> Writes a deck, and in the same folder the load tables that it names: DECK_TABLE.csv.
+   !> Writes a deck, and the load tables named in the deck as DECK_TABLE.csv in the same folder.
    subroutine write_deck_as_used(deck, path, error)
       type(deck_t), intent(in) :: deck                     !! without errors
       character(*), intent(in) :: path

@@ -119,7 +119,7 @@ contains
       end do
    end subroutine survey
 
-   !> Finds the names in `shared`; each must exist. 'none' alone, if no record has that name, stands for an empty list.
+   !> Finds the names in `shared`, each of which must exist. 'none' alone stands for an empty list if no record has this name.
    subroutine find_shared(mirror, half, deck_errors)
       type(record_t), intent(in) :: mirror
       type(half_t), intent(inout) :: half

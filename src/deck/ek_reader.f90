@@ -218,7 +218,7 @@ contains
       end select
    end subroutine read_record
 
-   !> Completes the lists of the prototype that follow from the whole deck: points and weights.
+   !> Completes the lists of the prototype that depend on all records: points and weights.
    subroutine complete_prototype(reading)
       type(deck_reading_t), intent(inout) :: reading
       type(point_t), allocatable :: points(:)
@@ -326,8 +326,8 @@ contains
 
    end subroutine check_new
 
-   !> Rejects a second &model of the same name: the deck stands twice in its file. Only this is reported, not every name that is
-   !> there twice.
+   !> Rejects a second &model with the same name, as in a file that contains the deck twice. Only this error is reported, not
+   !> every duplicate name.
    subroutine refuse_doubled_deck(reading, error)
       type(deck_reading_t), intent(in) :: reading
       type(error_t), allocatable, intent(out) :: error

@@ -174,7 +174,8 @@ contains
          "follow = 'arc' needs method = 'equilibrium', found "//quoted(text_of(reading, 'method')))
    end subroutine read_follow
 
-   !> Rejects two cases with one file: the target of a case has its own file, <case>_target, so no other case may have this name.
+   !> Rejects two cases with the same output file. The target of a case has the file <case>_target, so no other case may have this
+   !> name.
    subroutine refuse_one_file_for_two(reading, cases)
       type(deck_reading_t), intent(inout) :: reading
       type(case_t), intent(in) :: cases(:)

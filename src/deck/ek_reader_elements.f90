@@ -1,6 +1,6 @@
 !> &curve, and the elastic elements: &spring, &damper, &stop, &torsion, each of one measure, and &bushing.
 !>
-!> A curve has no units of its own: its numbers have the deck units of the element that uses it.
+!> A curve itself has no units. Its numbers are in the deck units of the element that uses the curve.
 module ek_reader_elements
    use ek_kinds, only: wp
    use ek_text, only: str, lower, quoted

@@ -94,7 +94,7 @@ contains
       end select
    end subroutine read_joint
 
-   !> Makes a joint that is defined by points and axes.
+   !> Builds a joint that is defined by points and axes.
    subroutine make_joint(reading, kind)
       type(deck_reading_t), intent(inout) :: reading
       type(joint_kind_t), intent(in) :: kind
@@ -153,7 +153,7 @@ contains
       end select
    end subroutine check_axes
 
-   !> Makes a driver. Stiffness: force/length, or moment/angle where the measure is an angle.
+   !> Builds a driver. The stiffness is force/length, or moment/angle if the measure is an angle.
    subroutine make_driver(reading)
       type(deck_reading_t), intent(inout) :: reading
       type(joint_plan_t) :: plan
@@ -180,7 +180,7 @@ contains
       reading%plan%joints = [reading%plan%joints, plan]
    end subroutine make_driver
 
-   !> Makes a coupler: Σ ratio × value is constrained in deck units; the row is scaled so that the first ratio is unchanged.
+   !> Builds a coupler: Σ ratio × value is constrained in deck units. The row is scaled so that the first ratio is unchanged.
    subroutine make_coupler(reading)
       type(deck_reading_t), intent(inout) :: reading
       type(joint_plan_t) :: plan

@@ -311,7 +311,7 @@ contains
          line_of(reading, found)//' is not a driver')
    end subroutine find_driver
 
-   !> Finds the wheel named by a case, if it names one; reports an error if there is none, or if the case takes no wheel.
+   !> Finds the wheel named by a case. Reports an error if there is no such wheel, or if the case must not name a wheel.
    subroutine find_wheel(reading, may_have_one, which, wheel)
       type(deck_reading_t), intent(inout) :: reading
       logical, intent(in) :: may_have_one

@@ -280,7 +280,7 @@ contains
 
    contains
 
-      !> Reads a string from its quote to the closing one, which must be on the same line; a doubled quote is one quote.
+      !> Reads a string from its opening to its closing quote, which must be on the same line. A doubled quote is one quote.
       subroutine take_string(content)
          character(:), allocatable, intent(out) :: content
          character :: quote
