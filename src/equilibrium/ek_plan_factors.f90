@@ -61,9 +61,8 @@ contains
       end do
    end subroutine solve_by
 
-   !> Factorises the matrix in x: D⁻¹ at the positions of D, and L. A pivot that is zero, or too small to divide by, is left
-   !> out, and growth is huge.
-   !> Equation (K.23) of docs/theory/kkt.md.
+   !> Factorises the matrix in x: D⁻¹ at the positions of D, and L. A pivot that is zero, or too small to divide by, is omitted,
+   !> and growth is huge. Equation (K.23) of docs/theory/kkt.md.
    pure subroutine factorise_by(plan, x, soundness)
       type(plan_t), intent(in) :: plan
       real(num), intent(inout) :: x(plan%length)

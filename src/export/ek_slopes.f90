@@ -1,5 +1,5 @@
-!> Curves and slopes of a map that simulators take: columns over the travel of the wheel centre without steer, and slopes at design
-!> of the angles of a wheel under loads at its contact point or its centre.
+!> Curves and slopes of a map for simulators: columns over the travel of the wheel centre without steer, and slopes at design of
+!> the angles of a wheel under loads at its contact point or its centre.
 !>
 !> ISO 8855, SI: see ek_wheel_motion. The wheels are held in the slopes as in the compliance of the map.
 module ek_slopes
@@ -28,7 +28,7 @@ contains
       place = minloc(abs(values), dim=1)
    end function zero_of
 
-   !> A quantity over the travel, without steer; of a map over the other wheel both wheels at the same travel.
+   !> A quantity over the travel, without steer. In a map over the travel of the other wheel, both wheels have the same travel.
    pure function travel_curve(map, quantity, side) result(curve)
       type(kandc_map_t), intent(in) :: map
       integer, intent(in) :: quantity, side

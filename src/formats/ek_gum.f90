@@ -156,7 +156,7 @@ contains
       end associate
    end subroutine take_stiffness
 
-   !> Reads whether the negative side has numbers of its own.
+   !> Reads whether the negative side has separate numbers.
    subroutine take_symmetry(gum, line, field, flaws)
       type(gum_t), intent(inout) :: gum
       integer, intent(in) :: line
@@ -172,7 +172,7 @@ contains
       if (gum%flag < 0) call flaws%add(line, 'expected 0 (symmetric) or 1 (asymmetric), found '//str(value))
    end subroutine take_symmetry
 
-   !> Makes the law of the rotation about an axis.
+   !> Builds the law of the rotation about an axis.
    subroutine put_stiffness(gum, axis, line, law, flaws)
       type(gum_t), intent(in) :: gum
       integer, intent(in) :: axis, line
@@ -187,7 +187,7 @@ contains
       call add_point(law, 1.0_wp, gum%stiffness(axis), line)
    end subroutine put_stiffness
 
-   !> Makes one law of both sides, with the origin between them.
+   !> Joins the laws of both sides to one law, with the origin between them.
    subroutine join_halves(gum, axis, law, flaws)
       type(gum_t), intent(inout) :: gum
       integer, intent(in) :: axis

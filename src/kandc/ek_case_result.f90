@@ -149,8 +149,8 @@ contains
       call result%remarks%add(failure, on_case, case, words)
    end subroutine give_up
 
-   !> Adds the remarks on a result that was solved without them: notes, warnings, failures. They are texts, which only one thread at
-   !> a time may make.
+   !> Adds the remarks (notes, warnings, failures) on a result that was solved without remarks. They contain strings, so that only
+   !> one thread at a time may call it.
    subroutine add_remarks(options, result)
       type(solve_options_t), intent(in) :: options
       type(case_result_t), intent(inout) :: result     !! is_run

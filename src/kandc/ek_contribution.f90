@@ -245,7 +245,7 @@ contains
       end associate
    end subroutine add_load
 
-   !> Adds the share of the unbalanced forces, as they stand in the tangent of screw motions.
+   !> Adds the share of the unbalanced forces, as contained in the tangent of screw motions.
    subroutine add_unbalanced(bodies, rhs, left, right, matrix)
       integer, intent(in) :: bodies
       real(wp), intent(in) :: rhs(:)

@@ -133,7 +133,7 @@ contains
       gradient%value = slope*(gradient%size*gradient%turn)
    end function one_gradient
 
-   !> Fits the slope of a column over another one in the units of both, 0 if it is within the noise; makes no text.
+   !> Fits the slope of one column over another, in the units of both; 0 if it is within the noise. Creates no strings.
    subroutine fit_slope(table, place, over, factor_size, half, slope, points, undefined)
       type(table_t), intent(in) :: table
       integer, intent(in) :: place, over           !! of the columns

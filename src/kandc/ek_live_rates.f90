@@ -1,4 +1,4 @@
-!> The rates that contribute most to the key compliances of a suspension: those that a reader of its report may change on the page.
+!> The rates that contribute most to the key compliances of a suspension. A reader of the report may change them on the page.
 !>
 !> A rate is the constant of one law: an axis of a bushing, a spring, a bar. The same law on both sides of an axle is one rate if it
 !> is equal on both. Laws with a curve or a clearance have no rate.

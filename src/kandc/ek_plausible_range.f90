@@ -117,7 +117,7 @@ module ek_plausible_range
    ! toe: 30 mm of travel, about the least that a Formula Student car must have, would use the range of the static toe. Compliances
    ! have no range: no source covers both trucks and race cars.
 
-   !> The remarks without repetition: both sides of a mirrored deck come from one line and give one remark.
+   !> The remarks without repetition: both sides of a mirrored deck have the same line and give one remark.
    type :: doubts_t
       type(message_list_t) :: remarks
       type(units_t) :: units = units_t()               !! of the deck
@@ -165,7 +165,7 @@ contains
 
    end subroutine add
 
-   !> Compares a value with the range of its quantity, and adds a remark if it lies outside.
+   !> Compares a value with the range of its quantity, and adds a remark if the value is outside the range.
    pure subroutine judge(self, quantity, value, detail)
       class(doubts_t), intent(inout) :: self
       character(*), intent(in) :: quantity     !! of a row of `ranges`
@@ -230,7 +230,7 @@ contains
       high = ranges(k)%high
    end subroutine usual_range
 
-   !> Whether a value (SI) lies in its range.
+   !> Whether a value (SI) is within the range of a row.
    pure logical function is_within(row, value)
       type(range_t), intent(in) :: row
       real(wp), intent(in) :: value

@@ -1,7 +1,7 @@
-!> Setting one lane of a thing for four designs from the same thing of one design.
+!> Sets one lane of a value for four designs from the value of one design.
 !>
-!> Kinds, bodies and other properties that are the same for all designs are copied too, so that every call leaves a complete thing.
-!> Names are not.
+!> Kinds, bodies and other properties common to all designs are also copied, so that the value is complete after every call. Names
+!> are not copied.
 module ek_lane_copy
    use ek_contract, only: are_checked, require
    use ek_kinds, only: wp

@@ -92,7 +92,7 @@ contains
       if (.not. case%says_solver) case%uses_plan = .true.
    end subroutine prefer_plan
 
-   !> Copies the numbers of a case of a deck for another design: nothing is allocated. An empty copy receives the whole case.
+   !> Copies the numbers of a case of a deck for another design, without allocation. An empty copy receives the complete case.
    pure subroutine copy_case_numbers(from, to)
       type(case_t), intent(in) :: from
       type(case_t), intent(inout) :: to

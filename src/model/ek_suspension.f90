@@ -58,7 +58,7 @@ module ek_suspension
       real(wp) :: design_value = 0.0_wp   !! m, - or rad
    end type readout_t
 
-   !> Data of the vehicle around the axle, for characteristics that need the whole car.
+   !> Data of the vehicle, for characteristics of the axle that depend on the complete car.
    type :: axle_t
       logical :: has_axle = .false.       !! the deck has an &axle
       character(:), allocatable :: where
@@ -127,8 +127,8 @@ contains
       self%steering%driver = ''
    end subroutine allocate_lists
 
-   !> Copies the numbers of a suspension to another one, which has the same parts, and may have parts of a rig after them (ek_rig):
-   !> rows, terms and loads. Every number that realise, settle_design or balance sets is copied; nothing is allocated.
+   !> Copies the numbers of a suspension to another suspension with the same parts, which may also have rows, terms and loads of a
+   !> rig after them (ek_rig). Copies every number that realise, settle_design or balance sets, without allocation.
    pure subroutine copy_numbers(from, to)
       type(suspension_t), intent(in) :: from
       type(suspension_t), intent(inout) :: to
@@ -277,7 +277,7 @@ contains
       end do
    end function load_number
 
-   !> Whether no load makes the true tangent unsymmetric: none rotates with its body, none has a moment.
+   !> Whether all loads leave the true tangent symmetric: no load rotates with its body, and no load has a moment.
    pure logical function has_symmetric_loads(self)
       type(suspension_t), intent(in) :: self
       integer :: k

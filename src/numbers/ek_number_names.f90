@@ -18,7 +18,7 @@ module ek_number_names
 
 contains
 
-   !> Makes the message on unknown names.
+   !> Creates the error message on unknown names.
    subroutine explain_unknown(names, suspension, cases, error)
       character(*), intent(in) :: names(:)
       type(suspension_t), intent(in) :: suspension

@@ -139,7 +139,7 @@ contains
       call begin_table(page, heads, 'numbers')
    end subroutine begin_rows
 
-   !> Ends a table and begins a folded one with the same headings.
+   !> Ends a table and begins a folded table with the same headings.
    subroutine fold_rows(page, heads, rows, what)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: heads(:), what
@@ -221,7 +221,7 @@ contains
       call end_table(page)
    end subroutine add_results
 
-   !> Adds the table of key numbers and gradients; those that did not change are folded.
+   !> Adds the table of key numbers and gradients. Unchanged numbers are in a folded table.
    subroutine add_numbers(page, this)
       type(page_t), intent(inout) :: page
       type(comparison_t), intent(in) :: this

@@ -237,7 +237,7 @@ contains
       end do
    end subroutine add_figures
 
-   !> Adds the best and the worst designs, with the numbers that make them.
+   !> Adds the best and the worst designs, with their factor values.
    subroutine add_extremes(page, study)
       type(page_t), intent(inout) :: page
       type(study_data_t), intent(in) :: study

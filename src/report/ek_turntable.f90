@@ -49,7 +49,7 @@ module ek_turntable
 
 contains
 
-   !> Makes the turntable of a report; not allocated if nothing moves.
+   !> Creates the turntable of a report; not allocated if no body moves.
    subroutine make_turntable(suspension, tests, paths, table)
       type(suspension_t), intent(in) :: suspension
       type(test_result_t), intent(in) :: tests(:)

@@ -13,7 +13,7 @@ module ek_text_table
 
    character(*), parameter :: line_end = new_line('a')
 
-   !> A text of its own length.
+   !> A string with its own length.
    type :: cell_t
       character(:), allocatable :: text
    end type cell_t

@@ -40,7 +40,7 @@ module ek_condition_solver
 
 contains
 
-   !> Solves the conditions, and leaves the workspace with the numbers found. Makes texts.
+   !> Solves the conditions; the workspace then contains the numbers found. Creates strings.
    subroutine solve_conditions(unknowns, wanted, targets, max_sweeps, workspace, found, error)
       type(unknown_t), intent(in) :: unknowns(:)
       type(wanted_number_t), intent(in) :: wanted(:)

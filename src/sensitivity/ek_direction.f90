@@ -111,8 +111,8 @@ contains
       end associate
    end subroutine gather
 
-   !> The direction of a factor of a study: all its numbers move together. A sign is all that a direction needs to know of the
-   !> size. The value of the factor is not set.
+   !> The direction of a factor of a study: all its numbers move together. A direction contains only the sign of the change. The
+   !> value of the factor is not set.
    function factor_direction(design, name, paths) result(direction)
       type(design_t), intent(in) :: design
       character(*), intent(in) :: name

@@ -194,7 +194,7 @@ contains
       elements(change%elements%element) = .true.
    end subroutine mark_parts
 
-   !> Whether the numbers of a wheel from which its attitude follows are the same.
+   !> Whether two wheels have the same numbers that define their attitude.
    elemental logical function same_wheel(a, b)
       type(wheel_t), intent(in) :: a, b
       same_wheel = .not. (any(abs(a%centre - b%centre) > 0.0_wp) .or. any(abs(a%contact - b%contact) > 0.0_wp) .or. &

@@ -42,7 +42,7 @@ module ek_study_slopes
 
 contains
 
-   !> Solves the cases at the numbers of the deck and prepares their derivatives. Makes texts.
+   !> Solves the cases with the numbers of the deck and prepares their derivatives. Creates strings.
    subroutine begin_study_slopes(study, deck, designer, self, error)
       type(study_t), intent(in) :: study
       type(deck_t), intent(in) :: deck

@@ -177,8 +177,8 @@ contains
       end if
    end function value_at
 
-   !> The polynomial through some points (Lagrange); at one of them its value to the bit. Where two points have the same x, the
-   !> value of the first.
+   !> The value at `at` of the polynomial through the given points (Lagrange). At a point, its y with the same bits; if two points
+   !> have the same x, the y of the first.
    pure real(wp) function polynomial(x, y, at) result(value)
       real(wp), intent(in) :: x(:), y(:), at
       real(wp) :: weight

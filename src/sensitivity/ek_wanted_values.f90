@@ -49,7 +49,7 @@ module ek_wanted_values
 
 contains
 
-   !> Solves the needed cases at the present numbers of the workspace and prepares their derivatives. Makes texts.
+   !> Solves the required cases with the current numbers of the workspace and prepares their derivatives. Creates strings.
    subroutine begin_values(wanted, directions, workspace, self, error)
       type(wanted_number_t), intent(in) :: wanted(:)
       type(direction_t), intent(in) :: directions(:)

@@ -1,4 +1,4 @@
-!> The processes (ranks) that compute one study together, started by mpirun or srun; without such a launcher, one.
+!> The processes (ranks) that compute one study together, started by mpirun or srun. Without a launcher there is one process.
 !>
 !> MPI is called only if the environment shows a launcher, so that a usual run neither starts nor waits for it. The ranks share
 !> counters, which lie in the memory of rank 0: the work is distributed by tickets in the order of requests. The procedures may be

@@ -149,7 +149,7 @@ contains
       end if
    end subroutine mark_states
 
-   !> Marks the states from which `between` takes the value at x = at.
+   !> Marks the states from which `between` interpolates the value at x = at.
    pure subroutine mark_neighbours(x, at, is_read)
       real(wp), intent(in) :: x(:), at
       logical, intent(inout) :: is_read(:)

@@ -92,7 +92,7 @@ contains
       path = join_path(program_folder(), helper_name)
    end function helper
 
-   !> Writes the store from the chunks: the whole file, or none.
+   !> Writes the store from the chunks: the complete file, or no file.
    subroutine write_store(study, plan, out, texts, counts, error)
       type(study_t), intent(in) :: study
       type(study_plan_t), intent(in) :: plan

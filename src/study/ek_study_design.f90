@@ -110,7 +110,7 @@ contains
       call add_cause(cause, causes)
    end subroutine finish_design
 
-   !> Solves a design that is read from the deck with its factors as settings, with a workspace of its own.
+   !> Solves a design that is read from the deck with its factors as settings, in a separate workspace.
    subroutine solve_from_text(study, deck, designer, k, chunk)
       type(study_t), intent(in) :: study
       type(deck_t), intent(in) :: deck
@@ -206,7 +206,7 @@ contains
       if (is_whole) is_whole = all(result%path%failure%state == 0)
    end function is_whole
 
-   !> Inserts the states of a design after those of the designs before it; columns that its model does not define are nan.
+   !> Inserts the states of a design after the states of the previous designs. Columns that its model does not define are NaN.
    pure subroutine take_curves(study, table, k, chunk)
       type(study_t), intent(in) :: study
       type(table_t), intent(in) :: table

@@ -66,7 +66,7 @@ contains
       name = tables_of(study%name, 2)
    end function curves_name
 
-   !> Writes both tables as CSV: the whole files, or none.
+   !> Writes both tables as CSV: complete files, or no file.
    !>
    !> gnuplot needs an empty line after every curve, and in the table of responses after every block of a grid.
    subroutine write_tables(study, plan, out, counts, error)
