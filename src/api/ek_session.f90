@@ -47,7 +47,7 @@ module ek_session
       ! ek_session_numbers
       class(named_numbers_t), allocatable :: named  !! key numbers requested last
       character(name_length), allocatable :: names(:)
-      logical :: is_named_ready = .false.           !! the numbers were read before: a further reading makes no text
+      logical :: is_named_ready = .false.           !! the numbers were read before: a further reading creates no strings
    end type session_t
 
 contains

@@ -30,7 +30,7 @@ module ek_quantity
    real(wp), parameter :: fine = 0.05_wp, middle = 1.0_wp, wide = 10.0_wp
    character(*), parameter :: inward = '+ top inward', outward = '+ top outward', rearward = '+ top rearward', &
       right = '+ patch moves with the force', to_left = '+ to the left', under = ' under a force to the right', &
-      parallel = ', in phase, *', at_centre = 'at the wheel centre', body_down = '+ body moves down', &
+      in_phase = ', in phase, *', at_centre = 'at the wheel centre', body_down = '+ body moves down', &
       body_up = '+ body moves up', shortest = 'shortest distance'
 
    type(quantity_t), parameter, public :: wheel_position(*) = [ &
@@ -97,14 +97,14 @@ module ek_quantity
 
    ! twice: load_held: constant vertical forces; height_held: constant heights of the wheel centres
    type(quantity_t), parameter, public :: wheel_forces(*) = [ &
-      quantity_t('lateral_in_*_deflection_mm_per_kn', matrix, 'Lateral deflection'//parallel, right, 0.02_wp), &
+      quantity_t('lateral_in_*_deflection_mm_per_kn', matrix, 'Lateral deflection'//in_phase, right, 0.02_wp), &
       quantity_t('lateral_in_*_centre_deflection_mm_per_kn', matrix), &
-      quantity_t('lateral_in_*_steer_deg_per_kn', matrix, 'Lateral force steer'//parallel, to_left//under, 0.002_wp), &
-      quantity_t('lateral_in_*_camber_deg_per_kn', matrix, 'Lateral force camber'//parallel, outward//under, 0.002_wp), &
+      quantity_t('lateral_in_*_steer_deg_per_kn', matrix, 'Lateral force steer'//in_phase, to_left//under, 0.002_wp), &
+      quantity_t('lateral_in_*_camber_deg_per_kn', matrix, 'Lateral force camber'//in_phase, outward//under, 0.002_wp), &
       quantity_t('lateral_in_trail_*_deflection_mm_per_kn', matrix), &
       quantity_t('lateral_in_trail_*_centre_deflection_mm_per_kn', matrix), &
       quantity_t('lateral_in_trail_*_steer_deg_per_kn', matrix), quantity_t('lateral_in_trail_*_camber_deg_per_kn', matrix), &
-      quantity_t('aligning_in_*_steer_deg_per_100nm', matrix, 'Aligning torque steer'//parallel, &
+      quantity_t('aligning_in_*_steer_deg_per_100nm', matrix, 'Aligning torque steer'//in_phase, &
       '+ to the left under a torque to the left'), &
       quantity_t('aligning_in_*_camber_deg_per_100nm', matrix), &
       quantity_t('lateral_anti_*_deflection_mm_per_kn', own), quantity_t('lateral_anti_*_centre_deflection_mm_per_kn', own), &

@@ -47,12 +47,12 @@ module ek_rig_test
       real(wp) :: shares(2) = 0.0_wp         !! moves_heights: height per swept value, left and right
       real(wp) :: force(3) = 0.0_wp          !! loads_wheels: force and moment per swept value, at the left contact point
       real(wp) :: moment(3) = 0.0_wp
-      logical :: is_at_centre = .false.      !! the force acts at the wheel centre, except in a solid axle that takes the torque
+      logical :: is_at_centre = .false.      !! the force acts at the wheel centre, except in a solid axle that carries the torque
       logical :: has_phase = .false.         !! the load on the right wheel may be reversed
       logical :: has_trail = .false.         !! the force may act aft of the contact point, at `offset`
       integer :: place = 0                   !! among the standard tests; 0: none of them
       logical :: is_on_request = .false.     !! a standard test that runs only if it is requested by name
-      integer :: phases = 1                  !! 2: the standard tests contain it in parallel and opposed
+      integer :: phases = 1                  !! 2: the standard tests contain it in phase and anti-phase
       real(wp) :: reach = 0.0_wp             !! of the standard test: from −reach to reach, in `unit`
       integer :: increments = 40             !! likewise
       character(9) :: prefix = ''            !! of the names of its gradients

@@ -33,7 +33,7 @@ contains
    subroutine write_deck_as_used(deck, path, error)
       type(deck_t), intent(in) :: deck                     !! without errors
       character(*), intent(in) :: path
-      type(error_t), allocatable, intent(out) :: error     !! exit_usage, exit_file; exit_deck if it has errors
+      type(error_t), allocatable, intent(out) :: error     !! exit_usage, exit_file; exit_deck if the deck has errors
       type(table_t), allocatable :: tables(:)
       character(:), allocatable :: text, content
       integer :: k
@@ -76,7 +76,7 @@ contains
    subroutine deck_as_used(deck, text, error)
       type(deck_t), intent(in) :: deck
       character(:), allocatable, intent(out) :: text
-      type(error_t), allocatable, intent(out) :: error     !! exit_deck: it has errors
+      type(error_t), allocatable, intent(out) :: error     !! exit_deck: the deck has errors
       type(table_t), allocatable :: tables(:)
 
       call make_text(deck, '', text, tables, error)

@@ -39,7 +39,7 @@ module ek_parameter
    !> A parameter to which a path leads.
    type :: choice_t
       integer :: number = 0
-      real(wp) :: sign = 1.0_wp           !! −1: it takes the opposite of the value written to the path
+      real(wp) :: sign = 1.0_wp           !! −1: the number is minus the value written to the path
    end type choice_t
 
    !> A path, split; without a name for a group that has none.

@@ -17,7 +17,7 @@ module ek_scanner
    private
    public :: scan_text, scan_values
 
-   integer, parameter :: max_repeats = 1000   !! n in n*value; no key takes so many values
+   integer, parameter :: max_repeats = 1000   !! n in n*value; no key accepts so many values
 
 contains
 

@@ -20,7 +20,7 @@ module ek_gum
       real(wp) :: stiffness(3) = 0.0_wp       !! about each axis [N m/rad]
       logical :: has_stiffness(3) = .false.
       integer :: axis = 0                     !! of the last list
-      integer :: flag = -1                    !! 0: the negative side is the image of the positive one; 1: it has its own numbers
+      integer :: flag = -1                    !! 0: the negative side is the image of the positive one; 1: it has separate numbers
    end type gum_t
 
 contains

@@ -6,10 +6,10 @@
 !>
 !>     value = size · s_y/s_x · slope
 !>
-!> where `size` converts the unit (per m, per kN, per 100 N m) and the signs depend on the side of the wheel:
-!> steer is positive to the left on both wheels (s_y = side for toe), and with opposed loads (anti phase) x is the force on
-!> the wheel itself. These are the signs of the columns of the compliance matrix: in a small window the fitted slope equals the
-!> column, on either wheel. Only in steering is the input mirrored on the right wheel (s_x): positive towards the side of the wheel.
+!> where `size` converts the unit (per m, per kN, per 100 N m) and the signs depend on the side of the wheel: steer is positive to
+!> the left on both wheels (s_y = side for toe), and with anti-phase loads x is the force on the wheel itself. These are the signs
+!> of the columns of the compliance matrix: in a small window the fitted slope equals the column, on either wheel. Only in
+!> steering is the input mirrored on the right wheel (s_x): positive towards the side of the wheel.
 !>
 !> A column whose change over the window does not exceed the tolerance of Newton and rounding has the slope 0.
 module ek_gradient
@@ -139,7 +139,7 @@ contains
       integer, intent(in) :: place, over           !! of the columns
       real(wp), intent(in) :: factor_size          !! load or displacement at `factor` = 1, if that is the abscissa
       real(wp), intent(in) :: half                 !! of the window
-      real(wp), intent(out) :: slope               !! not a number if it has too few states, or the column is undefined at one
+      real(wp), intent(out) :: slope               !! NaN if the window has too few states, or a value is undefined
       integer, intent(out) :: points               !! states in the window at which the column is defined
       integer, intent(out), optional :: undefined  !! states in the window at which y is not a number
       logical :: is_good(row_count(table))

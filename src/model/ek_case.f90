@@ -63,7 +63,7 @@ module ek_case
       ! a test of the rig, see ek_rig
       character(:), allocatable :: test     !! name of the test; not allocated or empty: none
       character(:), allocatable :: vertical !! how wheels are held: 'centre', 'patch', 'road', 'force'; '': default of the test
-      logical :: is_anti = .false.          !! opposed: the load on the right wheel is reversed
+      logical :: is_anti = .false.          !! anti-phase: the load on the right wheel is reversed
       real(wp) :: offset = 0.0_wp           !! trail of a lateral force aft of the contact point [m]
       character(:), allocatable :: file     !! name of a load table
       type(load_table_t) :: table           !! its content

@@ -70,7 +70,7 @@ module ek_suspension
       real(wp) :: drive_share = 1.0_wp    !! share of the car's driving force that acts on THIS axle, 0 to 1
       real(wp) :: front_overhang = 0.0_wp !! front corner of the car ahead of the wheels [m]; 0: not given
       real(wp) :: front_width = 0.0_wp    !! width of the car at its front corners [m]; given together with front_overhang
-      logical :: drives_at_patch = .false.   !! the axle takes the drive torque (solid axle): driving force acts at contact point;
+      logical :: drives_at_patch = .false.   !! the axle carries the drive torque (solid axle): driving force acts at contact point;
                                              !! otherwise (independent suspension) at the wheel centre
    end type axle_t
 

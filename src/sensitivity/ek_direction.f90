@@ -20,7 +20,7 @@ module ek_direction
 
    !> A number of the deck, and the numbers that change with it.
    type :: direction_t
-      character(:), allocatable :: path, unit        !! as --set takes it; 'N/mm', '' where there is none
+      character(:), allocatable :: path, unit        !! as written in --set; 'N/mm', '' if there is no unit
       type(choice_t), allocatable :: found(:)        !! the parameters, with their signs
       real(wp) :: value = 0.0_wp                     !! in the deck, in its unit
       real(wp) :: si = 1.0_wp                        !! SI value of the unit
