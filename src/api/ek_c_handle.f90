@@ -31,7 +31,7 @@ module ek_c_handle
    end type handle_t
 
    interface
-      !> Length of a C text.
+      !> The length of a C string [bytes], without its final NUL.
       integer(c_size_t) function strlen(text) bind(c, name='strlen')
          import :: c_ptr, c_size_t
          implicit none(type, external)
@@ -160,7 +160,7 @@ contains
       end if
    end function refuse
 
-   !> A text for the caller.
+   !> The address of a copy of a string for the caller, which the handle stores.
    type(c_ptr) function say(handle, text) result(address)
       type(handle_t), pointer, intent(in) :: handle
       character(*), intent(in) :: text

@@ -24,7 +24,7 @@ module ek_design_numbers
       integer :: turn = 0                  !! order of setting; 0: not set
    end type path_setting_t
 
-   !> Present numbers.
+   !> The current numbers of a design, with their changes.
    type :: design_numbers_t
       real(wp), allocatable :: x(:)                 !! of all parameters [SI, axes of the deck]
       real(wp), allocatable :: value(:)             !! the same in the units of the deck, as the deck or the caller wrote them

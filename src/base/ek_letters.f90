@@ -175,7 +175,7 @@ contains
       end select
    end function is_hidden
 
-   !> Two hexadecimal digits.
+   !> A byte as two hexadecimal digits.
    pure function byte_text(byte) result(digits)
       integer, intent(in) :: byte
       character(2) :: digits

@@ -100,7 +100,7 @@ contains
       if (status /= 0) number = 0
    end subroutine read_number
 
-   !> '--out' of '--out DIR'.
+   !> The name of an option: '--out' of '--out DIR'.
    elemental character(15) function option_name(option) result(name)
       type(option_t), intent(in) :: option
       name = option%label(:index(option%label, ' ') - 1)

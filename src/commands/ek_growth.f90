@@ -28,7 +28,7 @@ module ek_growth
    integer, parameter :: rounds = 15              !! walks of each chain; the shortest counts
    real(wp), parameter :: patience = 1.0_wp       !! s: a chain that took so long is not walked again
 
-   !> One size of the chain.
+   !> The times and the memory for one size of the chain.
    type :: size_t
       integer :: n = 0, bodies = 0
       integer :: nonzeros = 0, length = 0         !! entries of the matrix; numbers of its factors by plan
@@ -130,7 +130,7 @@ contains
       close (unit, iostat=k)
    end function peak_memory
 
-   !> The sizes as lines.
+   !> The results of all sizes as lines of text.
    function table_of(sizes) result(text)
       type(size_t), intent(in) :: sizes(:)
       character(:), allocatable :: text

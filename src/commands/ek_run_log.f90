@@ -84,7 +84,7 @@ contains
       call file%close()
    end subroutine drop_log
 
-   !> Appends the record.
+   !> Appends the record of the run to the log.
    subroutine end_log(program, status, error)
       character(*), intent(in) :: program                     !! name, version and commit
       integer, intent(in) :: status                           !! exit status

@@ -74,7 +74,7 @@ contains
       if (.not. line%has('--accept-failed')) call fail(error, exit_convergence, list)
    end subroutine write_results
 
-   !> Writes out/<study>.csv.
+   !> Writes the table out/<study>.csv of a step-size study.
    subroutine write_step_size(study, deck, out, tables, error)
       type(study_t), intent(in) :: study
       type(deck_t), intent(in) :: deck

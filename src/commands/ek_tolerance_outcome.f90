@@ -105,7 +105,7 @@ contains
       end associate
    end subroutine add_response
 
-   !> A number in its column.
+   !> A number, padded with blanks to the width of its column.
    function number(value, digits) result(text)
       real(wp), intent(in) :: value
       integer, intent(in), optional :: digits
@@ -118,7 +118,7 @@ contains
       if (ieee_is_finite(value)) text = right(str(value, many), width)
    end function number
 
-   !> '97.3 %'
+   !> A share in percent: '97.3 %'.
    function percent(share) result(text)
       real(wp), intent(in) :: share
       character(:), allocatable :: text

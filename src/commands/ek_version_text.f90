@@ -24,7 +24,7 @@ module ek_version_text
 
 contains
 
-   !> 'elastokin 0.1.0 (commit 0c4ac0af68fa)'
+   !> The program with version and commit: 'elastokin 0.1.0 (commit 0c4ac0af68fa)'.
    pure function program_name(build) result(text)
       type(build_t), intent(in) :: build
       character(:), allocatable :: text

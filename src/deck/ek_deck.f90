@@ -32,7 +32,7 @@ module ek_deck
       character(:), allocatable :: path, text
    end type setting_t
 
-   !> The parsed deck.
+   !> A parsed deck: text, records, settings, and every file that it names.
    type :: deck_t
       character(:), allocatable :: file          !! as given by the user, for messages
       type(record_t), allocatable :: records(:)  !! the first `used` are filled, in the order of the text

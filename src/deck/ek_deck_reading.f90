@@ -137,7 +137,7 @@ contains
       end associate
    end function raw
 
-   !> A text.
+   !> The string of a key, or its default.
    pure function text_of(reading, key, default) result(text)
       type(deck_reading_t), intent(in) :: reading
       character(*), intent(in) :: key
@@ -185,7 +185,7 @@ contains
       values = [(number_of(reading, key, 0.0_wp, k), k=1, most)]
    end function numbers_of
 
-   !> A integer.
+   !> The integer of a key, or its default.
    integer function whole_of(reading, key, default, at) result(value)
       type(deck_reading_t), intent(in) :: reading
       character(*), intent(in) :: key

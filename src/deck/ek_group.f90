@@ -343,7 +343,7 @@ contains
       end do
    end subroutine find_key
 
-   !> "bushing 'top_mount': "
+   !> The begin of a message on a record: "bushing 'top_mount': ".
    pure function record_head(group, name) result(head)
       integer, intent(in) :: group
       character(*), intent(in) :: name     !! '' if the record has no name

@@ -127,7 +127,7 @@ contains
       words = trim(key%name)//words//' '//range_text(key%range, key%unit, str(value))
    end function out_of_range
 
-   !> 'needs 3 values'
+   !> The number of values that a key requires: 'needs 3 values'.
    pure function needs(key) result(words)
       type(key_t), intent(in) :: key
       character(:), allocatable :: words

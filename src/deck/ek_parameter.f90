@@ -17,7 +17,7 @@ module ek_parameter
    public :: all_in_range, parameter_path, value_path
    public :: path_t, split_path, is_meant, change_t, changed
 
-   !> One number of the deck.
+   !> One number of the deck as a parameter of the model.
    type :: parameter_t
       integer :: record = 0               !! number of its record in the mirrored deck
       character(14) :: key = ''
@@ -249,7 +249,7 @@ contains
       all_in_range = .true.
    end function all_in_range
 
-   !> 'point.tie_rod_inner.z', 'bushing.top_mount.kt(1)', 'axle.wheelbase'.
+   !> The path of a parameter: 'point.tie_rod_inner.z', 'bushing.top_mount.kt(1)', 'axle.wheelbase'.
    function parameter_path(this, records, is_of_pair) result(path)
       type(parameter_t), intent(in) :: this
       type(record_t), intent(in) :: records(:)

@@ -186,7 +186,7 @@ contains
       call fail(error, exit_deck, reading%deck_errors%text())
    end subroutine read_targets
 
-   !> Reads the record being read.
+   !> Reads the current record by the reader of its group.
    subroutine read_record(reading)
       type(deck_reading_t), intent(inout) :: reading
 

@@ -15,7 +15,7 @@ module ek_motion_text
 
 contains
 
-   !> ' (file:line)', or empty.
+   !> The location ' (file:line)', or '' if it is not known.
    pure function place(where) result(text)
       character(*), intent(in) :: where
       character(:), allocatable :: text

@@ -17,7 +17,7 @@ module ek_plan_factors
 
    integer, parameter :: several = 6       !! right-hand sides solved together: the loads on a body; they fit in registers
 
-   !> Data of a factorisation.
+   !> Properties of a factorisation: inertia, eigenvalues of D, determinant, growth.
    type :: soundness_t
       real(num) :: negative = zero            !! number of negative eigenvalues (Sylvester's law: of D)
       real(num) :: least = zero, most = zero    !! |eigenvalues| of D

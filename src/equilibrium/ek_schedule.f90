@@ -11,7 +11,7 @@ module ek_schedule
    private
    public :: schedule_t, new_schedule, make_schedule, inputs_at, same_schedule
 
-   !> An actuation without its names.
+   !> An actuation with indices in place of names.
    type :: actuator_t
       integer :: law = 0                      !! of ek_case
       real(wp) :: share = 1.0_wp

@@ -176,7 +176,7 @@ contains
       end select
    end function of_wheel
 
-   !> The value of an axle.
+   !> The value of the parameter `name` for an axle.
    function of_axle(map, name) result(value)
       type(kandc_map_t), intent(in) :: map
       character(*), intent(in) :: name
@@ -235,7 +235,7 @@ contains
       if (table%is_change) y = y - at_design(map, side, table%quantity)/table%unit
    end subroutine curve_of
 
-   !> The script.
+   !> The parameters as a MATLAB script.
    function mathworks_script(p) result(text)
       type(kandc_parameters_t), intent(in) :: p
       character(:), allocatable :: text

@@ -187,7 +187,7 @@ contains
       text = deck%text()//commented(element%text())
    end subroutine import_law
 
-   !> Every line as a comment.
+   !> A text with every line as a comment of a deck.
    function commented(text) result(lines)
       character(*), intent(in) :: text
       character(:), allocatable :: lines

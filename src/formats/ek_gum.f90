@@ -13,7 +13,7 @@ module ek_gum
 
    character(*), parameter :: axes = 'xyz'
 
-   !> The content of a file.
+   !> The content of a .gum file.
    type :: gum_t
       type(law_points_t) :: halves(2, 3)      !! (positive or negative side, axis); y is 0 until the forces are read
       integer :: force_line(2, 3) = 0

@@ -20,7 +20,7 @@ module ek_kin_deck
 
 contains
 
-   !> Writes the deck.
+   !> Writes the axle of a .kin file as a deck.
    subroutine kin_deck(kin, mounts, source, text, flaws)
       type(kin_t), intent(in) :: kin
       type(mount_law_t), intent(in) :: mounts(:)

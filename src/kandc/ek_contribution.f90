@@ -37,7 +37,7 @@ module ek_contribution
       integer :: part = geometric       !! law 1 to 6 of an element; geometric; of_stiffness: of a driver
    end type share_t
 
-   !> The shares at one state.
+   !> The contributions to the compliance matrix at one state.
    type :: contribution_t
       type(share_t), allocatable :: share(:)
       integer, allocatable :: law(:)               !! share of each law of an element

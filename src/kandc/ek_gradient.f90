@@ -166,7 +166,7 @@ contains
       noise = noises(findloc(endings == column(index(column, '_', back=.true.):), .true., dim=1))
    end function noise_of
 
-   !> s_y/s_x of a wheel.
+   !> The sign s_y/s_x of a wheel in a gradient, −1 or 1.
    pure real(wp) function turn_of(test, definition, side) result(turn)
       type(test_result_t), intent(in) :: test
       type(definition_t), intent(in) :: definition

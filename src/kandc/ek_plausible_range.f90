@@ -25,7 +25,7 @@ module ek_plausible_range
 
    real(wp), parameter :: pound = 4.4482216_wp      !! N
 
-   !> In order of likelihood.
+   !> The units to which a value may belong, in order of likelihood.
    type(unit_t), parameter :: units_tried(*) = [ &
       unit_t(length, 'm', 1.0_wp), unit_t(length, 'mm', 1.0e-3_wp), unit_t(length, 'inches', 0.0254_wp), &
       unit_t(length, 'cm', 0.01_wp), &

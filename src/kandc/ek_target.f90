@@ -251,7 +251,7 @@ contains
       call fail(error, exit_deck, 'the results have no column '//quoted(name)//hint)
    end subroutine find_column
 
-   !> Names, one after the other.
+   !> Names with a separator between them.
    pure function listed(names, between) result(text)
       character(*), intent(in) :: names(:), between
       character(:), allocatable :: text

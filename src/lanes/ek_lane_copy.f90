@@ -26,7 +26,7 @@ module ek_lane_copy
    private
    public :: set_lane
 
-   !> set_lane(thing of lanes, lane, thing)
+   !> set_lane(value of lanes, lane, value of one design): sets one lane.
    interface set_lane
       procedure :: set_number, set_pose, set_measure, set_curve, set_law, set_bushing, set_element, set_row, set_term, set_load
    end interface set_lane

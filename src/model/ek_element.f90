@@ -44,7 +44,7 @@ module ek_element
    ! shapes in pictures
    integer, parameter :: no_shape = 0, coil_shape = 1, damper_shape = 2, stop_shape = 3, bushing_shape = 4
 
-   !> The properties of a kind.
+   !> The properties of a kind of element.
    type :: element_kind_t
       character(8) :: label       !! in messages: the group of the deck
       character(20) :: one, many  !! counted by `check`, in the order of the table; '': not counted

@@ -10,7 +10,7 @@ module ek_element_label
 
 contains
 
-   !> "spring 'coil'"
+   !> The group and name of an element for messages: "spring 'coil'".
    pure function element_label(element) result(text)
       type(element_t), intent(in) :: element
       character(:), allocatable :: text

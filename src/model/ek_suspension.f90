@@ -34,7 +34,7 @@ module ek_suspension
       logical :: is_used = .false.
    end type point_t
 
-   !> A wheel on its carrier.
+   !> A wheel with its points, angles and tyre, on its carrier.
    type :: wheel_t
       character(:), allocatable :: name, where
       integer :: body = 0
@@ -196,7 +196,7 @@ contains
       to%steer_axis = from%steer_axis
    end subroutine copy_wheel
 
-   !> The length of Δq.
+   !> The number of unknowns of the bodies, the length of Δq.
    pure integer function unknowns(self)
       class(suspension_t), intent(in) :: self
       unknowns = 6*size(self%bodies)

@@ -80,7 +80,7 @@ contains
          "cannot write '"//path//"': "//trim(nf90_strerror(file%fault)))
    end subroutine write_store_file
 
-   !> Records the first fault.
+   !> Records the first error of the NetCDF library.
    subroutine note(fault, status)
       integer, intent(inout) :: fault
       integer, intent(in) :: status
@@ -97,7 +97,7 @@ contains
          .and. chunk%first + size(chunk%status) - 1 <= store%designs
    end function fits
 
-   !> Variables of a role.
+   !> The number of variables with a role.
    pure integer function count_of(store, role)
       type(store_t), intent(in) :: store
       character(*), intent(in) :: role
@@ -185,7 +185,7 @@ contains
 
    end subroutine define
 
-   !> 'solved incomplete …'
+   !> The meanings of the status flags: 'solved incomplete …'.
    pure function flag_meanings() result(text)
       character(:), allocatable :: text
       integer :: k

@@ -24,7 +24,7 @@ module ek_compare_page
 
 contains
 
-   !> compare.html
+   !> The text of the page compare.html.
    function page_of(this, why_none) result(text)
       type(comparison_t), intent(in) :: this
       character(*), intent(in) :: why_none          !! why there are no pictures; '' if there is no message
@@ -114,7 +114,7 @@ contains
       if (size(list) > most_rows) call add_markup(page, '</details>')
    end subroutine add_values
 
-   !> '(both sides)', or nothing.
+   !> A note in brackets, as '(both sides)'; '' for an empty note.
    pure function bracketed(words) result(text)
       character(*), intent(in) :: words
       character(:), allocatable :: text

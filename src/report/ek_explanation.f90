@@ -21,7 +21,7 @@ module ek_explanation
 
    integer, parameter :: shown = 10      !! contributions of a column
 
-   !> A column at design.
+   !> A column at design with its contributions.
    type :: explanation_t
       character(:), allocatable :: title, column, unit
       real(wp) :: value = 0.0_wp

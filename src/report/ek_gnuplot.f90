@@ -56,7 +56,7 @@ contains
       call run_gnuplot(scripts, pictures, folder, message, error)
    end subroutine draw_figures
 
-   !> The script as text.
+   !> The gnuplot script of a figure.
    pure function figure_script(figure) result(text)
       type(figure_t), intent(in) :: figure
       character(:), allocatable :: text

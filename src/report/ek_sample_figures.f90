@@ -27,7 +27,7 @@ contains
       if (every > 1) words = '; one in '//str(every)//' of the '//str(of)//' designs is drawn'
    end function thinned
 
-   !> '; 9 of 12 responses'
+   !> A note on omitted responses for a subtitle: '; 9 of 12 responses'.
    pure function cut(drawn, of, what) result(words)
       integer, intent(in) :: drawn, of
       character(*), intent(in) :: what

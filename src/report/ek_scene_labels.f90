@@ -70,7 +70,7 @@ contains
       end do
    end subroutine place_in_scene
 
-   !> Letters of a UTF-8 text.
+   !> The number of characters of a UTF-8 string.
    pure integer function letters_in(text)
       character(*), intent(in) :: text
       integer :: k

@@ -27,7 +27,7 @@ module ek_step_page
 
 contains
 
-   !> The page as text.
+   !> The text of the page of a step-size study.
    function step_page(title, name, deck, case, table, folder, message) result(text)
       character(*), intent(in) :: title, name, deck, case     !! of the study; the title may be ''
       type(text_table_t), intent(in) :: table                 !! of the study

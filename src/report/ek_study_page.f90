@@ -22,7 +22,7 @@ module ek_study_page
 
 contains
 
-   !> '<study>.html'
+   !> The file name of the page: '<study>.html'.
    pure function page_name(study) result(name)
       type(study_data_t), intent(in) :: study
       character(:), allocatable :: name
@@ -79,7 +79,7 @@ contains
       any_limit = any(study%responses%lower > -huge(1.0_wp) .or. study%responses%upper < huge(1.0_wp))
    end function any_limit
 
-   !> '97.3 %'
+   !> A share in percent: '97.3 %'.
    pure function share(part, whole) result(text)
       integer, intent(in) :: part, whole
       character(:), allocatable :: text

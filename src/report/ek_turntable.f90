@@ -138,7 +138,7 @@ contains
 
    end subroutine add_links
 
-   !> Adds circles of the tread.
+   !> Adds the circles of the tyre treads.
    subroutine add_wheels(suspension, lines)
       type(suspension_t), intent(in) :: suspension
       type(fixed_line_t), allocatable, intent(inout) :: lines(:)

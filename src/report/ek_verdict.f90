@@ -14,7 +14,7 @@ module ek_verdict
    private
    public :: verdict_t, verdict_lines, plain
 
-   !> One line.
+   !> One line of the verdict.
    type :: verdict_t
       character(24) :: domain = ''
       character(:), allocatable :: text

@@ -22,7 +22,7 @@ module ek_condition_solver
       real(wp) :: lower = 0.0_wp, upper = 0.0_wp     !! in its unit
    end type unknown_t
 
-   !> The result of the search.
+   !> The result of the search: unknowns, values before and after, effects and conflicts.
    type :: findings_t
       real(wp), allocatable :: x(:)                  !! of the unknowns, in their units
       integer, allocatable :: held(:)                !! −1, +1: an unknown stays at its lower or upper bound; 0: between them

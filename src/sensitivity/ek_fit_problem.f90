@@ -18,7 +18,7 @@ module ek_fit_problem
    private
    public :: fit_problem_t, fit_variable_t, fit_point_t, make_problem
 
-   !> A factor.
+   !> A factor of a fit.
    type :: fit_variable_t
       character(:), allocatable :: name
       type(direction_t) :: direction

@@ -21,21 +21,21 @@ module ek_part_change
 
    real(wp), parameter :: rounding = 1.0e-6_wp             !! N, N m: smaller corners of preloads are not looked for
 
-   !> Of a term: ∂(number)/∂p.
+   !> The changes of a term of a row: ∂(number)/∂p.
    type :: term_change_t
       integer :: term = 0, row = 0
       logical :: is_touched = .false., has_arms = .false., has_directions = .false.
       real(wp) :: arms(6) = 0.0_wp, u(3) = 0.0_wp, v(3) = 0.0_wp, coefficient = 0.0_wp
    end type term_change_t
 
-   !> The change of a row.
+   !> The changes of the numbers of a row.
    type :: row_change_t
       integer :: row = 0
       logical :: is_touched = .false.
       real(wp) :: target = 0.0_wp, compliance = 0.0_wp
    end type row_change_t
 
-   !> The change of an element.
+   !> The changes of the numbers of an element.
    type :: element_change_t
       integer :: element = 0
       logical :: is_touched = .false., has_arms = .false., has_directions = .false., has_stiffness = .false., has_load = .false.

@@ -19,7 +19,7 @@ module ek_wanted_number
    private
    public :: wanted_number_t, find_column, find_key_number, find_wanted, read_number
 
-   !> One wanted number.
+   !> One requested number.
    type :: wanted_number_t
       character(:), allocatable :: name          !! as the user gave it
       character(:), allocatable :: unit          !! 'deg', '' without one

@@ -29,7 +29,7 @@ module ek_wanted_values
    private
    public :: wanted_values_t, begin_values, find_values
 
-   !> A case that is solved.
+   !> A case that must be solved for the requested values.
    type, extends(case_slopes_t) :: needed_t
       logical :: is_used = .false.                           !! a number is read from it
    end type needed_t

@@ -26,7 +26,7 @@ module ek_chunk
    character(*), parameter :: mark = 'elastokin chunk 2'
    character(*), parameter :: line_end = new_line('a')
 
-   !> Why a design failed.
+   !> The reason why a design failed.
    type :: reason_t
       integer :: design = 0
       character(:), allocatable :: text

@@ -54,7 +54,7 @@ contains
       if (standard%is_logarithmic) x = exp(x)
    end function value_at
 
-   !> Its derivative dx/du.
+   !> The derivative dx/du of a factor with respect to its standard variable.
    pure real(wp) function slope_at(standard, u) result(slope)
       type(standard_factor_t), intent(in) :: standard
       real(wp), intent(in) :: u

@@ -134,7 +134,7 @@ contains
       end do
    end subroutine add_each
 
-   !> 'point.left_ball.z' → 'point.ball.z'
+   !> A path without its side: 'point.left_ball.z' → 'point.ball.z'.
    pure function without_side(path, name, own) result(text)
       character(*), intent(in) :: path, name, own
       character(:), allocatable :: text

@@ -165,7 +165,7 @@ contains
       if (kernels /= '') text = ', BLAS kernel '//kernels
    end function kernel_words
 
-   !> Reads chunk k.
+   !> Reads chunk k from its file.
    subroutine load_chunk(study, plan, out, k, chunk, error)
       type(study_t), intent(in) :: study
       type(study_plan_t), intent(in) :: plan
@@ -201,7 +201,7 @@ contains
       end do
    end subroutine count_chunk
 
-   !> Header lines and column names.
+   !> The header lines and the column names of a table.
    function head_of(study, plan, counts, columns) result(text)
       type(study_t), intent(in) :: study
       type(study_plan_t), intent(in) :: plan
@@ -257,7 +257,7 @@ contains
 
    end subroutine add_rows
 
-   !> The columns after the responses.
+   !> The names of the columns after the responses.
    pure function last_columns(study) result(names)
       type(study_t), intent(in) :: study
       character(name_length), allocatable :: names(:)
