@@ -36,7 +36,7 @@ contains
       !$omp end critical (ek_words)
    end subroutine copy_session
 
-   !> The deck as it was opened, then every file that it names: included files, hardpoints, properties, load tables.
+   !> The deck as opened, then every file named in the deck: included files, hardpoints, property files, load tables.
    function opened_files(session) result(files)
       type(session_t), intent(in) :: session
       type(kept_files_t) :: files

@@ -345,7 +345,7 @@ contains
       if (is_number .and. abs(x) > 0.0_wp) words = ' (write a number below 1e30)'
    end function size_hint
 
-   !> The number in a text that was checked to be one, as a list-directed `read` gives it, but ten times as fast.
+   !> The number in a string that has been checked, as a list-directed `read` would give it, but ten times as fast.
    real(wp) function checked_number(text) result(x)
       character(*), intent(in) :: text           !! no blanks in front
       logical :: is_number

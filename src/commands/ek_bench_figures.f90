@@ -13,7 +13,7 @@ module ek_bench_figures
 
    integer, parameter :: short_sweep = 20     !! increments of a design, as in a study
 
-   !> The measured values; times are of the processor, so that a busy machine does not change them.
+   !> The measured values. Times are processor times, so that a busy machine does not change them.
    type :: figures_t
       character(:), allocatable :: model, case
       integer :: increments = 0, n = 0       !! of the case; size of the matrix

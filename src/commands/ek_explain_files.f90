@@ -189,7 +189,7 @@ contains
       call json%close('}')
    end subroutine end_explain_json
 
-   !> Adds one state: the value of every column, and the contribution of every row to it.
+   !> Adds one state: the value of every column, and the contribution of every row to this column.
    subroutine add_json_state(state, factor, table, json)
       integer, intent(in) :: state
       real(wp), intent(in) :: factor

@@ -79,7 +79,7 @@ contains
       call log%checksums%add(checksum)
    end subroutine log_deck
 
-   !> Drops the record of this process: of several processes of one study the first writes it.
+   !> Drops the record of this process. If a study has several processes, the first one writes the record.
    subroutine drop_log()
       call file%close()
    end subroutine drop_log

@@ -231,7 +231,7 @@ contains
       end do
    end function escaped
 
-   !> A word between single quotes; zsh ends the word for a quote in it, fish has a backslash before it.
+   !> A word in single quotes. A quote within the word ends the quoted part in zsh, and has a backslash before it in fish.
    pure function quoted_word(text, is_fish) result(word)
       character(*), intent(in) :: text
       logical, intent(in), optional :: is_fish

@@ -105,7 +105,7 @@ contains
       text = lines%text()
    end subroutine make_text
 
-   !> Adds one record: its file and line, a line for each key, and the numbers that it does not give.
+   !> Adds one record: its file and line, a line for each key, and the numbers that the record does not give.
    subroutine add_record(record, number, parameters, kept, prefix, tables, lines)
       type(record_t), intent(in) :: record
       integer, intent(in) :: number

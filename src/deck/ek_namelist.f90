@@ -170,7 +170,7 @@ contains
       if (key%most > 1) words = '('//str(at)//')'
    end function element_text
 
-   !> 'a number, found …' if a value does not fit its type; '' if it does.
+   !> The error in a value that does not fit its type: 'a number, found …'; '' if the value fits.
    pure function value_fault(value, type) result(fault)
       type(value_t), intent(in) :: value
       integer, intent(in) :: type

@@ -347,7 +347,7 @@ contains
       end do
    end subroutine refuse_doubled_deck
 
-   !> 'line 12', or 'other.nml:12' if it is in another file.
+   !> The line of a record: 'line 12', or 'other.nml:12' if the record is in another file.
    pure function line_of_record(record, from) result(words)
       type(record_t), intent(in) :: record, from
       character(:), allocatable :: words

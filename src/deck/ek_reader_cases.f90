@@ -26,7 +26,7 @@ module ek_reader_cases
 
 contains
 
-   !> Reads one case; also one with an error, which is reported.
+   !> Reads one case. A case with an error is also read, and the error is reported.
    subroutine read_case(reading, this)
       type(deck_reading_t), intent(inout) :: reading
       type(case_t), intent(out) :: this
@@ -257,7 +257,7 @@ contains
 
    end subroutine read_drive
 
-   !> Reads a test; checks that it has all keys it needs and no others. Every error is reported.
+   !> Reads a test; checks that it has all required keys and no other keys. Every error is reported.
    subroutine read_test(reading, from, to, this, unit, steer_unit)
       type(deck_reading_t), intent(inout) :: reading
       real(wp), intent(in) :: from, to       !! in the unit of the deck
@@ -336,7 +336,7 @@ contains
 
    end subroutine read_test
 
-   !> Counts wheels: at most one wheel per side, and at least one wheel.
+   !> Counts the wheels; reports an error if there is no wheel, or more than one wheel on a side.
    subroutine count_wheels(reading, wheels)
       type(deck_reading_t), intent(inout) :: reading
       integer, intent(out) :: wheels(2)      !! index of the left and of the right wheel; 0: the deck has none

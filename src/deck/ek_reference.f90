@@ -53,7 +53,7 @@ contains
       if (group == body_group) names = [names, [character(word_length) :: 'chassis']]
    end function names_of
 
-   !> Finds the record to which a key refers; 0, with a message, if it does not exist.
+   !> Finds the record to which a key refers; 0, with a message, if there is no such record.
    subroutine look_up(reading, key, group, name, found)
       type(deck_reading_t), intent(inout) :: reading
       integer, intent(in) :: group
@@ -71,7 +71,7 @@ contains
 
    contains
 
-      !> The hint for a name of one side in a deck without &mirror; otherwise the given one.
+      !> The hint for a name of one side in a deck without &mirror; otherwise the given hint.
       function mirror_or(hint) result(words)
          character(*), intent(in) :: hint
          character(:), allocatable :: words

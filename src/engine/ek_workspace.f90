@@ -97,7 +97,7 @@ contains
       workspace%tolerance = tolerance
    end subroutine balance_once
 
-   !> Balances the suspension, once for all cases of one tolerance, with a message if no preloads hold it.
+   !> Balances the suspension, once for all cases with the same tolerance. Returns a message if no preloads hold the suspension.
    subroutine balance_or_explain(tolerance, workspace, error)
       real(wp), intent(in) :: tolerance                    !! m
       type(workspace_t), intent(inout) :: workspace        !! realised

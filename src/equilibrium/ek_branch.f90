@@ -265,7 +265,8 @@ contains
       call decide(self, step, kkt%length)
    end subroutine evaluate_closer
 
-   !> Evaluates the tangent at a; if it does not explain the step, also the tangent with the chords of bent laws.
+   !> Evaluates the tangent at a. If this tangent does not explain the step, also evaluates the tangent with the chords of bent
+   !> laws.
    subroutine evaluate_beginning(self, step, suspension, is_anew, kkt)
       type(branch_t), intent(inout) :: self
       type(step_t), intent(inout) :: step

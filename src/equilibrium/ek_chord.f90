@@ -131,7 +131,7 @@ contains
       end do
    end subroutine find_places
 
-   !> Replaces every law by its chord between two states; `is_bent`: the slope of one changes between them.
+   !> Replaces every law by its chord between two states. `is_bent`: the slope of a law changes between the states.
    pure subroutine straighten(self, suspension, a, b, is_bent)
       type(chord_t), intent(inout) :: self
       type(suspension_t), intent(in) :: suspension

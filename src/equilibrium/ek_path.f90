@@ -253,7 +253,7 @@ contains
       end if
    end subroutine keep
 
-   !> States `first` to `last` at equal distances along the path; the last is omitted if the path does not reach it.
+   !> States `first` to `last` at equal distances along the path; the last state is omitted if the path does not reach it.
    subroutine walk_arc(self, suspension, case, first, last, path, kkt, failure, progress)
       type(walk_t), intent(inout) :: self
       type(suspension_t), intent(in) :: suspension

@@ -13,7 +13,7 @@ module ek_slopes
    private
    public :: travel_curve, steer_curve, slope_at_zero, load_response_t, load_response, wheel_rate, roll_rates, zero_of
 
-   !> Slopes of one wheel under a unit of one load on it [per N, per N m].
+   !> Slopes of one wheel under a unit of one load on this wheel [per N, per N m].
    type :: load_response_t
       real(wp) :: shift(3) = 0.0_wp      !! of the wheel centre [m]
       real(wp) :: toe = 0.0_wp, camber = 0.0_wp   !! rad; toe positive: front edge inward, camber positive: top outward
@@ -65,7 +65,7 @@ contains
       slope = (before*h(2) + after*h(1))/(h(1) + h(2))
    end function slope_at_zero
 
-   !> The response of a wheel to a unit of one load on it: component 1–6 is Fx, Fy, Fz, Mx, My, Mz in ISO.
+   !> The response of a wheel to a unit of one load on this wheel: component 1–6 is Fx, Fy, Fz, Mx, My, Mz in ISO.
    pure type(load_response_t) function load_response(map, side, component, is_at_patch) result(response)
       type(kandc_map_t), intent(in) :: map
       integer, intent(in) :: side, component

@@ -66,7 +66,7 @@ contains
       if (flaws%count() > 0) call fail(error, exit_deck, flaws%text())
    end subroutine import_file
 
-   !> Converts a text as import_file does a file; errors are in `flaws`, and with them `text` is ''.
+   !> Converts a text, as import_file converts a file. Errors are in `flaws`; `text` is '' if there are errors.
    subroutine import_text(content, path, text, kind, flaws)
       character(*), intent(in) :: content, path
       character(:), allocatable, intent(out) :: text

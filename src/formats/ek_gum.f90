@@ -222,7 +222,7 @@ contains
       call finish_law(law, 'the list of '//axes(axis:axis), flaws)
    end subroutine join_halves
 
-   !> Checks that the points of one side lie on it and lead away from 0; a point at 0 is dropped.
+   !> Checks that the points of one side are on this side and lead away from 0. A point at 0 is dropped.
    subroutine finish_half(half, side, flaws)
       type(law_points_t), intent(inout) :: half
       integer, intent(in) :: side

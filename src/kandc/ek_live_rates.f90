@@ -29,7 +29,7 @@ module ek_live_rates
       logical :: is_of_angle = .false.
    end type live_rate_t
 
-   !> All of them, and the laws that have them.
+   !> All selected rates, and the laws that have these rates.
    type :: live_rates_t
       type(live_rate_t), allocatable :: rate(:)
       integer, allocatable :: of_law(:)                !! rate of each law; a rate of both sides has two laws, the left one first

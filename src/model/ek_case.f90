@@ -37,7 +37,7 @@ module ek_case
       real(wp), allocatable :: values(:)      !! N, N m, m or rad
    end type table_column_t
 
-   !> A load table as it was read with the deck; no rows: it has errors, or its file cannot be read.
+   !> A load table as read with the deck. It has no rows if it has errors or if its file cannot be read.
    type :: load_table_t
       integer :: rows = 0
       type(table_column_t), allocatable :: columns(:)

@@ -23,7 +23,7 @@ module ek_compare_charts
       logical :: is_known = .false.           !! some states can be compared
    end type chart_change_t
 
-   !> One curve of one result against the first.
+   !> The difference of a curve of one result from the curve of the first result.
    type :: curve_difference_t
       character(:), allocatable :: test, chart, title, label, curve
       integer :: result = 2

@@ -29,7 +29,8 @@ contains
       name = study%name//'.html'
    end function page_name
 
-   !> The page as HTML. It shows the figures that apply, from the folder of figures; without a folder ('') it shows no pictures.
+   !> The page as HTML. The page shows the figures that apply, from the folder of figures. Without a folder ('') it shows no
+   !> pictures.
    function study_page(study, figures, message) result(text)
       type(study_data_t), intent(in) :: study
       character(*), intent(in) :: figures            !! folder of the pictures

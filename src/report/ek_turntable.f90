@@ -76,7 +76,8 @@ contains
       end do
    end subroutine make_turntable
 
-   !> An axle is seen from its front left, one wheel from the middle of the car, ahead of it.
+   !> The first angle of view [deg]: an axle is seen from its front left, one wheel from the middle of the car, ahead of the
+   !> wheel.
    pure real(wp) function first_turn(suspension)
       type(suspension_t), intent(in) :: suspension
       real(wp) :: frame(3)

@@ -260,7 +260,7 @@ contains
       table%values = table%values(:, :rows)
    end subroutine read_csv
 
-   !> Finds the positions of the commas of a line outside quotes, and those before and after it.
+   !> Finds the positions of the commas of a line outside quotes, with the positions before the line and after the line.
    pure subroutine find_commas(content, at)
       character(*), intent(in) :: content
       integer, allocatable, intent(out) :: at(:)

@@ -91,7 +91,7 @@ contains
 
    contains
 
-      !> Records the findings: at the last point if it meets all conditions, otherwise at the best one.
+      !> Records the findings at the last point if it satisfies all conditions, otherwise at the best point.
       subroutine conclude()
          type(singular_values_t) :: parts
          real(wp), allocatable :: effect(:, :)

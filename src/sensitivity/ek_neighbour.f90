@@ -133,7 +133,7 @@ contains
       end do
    end subroutine learn_number
 
-   !> Learns the change by the points of a stencil; can_move is .false. if one of them is not a design.
+   !> Finds the change from the points of a stencil. can_move is .false. if a point is not a valid design.
    subroutine visit_neighbours(x, direction, stencil, result, points, here, self, draft, change, can_move)
       real(wp), intent(in) :: x(:)
       type(direction_t), intent(in) :: direction

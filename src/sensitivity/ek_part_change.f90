@@ -365,7 +365,7 @@ contains
       same_law = same_form(a, b) .and. .not. (abs(a%reference - b%reference) > 0.0_wp .or. abs(a%rate - b%rate) > 0.0_wp)
    end function same_law
 
-   !> Whether two laws differ by their reference at most; of one without a curve the rate is not compared where it is linear.
+   !> Whether two laws differ at most by their reference. The rate of a linear law without a curve is not compared.
    pure logical function same_form(a, b)
       type(law_t), intent(in) :: a, b
 

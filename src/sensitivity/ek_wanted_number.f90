@@ -119,7 +119,7 @@ contains
       end associate
    end subroutine find_key_number
 
-   !> Reads the value of a wanted number from the tables of its cases; not a number if it has no value in them.
+   !> Reads the value of a requested number from the tables of its cases; NaN if the tables give no value.
    subroutine read_number(wanted, source, table, value)
       type(wanted_number_t), intent(in) :: wanted
       integer, intent(in) :: source                        !! of a key number that is read

@@ -74,7 +74,7 @@ contains
    end subroutine start_ranks
 
 #ifndef EK_MPI
-   !> Why this program does not go on as the program with MPI.
+   !> The reason why this program is not replaced by the program with MPI.
    function why_no_mpi() result(text)
       character(:), allocatable :: text
 

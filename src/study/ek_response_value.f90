@@ -32,7 +32,7 @@ module ek_response_value
 
 contains
 
-   !> Reads a response of one table, and why it has no value.
+   !> Reads a response from a table, and the reason if it has no value.
    subroutine read_response(reading, table, value, fault)
       type(reading_t), intent(in) :: reading
       type(table_t), intent(in) :: table

@@ -17,7 +17,7 @@ module ek_standard_factor
 
 contains
 
-   !> Creates the standard form of a factor of a sampler. scale is 0 if it has one value only.
+   !> Creates the standard form of a factor of a sampler. scale is 0 if the factor has only one value.
    pure subroutine new_standard_factor(factor, standard)
       type(factor_t), intent(in) :: factor
       type(standard_factor_t), intent(out) :: standard

@@ -64,8 +64,8 @@ contains
       wants_store = study%format == 'netcdf' .or. (study%format == '' .and. designs > many_designs)
    end function wants_store
 
-   !> Decides whether the results go into a store: if the study requests it; by default, for many designs if the helper
-   !> exists.
+   !> Decides whether the results are written to a store: if the study requests a store, or by default for many designs if the
+   !> helper exists.
    subroutine choose_store(study, plan, is_wanted, error)
       type(study_t), intent(in) :: study
       type(study_plan_t), intent(in) :: plan

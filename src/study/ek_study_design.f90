@@ -66,7 +66,7 @@ contains
       end do
    end subroutine solve_designs
 
-   !> Completes a failed design after the last design of its chunk: reads it from the text, or explains why it failed.
+   !> Completes a failed design after the last design of its chunk: reads the design from the text, or explains its failure.
    subroutine complete_design(study, deck, designer, cause, chunk)
       type(study_t), intent(in) :: study
       type(deck_t), intent(in) :: deck
@@ -159,7 +159,7 @@ contains
       call add_reason(chunk, k, cause_text(cause, designer%case_of, designer%readings, workspace))
    end subroutine solve_from_text
 
-   !> Observes the K&C quantities, which solving does not compute, at the states where a response reads them.
+   !> Observes the K&C quantities, which the solution does not compute, at the states from which a response is read.
    subroutine complete_tables(designer, workspace)
       type(designer_t), intent(in) :: designer
       type(workspace_t), intent(inout) :: workspace     !! its cases are solved

@@ -290,7 +290,7 @@ contains
       if (allocated(study%factors(size(study%factors))%values)) block_of = size(study%factors(size(study%factors))%values)
    end function block_of
 
-   !> A text as a field of CSV (RFC 4180): quoted if there is one, on one line.
+   !> A string as a field of CSV (RFC 4180) on one line: quoted, or empty for an empty string.
    pure function quoted_field(text) result(field)
       character(*), intent(in) :: text
       character(:), allocatable :: field
