@@ -74,7 +74,7 @@ contains
       call add('BumpCaster', 'deg/mm', 'caster per travel')
       call add('LatWhlCtrDisp', 'mm/mm', 'y of the wheel centre per travel')
       call add('LngWhlCtrDisp', 'mm/mm', 'x of the wheel centre per travel')
-      call add('NrmlWhlRates', 'N/mm', 'wheel rate, wheels parallel')
+      call add('NrmlWhlRates', 'N/mm', 'wheel rate in parallel travel')
       call add('NrmlWhlFrcOff', 'N', 'wheel load at design')
       call add('CambVsSteerAng', 'deg/deg', 'camber per steer of the wheel')
       call add('CastVsSteerAng', 'deg/deg', 'caster per steer of the wheel')

@@ -85,7 +85,7 @@ contains
       response%spin = own(5, component)
    end function load_response
 
-   !> Vertical force per travel of the wheel centre at design, wheels parallel [N/m].
+   !> Vertical force per travel of the wheel centre at design, in parallel travel [N/m].
    pure real(wp) function wheel_rate(map, side)
       type(kandc_map_t), intent(in) :: map
       integer, intent(in) :: side

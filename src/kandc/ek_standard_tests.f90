@@ -156,7 +156,7 @@ contains
       case ('centre')
          held = 'wheel centre heights '//word
       case ('patch')
-         held = 'contact patch heights '//word
+         held = 'contact point heights '//word
       case ('road')
          held = 'wheels on a rigid road'
       case ('force')

@@ -132,7 +132,7 @@ contains
 
       rate%column = column
       rate%unit = unit_text(unit_of(column))
-      rate%title = 'Wheel rate at design, wheels parallel'
+      rate%title = 'Wheel rate at design, wheels in parallel travel'
       if (index(column, 'roll_rate') > 0) rate%title = 'Suspension roll rate at design'
       rate%value = value
       do c = 1, size(shares)
