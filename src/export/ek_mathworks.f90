@@ -94,7 +94,7 @@ contains
       call add('StatLdWhlR', 'm', 'height of the wheel centre above the contact point at design')
       call add('MotRatios', '-', 'compression of the damper per travel; axles', 1, 2)
       call add('RollStiffArb', 'N m/deg', 'roll stiffness with the bar; axles', 1, 2)
-      call add('RollStiffNoArb', 'N m/deg', 'the same from the wheel rates in parallel travel, where a bar carries nothing', 1, 2)
+      call add('RollStiffNoArb', 'N m/deg', 'roll stiffness from the wheel rates in parallel travel, without the bar', 1, 2)
 
    contains
 

@@ -68,7 +68,7 @@ contains
       end if
       if (.not. all(this%results%deck%is_known)) then
          if (.not. any(this%results%is_report)) then
-            call add_text(page, 'p', 'Lone tables do not hold the values of their decks; reports do. What their headers say:')
+            call add_text(page, 'p', 'Tables without a report do not contain the values of their decks. Their headers give:')
          else
             do r = 1, size(this%results)
                if (.not. this%results(r)%deck%is_known) call add_text(page, 'p', letter_of(r)// &
