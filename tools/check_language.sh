@@ -81,6 +81,9 @@ can say what is at  =>  are fit for extrapolation
 heads? of (?:a |the |its )?columns?|column heads?  =>  column heading
 goes? on  =>  continues; run the same command again to resume
 an own  =>  a … of its own, a separate …
+steer axis|steer axes  =>  steering axis
+parallel \(in phase\)|opposed \(anti[ -]phase\)  =>  in phase, anti-phase (of loads); parallel and opposite are travel
+whole numbers?  =>  integer
 (?<!there )are no|(?<!there )is none  =>  negate the verb: are not …, cannot be used as …, there is no …
 END
 }

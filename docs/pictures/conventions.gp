@@ -122,7 +122,7 @@ set arrow from -1.5, -0.75 to 1.5, -0.75 as 3
 set arrow from 0, -0.75 to 0, 0.85 as 3
 set arrow from -0.30, -0.75 to 0.15, 0.85 as 4
 set arrow from -0.01, 0.72 to 0.11, 0.72 as 2
-set label 'steer axis' at 0.5, 0.83
+set label 'steering axis' at 0.5, 0.83
 set arrow from -0.30, -0.88 to 0, -0.88 as 5
 set label 'caster trail > 0: axis ahead of the patch' at 0, -1.08 center tc rgb red
 set label 'x' at 1.32, -0.12 tc rgb blue; set arrow from 0.95, 0 to 1.25, 0 as 1
@@ -136,7 +136,7 @@ set arrow from -1.5, -0.75 to 1.5, -0.75 as 3
 set arrow from -0.12, -0.75 to -0.12, 0.85 as 3
 set arrow from -0.12, -0.75 to 0.28, 0.85 as 4
 set arrow from -0.11, 0.72 to 0.23, 0.72 as 2
-set label 'steer axis' at 0.34, 0.6
+set label 'steering axis' at 0.34, 0.6
 set arrow from -0.5, -0.88 to -0.12, -0.88 as 5
 set label 'scrub radius > 0: axis inboard of the patch' at 0, -1.08 center tc rgb red
 plot NaN
@@ -168,7 +168,7 @@ X = 0.9; eval box
 set arrow from -1.5, -0.5 to 1.5, -0.5 as 3
 set arrow from -0.9, -0.5 to -0.4, -0.5 as 2; set arrow from 0.9, -0.5 to 1.4, -0.5 as 2
 set label "phase = 'in' (parallel): a right-hand bend" at 0, -0.8 center tc rgb red
-set label "'anti' (opposed): the right wheel's force is reversed" at 0, -1.0 center tc rgb red
+set label "'anti': the right wheel's force is reversed" at 0, -1.0 center tc rgb red
 plot NaN
 eval clean
 

@@ -1,4 +1,4 @@
-!> The Fortran interface: everything that a program which calls elastokin needs.
+!> The Fortran interface: all procedures and types for programs that call elastokin.
 !>
 !>     use ek_api
 !>     type(session_t), target :: session

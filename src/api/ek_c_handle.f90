@@ -31,7 +31,7 @@ module ek_c_handle
    end type handle_t
 
    interface
-      !> Length of a C text.
+      !> The length of a C string [bytes], without its final NUL.
       integer(c_size_t) function strlen(text) bind(c, name='strlen')
          import :: c_ptr, c_size_t
          implicit none(type, external)
@@ -134,7 +134,7 @@ contains
       end do
    end subroutine take_names
 
-   !> Keeps the message of a call; the code for the caller.
+   !> The exit code of a call; also stores the message of the call in the handle.
    integer(c_int) function finish(handle, error) result(code)
       type(handle_t), intent(inout) :: handle
       type(error_t), allocatable, intent(in) :: error
@@ -160,7 +160,7 @@ contains
       end if
    end function refuse
 
-   !> A text for the caller.
+   !> The address of a copy of a string for the caller, which the handle stores.
    type(c_ptr) function say(handle, text) result(address)
       type(handle_t), pointer, intent(in) :: handle
       character(*), intent(in) :: text

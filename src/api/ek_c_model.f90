@@ -77,7 +77,7 @@ contains
       handle%is_open = code == ek_ok
    end function ek_open_text
 
-   !> Makes a handle and stores its address in the variable of the caller.
+   !> Creates a handle and stores its address in the variable of the caller.
    subroutine new_handle(model, handle, code)
       type(c_ptr), intent(in) :: model
       type(handle_t), pointer, intent(out) :: handle

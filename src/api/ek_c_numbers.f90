@@ -69,7 +69,7 @@ contains
       address = text_of_number(open_handle(model), k, 'definition')
    end function ek_number_definition
 
-   !> Makes the list of the deck that is open.
+   !> Creates the list of key numbers of the open deck.
    subroutine list(handle)
       type(handle_t), intent(inout) :: handle
       type(case_t), allocatable :: cases(:)

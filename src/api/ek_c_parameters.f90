@@ -83,7 +83,7 @@ contains
       if (associated(handle)) answer = merge(1_c_int, 0_c_int, handle%session%workspace%design%parameters%list(k + 1)%is_given)
    end function ek_parameter_is_given
 
-   !> Position of the same number on the left side of a mirrored axle; -1: there is none.
+   !> Position of the corresponding number of the left side of a mirrored axle; -1 if there is none.
    integer(c_int) function ek_parameter_twin(model, k) bind(c) result(twin)
       type(c_ptr), value :: model
       integer(c_int), value :: k

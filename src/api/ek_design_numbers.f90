@@ -1,7 +1,7 @@
 !> The numbers of a design space as a caller has set them: in SI for the workspace, in the units of the deck for the caller, and
 !> as the settings (as for --set) with which the deck gives the same design when it is read as text.
 !>
-!> After begin_numbers and add_path nothing here makes a text, except apply_settings.
+!> After begin_numbers and add_path, only apply_settings creates strings.
 module ek_design_numbers
    use ek_kinds, only: wp
    use ek_decimal, only: number_limit
@@ -24,7 +24,7 @@ module ek_design_numbers
       integer :: turn = 0                  !! order of setting; 0: not set
    end type path_setting_t
 
-   !> Present numbers.
+   !> The current numbers of a design, with their changes.
    type :: design_numbers_t
       real(wp), allocatable :: x(:)                 !! of all parameters [SI, axes of the deck]
       real(wp), allocatable :: value(:)             !! the same in the units of the deck, as the deck or the caller wrote them
@@ -180,7 +180,7 @@ contains
       numbers%is_new = .true.
    end subroutine put_at
 
-   !> Makes the settings in a deck, in the order in which they were made.
+   !> Applies the settings to a deck, in their original order.
    subroutine apply_settings(numbers, design, deck, error)
       type(design_numbers_t), intent(in) :: numbers
       type(design_t), intent(in) :: design                 !! prepared by begin_numbers

@@ -1,11 +1,11 @@
-!> Key numbers of a deck by their names: only the tests that they need are solved, of these only the states and columns that they
-!> need, and each number is equal to the bit to the number in key_numbers.csv of the report.
+!> Key numbers of a deck by their names. Only the required tests are solved, with only the required states and columns. Each
+!> number has the same bits as in key_numbers.csv of the report.
 !>
 !>     call prepare_numbers(names, suspension, cases, numbers, error)      once per deck
 !>     call read_numbers(numbers, suspension, cases, values, is_whole)     for each design
 !>
-!> `cases` are the cases that the report solves, in its order (standard_tests). read_numbers makes no text, so that several
-!> threads may read numbers, each with a value of its own type.
+!> `cases` are the cases that the report solves, in its order (standard_tests). read_numbers creates no strings, so that several
+!> threads may read numbers, each with its own variable of type named_numbers_t.
 module ek_named_numbers
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
@@ -51,7 +51,7 @@ module ek_named_numbers
 
 contains
 
-   !> Finds wanted numbers among those that a model and its cases may have. Nothing is solved.
+   !> Finds requested key numbers among all key numbers of a model and its cases. No case is solved.
    subroutine prepare_numbers(names, suspension, cases, numbers, error)
       character(*), intent(in) :: names(:)
       type(suspension_t), intent(in) :: suspension      !! on no rig
@@ -178,7 +178,7 @@ contains
       is_whole = all(ieee_is_finite(values))
    end subroutine read_numbers
 
-   !> Solves one case as far as it is needed.
+   !> Solves the required states and columns of one case.
    subroutine solve(suspension, case, needed)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case

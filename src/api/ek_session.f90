@@ -16,14 +16,14 @@ module ek_session
    public :: session_t, prepared_t, derived_t, open_file, open_text, open_deck, take_deck
    public :: take_new_numbers, changed_deck, checksum_of, without_option, begin_opened, begin_again, begin_workspace, empty_session
 
-   !> A case that was solved with these columns: a further solution makes no text.
+   !> A case that was solved with these columns. A further solution creates no strings.
    type :: prepared_t
       logical :: is_ready = .false.
       character(name_length), allocatable :: asked(:)      !! as the caller wrote them; of size 0: all
       type(solve_options_t) :: options
    end type prepared_t
 
-   !> Derivatives that were requested last: the same derivatives of another design create no strings.
+   !> The derivatives requested last. Computing them again for another design creates no strings.
    type :: derived_t
       type(derivatives_t) :: derivatives
       character(name_length), allocatable :: columns(:), paths(:)      !! as the caller wrote them
@@ -47,7 +47,7 @@ module ek_session
       ! ek_session_numbers
       class(named_numbers_t), allocatable :: named  !! key numbers requested last
       character(name_length), allocatable :: names(:)
-      logical :: is_named_ready = .false.           !! the numbers were read before: a further reading makes no text
+      logical :: is_named_ready = .false.           !! the numbers were read before: a further reading creates no strings
    end type session_t
 
 contains
@@ -111,7 +111,7 @@ contains
       !$omp end critical (ek_words)
    end subroutine take_deck
 
-   !> Takes the deck as opened.
+   !> Restores the deck as opened.
    subroutine begin_opened(session, error)
       type(session_t), intent(inout) :: session
       type(error_t), allocatable, intent(out) :: error
@@ -160,7 +160,7 @@ contains
       session%numbers%is_new = .false.
    end subroutine take_new_numbers
 
-   !> Makes the deck with its present numbers as settings. One thread at a time.
+   !> Creates a copy of the deck with the current numbers as settings. Only one thread at a time may call it.
    subroutine changed_deck(session, deck, error)
       type(session_t), intent(in) :: session
       type(deck_t), intent(out) :: deck

@@ -1,6 +1,7 @@
 !> A deck opened for a program that calls elastokin: copies of it. Part of the Fortran interface (ek_api).
 !>
-!> A copy is the deck as opened: no file is read again, so that it has the same checksum even if the files have changed since.
+!> A copy is the deck as opened. No file is read again, so that the copy has the same checksum even if the files have changed
+!> since.
 module ek_session_copy
    use ek_error, only: error_t, fail, exit_usage
    use ek_kept_files, only: kept_files_t
@@ -14,7 +15,7 @@ module ek_session_copy
 
 contains
 
-   !> Makes another session of the same deck with the same changes, without a solution.
+   !> Creates a second session of the same deck with the same changes, without a solution.
    subroutine copy_session(from, to, error)
       type(session_t), intent(in) :: from                  !! with a deck
       type(session_t), intent(inout) :: to
@@ -35,7 +36,7 @@ contains
       !$omp end critical (ek_words)
    end subroutine copy_session
 
-   !> The deck as it was opened, then every file that it names: included files, hardpoints, properties, load tables.
+   !> The deck as opened, then every file named in the deck: included files, hardpoints, property files, load tables.
    function opened_files(session) result(files)
       type(session_t), intent(in) :: session
       type(kept_files_t) :: files

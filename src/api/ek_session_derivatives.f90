@@ -73,7 +73,7 @@ contains
 
    end subroutine find_slopes
 
-   !> Whether the same columns and numbers were requested last, of the same case of the same workspace.
+   !> Whether the last request was for the same columns and numbers, of the same case of the same workspace.
    pure logical function is_prepared(session, columns, paths)
       type(session_t), intent(in) :: session
       character(*), intent(in) :: columns(:), paths(:)
@@ -87,7 +87,7 @@ contains
       end associate
    end function is_prepared
 
-   !> Prepares directions, columns and work space. Makes texts.
+   !> Prepares directions, columns and work space. Creates strings.
    subroutine prepare(session, columns, paths, error)
       type(session_t), intent(inout), target :: session
       character(*), intent(in) :: columns(:), paths(:)

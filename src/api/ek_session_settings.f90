@@ -100,7 +100,8 @@ contains
       end if
    end subroutine first_number
 
-   !> Sets a value as --set path=text does: '*1.1', '+2', a number or a word. The deck is read again, which takes some milliseconds.
+   !> Sets a value as --set path=text does: '*1.1', '+2', a number or a string. The deck is read again, which takes some
+   !> milliseconds.
    subroutine set_text(session, path, text, error)
       type(session_t), intent(inout) :: session
       character(*), intent(in) :: path, text
@@ -156,7 +157,7 @@ contains
       if (.not. is_one) value = ieee_value(value, ieee_quiet_nan)
    end subroutine get_number
 
-   !> Sets all numbers, or from number `first` on as many as there are values.
+   !> Sets all numbers, or size(values) numbers beginning with number `first`.
    subroutine set_all(session, values, error, first)
       type(session_t), intent(inout) :: session
       real(wp), intent(in) :: values(:)                    !! in the units of the deck
@@ -187,7 +188,7 @@ contains
       end if
    end subroutine set_all
 
-   !> Makes the message about all numbers outside their legal ranges.
+   !> Creates the error message that lists all numbers outside their legal ranges.
    subroutine refuse_all(session, values, before, error)
       type(session_t), intent(in) :: session
       real(wp), intent(in) :: values(:)

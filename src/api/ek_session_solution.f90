@@ -65,7 +65,7 @@ contains
       if (is_ready) is_ready = all(asked == prepared%asked)
    end function is_ready
 
-   !> Solves a case for the first time, or one that may fail.
+   !> Solves a case that was not solved before or that may fail. Creates strings.
    subroutine solve_with_words(session, name, asked, error)
       type(session_t), intent(inout) :: session
       character(*), intent(in) :: name
@@ -137,7 +137,7 @@ contains
       prepared%options%columns = pack(heads, is_wanted)
    end subroutine prepare
 
-   !> Makes remarks on the last solution, and its failures as an error.
+   !> Creates the remarks on the last solution, and returns failures as an error.
    subroutine end_solution(session, error)
       type(session_t), intent(inout), target :: session
       type(error_t), allocatable, intent(inout) :: error

@@ -1,7 +1,7 @@
 !> A file to which several processes append whole lines at the same time, on one machine or on several.
 !>
 !> Each text is added by one write to a file opened for appending, so that on a local disk no two texts mix. Network file systems
-!> promise that only under a lock, which is held for the time of the write.
+!> guarantee this only under a lock, which is held during the write.
 module ek_append_file
    use, intrinsic :: iso_c_binding, only: c_associated, c_int, c_long, c_null_char, c_null_ptr, c_ptr
    use ek_error, only: error_t, fail, exit_file

@@ -8,7 +8,7 @@ module ek_base64
 
 contains
 
-   !> Base64 encoding, RFC 4648.
+   !> Bytes in Base64 encoding (RFC 4648).
    pure function base64(bytes) result(text)
       character(*), intent(in) :: bytes
       character(:), allocatable :: text

@@ -68,7 +68,7 @@ contains
       length = self%used
    end function buffer_length
 
-   !> Deletes the text, or its part after the first `behind` letters; the capacity is unchanged.
+   !> Deletes the text, or the part after its first `behind` characters. The capacity is unchanged.
    pure subroutine buffer_clear(self, behind)
       class(buffer_t), intent(inout) :: self
       integer, intent(in), optional :: behind   !! characters that remain, at most the length

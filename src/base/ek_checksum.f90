@@ -33,7 +33,7 @@ contains
       self%low = low
    end subroutine include
 
-   !> 16 hexadecimal digits.
+   !> The checksum as 16 hexadecimal digits.
    function digits_of(self) result(digits)
       type(checksum_t), intent(in) :: self
       character(16) :: digits

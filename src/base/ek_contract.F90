@@ -15,7 +15,7 @@ module ek_contract
 
 contains
 
-   !> Stops with `broken` if a condition does not hold. Call it as `if (are_checked) call require(…)`.
+   !> Stops with the message `broken` if a condition does not hold. Call it as `if (are_checked) call require(…)`.
    pure subroutine require(holds, broken)
       logical, intent(in) :: holds
       character(*), intent(in) :: broken      !! 'solve: the matrix is not factorised'

@@ -72,7 +72,7 @@ contains
       call put_digits(text, decade, buffer, used)
    end subroutine put_decimal
 
-   !> The number as a text of its own length, unlike put_decimal.
+   !> The number as a string with exactly its length. put_decimal writes into a longer string instead.
    pure function decimal(x) result(text)
       real(wp), intent(in) :: x
       character(:), allocatable :: text
@@ -345,7 +345,7 @@ contains
       if (is_number .and. abs(x) > 0.0_wp) words = ' (write a number below 1e30)'
    end function size_hint
 
-   !> The number in a text that was checked to be one, as a list-directed `read` gives it, but ten times as fast.
+   !> The number in a string that has been checked, as a list-directed `read` would give it, but ten times as fast.
    real(wp) function checked_number(text) result(x)
       character(*), intent(in) :: text           !! no blanks in front
       logical :: is_number
@@ -355,7 +355,7 @@ contains
       read (text, *) x                           ! −0, or far beyond what is written by hand
    end function checked_number
 
-   !> Skips digits and takes the first 18 of them into the number.
+   !> Skips digits and appends the first 18 of them to the number.
    pure subroutine take_digits(text, at, number, figures)
       character(*), intent(in) :: text
       integer, intent(inout) :: at, figures

@@ -35,7 +35,7 @@ module ek_error
 
 contains
 
-   !> Makes an error value.
+   !> Creates an error with a code and a message.
    pure subroutine fail(error, code, message)
       type(error_t), allocatable, intent(out) :: error
       integer, intent(in) :: code               !! one of exit_*

@@ -14,7 +14,7 @@ module ek_interrupt
 
 contains
 
-   !> Watches for signals: from now on these no longer end the process. A second one does.
+   !> Watches for signals. From this call on, the first signal does not end the process; a second signal does.
    subroutine watch_for_stop()
       type(c_funptr) :: ignored, before
       integer :: k

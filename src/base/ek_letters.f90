@@ -125,7 +125,7 @@ contains
       plain = plain(:used)
    end function with_line_ends
 
-   !> The number of lines of a text; the last one counts even if it is empty.
+   !> The number of lines of a text. The last line counts even if it is empty.
    pure integer function line_count(text) result(lines)
       character(*), intent(in) :: text
       integer :: k
@@ -175,7 +175,7 @@ contains
       end select
    end function is_hidden
 
-   !> Two hexadecimal digits.
+   !> A byte as two hexadecimal digits.
    pure function byte_text(byte) result(digits)
       integer, intent(in) :: byte
       character(2) :: digits

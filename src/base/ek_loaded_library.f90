@@ -17,7 +17,7 @@ module ek_loaded_library
 
 contains
 
-   !> Path of the library (or program) that contains a symbol; '' if no loaded one does.
+   !> Path of the loaded library (or program) that contains a symbol; '' if there is none.
    function library_with(symbol) result(path)
       character(*), intent(in) :: symbol              !! name in C: 'dgemm_'
       character(:), allocatable :: path

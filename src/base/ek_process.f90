@@ -66,7 +66,8 @@ contains
       if (c_associated(nothing)) ignored = c_fclose(nothing)
    end subroutine run_program
 
-   !> Replaces this process by another program, with the same arguments, environment and open files. Returns only if that cannot be.
+   !> Replaces this process by another program, with the same arguments, environment and open files. Returns only if the program
+   !> cannot be started.
    subroutine go_on_as(path)
       character(*), intent(in) :: path                        !! of the program
       type(message_list_t) :: words

@@ -1,10 +1,10 @@
 !> The quantities of the results: name, unit, requirements on the model, title, sign, least span of a chart.
 !>
-!> A row stands at the position of its column in the table of results, section by section. The kernel of a section returns the
-!> values in SI, in the same order: ek_state_columns (wheel_position, steer_axis), ek_kandc_columns (wheel_now to of_rack) with
-!> ek_wheel_columns and ek_geometry_columns. A section is computed as a whole, and only if one of its columns is requested. So a new
-!> quantity is a row here and a value at the same position in the kernel; its unit is the end of its name. Headings, charts, key
-!> numbers and reserved names follow from the row. input/QUANTITIES.md defines each of them.
+!> Rows are in the order of the columns in the table of results, section by section. The kernel of a section returns the values in
+!> SI, in the same order: ek_state_columns (wheel_position, steer_axis), ek_kandc_columns (wheel_now to of_rack) with
+!> ek_wheel_columns and ek_geometry_columns. A section is computed as a whole, and only if one of its columns is requested. So a
+!> new quantity is a row here and a value at the same position in the kernel; its unit is the end of its name. Headings, charts,
+!> key numbers and reserved names follow from the row. input/QUANTITIES.md defines each of them.
 module ek_quantity
    use ek_kinds, only: wp, degree, millimetre
    implicit none(type, external)
@@ -30,7 +30,7 @@ module ek_quantity
    real(wp), parameter :: fine = 0.05_wp, middle = 1.0_wp, wide = 10.0_wp
    character(*), parameter :: inward = '+ top inward', outward = '+ top outward', rearward = '+ top rearward', &
       right = '+ patch moves with the force', to_left = '+ to the left', under = ' under a force to the right', &
-      parallel = ', parallel (in phase), *', at_centre = 'at the wheel centre', body_down = '+ body moves down', &
+      in_phase = ', in phase, *', at_centre = 'at the wheel centre', body_down = '+ body moves down', &
       body_up = '+ body moves up', shortest = 'shortest distance'
 
    type(quantity_t), parameter, public :: wheel_position(*) = [ &
@@ -49,7 +49,7 @@ module ek_quantity
       quantity_t('scrub_radius_mm', axis, 'Scrub radius', '+ axis meets the ground inboard of the patch', middle), &
       quantity_t('caster_trail_mm', axis, 'Caster trail', '+ axis meets the ground ahead of the patch', middle), &
       quantity_t('spindle_length_mm', axis, 'Spindle length', '+ wheel centre outboard of the axis', middle), &
-      quantity_t('spindle_offset_mm', axis, 'Spindle offset', '+ wheel centre behind the axis')]
+      quantity_t('spindle_offset_mm', axis, 'Spindle offset', '+ wheel centre aft of the axis')]
 
    type(quantity_t), parameter, public :: wheel_now(*) = [ &
       quantity_t('steer_deg', 0, 'Steer', to_left, fine), &
@@ -66,7 +66,7 @@ module ek_quantity
       quantity_t('instant_spindle_length_mm', matrix), quantity_t('instant_spindle_offset_mm', matrix)]
 
    type(quantity_t), parameter, public :: wheel_rates(*) = [ &
-      quantity_t('wheel_rate_n_per_mm', matrix, 'Wheel rate', 'wheels parallel (in phase)', middle), &
+      quantity_t('wheel_rate_n_per_mm', matrix, 'Wheel rate', 'wheels in parallel travel', middle), &
       quantity_t('single_wheel_rate_load_held_n_per_mm', own), quantity_t('single_wheel_rate_height_held_n_per_mm', own), &
       quantity_t('ride_rate_n_per_mm', shod, 'Ride rate', 'with the tyre', middle), &
       quantity_t('hop_rate_n_per_mm', shod, 'Hop rate', 'tyre in parallel')]
@@ -97,14 +97,14 @@ module ek_quantity
 
    ! twice: load_held: constant vertical forces; height_held: constant heights of the wheel centres
    type(quantity_t), parameter, public :: wheel_forces(*) = [ &
-      quantity_t('lateral_in_*_deflection_mm_per_kn', matrix, 'Lateral deflection'//parallel, right, 0.02_wp), &
+      quantity_t('lateral_in_*_deflection_mm_per_kn', matrix, 'Lateral deflection'//in_phase, right, 0.02_wp), &
       quantity_t('lateral_in_*_centre_deflection_mm_per_kn', matrix), &
-      quantity_t('lateral_in_*_steer_deg_per_kn', matrix, 'Lateral force steer'//parallel, to_left//under, 0.002_wp), &
-      quantity_t('lateral_in_*_camber_deg_per_kn', matrix, 'Lateral force camber'//parallel, outward//under, 0.002_wp), &
+      quantity_t('lateral_in_*_steer_deg_per_kn', matrix, 'Lateral force steer'//in_phase, to_left//under, 0.002_wp), &
+      quantity_t('lateral_in_*_camber_deg_per_kn', matrix, 'Lateral force camber'//in_phase, outward//under, 0.002_wp), &
       quantity_t('lateral_in_trail_*_deflection_mm_per_kn', matrix), &
       quantity_t('lateral_in_trail_*_centre_deflection_mm_per_kn', matrix), &
       quantity_t('lateral_in_trail_*_steer_deg_per_kn', matrix), quantity_t('lateral_in_trail_*_camber_deg_per_kn', matrix), &
-      quantity_t('aligning_in_*_steer_deg_per_100nm', matrix, 'Aligning torque steer'//parallel, &
+      quantity_t('aligning_in_*_steer_deg_per_100nm', matrix, 'Aligning torque steer'//in_phase, &
       '+ to the left under a torque to the left'), &
       quantity_t('aligning_in_*_camber_deg_per_100nm', matrix), &
       quantity_t('lateral_anti_*_deflection_mm_per_kn', own), quantity_t('lateral_anti_*_centre_deflection_mm_per_kn', own), &
@@ -126,7 +126,7 @@ module ek_quantity
       quantity_t('traction_*_rotation_z_deg_per_kn', matrix)]
 
    type(quantity_t), parameter, public :: wheel_jacking(*) = [ &
-      quantity_t('lateral_in_jacking_n_per_kn', own, 'Jacking, parallel (in phase)', '+ the ground pushes up'//under), &
+      quantity_t('lateral_in_jacking_n_per_kn', own, 'Jacking, in phase', '+ the ground pushes up'//under), &
       quantity_t('lateral_anti_jacking_n_per_kn', own)]
 
    type(quantity_t), parameter, public :: wheel_stiffness(*) = [ &
@@ -175,7 +175,7 @@ module ek_quantity
       quantity_t('centre_axis_distance_mm', axis, 'Steer-axis offset, wheel centre', shortest), &
       quantity_t('patch_axis_distance_mm', axis, 'Steer-axis offset, patch', shortest), &
       quantity_t('along_spindle_length_mm', axis, 'Spindle length, along', '+ wheel centre outboard, along the spin axis'), &
-      quantity_t('across_spindle_offset_mm', axis, 'Spindle offset, across', '+ spin axis behind the steer axis'), &
+      quantity_t('across_spindle_offset_mm', axis, 'Spindle offset, across', '+ spin axis aft of the steering axis'), &
       quantity_t('spin_axis_x'), quantity_t('spin_axis_y'), quantity_t('spin_axis_z')]
 
    type(quantity_t), parameter, public :: instant_distances(*) = [ &
@@ -272,8 +272,8 @@ contains
       character(*), intent(in) :: text
       character(:), allocatable :: words
       ! the longest first: each contains parts of the next ones
-      character(*), parameter :: phases(*) = [character(32) :: '    (wheels parallel (in phase))', &
-         'wheels parallel (in phase)', ', parallel (in phase)']
+      character(*), parameter :: phases(*) = [character(31) :: '    (wheels in parallel travel)', &
+         'wheels in parallel travel', ', in phase']
       integer :: k, at, length
 
       words = trim(text)
@@ -353,7 +353,7 @@ contains
       if (upper /= '') unit = upper//'_'//unit
    end subroutine slope_unit
 
-   !> A heading that ends with a unit: 'seat' and 'mm' make 'seat_mm'; the heading 'seat_mm' is unchanged.
+   !> A column heading with a unit at its end: 'seat' and 'mm' give 'seat_mm'; the heading 'seat_mm' is unchanged.
    pure function head_with_unit(name, ending) result(head)
       character(*), intent(in) :: name
       character(*), intent(in) :: ending             !! as in column names; '': none

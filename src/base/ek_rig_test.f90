@@ -41,18 +41,18 @@ module ek_rig_test
       integer :: charts = of_none            !! set of charts and gradients
       character(6) :: control = ''           !! how the wheels are held, unless the case gives it
       character(3) :: unit = '-'             !! of the swept value: mm, deg, N, N m or '' for the unit of the steered joint
-      character(45) :: place_name = ''       !! of the swept value
+      character(48) :: place_name = ''       !! of the swept value
       character(18) :: abscissa = 'wheel_travel_mm'    !! column over which the charts are drawn and the gradients fitted
       character(56) :: label = 'wheel travel [mm]    (+ bump)'   !! of the abscissa
       real(wp) :: shares(2) = 0.0_wp         !! moves_heights: height per swept value, left and right
       real(wp) :: force(3) = 0.0_wp          !! loads_wheels: force and moment per swept value, at the left contact point
       real(wp) :: moment(3) = 0.0_wp
-      logical :: is_at_centre = .false.      !! the force acts at the wheel centre, except in a solid axle that takes the torque
+      logical :: is_at_centre = .false.      !! the force acts at the wheel centre, except in a solid axle that carries the torque
       logical :: has_phase = .false.         !! the load on the right wheel may be reversed
       logical :: has_trail = .false.         !! the force may act aft of the contact point, at `offset`
       integer :: place = 0                   !! among the standard tests; 0: none of them
       logical :: is_on_request = .false.     !! a standard test that runs only if it is requested by name
-      integer :: phases = 1                  !! 2: the standard tests contain it in parallel and opposed
+      integer :: phases = 1                  !! 2: the standard tests contain it in phase and anti-phase
       real(wp) :: reach = 0.0_wp             !! of the standard test: from −reach to reach, in `unit`
       integer :: increments = 40             !! likewise
       character(9) :: prefix = ''            !! of the names of its gradients
@@ -63,25 +63,25 @@ module ek_rig_test
    type(rig_test_t), parameter :: rig_tests(*) = [ &
       rig_test_t('parallel_travel', moves_heights, of_travel, 'centre', 'mm', 'wheel travel', shares=[1.0_wp, 1.0_wp], &
          place=1, reach=80.0_wp, increments=80), &
-      rig_test_t('opposite_travel', moves_heights, of_tilt, 'centre', 'mm', 'travel of the left wheel, right wheel opposed', &
+      rig_test_t('opposite_travel', moves_heights, of_tilt, 'centre', 'mm', 'travel of the left wheel, right wheel opposite', &
          shares=[1.0_wp, -1.0_wp], place=2, reach=60.0_wp, increments=60, prefix='opposite '), &
       rig_test_t('single_travel', moves_heights, of_tilt, 'centre', 'mm', shares=[1.0_wp, 0.0_wp], prefix='single '), &
       rig_test_t('roll', rolls, of_roll, 'patch', 'deg', 'axle roll, left wheel up', 'axle_roll_deg', &
          'axle roll [deg]    (+ left wheel up)', place=3, reach=3.0_wp, increments=60), &
       rig_test_t('steering', steers, of_steer, 'centre', '', '', 'steering_wheel_deg', 'steering wheel [deg]    (+ left)', &
          place=4, increments=60), &
-      rig_test_t('lateral_force', loads_wheels, of_lateral, 'force', 'N', 'lateral force at each patch', 'factor', &
+      rig_test_t('lateral_force', loads_wheels, of_lateral, 'force', 'N', 'lateral force at each contact point', 'factor', &
          'lateral force [N]    (+ to the right)', force=right, has_phase=.true., has_trail=.true., place=5, phases=2, &
          reach=2000.0_wp), &
-      rig_test_t('braking', loads_wheels, of_braking, 'force', 'N', 'braking force at each patch', 'factor', &
+      rig_test_t('braking', loads_wheels, of_braking, 'force', 'N', 'braking force at each contact point', 'factor', &
          'braking force per wheel [N]    (+ rearward)', force=rear, has_phase=.true., place=7, reach=2000.0_wp), &
-      rig_test_t('traction', loads_wheels, of_traction, 'force', 'N', 'traction force at each wheel centre', 'factor', &
-         'traction force per wheel [N]    (+ forward)', force=-rear, is_at_centre=.true., has_phase=.true., place=8, &
+      rig_test_t('traction', loads_wheels, of_traction, 'force', 'N', 'driving force at each wheel centre', 'factor', &
+         'driving force per wheel [N]    (+ forward)', force=-rear, is_at_centre=.true., has_phase=.true., place=8, &
          reach=2000.0_wp), &
       rig_test_t('aligning_torque', loads_wheels, of_aligning, 'force', 'N m', 'aligning torque on each wheel', 'factor', &
          'aligning torque [N m]    (+ to the left)', moment=up, has_phase=.true., place=6, phases=2, reach=100.0_wp), &
-      rig_test_t('vertical_force', loads_wheels, of_vertical, 'force', 'N', 'change of vertical force at each patch', 'factor', &
-         'vertical force [N]    (+ up)', force=up), &
+      rig_test_t('vertical_force', loads_wheels, of_vertical, 'force', 'N', 'change of vertical force at each contact point', &
+         'factor', 'vertical force [N]    (+ up)', force=up), &
       rig_test_t('table', takes_table, of_table, 'force', '-', '', 'factor', 'row of the table'), &
       rig_test_t('travel_and_steering', covers_grid, of_grid, 'centre', '-', 'state of the grid', 'factor', 'state of the grid', &
          place=9, is_on_request=.true., reach=80.0_wp, increments=16)]

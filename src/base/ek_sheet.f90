@@ -169,7 +169,7 @@ contains
       end do
    end subroutine find_decimal_marks
 
-   !> Reads one line of numbers and adds it to the rows if it has no error.
+   !> Reads one line of numbers and adds the line to the rows if it has no error.
    subroutine take_row(content, line, sheet, rows, is_unnamed)
       character(*), intent(in) :: content
       integer, intent(in) :: line

@@ -95,7 +95,7 @@ contains
       text = text//')'
    end function vector_text
 
-   !> ASCII lower case.
+   !> A string with its ASCII letters in lower case; other characters are unchanged.
    pure function lower(text) result(folded)
       character(*), intent(in) :: text
       character(len(text)) :: folded
@@ -127,7 +127,7 @@ contains
       end do
    end function spaced
 
-   !> '1 body', '3 bodies'.
+   !> A count with its noun: '1 body', '3 bodies'.
    pure function plural(count, singular, many) result(text)
       integer, intent(in) :: count
       character(*), intent(in) :: singular, many
@@ -238,7 +238,7 @@ contains
       end if
    end function did_you_mean
 
-   !> Whether a text has the form of a pattern, in which * stands for any characters, also none.
+   !> Whether a string matches a pattern, in which * stands for any number of characters.
    pure recursive logical function is_like(text, pattern) result(fits)
       character(*), intent(in) :: text, pattern
       integer :: star, k
@@ -262,7 +262,7 @@ contains
       end do
    end function is_like
 
-   !> Levenshtein distance.
+   !> The Levenshtein distance of two strings: number of inserted, deleted and replaced characters.
    pure integer function edit_distance(a, b) result(distance)
       character(*), intent(in) :: a, b
       integer :: row(0:len(b)), diagonal, above, i, j

@@ -117,7 +117,7 @@ contains
       writer%temporary = ''
    end subroutine open_temporary
 
-   !> Locks the file just created. Without lock support, other runs remove it only after a day.
+   !> Locks the file just created. Without lock support, other runs remove the file only after a day.
    logical function is_ours(descriptor, path)
       integer(c_int), intent(in) :: descriptor
       character(*), intent(in) :: path

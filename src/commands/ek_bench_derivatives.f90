@@ -79,7 +79,7 @@ contains
       end associate
    end subroutine bench_derivatives
 
-   !> Times all uses in turn.
+   !> Times all uses of derivatives in turn.
    subroutine time_uses(workspace, k, is_json, error)
       type(workspace_t), intent(inout) :: workspace
       integer, intent(in) :: k
@@ -170,7 +170,7 @@ contains
       end associate
    end subroutine time_sweep
 
-   !> Times columns at all states.
+   !> Times the computation of columns at all states.
    subroutine time_columns(workspace, k, columns, time)
       type(workspace_t), intent(inout) :: workspace
       integer, intent(in) :: k
@@ -213,7 +213,7 @@ contains
       this%time = min(this%time, now - start)
    end subroutine time_use
 
-   !> The ratios as lines.
+   !> The time ratios as lines of text.
    function table_of(workspace, k, uses, walk, row) result(text)
       type(workspace_t), intent(in) :: workspace
       integer, intent(in) :: k

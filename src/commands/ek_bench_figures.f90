@@ -13,7 +13,7 @@ module ek_bench_figures
 
    integer, parameter :: short_sweep = 20     !! increments of a design, as in a study
 
-   !> The measured values; times are of the processor, so that a busy machine does not change them.
+   !> The measured values. Times are processor times, so that a busy machine does not change them.
    type :: figures_t
       character(:), allocatable :: model, case
       integer :: increments = 0, n = 0       !! of the case; size of the matrix
@@ -35,7 +35,7 @@ module ek_bench_figures
 
 contains
 
-   !> The figures as lines.
+   !> The measured times as lines of text.
    function table_of(figures) result(text)
       type(figures_t), intent(in) :: figures
       character(:), allocatable :: text
@@ -72,7 +72,7 @@ contains
          per_second(figures%design)//nl
    end function table_of
 
-   !> The parts of an increment.
+   !> The times of the parts of an increment as text.
    function parts_of(name, parts) result(text)
       character(*), intent(in) :: name
       type(parts_t), intent(in) :: parts
@@ -82,7 +82,7 @@ contains
          microseconds(parts%solve)//', rest '//microseconds(parts%rest)//nl
    end function parts_of
 
-   !> '12.3 us'
+   !> A time with its unit: '12.3 us'.
    function microseconds(time) result(text)
       real(wp), intent(in) :: time         !! s
       character(:), allocatable :: text
@@ -99,7 +99,7 @@ contains
       text = str(nint(1.0_wp/time))
    end function per_second
 
-   !> Name, microseconds, ratio.
+   !> A line with name, time in microseconds, and time ratio.
    function timing(name, time, unit) result(line)
       character(*), intent(in) :: name
       real(wp), intent(in) :: time, unit

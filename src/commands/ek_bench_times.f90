@@ -101,7 +101,7 @@ contains
       if (rhs(1) < 0.0_wp) copy(1, 1) = rhs(1)
    end subroutine keep
 
-   !> Times four designs at a time: the same design four times, so that all lanes do all the work.
+   !> Times a pack of four designs. All four are equal, so that every lane performs every step.
    subroutine time_packs(suspension, case, kkt, figures)
       type(suspension_t), intent(in), target :: suspension
       type(case_t), intent(in), target :: case
@@ -180,8 +180,8 @@ contains
       end do
    end subroutine time_kandc
 
-   !> Times whole designs, as a study runs them: numbers to suspension, examination, balance, states and one column; and the
-   !> states with the column alone. The first given number of the deck is changed in its tenth digit.
+   !> Times complete designs as in a study: numbers to suspension, examination, balance, states and one column. Also times the
+   !> states and the column without the other steps. The first given number of the deck is changed in its tenth digit.
    subroutine time_designs(settings, case_name, figures, error)
       type(deck_settings_t), intent(in) :: settings
       character(*), intent(in) :: case_name

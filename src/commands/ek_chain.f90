@@ -43,7 +43,7 @@ contains
       if (.not. allocated(error)) call mount(base, cases(1), suspension, case)
    end subroutine read_chain
 
-   !> The chain as a deck.
+   !> The chain as the text of a deck.
    function deck_text(bodies, lift) result(text)
       integer, intent(in) :: bodies, lift      !! lift: mm
       character(:), allocatable :: text

@@ -222,7 +222,7 @@ contains
       end associate
    end function axis_text
 
-   !> Adds one case: its test, load or drive, and whether it can be solved.
+   !> Adds one case: its test, load or drive, and whether the case can be solved.
    subroutine add_case(case, diagnosis, findings)
       type(case_t), intent(in) :: case
       type(diagnosis_t), intent(in) :: diagnosis

@@ -37,54 +37,57 @@ module ek_command
       exit_status_text), &
       command_t('check', 'check DECK', 'check DECK', 'examine a deck and its model', &
       'Reads a deck, reports every error with file and line, and examines the model: bodies, unknowns,'//nl// &
-      'constraints, degrees of freedom, mechanisms, redundant constraints, condition, unused points. A remark points'//nl// &
-      'out a value that no road vehicle has, with a likely cause (disable with plausible = .false. in &model).'//nl// &
-      'The last line is OK, or the number of errors, warnings and remarks with the worst of them.'//nl// &
-      'Exit status 3 if the model cannot be solved.', ''), &
-      command_t('report', 'report DECK [options]', 'report DECK', 'write a page: curves, gradients, key numbers of a deck', &
+      'constraints, degrees of freedom, mechanisms, redundant constraints, condition number, unused points.'//nl// &
+      'A remark names a value outside the range of road vehicles, with a likely cause (plausible = .false. in &model'//nl// &
+      'disables these remarks). The last line is OK, or it gives the number of errors, warnings and remarks and the'//nl// &
+      'most severe of these messages. The exit status is 3 if the model cannot be solved.', ''), &
+      command_t('report', 'report DECK [options]', 'report DECK', 'write a report page: curves, gradients, key numbers', &
       'Runs the tests of a deck and writes into DIR: report.html (one self-contained page), one CSV file per'//nl// &
       'test, key_numbers and gradients as .csv and .json (slopes with window, unit and sign), compliance.csv'//nl// &
       '(the compliance matrix at every state of the first test), picture.png and picture.svg,'//nl// &
-      'and figures/ with every chart as SVG, its gnuplot script, and views.svg with the names of the hardpoints.', ''), &
+      'and figures/ with every chart (SVG and gnuplot script) and views.svg with the names of the hardpoints.', ''), &
       command_t('explain', 'explain DECK [options]', 'explain DECK', 'list contributions to each compliance, and load paths', &
-      'Splits each column that is linear in the compliance matrix into exact contributions of every axis of every bushing,'//nl// &
-      'of every spring, bar, stop and preload, at every state. Prints the largest ten at design and writes into DIR:'//nl// &
-      '<model>_<case>_contributions.csv, and <model>_<case>_load_paths.csv: force and moment in every element and joint'//nl// &
-      'per newton at a contact point, with shares of strain energy.', exit_status_text), &
+      'Splits each column that is linear in the compliance matrix into exact contributions, at every state. Each axis of a'//nl// &
+      'bushing contributes, and each spring, bar, stop and preload. Prints the ten largest at design. Writes into DIR:'//nl// &
+      '<model>_<case>_contributions.csv, and <model>_<case>_load_paths.csv (force and moment in every element and joint'//nl// &
+      'per newton at a contact point, with shares of strain energy).', exit_status_text), &
       command_t('compare', 'compare A.csv B.csv …   or   elastokin compare REPORT_A REPORT_B …', 'compare A B', &
       'overlay results and list the differences', &
-      'Compares reports (folders written by report), or the results of one case: compare.html lists the changes'//nl// &
-      'of the deck, the key numbers and gradients sorted by change, and shows each chart with the curves of all results.'//nl// &
-      'The gradients are printed, and the ten largest changes go to standard error.'//nl// &
+      'Compares reports (folders written by report), or results of one case. compare.html lists the changes of the'//nl// &
+      'deck, and the key numbers and gradients sorted by change. Its charts contain the curves of all results.'//nl// &
+      'The gradients go to standard output, and the ten largest changes to standard error.'//nl// &
       'Tables for programs, with change and verdict (changed, same, only in A, only in B,'//nl// &
       'not a number): differences.csv, number-differences.csv, curve-differences.csv, deck-differences.csv.', '', 2), &
       command_t('study', 'study STUDY.nml [options]', 'study STUDY', 'run many designs of a deck, or step-size convergence', &
-      'Runs the designs of a study and writes CSV files into DIR; if gnuplot is installed, draws the'//nl// &
-      'figures and the page (as plot does) and runs the study''s plot script. A study'//nl// &
-      'that was stopped or killed resumes: DIR/<study>.parts stores the finished designs.', &
-      'Exit status 4: complete, but a design failed (see the columns status and reason; all other designs are'//nl// &
-      'written; 0 with --accept-failed). 6: stopped before the end; run the same command again to resume.'), &
+      'Runs the designs of a study and writes CSV files into DIR, and the page (as plot does). If gnuplot is'//nl// &
+      'installed, draws the figures and runs the plot script of the study. DIR/<study>.parts stores the finished'//nl// &
+      'designs: if the study was stopped or killed, run the same command again to resume.', &
+      'Exit status 4: the study is complete, but a design failed (0 with --accept-failed). The columns status and'//nl// &
+      'reason list failures. 6: the study was stopped; run the same command again to resume.'), &
       command_t('merge', 'merge STUDY.nml', 'merge STUDY', 'write the tables of a study that ran in shards', &
       'Writes the tables of a study whose shards (study --shard i/n) have all ended, from DIR/<study>.parts.', &
-      'Exit status 4: complete, but a design failed (0 with --accept-failed). 6: designs are missing.'), &
+      'Exit status 4: the study is complete, but a design failed (0 with --accept-failed). 6: designs are missing.'), &
       command_t('plot', 'plot STUDY.nml [options]', 'plot STUDY', 'draw figures and page of a finished study', &
       'Reads the tables of a finished study in DIR and solves nothing. Writes DIR/<study>.html (one self-contained'//nl// &
       'page with statistics, figures, best and worst designs) and DIR/figures: every figure as PNG, SVG and gnuplot script.'//nl// &
       'The kind of the study, its columns and its responses determine the figures.', ''), &
       command_t('import', 'import FILE … [options]', 'import FILE', 'convert Adams/Car or IPGKinematics files to a deck', &
-      'Converts files of other programs to a deck: a .kin of IPGKinematics to a whole axle (its .gum bushings in the same'//nl// &
-      'folder), hardpoints (.sub, .asy, CSV) to points, property files (.bus, .spr, .bum, .reb, .gum) to curves;'//nl// &
-      'a .lcf to a table of loads. Every error in the files is reported with file and line.', '', 0), &
+      'Converts files of other programs to a deck:'//nl// &
+      '  .kin files of IPGKinematics to a complete axle (with the .gum bushings in the same folder);'//nl// &
+      '  .sub, .asy and CSV hardpoints to points;'//nl// &
+      '  .bus, .spr, .bum, .reb and .gum property files to curves;'//nl// &
+      '  .lcf load cases to a table of loads.'//nl// &
+      'Every error in the files is reported with file and line.', '', 0), &
       command_t('export', 'export DECK --to TARGET [options]', 'export DECK', &
       'write kinematics and compliance for other simulators', &
       'Writes the axle of a deck in the format of a simulator into DIR:'//nl// &
-      '  carmaker   <model>.skc: kinematics over travel and steer (or the other wheel''s travel), compliance'//nl// &
-      '  carsim     <model>_carsim.par: tables over jounce, compliance coefficients'//nl// &
-      '  matlab-kc  <model>_kandc.m and .json: parameters of "Independent Suspension - K and C"'//nl// &
-      '  csv        <model>_kinematics.csv, _loads.csv, _compliance.csv; _tables.json with all three tables'//nl// &
-      'docs/EXPORT.md describes each file: frame, signs, units. If a number cannot be computed, nothing is written.', ''), &
+      '  carmaker: <model>.skc, with kinematics over travel and steer (or travel of the other wheel), and compliance;'//nl// &
+      '  carsim: <model>_carsim.par, with tables over jounce, and compliance coefficients;'//nl// &
+      '  matlab-kc: <model>_kandc.m and .json, with parameters of "Independent Suspension - K and C";'//nl// &
+      '  csv: <model>_kinematics.csv, _loads.csv, _compliance.csv, and _tables.json with all three tables.'//nl// &
+      'docs/EXPORT.md describes frame, signs and units of each file. If a number cannot be computed, no file is written.', ''), &
       command_t('derivatives', 'derivatives DECK [options]', 'derivatives DECK', &
-      'differentiate every column by every number of a deck', &
+      'differentiate columns with respect to numbers of a deck', &
       'Solves one case and writes DIR/<model>_<case>_derivatives.csv: the derivative of every column with respect to every'//nl// &
       'number of the deck, in the unit of the column per unit of the number, with an estimate of its error. Derivatives are'//nl// &
       'exact except for rounding. No solution is repeated. Derivatives include the motion of the state, static equilibrium'// &
@@ -92,23 +95,24 @@ module ek_command
       'With --of, the numbers with the largest effects are printed. An effect is the change of a column caused by 1 mm,'//nl// &
       '0.06 deg, or 1 % of a rate or force.', &
       exit_status_text), &
-      command_t('solve', 'solve DECK [options]', 'solve DECK', 'find numbers of a deck that give wanted values', &
+      command_t('solve', 'solve DECK [options]', 'solve DECK', 'find numbers of a deck that give requested values', &
       'Changes the numbers of --vary within their bounds until the quantities of --for have their values. A quantity is'//nl// &
-      'a column of a case, an entry of its compliance matrix, or a key number of the report. Derivatives are exact, so that'//nl// &
-      'Newton''s method needs a few sweeps. Prints the values reached, the reasons for missed values, and the changed'//nl// &
-      'records; writes DIR/<model>_solve.set for --set-file. Where several solutions exist, the smallest change is taken.', &
+      'a column of a case, an entry of its compliance matrix, or a key number of the report. Derivatives are exact, so'//nl// &
+      'Newton''s method needs only a few sweeps. Prints the values reached, the changed records, and the reason for each'//nl// &
+      'value that was not reached. Writes DIR/<model>_solve.set for --set-file. If there are several solutions, the one'//nl// &
+      'with the smallest change is used.', &
       exit_status_text), &
-      command_t('fit', 'fit FIT.nml [options]', 'fit FIT', 'fit factors of a deck to measured or wanted curves', &
+      command_t('fit', 'fit FIT.nml [options]', 'fit FIT', 'fit factors of a deck to measured or required curves', &
       'Finds the factors of a deck, within their bounds, by weighted least squares. Targets are curves, slopes, key numbers'//nl// &
-      'and limits of several cases: hardpoints for wanted curves, or bushing rates from measured curves. Prints and draws'// &
-      nl//'start, target and result; prints the 95 % confidence of each factor, active bounds, and undetermined factors. Writes'// &
-      nl// &
-      'DIR/<fit>_factors.csv, <fit>_points.csv, <fit>.set for --set-file, and the figure <fit>.png and .svg.', &
+      'and limits of several cases. Examples: hardpoints for a required curve, bushing rates from a measured curve.'//nl// &
+      'Prints and draws start, target and result. Also prints the 95 % confidence interval of each factor, the factors at'//nl// &
+      'a bound, and the undetermined factors. Writes DIR/<fit>_factors.csv, <fit>_points.csv, <fit>.set for --set-file,'//nl// &
+      'and the figure <fit>.png and .svg.', &
       exit_status_text), &
       command_t('bench', 'bench DECK   or   elastokin bench --growth N', 'bench DECK', &
-      'time increments, relative to LAPACK''s solve alone', &
-      'Times one complete increment of each method relative to LAPACK''s dsysv alone (factor and solve)'//nl// &
-      'on the same matrices in the same run, by LAPACK and by plan, with the parts of an increment. Also times'//nl// &
+      'measure the time of increments, relative to LAPACK', &
+      'Measures the time of a complete increment and of its parts, for each method and each solver (lapack, plan). The unit'//nl// &
+      'is the time of LAPACK''s dsysv (factorisation and solution) on the same matrices in the same run. Also measures:'//nl// &
       '  packs of four designs,'//nl// &
       '  a row of the compliance matrix,'//nl// &
       '  a design of 20 increments, from its numbers to one column (as in a study), relative to its states alone,'//nl// &
@@ -116,108 +120,119 @@ module ek_command
 
    ! In the order of the help; neighbours with the same help share a line
    type(option_t), parameter :: options(*) = [ &
-      option_t('run', '--out DIR', 'output folder (default: out); - writes the CSV to standard output'), &
-      option_t('run', '--case NAME', 'run this case, or standard test, only'), &
+      option_t('run', '--out DIR', 'output folder (default: out); --out - writes the CSV to standard output'), &
+      option_t('run', '--case NAME', 'run only this case or standard test'), &
       option_t('run', '--method M', 'recursive | corrected | equilibrium; overrides the deck'), &
       option_t('run', '--solver S', 'lapack | plan (sparse elimination, faster); overrides the deck'), &
-      option_t('run', '--increments N', 'increments of the whole range; overrides the deck'), &
-      option_t('run', '--set path=value', 'replace a value of the deck, with the same checks; may be repeated:'//indent// &
+      option_t('run', '--increments N', 'number of increments over the range; overrides the deck'), &
+      option_t('run', '--set path=value', &
+      'change a value of the deck; the new value is checked as in the deck; may be repeated:'//indent// &
       '--set point.lower_ball_joint.z=-105 --set "bushing.top_mount.kt(1)=500"'), &
-      option_t('run', '--set-file FILE', 'settings from a file, one line each: path = value'), &
-      option_t('run', '--responses a,b', 'only these key numbers of the report (names as in key_numbers.csv), no other files'), &
-      option_t('run', '--results FILE', 'file for --responses, one `value name` line each (default: -)'), &
-      option_t('run', '--columns a,b,c', 'only these columns, and state, factor, converged …; * stands for any letters'), &
-      option_t('run', '--json', 'also write DIR/<model>_run.json: tables, remarks and status; alone with --out -'), &
+      option_t('run', '--set-file FILE', 'read settings from a file, one per line: path = value'), &
+      option_t('run', '--responses a,b', &
+      'write only these key numbers of the report (names as in key_numbers.csv), and no other files'), &
+      option_t('run', '--results FILE', &
+      'file for --responses, with one line `value name` per number (default: -, standard output)'), &
+      option_t('run', '--columns a,b,c', &
+      'write only these columns, and always state, factor, converged …; * stands for any letters'), &
+      option_t('run', '--json', 'also write DIR/<model>_run.json: tables, remarks and status; with --out - print only this'), &
       option_t('run', '--compliance', 'also write DIR/<model>_<case>_compliance.csv: the compliance matrix at every state'), &
-      option_t('run', '--loads', 'also write loads.csv (every member at every state) and peak-loads.csv for all cases'), &
+      option_t('run', '--loads', 'also write loads.csv (loads of every member at every state) and peak-loads.csv, for all cases'), &
       option_t('run', '--plot', 'also write gnuplot scripts, and PNG and SVG figures if gnuplot is installed'), &
       option_t('run', '--quiet', quiet_help), &
       option_t('check', '--case NAME', ''), option_t('check', '--set path=value', ''), &
       option_t('check', '--set-file FILE', ''), &
       option_t('check', '--json', 'print the messages as one JSON object: severity, file, line, group, key, text'), &
-      option_t('check', '--write-deck FILE', 'write the deck as used, in one file: contents of included, property and hardpoint'// &
-      indent//'files, both sides, and settings applied; load tables go to the same folder'), &
+      option_t('check', '--write-deck FILE', &
+      'write the deck as used to one file, with the contents of included, property and hardpoint'// &
+      indent//'files, both sides, and all settings; load tables are copied to the same folder'), &
       option_t('report', '--out DIR', 'output folder (default: out)'), &
       option_t('report', '--animate', 'also write animation.gif: the suspension moving through its travel and steering'), &
       option_t('report', '--window what=half', 'half width of a gradient window; may be repeated; the defaults are:'//indent// &
       'travel=15 (mm) roll=1 (deg) force=1000 (N) torque=100 (N m) rack=10 (mm) wheel=20 (deg)'), &
-      option_t('report', '--case NAME', 'run this test only'), &
+      option_t('report', '--case NAME', 'run only this test'), &
       option_t('report', '--method M', 'as for run'), option_t('report', '--solver S', 'as for run'), &
       option_t('report', '--increments N', 'as for run'), &
       option_t('report', '--set path=value', 'as for run'), option_t('report', '--set-file FILE', 'as for run'), &
-      option_t('report', '--loads', 'also write loads.csv (every member at every state of every test) and peak-loads.csv'), &
+      option_t('report', '--loads', &
+      'also write loads.csv (loads of every member at every state of every test) and peak-loads.csv'), &
       option_t('report', '--no-plots', no_plots_help), &
-      option_t('report', '--scales DIR', 'charts with the axes of the report in DIR, for comparison'), &
-      option_t('report', '--static', 'a page without script: its charts are the pictures drawn by gnuplot'), &
-      option_t('report', '--live N', 'sliders on the page for the N rates (1 to 24) that contribute most to the compliances:'// &
-      indent//'numbers and curves that are linear in the compliance matrix follow them; not with --static'), &
+      option_t('report', '--scales DIR', 'draw the charts with the axes of the report in DIR, for comparison'), &
+      option_t('report', '--static', 'write a page without scripts; its charts are pictures drawn by gnuplot'), &
+      option_t('report', '--live N', &
+      'add sliders for the N rates (1 to 24) that contribute most to the compliances; they change'// &
+      indent//'numbers and curves that are linear in the compliance matrix; not with --static'), &
       option_t('report', '--quiet', quiet_help), &
       option_t('explain', '--out DIR', 'output folder (default: out)'), &
-      option_t('explain', '--case NAME', 'this case only'), &
+      option_t('explain', '--case NAME', 'only this case'), &
       option_t('explain', '--of a,b,c', 'these columns: responses to loads (lateral_in_load_held_steer_deg_per_kn), or'// &
       indent//'matrix entries (patch_z_by_fz_mm_per_kn); * stands for any letters; default: key columns'), &
-      option_t('explain', '--at VALUE', 'only the state nearest to this swept value (default: all; design is printed)'), &
-      option_t('explain', '--rigid NAME', 'columns with this element rigid (arm_front), or with'//indent// &
+      option_t('explain', '--at VALUE', 'only the state nearest to this swept value (default: all states; design is printed)'), &
+      option_t('explain', '--rigid NAME', 'print the columns with this element rigid (arm_front), or with'//indent// &
       'one axis of this element rigid (arm_front.x); may be repeated'), &
-      option_t('explain', '--scan', 'locations at which an added stiffness of 1 kN/mm changes the columns most'), &
+      option_t('explain', '--scan', 'print the locations at which an added stiffness of 1 kN/mm changes the columns most'), &
       option_t('explain', '--json', 'also write DIR/<model>_contributions.json'), &
       option_t('explain', '--increments N', 'as for run'), option_t('explain', '--solver S', 'as for run'), &
       option_t('explain', '--set path=value', 'as for run'), option_t('explain', '--set-file FILE', 'as for run'), &
       option_t('explain', '--quiet', quiet_help), &
       option_t('solve', '--vary path=lo:hi', 'a number that may change, and its bounds; may be repeated:'//indent// &
       '--vary point.tie_rod_inner.z=-80:-50'), &
-      option_t('solve', '--for name=value', 'a quantity and its value: --for left_bump_steer=0; also with its'// &
+      option_t('solve', '--for name=value', 'a quantity and its requested value: --for left_bump_steer=0; with'// &
       indent//'case and swept value: --for "roll:left_camber_deg@2=-1.5"; may be repeated'), &
       option_t('solve', '--case NAME', 'case of the columns (default: the first)'), &
       option_t('solve', '--at VALUE', 'swept value at which columns are read (default: design)'), &
       option_t('solve', '--out DIR', 'output folder (default: out)'), &
       option_t('solve', '--set path=value', 'as for run'), option_t('solve', '--set-file FILE', 'as for run'), &
       option_t('solve', '--quiet', quiet_help), &
-      option_t('fit', '--out DIR', 'output folder (default: out, next to the fit)'), &
-      option_t('fit', '--set path=value', 'change the deck of the fit'), &
+      option_t('fit', '--out DIR', 'output folder (default: out, in the folder of the fit file)'), &
+      option_t('fit', '--set path=value', 'change a value of the deck of the fit'), &
       option_t('fit', '--no-plots', no_plots_help), option_t('fit', '--quiet', quiet_help), &
       option_t('compare', '--out DIR', 'output folder (default: out)'), &
       option_t('compare', '--window what=half', 'as for report, if gradients are computed from CSV files'), &
-      option_t('compare', '--threshold P%', 'least change, in percent of A or of the least span of a chart (default: 1%)'), &
+      option_t('compare', '--threshold P%', &
+      'smallest listed change, in percent of A or of the least span of a chart (default: 1%)'), &
       option_t('compare', '--no-plots', no_plots_help), &
       option_t('compare', '--static', 'as for report'), &
       option_t('compare', '--quiet', quiet_help), &
-      option_t('study', '--out DIR', 'output folder (default: out, next to the study)'), &
-      option_t('study', '--jobs N', 'threads (default: the processors, at most OMP_NUM_THREADS and SLURM_CPUS_PER_TASK;'//indent// &
-      'under mpirun one per process)'), &
-      option_t('study', '--samples N', 'number of designs instead of `samples` of the study, for a trial'), &
-      option_t('study', '--shard i/n', 'only part i of n of the designs, for a job array; then run elastokin merge'), &
+      option_t('study', '--out DIR', 'output folder (default: out, in the folder of the study file)'), &
+      option_t('study', '--jobs N', 'number of threads (default: one per processor, at most OMP_NUM_THREADS and'//indent// &
+      'SLURM_CPUS_PER_TASK; under mpirun one per process)'), &
+      option_t('study', '--samples N', 'number of designs of a trial, instead of `samples` of the study'), &
+      option_t('study', '--shard i/n', 'run only part i of n of the designs, for a job array; run elastokin merge afterwards'), &
       option_t('study', '--time-limit TIME', 'stop before this time has passed: seconds or [hours:]minutes:seconds'), &
       option_t('study', '--status', 'print the progress of the study and exit'), &
-      option_t('study', '--accept-failed', 'exit status 0 also if designs failed'), &
-      option_t('study', '--set path=value', 'change the deck of the study'), &
+      option_t('study', '--accept-failed', 'return exit status 0 even if designs failed'), &
+      option_t('study', '--set path=value', 'change a value of the deck of the study'), &
       option_t('study', '--quiet', quiet_help), &
       option_t('study', '--no-plots', no_plots_help), &
       option_t('merge', '--out DIR', ''), option_t('merge', '--samples N', ''), option_t('merge', '--accept-failed', ''), &
       option_t('merge', '--set path=value', ''), &
       option_t('merge', '--no-plots', ''), option_t('merge', '--quiet', ''), &
-      option_t('plot', '--kind NAME', 'only this figure; may be repeated: tornado | sobol | morris | line | map | fan |'//indent// &
+      option_t('plot', '--kind NAME', &
+      'draw only this figure; may be repeated: tornado | sobol | morris | line | map | fan |'//indent// &
       'family | histogram | scatter | parallel | convergence'), &
-      option_t('plot', '--out DIR', 'folder of the tables (default: out, next to the study)'), &
-      option_t('plot', '--samples N', 'number of designs of the study run'), &
-      option_t('plot', '--set path=value', 'change of the deck, as in the study run'), &
+      option_t('plot', '--out DIR', 'folder of the tables (default: out, in the folder of the study file)'), &
+      option_t('plot', '--samples N', 'number of designs, as in the run of the study'), &
+      option_t('plot', '--set path=value', 'change a value of the deck, as in the run of the study'), &
       option_t('plot', '--quiet', quiet_help), &
       option_t('export', '--to TARGET', 'carmaker | carsim | matlab-kc | csv'), &
       option_t('export', '--out DIR', 'output folder (default: out)'), &
       option_t('export', '--travel from:to:n', 'wheel travel in mm with n points (default: test parallel_travel, 33 points)'), &
       option_t('export', '--steer from:to:n', 'rack travel in mm, positive to the left (default: test steering, 17 points)'), &
-      option_t('export', '--map KIND', 'steer | opposite: second argument of the map (default: steer if the deck steers)'), &
+      option_t('export', '--map KIND', 'second argument of the map: steer | opposite (default: opposite without a steering)'), &
       option_t('export', '--driver NAME', 'driver joint that steers (default: driver of &steering)'), &
-      option_t('export', '--length what=NAME', 'spring, damper, stop or bar of a wheel, where the deck has several; NAME'// &
+      option_t('export', '--length what=NAME', 'spring, damper, stop or bar of a wheel, if the deck has several; give NAME'// &
       indent//'without left_ and right_, or LEFT,RIGHT; may be repeated: --length spring=coil'), &
       option_t('export', '--vertical WORD', 'point whose height defines wheel travel: centre | patch | road (default: patch)'), &
-      option_t('export', '--held WORD', 'wheels on the road (with tyre rates), centre heights held, or vertical forces held:'// &
+      option_t('export', '--held WORD', &
+      'condition of the wheels for compliance: on the road (with tyre rates), heights or forces held:'// &
       indent//'road | centre | force (default: road if every wheel has a tyre_rate, else centre)'), &
       option_t('export', '--axle WORD', 'front | rear (default: position of &axle)'), &
-      option_t('export', '--other DECK', 'matlab-kc: the deck of the other axle'), &
-      option_t('export', '--signs WORD', 'csv: iso | sae (default: iso)'), &
-      option_t('export', '--loads F:M:n', 'csv: largest force in N and moment in N m, n points (default: 2000:100:21)'), &
-      option_t('export', '--plot', 'also draw the written tables over curves that are solved separately'), &
+      option_t('export', '--other DECK', 'deck of the other axle, for matlab-kc'), &
+      option_t('export', '--signs WORD', 'signs of target csv: iso | sae (default: iso)'), &
+      option_t('export', '--loads F:M:n', &
+      'largest force [N], largest moment [N m] and n points of target csv (default: 2000:100:21)'), &
+      option_t('export', '--plot', 'also draw the written tables over separately solved curves'), &
       option_t('export', '--set path=value', 'as for run'), &
       option_t('export', '--quiet', quiet_help), &
       option_t('import', '--out FILE', 'write this file (default: -, standard output)'), &
@@ -226,13 +241,15 @@ module ek_command
       option_t('derivatives', '--of a,b,c', 'only these columns of the case or of the compliance matrix (names as in'// &
       indent//'run --compliance); * stands for any letters'), &
       option_t('derivatives', '--with paths', 'only these numbers, as in --set: point.lca_front.z,bushing.*.kt; may be repeated'), &
-      option_t('derivatives', '--at a,b,c', 'at the states nearest to these swept values, or all (default: 0, the design state)'), &
-      option_t('derivatives', '--out DIR', 'output folder (default: out); - writes the CSV to standard output'), &
+      option_t('derivatives', '--at a,b,c', &
+      'only at the states nearest to these swept values; all: every state (default: 0, design)'), &
+      option_t('derivatives', '--out DIR', 'output folder (default: out); --out - writes the CSV to standard output'), &
       option_t('derivatives', '--set path=value', 'as for run'), option_t('derivatives', '--set-file FILE', 'as for run'), &
       option_t('derivatives', '--quiet', quiet_help), &
       option_t('bench', '--case NAME', ''), option_t('bench', '--increments N', ''), option_t('bench', '--set path=value', ''), &
-      option_t('bench', '--growth N', 'instead of a deck: chains with matrices of 100 to 2000 rows, at most N'), &
-      option_t('bench', '--derivatives', 'instead: cost of derivatives, in sweeps by LAPACK of the same states'), &
+      option_t('bench', '--growth N', &
+      'measure chains of bodies instead of a deck, with matrices of 100 to N rows (at most 2000)'), &
+      option_t('bench', '--derivatives', 'measure the cost of derivatives instead, in sweeps of the same states by LAPACK'), &
       option_t('bench', '--json', 'print one JSON object'), option_t('bench', '--quiet', ''), &
       ! of every command
       option_t('', '--log FILE', 'append a record of this run (one line of JSON: arguments, messages, results, exit status)'), &

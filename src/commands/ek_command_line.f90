@@ -1,5 +1,5 @@
-!> The command line: a command, its files and its options. It is read by the tables of ek_command, so that it contains only options
-!> of its command. Every error message states the expected form.
+!> The command line: a command, its files and its options. It is checked against the tables of ek_command, so that it contains
+!> only options of its command. Every error message states the expected form.
 module ek_command_line
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t, fail, exit_usage
@@ -23,7 +23,7 @@ module ek_command_line
       character(15) :: alone = '' !! option that is given instead of the files
    end type command_t
 
-   !> An option that a command takes.
+   !> An option of a command.
    type :: option_t
       character(11) :: command    !! '' for every command
       character(19) :: label      !! '--plot', '--out DIR': the name and its value; N: a number, a=b: may be repeated
@@ -100,7 +100,7 @@ contains
       if (status /= 0) number = 0
    end subroutine read_number
 
-   !> '--out' of '--out DIR'.
+   !> The name of an option: '--out' of '--out DIR'.
    elemental character(15) function option_name(option) result(name)
       type(option_t), intent(in) :: option
       name = option%label(:index(option%label, ' ') - 1)
@@ -148,11 +148,11 @@ contains
          word = line%names%line(k)
          if (allocated(error)) return
          if (.not. any((options%command == line%command .or. options%command == '') .and. option_name(options) == word)) &
-            call fail(error, exit_usage, line%command//' takes no '//word)
+            call fail(error, exit_usage, line%command//' does not accept '//word)
       end do
    end subroutine read_command_line
 
-   !> Takes an option, and its value: --out DIR or --out=DIR.
+   !> Reads an option with its value: --out DIR or --out=DIR.
    subroutine take_option(options, word, k, line, error)
       type(option_t), intent(in) :: options(:)
       character(*), intent(in) :: word
@@ -178,7 +178,7 @@ contains
       value = ''
       if (equals > 0) then
          value = word(equals + 1:)
-         if (expected == '') call fail(error, exit_usage, name//' takes no value, found '//quoted(value))
+         if (expected == '') call fail(error, exit_usage, name//' does not accept a value, found '//quoted(value))
       else if (expected /= '' .and. k == command_argument_count()) then
          call fail(error, exit_usage, name//' needs a value after it')
       else if (expected /= '') then
@@ -190,7 +190,7 @@ contains
       if (expected /= '' .and. len_trim(value) == 0) then      ! for instance an unset variable of the shell
          call fail(error, exit_usage, name//' needs a value, found an empty one')
       else if (expected == 'N' .and. number < 1) then
-         call fail(error, exit_usage, name//': expected a whole number of at least 1, found '//quoted(value))
+         call fail(error, exit_usage, name//': expected an integer of at least 1, found '//quoted(value))
       end if
       call line%names%add(name)
       call line%texts%add(value)

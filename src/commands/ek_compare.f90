@@ -160,7 +160,7 @@ contains
 
    end subroutine find_missing
 
-   !> The columns of `one` that `other` lacks in the same test; each once, also if it is missing in several tests.
+   !> The columns of `one` that are missing in the same test of `other`. A column missing in several tests is listed once.
    function columns_lacking(one, other) result(lacking)
       type(results_t), intent(in) :: one, other
       type(message_list_t) :: lacking

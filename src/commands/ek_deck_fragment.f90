@@ -1,4 +1,4 @@
-!> The part of a deck that makes another design: the records whose numbers change, with the new numbers.
+!> The part of a deck that defines another design: the records whose numbers change, with the new numbers.
 module ek_deck_fragment
    use ek_kinds, only: wp
    use ek_text, only: str
@@ -16,7 +16,7 @@ module ek_deck_fragment
 
 contains
 
-   !> The part of a deck that makes a design of a study. '' if a factor is not a number of the design space.
+   !> The part of a deck that defines a design of a study; '' if a factor is not a number of the design space.
    function deck_fragment(designer, values) result(text)
       type(designer_t), intent(in) :: designer     !! with the numbers of the deck
       real(wp), intent(in) :: values(:)            !! of the factors

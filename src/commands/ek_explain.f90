@@ -1,4 +1,4 @@
-!> elastokin explain: which element, joint or load makes how much of each compliance, state by state.
+!> elastokin explain: contributions of each element, joint and load to each compliance, at every state.
 module ek_explain
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t, fail, exit_usage, exit_convergence

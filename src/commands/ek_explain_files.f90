@@ -44,7 +44,7 @@ contains
       call begin_file(self%paths, name//'_load_paths.csv', error)
       if (allocated(error)) return
       call self%shares%add('# '//header//nl// &
-         '# the values of a column and state add up to column_value; rows of 0 are left out'//nl// &
+         '# the values of a column and state add up to column_value; rows of 0 are omitted'//nl// &
          'case,state,factor,column,column_value,row,kind,part,value,unit,share'//nl)
       call self%paths%add('# '//header//nl// &
          '# per newton at a contact point: on the second body, at its point, frame of the deck'//nl// &
@@ -133,7 +133,7 @@ contains
       if (.not. allocated(error)) call self%paths%finish(error)
    end subroutine end_explain_files
 
-   !> The ratio value/whole; 0 if whole is 0.
+   !> The ratio value/whole [-]; 0 if whole is 0.
    pure real(wp) function share_of(value, whole) result(share)
       real(wp), intent(in) :: value, whole
 
@@ -153,7 +153,7 @@ contains
       call json%open('[', 'cases')
    end subroutine begin_explain_json
 
-   !> Begins a case: the rows, which are the same at every state.
+   !> Begins the output of a case. The rows are the same at every state.
    subroutine begin_explain_case(name, unit_name, table, json)
       character(*), intent(in) :: name, unit_name      !! of the swept value
       type(contribution_table_t), intent(in) :: table
@@ -189,7 +189,7 @@ contains
       call json%close('}')
    end subroutine end_explain_json
 
-   !> Adds one state: the value of every column, and the contribution of every row to it.
+   !> Adds one state: the value of every column, and the contribution of every row to this column.
    subroutine add_json_state(state, factor, table, json)
       integer, intent(in) :: state
       real(wp), intent(in) :: factor

@@ -62,7 +62,7 @@ contains
          repeat(merge('+', '-', value > 0.0_wp), letters))
    end subroutine add_bar
 
-   !> Adds each requested column with some laws rigid, or 1 kN/mm more in one of them.
+   !> Adds each requested column with some laws rigid, or with a stiffness of 1 kN/mm added to one law.
    subroutine add_rigid(suspension, name, laws, kkt, table, text)
       type(suspension_t), intent(in) :: suspension
       character(*), intent(in) :: name                 !! name of the rigid element or axis
@@ -136,7 +136,7 @@ contains
       text = unit_text(unit_of(heading(table, c)))
    end function unit
 
-   !> A name in a column of its own.
+   !> A name, padded with blanks to the width of its column.
    pure function padded(name) result(text)
       character(*), intent(in) :: name
       character(:), allocatable :: text

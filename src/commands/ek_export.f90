@@ -147,7 +147,7 @@ contains
       call carsim_panels(axle%map, sources, axle%map%model//'_carsim.par', text, panels)
    end subroutine write_carsim
 
-   !> Writes both files of the axle, and of the other axle if there is a deck of it.
+   !> Writes both files of the axle, and those of the other axle if its deck is given.
    subroutine write_mathworks(settings, axle, sources, panels, unprinted, error)
       type(export_settings_t), intent(in) :: settings
       type(axle_map_t), intent(in) :: axle

@@ -64,7 +64,7 @@ contains
       if (settings%other /= '' .and. settings%target /= 'matlab-kc') &
          call mistakes%add('--other: only matlab-kc writes both axles in one file')
       if (settings%signs /= '' .and. settings%target /= 'csv') call mistakes%add('--signs: only csv has a choice of signs; '// &
-         'carmaker and matlab-kc have those of ISO 8855, carsim its own')
+         'carmaker and matlab-kc use ISO 8855, carsim uses the signs of CarSim')
       if (mistakes%count() > 0) call fail(error, exit_usage, mistakes%text())
 
    contains
@@ -126,7 +126,8 @@ contains
       end do
    end function list
 
-   !> Makes the request for a model: ranges of the command line, else the ranges of its tests of travel and steering.
+   !> Builds the request for a model. Ranges are those of the command line; without them, the ranges of the travel and steering
+   !> tests.
    subroutine make_request(settings, suspension, cases, request, error)
       type(export_settings_t), intent(in) :: settings
       type(suspension_t), intent(in) :: suspension
@@ -234,7 +235,7 @@ contains
       if (suspension%axle%has_axle) is_front = suspension%axle%is_front
       if (settings%axle /= '') is_front = settings%axle == 'front'
       if (settings%axle == '' .and. .not. suspension%axle%has_axle) call fail(error, exit_usage, &
-         'the deck has no &axle, which says whether it is the front or the rear one: add --axle front or --axle rear')
+         'the deck has no &axle with the position of the axle: add --axle front or --axle rear')
    end subroutine front_of
 
 end module ek_export_settings

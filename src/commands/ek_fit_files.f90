@@ -67,7 +67,7 @@ contains
 
    end subroutine write_fit_files
 
-   !> One row per factor.
+   !> The table of factors as CSV, one row per factor.
    function factors_csv(problem, found, statistics) result(text)
       type(fit_problem_t), intent(in) :: problem
       type(fit_result_t), intent(in) :: found
@@ -152,7 +152,7 @@ contains
       end do
    end subroutine changed_numbers
 
-   !> The numbers found as settings.
+   !> The fitted numbers as settings, one per line (--set-file).
    function settings(fit, workspace, problem) result(text)
       type(fit_t), intent(in) :: fit
       type(workspace_t), intent(in) :: workspace

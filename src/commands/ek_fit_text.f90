@@ -25,7 +25,7 @@ module ek_fit_text
 
 contains
 
-   !> Adds all findings.
+   !> Adds all findings of a fit to the printed text.
    subroutine add_fit_findings(fit, workspace, problem, found, statistics, text)
       type(fit_t), intent(in) :: fit
       type(workspace_t), intent(in) :: workspace          !! with the numbers found
@@ -218,7 +218,7 @@ contains
       end associate
    end subroutine add_group
 
-   !> Whether two factors are rates of the same unit.
+   !> Whether two factors are rates with the same unit.
    pure logical function are_rates(problem, a, b)
       type(fit_problem_t), intent(in) :: problem
       integer, intent(in) :: a, b
@@ -229,7 +229,7 @@ contains
       are_rates = are_rates .and. problem%variables(a)%start > 0.0_wp .and. problem%variables(b)%start > 0.0_wp
    end function are_rates
 
-   !> A name in its column.
+   !> A name, padded with blanks to the width of its column.
    function padded(name) result(text)
       character(*), intent(in) :: name
       character(:), allocatable :: text

@@ -28,7 +28,7 @@ module ek_growth
    integer, parameter :: rounds = 15              !! walks of each chain; the shortest counts
    real(wp), parameter :: patience = 1.0_wp       !! s: a chain that took so long is not walked again
 
-   !> One size of the chain.
+   !> The times and the memory for one size of the chain.
    type :: size_t
       integer :: n = 0, bodies = 0
       integer :: nonzeros = 0, length = 0         !! entries of the matrix; numbers of its factors by plan
@@ -50,11 +50,11 @@ contains
       character(13), parameter :: of_decks(*) = [character(13) :: '--case', '--increments', '--set', '--derivatives']
       integer :: k, solver
 
-      if (line%files%count() > 0) call fail(error, exit_usage, '--growth makes its own models and takes no deck')
+      if (line%files%count() > 0) call fail(error, exit_usage, '--growth builds its own models; omit the deck')
       do k = 1, size(of_decks)
          if (allocated(error)) return
          if (line%has(trim(of_decks(k)))) &
-            call fail(error, exit_usage, '--growth makes its own models and takes no '//trim(of_decks(k)))
+            call fail(error, exit_usage, '--growth builds its own models; omit '//trim(of_decks(k)))
       end do
       if (.not. allocated(error) .and. line%number('--growth') < rows(1)) &
          call fail(error, exit_usage, '--growth: expected a size of at least '//str(rows(1))//', found '//line%value('--growth'))
@@ -130,7 +130,7 @@ contains
       close (unit, iostat=k)
    end function peak_memory
 
-   !> The sizes as lines.
+   !> The results of all sizes as lines of text.
    function table_of(sizes) result(text)
       type(size_t), intent(in) :: sizes(:)
       character(:), allocatable :: text

@@ -31,7 +31,7 @@ contains
             cycle
          end if
          if (any(kind == [axle_kind, loads_kind])) then
-            if (line%files%count() > 1) call faults%add(quoted(line%files%line(k))//' makes a file of its own: import it alone')
+            if (line%files%count() > 1) call faults%add(quoted(line%files%line(k))//' gives a separate file: import it alone')
          else if (deck == '') then
             deck = put_model(base_name(line%files%line(k)))
          end if

@@ -43,7 +43,8 @@ contains
       parts%increment = min(parts%increment, (processor_seconds() - start)/(path%states - 1))
    end subroutine time_walk
 
-   !> Times the parts: one assembly, factorisation and solution at states of the path, as often as an increment has them.
+   !> Times the parts of an increment: assembly, factorisation and solution at states of the path, each as often as in an
+   !> increment.
    subroutine time_parts(suspension, case, path, kkt, parts)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
@@ -79,7 +80,7 @@ contains
 
    contains
 
-      !> Measures the time per state of one kind of work, with all work that it needs before.
+      !> Measures the time per state of one kind of work, including all work required before it.
       subroutine time_work(work, spent)
          integer, intent(in) :: work
          real(wp), intent(out) :: spent

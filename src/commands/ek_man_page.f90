@@ -42,7 +42,7 @@ contains
       text = page%text()
    end function main_page
 
-   !> elastokin-run(1) …
+   !> The man page of a command, as elastokin-run(1), in roff.
    function command_page(command, options) result(text)
       type(command_t), intent(in) :: command
       type(option_t), intent(in) :: options(:)

@@ -143,7 +143,7 @@ contains
       end do
    end subroutine take_sample
 
-   !> A NaN.
+   !> A quiet NaN, for a number without a value.
    pure real(wp) function nothing()
       nothing = ieee_value(1.0_wp, ieee_quiet_nan)
    end function nothing

@@ -1,5 +1,5 @@
-!> The entry of one option in the table of options, for man pages and completion: its name, its value, and its description,
-!> which may stand in the row of another command.
+!> The entry of one option in the table of options, for man pages and completion: name, value and description. The description may
+!> be in the row of another command.
 module ek_option_help
    use ek_command_line, only: option_t, option_name
    implicit none(type, external)
@@ -32,8 +32,8 @@ contains
       name = trim(adjustl(option%label(len_trim(option_name(option)) + 1:)))
    end function value_name
 
-   !> The description of option number k: its own, or that of the command to which its help refers ('as for run'), or else the
-   !> first description of an option of the same name. Its lines are not indented.
+   !> The description of option k. If its help refers to another command ('as for run'), the description of that command is used.
+   !> If its help is empty, the first description of an option with the same name is used. Its lines are not indented.
    pure recursive function description(options, k) result(text)
       type(option_t), intent(in) :: options(:)
       integer, intent(in) :: k

@@ -120,8 +120,8 @@ contains
 
    contains
 
-      !> Removes a figure that is not drawn now, unless it shows these results: its script, which contains its data, equals the
-      !> present one.
+      !> Removes a figure that is not drawn now, unless it shows the current results. It does if its script, which contains the
+      !> data, equals the new script.
       subroutine remove_old(rule, name)
          type(figure_rule_t), intent(in) :: rule
          character(*), intent(in) :: name

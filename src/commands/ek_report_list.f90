@@ -16,7 +16,7 @@ module ek_report_list
 
    character(*), parameter :: list_file = 'report-files.csv'     !! no test has a hyphen in its name
 
-   !> Files of every report.
+   !> Files that every report writes.
    character(*), parameter :: own(*) = [character(18) :: contents_file, gradients_file, 'gradients.json', compliance_file, &
       numbers_file, 'key_numbers.json', deck_file, 'deck_as_used.nml', 'data.json', 'report.html']
 

@@ -32,7 +32,7 @@ contains
       call json%open('[', 'cases')
    end subroutine begin_run_json
 
-   !> Adds one case: its status, its remarks, and its table column by column; no columns if it was not solved.
+   !> Adds one case: its status, its remarks, and its table column by column. A case that was not solved has no columns.
    subroutine add_run_json(result, case, json)
       type(case_result_t), intent(in) :: result
       type(case_t), intent(in) :: case             !! as in the deck

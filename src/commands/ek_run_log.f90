@@ -79,12 +79,12 @@ contains
       call log%checksums%add(checksum)
    end subroutine log_deck
 
-   !> Drops the record of this process: of several processes of one study the first writes it.
+   !> Drops the record of this process. If a study has several processes, the first one writes the record.
    subroutine drop_log()
       call file%close()
    end subroutine drop_log
 
-   !> Appends the record.
+   !> Appends the record of the run to the log.
    subroutine end_log(program, status, error)
       character(*), intent(in) :: program                     !! name, version and commit
       integer, intent(in) :: status                           !! exit status

@@ -58,7 +58,7 @@ contains
       if (.not. allocated(error)) call move_alloc(unwritten, error)
    end subroutine run_numbers
 
-   !> Writes the results of a design, whole or not at all.
+   !> Writes the complete results of a design, or no file.
    subroutine write_results(path, text, error)
       character(*), intent(in) :: path                     !! - is standard output
       character(*), intent(in) :: text

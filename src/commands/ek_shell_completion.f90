@@ -15,7 +15,7 @@ module ek_shell_completion
 
 contains
 
-   !> The file of bash-completion.
+   !> The completion script for bash.
    function bash_completion(commands, options) result(text)
       type(command_t), intent(in) :: commands(:)
       type(option_t), intent(in) :: options(:)
@@ -86,7 +86,7 @@ contains
       if (option%command == '') text = '*'//text
    end function bash_case
 
-   !> The function of zsh.
+   !> The completion function for zsh.
    function zsh_completion(commands, options) result(text)
       type(command_t), intent(in) :: commands(:)
       type(option_t), intent(in) :: options(:)
@@ -149,7 +149,7 @@ contains
       call script%add(' '//backslash//nl//'  '//quoted_word(spec))
    end subroutine add_zsh_option
 
-   !> The completions of fish.
+   !> The completion script for fish.
    function fish_completion(commands, options) result(text)
       type(command_t), intent(in) :: commands(:)
       type(option_t), intent(in) :: options(:)
@@ -205,7 +205,7 @@ contains
       end if
    end function value_kind
 
-   !> 'run check report'
+   !> The names of all commands with a separator between them: 'run check report'.
    pure function command_names(commands, between) result(text)
       type(command_t), intent(in) :: commands(:)
       character(*), intent(in) :: between
@@ -231,7 +231,7 @@ contains
       end do
    end function escaped
 
-   !> A word between single quotes; zsh ends the word for a quote in it, fish has a backslash before it.
+   !> A word in single quotes. A quote within the word ends the quoted part in zsh, and has a backslash before it in fish.
    pure function quoted_word(text, is_fish) result(word)
       character(*), intent(in) :: text
       logical, intent(in), optional :: is_fish

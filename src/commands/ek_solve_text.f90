@@ -16,7 +16,7 @@ module ek_solve_text
 
 contains
 
-   !> Adds all findings.
+   !> Adds all findings of `solve` to the printed text.
    subroutine add_findings(workspace, unknowns, wanted, targets, found, text)
       type(workspace_t), intent(in) :: workspace
       type(unknown_t), intent(in) :: unknowns(:)
@@ -67,7 +67,7 @@ contains
       end associate
    end function label_of
 
-   !> '-60.5 mm'.
+   !> A value with its unit: '-60.5 mm'.
    function quantity(value, unit) result(text)
       real(wp), intent(in) :: value
       character(*), intent(in) :: unit

@@ -192,7 +192,7 @@ contains
          plural(state%wanted, 'design was', 'designs were')//' done before')
       if (state%is_stopped) then
          call fail(error, exit_stopped, 'stopped: '//str(state%done)//' of '//plural(state%wanted, 'design is', &
-            'designs are')//' done and kept; run the same command again to resume')
+            'designs are')//' done and stored; run the same command again to resume')
          if (ranks%count == 1) return
          call print_note(is_quiet, error%message)          ! a launcher that was stopped may not let this process end in order
          error%message = 'the study is not complete'

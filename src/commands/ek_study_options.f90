@@ -14,7 +14,7 @@ module ek_study_options
 
 contains
 
-   !> Reads --jobs (usually one thread per processor; of several ranks, one each), --shard and --time-limit.
+   !> Reads --jobs (default: one thread per processor; with several ranks, one thread per rank), --shard and --time-limit.
    subroutine read_options(line, ranks, options, error)
       type(command_line_t), intent(in) :: line
       type(ranks_t), intent(in) :: ranks

@@ -49,16 +49,16 @@ contains
       call remove_parts(this%study, this%plan, this%out, hold, user)
       if (user == this_machine) call print_note(is_quiet, 'another run is at work in '//parts_folder(this%study, this%out)// &
          '; it removes that folder')
-      if (user == other_machine) call print_note(is_quiet, parts_folder(this%study, this%out)//' is kept: a run on another '// &
-         'machine is at work in it, or died there within a day; remove it if there is none')
+      if (user == other_machine) call print_note(is_quiet, parts_folder(this%study, this%out)//' is not deleted: a run on '// &
+         'another machine is at work in it, or died there within a day; remove it if there is none')
       if (counts%kernels%count() > 1) call print_warning('the designs were computed with different BLAS kernels ('// &
-         kernels_text(counts)//'): on processors of one kind all would be equal to the last digit; OPENBLAS_CORETYPE='// &
-         counts%kernels%line(1)//' makes them so everywhere')
+         kernels_text(counts)//'): their last digits may differ; set OPENBLAS_CORETYPE='// &
+         counts%kernels%line(1)//' on every machine to get equal digits')
       name = results_name(this)
       if (this%plan%columns > 0 .and. .not. this%has_store) call tables%add(curves_name(this%study))
       call tables%add(name)
       if (has_limits(this%study)) call print_note(is_quiet, str(counts%within)//' of '//plural(this%plan%designs, &
-         'design keeps', 'designs keep')//' all limits')
+         'design satisfies', 'designs satisfy')//' all limits')
       failed = sum(counts%designs(1:))
       if (failed == 0) return
       list = ''
@@ -74,7 +74,7 @@ contains
       if (.not. line%has('--accept-failed')) call fail(error, exit_convergence, list)
    end subroutine write_results
 
-   !> Writes out/<study>.csv.
+   !> Writes the table out/<study>.csv of a step-size study.
    subroutine write_step_size(study, deck, out, tables, error)
       type(study_t), intent(in) :: study
       type(deck_t), intent(in) :: deck

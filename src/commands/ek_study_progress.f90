@@ -31,7 +31,7 @@ contains
       end if
    end subroutine show_state
 
-   !> Clears that line.
+   !> Clears the progress line.
    subroutine end_state(state)
       type(run_state_t), intent(in) :: state
       if (is_terminal(2) .and. .not. state%is_quiet) call write_standard_error(achar(13)//repeat(' ', 78)//achar(13))

@@ -30,7 +30,7 @@ module ek_study_results
 
    integer, parameter :: most_reasons = 12           !! kinds of failures
 
-   !> Failures with the same message, apart from the numbers in it.
+   !> Failures whose messages differ only in numbers.
    type :: reason_t
       character(:), allocatable :: pattern, words
       integer :: count = 0, design = 0
@@ -246,7 +246,7 @@ contains
       if (unit /= '') axis%label = axis%label//' ['//unit_text(unit)//']'
    end subroutine name_response
 
-   !> Counts a failure together with failures of the same message.
+   !> Counts a failure together with all failures that have the same message.
    subroutine count_reason(field, design, reasons)
       character(*), intent(in) :: field              !! of the table, in quotes
       integer, intent(in) :: design

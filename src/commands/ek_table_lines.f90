@@ -79,7 +79,7 @@ contains
       end do
    end subroutine next_line
 
-   !> Reads the first numbers of a line; other content becomes NaN. `rest` is where the field after them begins.
+   !> Reads the first numbers of a line. Other content becomes NaN. `rest` is the position at which the next field begins.
    pure subroutine take_numbers(content, values, rest)
       character(*), intent(in) :: content
       real(wp), intent(out) :: values(:)

@@ -23,8 +23,8 @@ module ek_tolerance_outcome
 
 contains
 
-   !> Computes the derivatives of a tolerance study before its designs, so that a missing one is reported at once. Other kinds
-   !> need none.
+   !> Computes the derivatives of a tolerance study before its designs, so that a missing derivative is reported before any design
+   !> is solved. Other kinds of study do not need derivatives.
    subroutine expand_study(this, error)
       type(opened_study_t), intent(inout) :: this
       type(error_t), allocatable, intent(out) :: error     !! exit_deck, exit_model
@@ -105,7 +105,7 @@ contains
       end associate
    end subroutine add_response
 
-   !> A number in its column.
+   !> A number, padded with blanks to the width of its column.
    function number(value, digits) result(text)
       real(wp), intent(in) :: value
       integer, intent(in), optional :: digits
@@ -118,7 +118,7 @@ contains
       if (ieee_is_finite(value)) text = right(str(value, many), width)
    end function number
 
-   !> '97.3 %'
+   !> A share in percent: '97.3 %'.
    function percent(share) result(text)
       real(wp), intent(in) :: share
       character(:), allocatable :: text

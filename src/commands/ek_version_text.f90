@@ -24,7 +24,7 @@ module ek_version_text
 
 contains
 
-   !> 'elastokin 0.1.0 (commit 0c4ac0af68fa)'
+   !> The program with version and commit: 'elastokin 0.1.0 (commit 0c4ac0af68fa)'.
    pure function program_name(build) result(text)
       type(build_t), intent(in) :: build
       character(:), allocatable :: text
@@ -74,7 +74,7 @@ contains
       character(:), allocatable :: text
       character(60) :: name
 
-      text = 'no, this compiler makes no vector instructions of them'
+      text = 'no, this compiler does not vectorise them'
       if (.not. are_lanes_fast) return
       text = str(lanes)//' designs at a time'
       call get_instruction_set(name)
@@ -99,7 +99,7 @@ contains
       character(*), intent(in) :: name
       character(:), allocatable :: text
 
-      text = 'no, '//name//' is not beside this program'
+      text = 'no, '//name//' is not in the folder of this program'
       if (program_exists(join_path(program_folder(), name))) text = 'yes, '//join_path(program_folder(), name)
    end function beside
 

@@ -214,7 +214,7 @@ contains
       end do
    end subroutine drop_unit
 
-   !> The message about a unit.
+   !> The error message on a unit after a number.
    pure function unit_message(entry, unit) result(words)
       type(entry_t), intent(in) :: entry
       character(*), intent(in) :: unit

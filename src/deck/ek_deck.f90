@@ -32,7 +32,7 @@ module ek_deck
       character(:), allocatable :: path, text
    end type setting_t
 
-   !> The parsed deck.
+   !> A parsed deck: text, records, settings, and every file that it names.
    type :: deck_t
       character(:), allocatable :: file          !! as given by the user, for messages
       type(record_t), allocatable :: records(:)  !! the first `used` are filled, in the order of the text
@@ -238,8 +238,8 @@ contains
       digits = digits_of(sum)
    end function deck_checksum
 
-   !> Adds the load tables that cases name to a checksum, byte for byte. One that cannot be read adds nothing: its case cannot be
-   !> run.
+   !> Adds the bytes of the load tables named by cases to a checksum. A table that cannot be read is not added, because its case
+   !> cannot be run.
    subroutine include_tables(files, records, sum)
       type(kept_files_t), intent(in) :: files      !! which are not read again
       type(record_t), intent(in) :: records(:)

@@ -43,7 +43,7 @@ module ek_deck_reading
 
 contains
 
-   !> Reports an error in record `at`, by default the one being read, at the line of `key` ('': the line of the record).
+   !> Reports an error in record `at` (default: the record being read), at the line of `key` ('': the line of the record).
    subroutine complain(reading, key, what, at)
       type(deck_reading_t), intent(inout) :: reading
       character(*), intent(in) :: key, what
@@ -68,7 +68,7 @@ contains
       end do
    end subroutine refuse
 
-   !> Reports an error of the deck as a whole.
+   !> Reports an error that has no line in the deck.
    subroutine complain_of_all(reading, what)
       type(deck_reading_t), intent(inout) :: reading
       character(*), intent(in) :: what
@@ -137,7 +137,7 @@ contains
       end associate
    end function raw
 
-   !> A text.
+   !> The string of a key, or its default.
    pure function text_of(reading, key, default) result(text)
       type(deck_reading_t), intent(in) :: reading
       character(*), intent(in) :: key
@@ -185,7 +185,7 @@ contains
       values = [(number_of(reading, key, 0.0_wp, k), k=1, most)]
    end function numbers_of
 
-   !> A integer.
+   !> The integer of a key, or its default.
    integer function whole_of(reading, key, default, at) result(value)
       type(deck_reading_t), intent(in) :: reading
       character(*), intent(in) :: key
@@ -266,8 +266,8 @@ contains
       if (any(units == lower(word))) hint = '; imperial units are not supported: convert the numbers of the deck'
    end function imperial_hint
 
-   !> Makes a number of the record being read, or the first `count` elements of a list, parameters; `number` is the index of the
-   !> first, 0 if the key is not given and has no default.
+   !> Defines parameters: a number of the record being read, or the first `count` elements of a list. `number` is the index of the
+   !> first parameter, 0 if the key is not given and has no default.
    subroutine slot(reading, key, unit, number, default, count)
       type(deck_reading_t), intent(inout) :: reading
       character(*), intent(in) :: key

@@ -1,6 +1,6 @@
-!> The deck as it was used: one file with all records after included files, hardpoints, property files, both sides and settings.
-!> Comments give the file and the line of each record, the setting of each value that was set, and the numbers that are not given.
-!> The file gives the same results as the deck from which it was made.
+!> The deck as used: one file with the records of all included files, hardpoints and property files, of both sides, and with all
+!> settings. Comments give the file and the line of each record, the setting of each value that was set, and the numbers that are
+!> not given. The file gives the same results as the deck from which it was made.
 module ek_deck_writer
    use ek_error, only: error_t, fail, exit_usage
    use ek_text, only: str, quoted
@@ -29,11 +29,11 @@ module ek_deck_writer
 
 contains
 
-   !> Writes a deck, and in the same folder the load tables that it names: DECK_TABLE.csv.
+   !> Writes a deck, and the load tables named in the deck as DECK_TABLE.csv in the same folder.
    subroutine write_deck_as_used(deck, path, error)
       type(deck_t), intent(in) :: deck                     !! without errors
       character(*), intent(in) :: path
-      type(error_t), allocatable, intent(out) :: error     !! exit_usage, exit_file; exit_deck if it has errors
+      type(error_t), allocatable, intent(out) :: error     !! exit_usage, exit_file; exit_deck if the deck has errors
       type(table_t), allocatable :: tables(:)
       character(:), allocatable :: text, content
       integer :: k
@@ -76,7 +76,7 @@ contains
    subroutine deck_as_used(deck, text, error)
       type(deck_t), intent(in) :: deck
       character(:), allocatable, intent(out) :: text
-      type(error_t), allocatable, intent(out) :: error     !! exit_deck: it has errors
+      type(error_t), allocatable, intent(out) :: error     !! exit_deck: the deck has errors
       type(table_t), allocatable :: tables(:)
 
       call make_text(deck, '', text, tables, error)
@@ -105,7 +105,7 @@ contains
       text = lines%text()
    end subroutine make_text
 
-   !> Adds one record: its file and line, a line for each key, and the numbers that it does not give.
+   !> Adds one record: its file and line, a line for each key, and the numbers that the record does not give.
    subroutine add_record(record, number, parameters, kept, prefix, tables, lines)
       type(record_t), intent(in) :: record
       integer, intent(in) :: number

@@ -31,7 +31,7 @@ module ek_group
    integer, parameter, public :: word = 1      !! quoted, at most word_length characters: names and choices
    integer, parameter, public :: prose = 2     !! quoted, at most note_length characters
    integer, parameter, public :: number = 3
-   integer, parameter, public :: whole = 4     !! whole number
+   integer, parameter, public :: whole = 4     !! integer
    integer, parameter, public :: switch = 5    !! .true. or .false.
    integer, parameter, public :: heading = 6   !! quoted, at most name_length characters: columns of the results
 
@@ -343,10 +343,10 @@ contains
       end do
    end subroutine find_key
 
-   !> "bushing 'top_mount': "
+   !> The begin of a message on a record: "bushing 'top_mount': ".
    pure function record_head(group, name) result(head)
       integer, intent(in) :: group
-      character(*), intent(in) :: name     !! '' if it has none
+      character(*), intent(in) :: name     !! '' if the record has no name
       character(:), allocatable :: head
 
       head = trim(group_names(group))//': '

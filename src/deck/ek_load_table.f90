@@ -57,7 +57,7 @@ contains
       end do
    end subroutine read_tables
 
-   !> Reads one table.
+   !> Reads one table of loads.
    subroutine read_table(file, files, suspension, is_whole, table)
       character(*), intent(in) :: file
       type(kept_files_t), intent(in) :: files
@@ -148,7 +148,7 @@ contains
          plural(count(is_unknown) - max_reported, 'more unknown column', 'more unknown columns'))
    end subroutine judge_columns
 
-   !> Hint on the known columns.
+   !> Advice on an unknown column: the similar name, or the known columns.
    function advice(name, suspension, wheels) result(words)
       character(*), intent(in) :: name
       type(suspension_t), intent(in) :: suspension

@@ -34,7 +34,7 @@ module ek_mirror
 
 contains
 
-   !> Writes the records of both sides, each left one followed by its right one.
+   !> Writes the records of both sides. The right record follows its left record.
    subroutine mirror_records(records, used, whole, whole_used, deck_errors)
       type(record_t), intent(in) :: records(:)
       integer, intent(in) :: used
@@ -119,7 +119,7 @@ contains
       end do
    end subroutine survey
 
-   !> Finds the names in `shared`; each must exist. 'none' alone, if no record has that name, stands for an empty list.
+   !> Finds the names in `shared`, each of which must exist. 'none' alone stands for an empty list if no record has this name.
    subroutine find_shared(mirror, half, deck_errors)
       type(record_t), intent(in) :: mirror
       type(half_t), intent(inout) :: half
@@ -150,7 +150,7 @@ contains
       is_of_one = half%is_shared(k) .or. half%is_right(k) .or. has_side(half%names(k))
    end function is_of_one
 
-   !> Duplicates a point unless it lies in the plane; it must lie on the left.
+   !> Duplicates a point unless it is in the plane. Any other point must be on the left.
    subroutine judge_point(point, half, is_doubled, deck_errors)
       type(record_t), intent(in) :: point
       type(half_t), intent(in) :: half
@@ -205,7 +205,7 @@ contains
       is_doubled_name = any(half%is_doubled .and. half%groups == role .and. half%names == lower(name)) .and. name /= ''
    end function is_doubled_name
 
-   !> Renames the record of one side and its references to others.
+   !> Renames the record of one side, and its references to other records.
    subroutine rename(half, side, record)
       type(half_t), intent(in) :: half
       integer, intent(in) :: side

@@ -20,8 +20,8 @@ module ek_namelist
    integer, parameter :: largest_exponent = 30      !! numbers from 1e30 are errors and could overflow later
    integer, parameter :: smallest_exponent = -100   !! numbers below 1e-100 are errors too; the smallest would be read as 0
    character(*), parameter :: digits = '0123456789'
-   character(*), parameter :: types(heading) = [character(17) :: 'a text in quotes', 'a text in quotes', 'a number', &
-      'a whole number', '.true. or .false.', 'a text in quotes']
+   character(*), parameter :: types(heading) = [character(18) :: 'a string in quotes', 'a string in quotes', 'a number', &
+      'an integer', '.true. or .false.', 'a string in quotes']
 
 contains
 
@@ -127,7 +127,7 @@ contains
       words = trim(key%name)//words//' '//range_text(key%range, key%unit, str(value))
    end function out_of_range
 
-   !> 'needs 3 values'
+   !> The number of values that a key requires: 'needs 3 values'.
    pure function needs(key) result(words)
       type(key_t), intent(in) :: key
       character(:), allocatable :: words
@@ -170,7 +170,7 @@ contains
       if (key%most > 1) words = '('//str(at)//')'
    end function element_text
 
-   !> 'a number, found …' if a value does not fit its type; '' if it does.
+   !> The error in a value that does not fit its type: 'a number, found …'; '' if the value fits.
    pure function value_fault(value, type) result(fault)
       type(value_t), intent(in) :: value
       integer, intent(in) :: type
@@ -186,7 +186,7 @@ contains
          else if (len(value%text) > longest(type)) then
             fault = 'at most '//str(longest(type))//' characters long, found '//str(len(value%text))
          else if (value%text == '') then
-            fault = trim(types(type))//', found an empty text'
+            fault = trim(types(type))//', found an empty string'
          else if (bad_byte(value%text) > 0) then
             fault = 'UTF-8 text, found '//quoted(value%text)//'; save the file as UTF-8'
          end if
@@ -204,7 +204,7 @@ contains
          if (.not. is_fit) then
             fault = trim(types(type))//', found '//value%text
             if (type == number) fault = fault//number_hint(value%text)
-            if (type == whole .and. is_signed(value%text)) fault = 'a whole number of at most 9 digits, found '//value%text
+            if (type == whole .and. is_signed(value%text)) fault = 'an integer of at most 9 digits, found '//value%text
          else if (type == number) then
             if (size_exponent(value%text) >= largest_exponent) then
                fault = 'a number below 1e'//str(largest_exponent)//', found '//value%text

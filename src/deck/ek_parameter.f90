@@ -17,7 +17,7 @@ module ek_parameter
    public :: all_in_range, parameter_path, value_path
    public :: path_t, split_path, is_meant, change_t, changed
 
-   !> One number of the deck.
+   !> One number of the deck as a parameter of the model.
    type :: parameter_t
       integer :: record = 0               !! number of its record in the mirrored deck
       character(14) :: key = ''
@@ -39,7 +39,7 @@ module ek_parameter
    !> A parameter to which a path leads.
    type :: choice_t
       integer :: number = 0
-      real(wp) :: sign = 1.0_wp           !! −1: it takes the opposite of the value written to the path
+      real(wp) :: sign = 1.0_wp           !! −1: the number is minus the value written to the path
    end type choice_t
 
    !> A path, split; without a name for a group that has none.
@@ -102,7 +102,7 @@ contains
          if (path%key(len(path%key):) == ')' .and. inside /= '' .and. len(inside) < 7 .and. verify(inside, '0123456789') == 0) &
             read (inside, *, iostat=status) path%first
          if (status /= 0) then
-            message = 'the subscript must be one whole number, found '//path%key(mark:)
+            message = 'the subscript must be one integer, found '//path%key(mark:)
             return
          end if
          path%key = path%key(:mark - 1)
@@ -249,7 +249,7 @@ contains
       all_in_range = .true.
    end function all_in_range
 
-   !> 'point.tie_rod_inner.z', 'bushing.top_mount.kt(1)', 'axle.wheelbase'.
+   !> The path of a parameter: 'point.tie_rod_inner.z', 'bushing.top_mount.kt(1)', 'axle.wheelbase'.
    function parameter_path(this, records, is_of_pair) result(path)
       type(parameter_t), intent(in) :: this
       type(record_t), intent(in) :: records(:)

@@ -139,7 +139,7 @@ contains
 
    end subroutine attach_property
 
-   !> Whether a property file is of the kind that a group takes.
+   !> Whether the kind of a property file fits a group.
    pure logical function fits_group(property, group)
       type(property_t), intent(in) :: property
       integer, intent(in) :: group

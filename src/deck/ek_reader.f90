@@ -186,7 +186,7 @@ contains
       call fail(error, exit_deck, reading%deck_errors%text())
    end subroutine read_targets
 
-   !> Reads the record being read.
+   !> Reads the current record by the reader of its group.
    subroutine read_record(reading)
       type(deck_reading_t), intent(inout) :: reading
 
@@ -218,7 +218,7 @@ contains
       end select
    end subroutine read_record
 
-   !> Completes the lists of the prototype that follow from the whole deck: points and weights.
+   !> Completes the lists of the prototype that depend on all records: points and weights.
    subroutine complete_prototype(reading)
       type(deck_reading_t), intent(inout) :: reading
       type(point_t), allocatable :: points(:)
@@ -326,8 +326,8 @@ contains
 
    end subroutine check_new
 
-   !> Rejects a second &model of the same name: the deck stands twice in its file. Only this is reported, not every name that is
-   !> there twice.
+   !> Rejects a second &model with the same name, as in a file that contains the deck twice. Only this error is reported, not
+   !> every duplicate name.
    subroutine refuse_doubled_deck(reading, error)
       type(deck_reading_t), intent(in) :: reading
       type(error_t), allocatable, intent(out) :: error
@@ -347,7 +347,7 @@ contains
       end do
    end subroutine refuse_doubled_deck
 
-   !> 'line 12', or 'other.nml:12' if it is in another file.
+   !> The line of a record: 'line 12', or 'other.nml:12' if the record is in another file.
    pure function line_of_record(record, from) result(words)
       type(record_t), intent(in) :: record, from
       character(:), allocatable :: words

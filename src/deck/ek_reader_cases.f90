@@ -26,7 +26,7 @@ module ek_reader_cases
 
 contains
 
-   !> Reads one case; also one with an error, which is reported.
+   !> Reads one case. A case with an error is also read, and the error is reported.
    subroutine read_case(reading, this)
       type(deck_reading_t), intent(inout) :: reading
       type(case_t), intent(out) :: this
@@ -174,7 +174,8 @@ contains
          "follow = 'arc' needs method = 'equilibrium', found "//quoted(text_of(reading, 'method')))
    end subroutine read_follow
 
-   !> Rejects two cases with one file: the target of a case has its own file, <case>_target, so no other case may have this name.
+   !> Rejects two cases with the same output file. The target of a case has the file <case>_target, so no other case may have this
+   !> name.
    subroutine refuse_one_file_for_two(reading, cases)
       type(deck_reading_t), intent(inout) :: reading
       type(case_t), intent(in) :: cases(:)
@@ -206,7 +207,7 @@ contains
          call complain(reading, '', "give 'load', 'drive' or 'test'")
       end if
       call refuse(reading, [character(16) :: 'vertical', 'phase', 'offset', 'file', 'steer_from', 'steer_to', 'steer_increments'], &
-         "only a case with a 'test' takes this key")
+         "only a case with a 'test' accepts this key")
       load = texts_of(reading, 'load', max_loads)
       loads = count(load /= '')
       refused = 0
@@ -256,7 +257,7 @@ contains
 
    end subroutine read_drive
 
-   !> Reads a test; checks that it has all keys it needs and no others. Every error is reported.
+   !> Reads a test; checks that it has all required keys and no other keys. Every error is reported.
    subroutine read_test(reading, from, to, this, unit, steer_unit)
       type(deck_reading_t), intent(inout) :: reading
       real(wp), intent(in) :: from, to       !! in the unit of the deck
@@ -335,7 +336,7 @@ contains
 
    end subroutine read_test
 
-   !> Counts wheels: at most one wheel per side, and at least one wheel.
+   !> Counts the wheels; reports an error if there is no wheel, or more than one wheel on a side.
    subroutine count_wheels(reading, wheels)
       type(deck_reading_t), intent(inout) :: reading
       integer, intent(out) :: wheels(2)      !! index of the left and of the right wheel; 0: the deck has none

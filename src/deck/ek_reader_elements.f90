@@ -1,6 +1,6 @@
 !> &curve, and the elastic elements: &spring, &damper, &stop, &torsion, each of one measure, and &bushing.
 !>
-!> A curve has no units of its own: its numbers have the deck units of the element that uses it.
+!> A curve itself has no units. Its numbers are in the deck units of the element that uses the curve.
 module ek_reader_elements
    use ek_kinds, only: wp
    use ek_text, only: str, lower, quoted
@@ -117,7 +117,7 @@ contains
          measure = reading%plan%prototype%readouts(plan%readout)%measure
          if (is_of_angle(measure%kind)) plan%force_unit = plan%force_unit*reading%units%length
          if (measure%kind /= distance) call refuse(reading, ['free_length'], &
-            'only a spring on a distance takes this key; give preload instead')
+            'only a spring on a distance accepts this key; give preload instead')
       end subroutine find_measure
 
    end subroutine read_spring

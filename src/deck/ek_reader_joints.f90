@@ -45,12 +45,12 @@ contains
          if (.not. has_key(reading, 'at')) call complain(reading, '', "'at' is missing")
          reading%cards(reading%k)%factor = reading%units%length
       case default
-         call refuse(reading, ['at'], 'a measure of type '//quoted(type)//' takes no points')
+         call refuse(reading, ['at'], 'a measure of type '//quoted(type)//' does not accept points')
          reading%cards(reading%k)%factor = merge(reading%units%angle, 1.0_wp, kind == rotation)
       end select
       if (kind == distance) then
          call need_two_points(reading, plan%ends, has_points, 'a distance')
-         call refuse(reading, ['axis       ', 'axis_vector'], 'a distance takes no axis')
+         call refuse(reading, ['axis       ', 'axis_vector'], 'a distance does not accept an axis')
       else if (.not. has_u) then
          call complain(reading, '', "give 'axis' or 'axis_vector'")
       end if
@@ -94,7 +94,7 @@ contains
       end select
    end subroutine read_joint
 
-   !> Makes a joint that is defined by points and axes.
+   !> Builds a joint that is defined by points and axes.
    subroutine make_joint(reading, kind)
       type(deck_reading_t), intent(inout) :: reading
       type(joint_kind_t), intent(in) :: kind
@@ -153,7 +153,7 @@ contains
       end select
    end subroutine check_axes
 
-   !> Makes a driver. Stiffness: force/length, or moment/angle where the measure is an angle.
+   !> Builds a driver. The stiffness is force/length, or moment/angle if the measure is an angle.
    subroutine make_driver(reading)
       type(deck_reading_t), intent(inout) :: reading
       type(joint_plan_t) :: plan
@@ -168,7 +168,7 @@ contains
       if (.not. reading%cards(reading%k)%is_good .or. readout == 0) return
       plan%readouts = [readout]
       plan%units = [place_unit]
-      if (.not. has_key(reading, 'stiffness')) call refuse(reading, ['balance'], 'only a driver with a stiffness takes this key')
+      if (.not. has_key(reading, 'stiffness')) call refuse(reading, ['balance'], 'only a driver with a stiffness accepts this key')
       associate (model => reading%plan%prototype)
          reaction_unit = reading%units%force
          if (is_of_angle(model%readouts(readout)%measure%kind)) reaction_unit = reaction_unit*reading%units%length
@@ -180,7 +180,7 @@ contains
       reading%plan%joints = [reading%plan%joints, plan]
    end subroutine make_driver
 
-   !> Makes a coupler: Σ ratio × value is constrained in deck units; the row is scaled so that the first ratio is unchanged.
+   !> Builds a coupler: Σ ratio × value is constrained in deck units. The row is scaled so that the first ratio is unchanged.
    subroutine make_coupler(reading)
       type(deck_reading_t), intent(inout) :: reading
       type(joint_plan_t) :: plan
@@ -237,7 +237,7 @@ contains
       must(2) = kind%min_points > 0
       must([3, 4, 5, 6, 10, 11]) = .false.
       do j = 1, size(joint_keys)
-         if (.not. may(j)) call refuse(reading, joint_keys(j:j), a_joint//' does not take this key')
+         if (.not. may(j)) call refuse(reading, joint_keys(j:j), a_joint//' does not accept this key')
          if (must(j) .and. .not. has_key(reading, trim(joint_keys(j)))) &
             call complain(reading, '', quoted(joint_keys(j))//' is missing')
       end do

@@ -72,7 +72,7 @@ module ek_record
 
 contains
 
-   !> Appends one value to an entry; one that is not a string and has no text is empty.
+   !> Appends one value to an entry. A value without text that is not a string is empty.
    pure subroutine add_value(entry, text, is_string)
       type(entry_t), intent(inout) :: entry
       character(*), intent(in) :: text
@@ -122,7 +122,8 @@ contains
       call move_record(record, records(used))
    end subroutine add_record
 
-   !> Hands over the first `used` records of a list, which is empty afterwards: to copy a deck asks for memory hundreds of times.
+   !> Moves the first `used` records out of a list, which is empty afterwards. Copying a deck would allocate memory hundreds of
+   !> times.
    pure subroutine hand_over(from, used, to, room)
       type(record_t), allocatable, intent(inout) :: from(:)
       integer, intent(in) :: used
@@ -225,7 +226,7 @@ contains
       if (record%source /= seen_from%source) words = words//' of '//record%file
    end function line_text
 
-   !> The role of a key under y → −y, as in the table of keys; 0: the same on both sides.
+   !> The role of a key under y → −y, as in the table of keys; 0 if the value is the same on both sides.
    pure integer function role_of(record, key) result(role)
       type(record_t), intent(in) :: record
       character(*), intent(in) :: key
@@ -324,7 +325,7 @@ contains
       if (self%used <= most) return
       text = text//new_line('a')//'and '//str(self%used - most)
       if (self%is_cut) text = text//' or more'
-      text = text//' other mistake'
+      text = text//' other error'
       if (self%used > most + 1 .or. self%is_cut) text = text//'s'
       text = text//'; is this a deck?'
    end function complaints_text

@@ -53,7 +53,7 @@ contains
       if (group == body_group) names = [names, [character(word_length) :: 'chassis']]
    end function names_of
 
-   !> Finds the record to which a key refers; 0, with a message, if it does not exist.
+   !> Finds the record to which a key refers; 0, with a message, if there is no such record.
    subroutine look_up(reading, key, group, name, found)
       type(deck_reading_t), intent(inout) :: reading
       integer, intent(in) :: group
@@ -71,7 +71,7 @@ contains
 
    contains
 
-      !> The hint for a name of one side in a deck without &mirror; otherwise the given one.
+      !> The hint for a name of one side in a deck without &mirror; otherwise the given hint.
       function mirror_or(hint) result(words)
          character(*), intent(in) :: hint
          character(:), allocatable :: words
@@ -87,7 +87,7 @@ contains
          end if
          found = 0
          if (find_card(reading, group, name(first:)) > 0) words = ' (without &mirror the deck has only '// &
-            quoted(name(first:))//'; &mirror makes left_'//name(first:)//' and right_'//name(first:)//' of it)'
+            quoted(name(first:))//'; &mirror creates left_'//name(first:)//' and right_'//name(first:)//')'
       end function mirror_or
 
    end subroutine look_up
@@ -311,7 +311,7 @@ contains
          line_of(reading, found)//' is not a driver')
    end subroutine find_driver
 
-   !> Finds the wheel named by a case, if it names one; reports an error if there is none, or if the case takes no wheel.
+   !> Finds the wheel named by a case. Reports an error if there is no such wheel, or if the case must not name a wheel.
    subroutine find_wheel(reading, may_have_one, which, wheel)
       type(deck_reading_t), intent(inout) :: reading
       logical, intent(in) :: may_have_one
@@ -322,7 +322,7 @@ contains
       if (text_of(reading, 'wheel') == '') return
       call look_up(reading, 'wheel', wheel_group, text_of(reading, 'wheel'), found)
       if (found > 0) wheel = reading%cards(found)%index
-      if (.not. may_have_one) call refuse(reading, ['wheel'], 'only a case '//which//' takes this key')
+      if (.not. may_have_one) call refuse(reading, ['wheel'], 'only a case '//which//' accepts this key')
    end subroutine find_wheel
 
 end module ek_reference

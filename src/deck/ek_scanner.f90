@@ -17,7 +17,7 @@ module ek_scanner
    private
    public :: scan_text, scan_values
 
-   integer, parameter :: max_repeats = 1000   !! n in n*value; no key takes so many values
+   integer, parameter :: max_repeats = 1000   !! n in n*value; no key accepts so many values
 
 contains
 
@@ -200,7 +200,7 @@ contains
             read (subscript, *, iostat=status) entry%first
          if (status /= 0 .or. entry%first < 1) then
             call complain_of(deck_errors, record, entry%line, 'the subscript of '//quoted(entry%key)// &
-               ' must be one positive whole number, found ('//subscript//')')
+               ' must be one positive integer, found ('//subscript//')')
             entry%first = 1
          end if
          call skip_blanks(text, cursor)
@@ -280,7 +280,7 @@ contains
 
    contains
 
-      !> Reads a string from its quote to the closing one, which must be on the same line; a doubled quote is one quote.
+      !> Reads a string from its opening to its closing quote, which must be on the same line. A doubled quote is one quote.
       subroutine take_string(content)
          character(:), allocatable, intent(out) :: content
          character :: quote

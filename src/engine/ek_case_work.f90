@@ -44,7 +44,7 @@ contains
       end if
    end subroutine renew_case
 
-   !> Makes the work space of a case that is solved for the first time.
+   !> Allocates the work space of a case before its first solution.
    subroutine make_room(this)
       type(case_work_t), intent(inout) :: this
       if (.not. allocated(this%result)) allocate (this%result)

@@ -97,7 +97,7 @@ contains
       workspace%tolerance = tolerance
    end subroutine balance_once
 
-   !> Balances the suspension, once for all cases of one tolerance, with a message if no preloads hold it.
+   !> Balances the suspension, once for all cases with the same tolerance. Returns a message if no preloads hold the suspension.
    subroutine balance_or_explain(tolerance, workspace, error)
       real(wp), intent(in) :: tolerance                    !! m
       type(workspace_t), intent(inout) :: workspace        !! realised
@@ -122,8 +122,9 @@ contains
       end associate
    end subroutine prove_case
 
-   !> Takes the present numbers as far as all cases on the rig, balanced with the tolerance of the first. No text is made. is_done
-   !> is .false. if the design must be read from the text: a number is outside its range, or the design may have a defect.
+   !> Prepares the current numbers up to the mounted rigs of all cases, balanced with the tolerance of the first case. Creates no
+   !> strings. is_done is .false. if the design must be read from the text: a number is outside its range, or the design may have
+   !> a defect.
    subroutine ready_cases(workspace, is_done)
       type(workspace_t), intent(inout) :: workspace
       logical, intent(out) :: is_done
@@ -160,7 +161,7 @@ contains
       workspace%cases(k)%stage = min(workspace%cases(k)%stage, examined)      ! the caller uses its work space
    end subroutine mount_numbers
 
-   !> Solves a case at the present numbers. No text is made if the case was solved before with the same columns.
+   !> Solves a case with the current numbers. Creates no strings if the case was solved before with the same columns.
    subroutine solve_numbers(k, options, workspace, outcome)
       integer, intent(in) :: k
       type(solve_options_t), intent(in) :: options

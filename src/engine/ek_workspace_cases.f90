@@ -59,7 +59,7 @@ contains
       end if
    end subroutine read_checked
 
-   !> Reads a deck and lists its cases, then the standard tests that it does not define; reports all errors together.
+   !> Reads a deck and lists its cases, then the standard tests that the deck does not define. Reports all errors together.
    subroutine open_workspace(deck, workspace, error)
       type(deck_t), intent(in) :: deck
       type(workspace_t), intent(inout) :: workspace          !! its former content is deleted

@@ -171,7 +171,7 @@ contains
 
    end subroutine advance
 
-   !> Finds the equilibrium at a length beyond a, in self%state and self%place.
+   !> Finds the equilibrium at a length beyond state a; returns it in self%state and self%place.
    !> Equation (K.18) of docs/theory/kkt.md.
    subroutine probe(self, suspension, width, kkt, is_found)
       type(arc_t), intent(inout) :: self

@@ -254,8 +254,8 @@ contains
       end do
    end subroutine find_place
 
-   !> Makes one step of root finding between two values of different sign: false position; the value at an unchanged end is halved
-   !> (Illinois).
+   !> Computes one step of root finding between two values of different sign, by false position. The value at an unchanged end is
+   !> halved (Illinois method).
    pure subroutine narrow(x, f, low, f_low, high, f_high, side)
       real(wp), intent(in) :: x, f
       real(wp), intent(inout) :: low, f_low, high, f_high

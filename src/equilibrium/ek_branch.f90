@@ -114,8 +114,8 @@ contains
       self%shifted = self%before
    end function new_branch
 
-   !> Renews a branch in place, for other numbers of the model for which it was made; an empty branch, or a branch of another
-   !> size, is made anew.
+   !> Renews a branch in place, for other numbers of the same model. An empty branch, or a branch of another size, is created
+   !> again.
    subroutine renew_branch(suspension, self)
       type(suspension_t), intent(in) :: suspension
       type(branch_t), intent(inout) :: self
@@ -161,7 +161,7 @@ contains
    !> Compares both ends of a step. kkt must contain the factors of N at or near b.
    !>
    !> It first uses these factors and a tangent at a that may be old; if the step disagrees with them, it uses new factors and a
-   !> new tangent. On return self%tangent_b belongs to b; `accept` makes it the tangent of the newest state.
+   !> new tangent. On return, self%tangent_b is the tangent at b; `accept` stores it as the tangent of the newest state.
    !> Equation (K.15) of docs/theory/kkt.md: three states and the tangent at b, as long as the tangent at a is not known.
    subroutine compare(self, suspension, inputs_a, inputs_b, place, state_b, outcome, kkt, verdict)
       type(branch_t), intent(inout) :: self
@@ -265,7 +265,8 @@ contains
       call decide(self, step, kkt%length)
    end subroutine evaluate_closer
 
-   !> Evaluates the tangent at a; if it does not explain the step, also the tangent with the chords of bent laws.
+   !> Evaluates the tangent at a. If this tangent does not explain the step, also evaluates the tangent with the chords of bent
+   !> laws.
    subroutine evaluate_beginning(self, step, suspension, is_anew, kkt)
       type(branch_t), intent(inout) :: self
       type(step_t), intent(inout) :: step

@@ -1,5 +1,5 @@
-!> A step past bent laws (a stop comes into contact, a curve gets stiffer): whether it is on the path, and the path does not
-!> reverse in it.
+!> Checks of a step across bent laws (a stop comes into contact, a curve gets stiffer): whether its end is on the path, and
+!> whether the path does not reverse within the step.
 !>
 !> The tangents at the ends of such a step disagree with the motion, as the slopes of the laws change on the way. Two checks
 !> replace the comparison with the motion:
@@ -32,7 +32,7 @@ module ek_chord
 
    real(wp), parameter :: bent = 1.0e-2_wp      !! of the largest slope: a smaller change is no bend
 
-   !> Where a law stands in the model.
+   !> Position of a law in the model.
    type :: place_t
       integer :: element = 0, component = 0     !! component of a bushing, 1 to 6; 0: the law of the element
       type(measure_t) :: measure                !! on which it acts
@@ -131,7 +131,7 @@ contains
       end do
    end subroutine find_places
 
-   !> Replaces every law by its chord between two states; `is_bent`: the slope of one changes between them.
+   !> Replaces every law by its chord between two states. `is_bent`: the slope of a law changes between the states.
    pure subroutine straighten(self, suspension, a, b, is_bent)
       type(chord_t), intent(inout) :: self
       type(suspension_t), intent(in) :: suspension

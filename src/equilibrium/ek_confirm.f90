@@ -1,9 +1,9 @@
 !> Checks that the states of a linear method lie on the path from design.
 !>
-!> The recursive and the corrected increment take one step without a check, and may step across a lock onto
-!> another assembly. Therefore the exact path is followed again in a few long steps checked by ek_reach. At each of
-!> them Newton's method is started from the state of the linear method and must converge to the exact path.
-!> States beyond the last swept value where it converges are marked as not reached.
+!> The recursive and the corrected increment take one step without a check, and may step across a lock onto another assembly.
+!> Therefore the exact path is followed again in a few long steps checked by ek_reach. At each of them Newton's method is started
+!> from the state of the linear method and must converge to the exact path. States beyond the last swept value at which it
+!> converges are marked as not reached.
 module ek_confirm
    use ek_kinds, only: wp
    use ek_suspension, only: suspension_t

@@ -64,7 +64,7 @@ contains
       is_solvable = self%mechanisms%count() + self%redundancies%count() + self%failures%count() == 0
    end function is_solvable
 
-   !> All defects, one per line.
+   !> The messages on all defects, one per line.
    pure function words(self) result(text)
       class(diagnosis_t), intent(in) :: self
       character(:), allocatable :: text

@@ -37,7 +37,7 @@ module ek_dyads
 
 contains
 
-   !> Allocates the work space.
+   !> Work space for up to `most` dyads of a system with n rows.
    pure function new_dyads(n, most) result(self)
       integer, intent(in) :: n            !! rows of N
       integer, intent(in) :: most         !! largest number of dyads
@@ -128,7 +128,7 @@ contains
       end do
    end subroutine resist
 
-   !> gᵀ x
+   !> The product gᵀ x of dyad `number`.
    pure real(wp) function along(self, number, x)
       type(dyads_t), intent(in) :: self
       integer, intent(in) :: number

@@ -171,7 +171,7 @@ contains
       end if
    end function is_better
 
-   !> Creates the graph of the whole matrix.
+   !> Creates the graph of the complete matrix.
    pure subroutine new_graph(n, row, column, values, graph)
       integer, intent(in) :: n, row(:), column(:)
       real(wp), intent(in) :: values(:, :)

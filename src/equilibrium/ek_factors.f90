@@ -58,7 +58,7 @@ contains
       self%is_kept = .true.
    end subroutine keep
 
-   !> Exchanges these factors and those in kkt_t.
+   !> Exchanges the factors stored here and the factors in kkt_t.
    pure subroutine exchange(self, kkt)
       type(factors_t), intent(inout) :: self
       type(kkt_t), intent(inout) :: kkt

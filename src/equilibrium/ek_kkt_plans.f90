@@ -40,7 +40,7 @@ contains
       kkt%stage = nothing
    end subroutine make_plans
 
-   !> Moves every body and sets every reaction by numbers between −1 and 1, the same in every run.
+   !> Moves every body and sets every reaction by numbers between −1 and 1, which are the same in every run.
    pure subroutine displace(state, number, distance, angle, force)
       type(state_t), intent(inout) :: state
       integer, intent(in) :: number              !! of the sequence

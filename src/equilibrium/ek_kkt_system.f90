@@ -171,7 +171,7 @@ contains
       kkt%is_at_design = .false.
    end subroutine release
 
-   !> The whole assembled matrix, not scaled.
+   !> The complete assembled matrix, without scaling.
    pure function whole_matrix(kkt) result(matrix)
       type(kkt_t), intent(in) :: kkt
       real(wp) :: matrix(kkt%n, kkt%n)

@@ -98,7 +98,7 @@ contains
       pose%a = rotation_matrix(pose%q)
    end subroutine move_body
 
-   !> Moves the bodies and changes the reactions of those designs that take this step.
+   !> Moves the bodies and changes the reactions of the designs for which is_taken is true.
    pure subroutine take_step(bodies, rows, step, is_taken, poses, reaction)
       integer, intent(in) :: bodies, rows
       real(num), intent(in) :: step(6*bodies + rows)    !! [Δr Δπ] of each body, then Δλ

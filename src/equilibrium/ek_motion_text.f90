@@ -15,7 +15,7 @@ module ek_motion_text
 
 contains
 
-   !> ' (file:line)', or empty.
+   !> The location ' (file:line)', or '' if it is not known.
    pure function place(where) result(text)
       character(*), intent(in) :: where
       character(:), allocatable :: text
@@ -40,7 +40,8 @@ contains
       main_body = max(1, findloc(part >= (1.0_wp - equal)*maxval(part), .true., dim=1))      ! 1: not a number
    end function main_body
 
-   !> Text on the body that moves most, its motion, and the bodies that move with it: one or two with their motion, more by name.
+   !> Text on the body that moves most, its motion, and the bodies that move with it. One or two such bodies are listed with their
+   !> motion, more bodies by name.
    function motion_text(suspension, state, kkt, motion) result(text)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state

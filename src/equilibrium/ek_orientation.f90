@@ -222,7 +222,7 @@ contains
       if (.not. least > 0.0_wp) call find_sign(self, is_turned_over)
    end subroutine compare_orientation
 
-   !> Whether poses are the same but for rounding.
+   !> Whether two sets of poses are equal to rounding.
    pure logical function are_same(a, b)
       type(pose_t), intent(in) :: a(:), b(:)
       integer :: k
@@ -310,7 +310,7 @@ contains
       end associate
    end subroutine allocate_dense
 
-   !> Finds whether det(Φq(a) Φq(b)ᵀ) < 0, by LU factors of the whole matrix of products.
+   !> Finds whether det(Φq(a) Φq(b)ᵀ) < 0, by LU factors of the complete matrix of products.
    pure subroutine find_sign(self, is_negative)
       type(orientation_t), intent(inout) :: self
       logical, intent(out) :: is_negative

@@ -83,7 +83,8 @@ contains
       end do
    end subroutine sweep
 
-   !> Follows the whole path of new_path, or one of equilibria around design as far as `reach`: its states are the same to the bit.
+   !> Follows the complete path of new_path, or a path of equilibria around design only as far as `reach`. Its states have the
+   !> same bits as those of the complete path.
    subroutine walk(suspension, case, path, kkt, progress, reach, space)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
@@ -252,7 +253,7 @@ contains
       end if
    end subroutine keep
 
-   !> States `first` to `last` at equal distances along the path; the last is omitted if the path does not reach it.
+   !> States `first` to `last` at equal distances along the path; the last state is omitted if the path does not reach it.
    subroutine walk_arc(self, suspension, case, first, last, path, kkt, failure, progress)
       type(walk_t), intent(inout) :: self
       type(suspension_t), intent(in) :: suspension
@@ -330,7 +331,7 @@ contains
       end do
    end subroutine seed
 
-   !> Makes one increment to `value`, of state k, with the method of the case.
+   !> Computes one increment to `value`, the swept value of state k, with the method of the case.
    subroutine advance(self, suspension, case, value, k, path, kkt, failure)
       type(walk_t), intent(inout) :: self
       type(suspension_t), intent(in) :: suspension

@@ -18,7 +18,7 @@ module ek_pattern
    integer, parameter :: material_only = 2   !! K = −(19) of the paper: recursive
    integer, parameter :: residual_only = 3   !! right-hand side only
 
-   !> Where everything stands.
+   !> Positions of all entries of the system in its store.
    type :: pattern_t
       integer :: nq = 0, nc = 0, n = 0           !! unknowns of bodies, rows of Φ, and their sum
       integer :: bodies = 0, blocks = 0          !! blocks: of bodies and of pairs
@@ -95,7 +95,7 @@ contains
       call note_connections(suspension, self)
    end function new_pattern
 
-   !> The kind of a measure that fills the same parts as an element.
+   !> The kind of measure that fills the same blocks of the matrix as an element.
    pure integer function kind_of_use(element)
       type(element_t), intent(in) :: element
 

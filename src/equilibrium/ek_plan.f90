@@ -10,7 +10,7 @@ module ek_plan
    private
    public :: plan_t, new_plan, new_natural_plan
 
-   !> A plan.
+   !> A plan of elimination: order, pattern with fill, and positions of all updates.
    type :: plan_t
       integer :: n = 0                        !! unknowns
       integer :: blocks = 0                   !! pivots

@@ -17,7 +17,7 @@ module ek_plan_factors
 
    integer, parameter :: several = 6       !! right-hand sides solved together: the loads on a body; they fit in registers
 
-   !> Data of a factorisation.
+   !> Properties of a factorisation: inertia, eigenvalues of D, determinant, growth.
    type :: soundness_t
       real(num) :: negative = zero            !! number of negative eigenvalues (Sylvester's law: of D)
       real(num) :: least = zero, most = zero    !! |eigenvalues| of D
@@ -61,9 +61,8 @@ contains
       end do
    end subroutine solve_by
 
-   !> Factorises the matrix in x: D⁻¹ at the positions of D, and L. A pivot that is zero, or too small to divide by, is left
-   !> out, and growth is huge.
-   !> Equation (K.23) of docs/theory/kkt.md.
+   !> Factorises the matrix in x: D⁻¹ at the positions of D, and L. A pivot that is zero, or too small to divide by, is omitted,
+   !> and growth is huge. Equation (K.23) of docs/theory/kkt.md.
    pure subroutine factorise_by(plan, x, soundness)
       type(plan_t), intent(in) :: plan
       real(num), intent(inout) :: x(plan%length)

@@ -33,7 +33,7 @@ contains
       allocate (self%packed(length, depth), self%guess(length), source=0.0_wp)
    end function new_predictor
 
-   !> Forgets all states.
+   !> Forgets all states, for a new path.
    pure subroutine forget(self)
       type(predictor_t), intent(inout) :: self
       self%newest = 0

@@ -11,7 +11,7 @@ module ek_schedule
    private
    public :: schedule_t, new_schedule, make_schedule, inputs_at, same_schedule
 
-   !> An actuation without its names.
+   !> An actuation with indices in place of names.
    type :: actuator_t
       integer :: law = 0                      !! of ek_case
       real(wp) :: share = 1.0_wp
@@ -37,7 +37,7 @@ contains
       call make_schedule(suspension, case, schedule)
    end function new_schedule
 
-   !> Makes the schedule for one design after the other: memory is used again.
+   !> Builds the schedule for one design after the other, in the same memory.
    subroutine make_schedule(suspension, case, schedule)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
@@ -119,7 +119,7 @@ contains
 
    contains
 
-      !> Whether two actuators have the same law and share; never for a table.
+      !> Whether two actuators have the same law and share; .false. for a table.
       pure logical function same_law(one, other)
          type(actuator_t), intent(in) :: one, other
          same_law = one%law == other%law .and. abs(one%share - other%share) <= 0.0_wp .and. one%law /= follows_table

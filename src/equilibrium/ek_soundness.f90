@@ -1,4 +1,5 @@
-!> A cheap proof that a model has no defect which the diagnosis would name: one factorisation instead of its decompositions.
+!> A cheap proof that the diagnosis would not report a defect of a model: one factorisation instead of the decompositions of the
+!> diagnosis.
 !>
 !> With v a motion that counts as a mechanism, or a row of forces y that counts as redundant, the scaled KKT matrix S gives
 !> |S z| ≤ s |z| for z = (v, μ) or (0, y), where s is the limit below which `diagnose` takes a stiffness or a singular value for

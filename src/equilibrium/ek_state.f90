@@ -32,7 +32,7 @@ module ek_state
 
 contains
 
-   !> The difference of two sets of inputs of the same items, per unit of the path coordinate.
+   !> The difference of two sets of inputs of the same loads and rows, per unit of the path coordinate.
    pure function inputs_rate(a, b, width) result(rate)
       type(inputs_t), intent(in) :: a, b
       real(wp), intent(in) :: width      !! swept value of b minus swept value of a; not 0

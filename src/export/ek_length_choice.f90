@@ -1,4 +1,4 @@
-!> Which elements of a model are spring, damper, bump stop and bar of a wheel.
+!> The elements of a model that are spring, damper, bump stop and bar of a wheel.
 !>
 !> Without a choice of the user: the only spring, damper and bump stop of the wheel, by its name left_… or right_…, as &mirror makes
 !> them; with one wheel the only element. A damper that a deck does not have is as long as its spring, a stop as its

@@ -26,7 +26,7 @@ module ek_load_response
 
 contains
 
-   !> Solves the response of both wheels to loads on one of them at a time, the wheels held as in the compliance.
+   !> Solves the response of both wheels to loads on one wheel at a time. The wheels are held as in the compliance.
    subroutine solve_loads(suspension, request, force, moment, count, is_at_patch, loads, error)
       type(suspension_t), intent(in) :: suspension
       type(map_request_t), intent(in) :: request

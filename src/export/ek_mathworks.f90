@@ -74,7 +74,7 @@ contains
       call add('BumpCaster', 'deg/mm', 'caster per travel')
       call add('LatWhlCtrDisp', 'mm/mm', 'y of the wheel centre per travel')
       call add('LngWhlCtrDisp', 'mm/mm', 'x of the wheel centre per travel')
-      call add('NrmlWhlRates', 'N/mm', 'wheel rate, wheels parallel')
+      call add('NrmlWhlRates', 'N/mm', 'wheel rate in parallel travel')
       call add('NrmlWhlFrcOff', 'N', 'wheel load at design')
       call add('CambVsSteerAng', 'deg/deg', 'camber per steer of the wheel')
       call add('CastVsSteerAng', 'deg/deg', 'caster per steer of the wheel')
@@ -94,7 +94,7 @@ contains
       call add('StatLdWhlR', 'm', 'height of the wheel centre above the contact point at design')
       call add('MotRatios', '-', 'compression of the damper per travel; axles', 1, 2)
       call add('RollStiffArb', 'N m/deg', 'roll stiffness with the bar; axles', 1, 2)
-      call add('RollStiffNoArb', 'N m/deg', 'the same from the wheel rates in parallel travel, where a bar carries nothing', 1, 2)
+      call add('RollStiffNoArb', 'N m/deg', 'roll stiffness from the wheel rates in parallel travel, without the bar', 1, 2)
 
    contains
 
@@ -176,7 +176,7 @@ contains
       end select
    end function of_wheel
 
-   !> The value of an axle.
+   !> The value of the parameter `name` for an axle.
    function of_axle(map, name) result(value)
       type(kandc_map_t), intent(in) :: map
       character(*), intent(in) :: name
@@ -235,7 +235,7 @@ contains
       if (table%is_change) y = y - at_design(map, side, table%quantity)/table%unit
    end subroutine curve_of
 
-   !> The script.
+   !> The parameters as a MATLAB script.
    function mathworks_script(p) result(text)
       type(kandc_parameters_t), intent(in) :: p
       character(:), allocatable :: text

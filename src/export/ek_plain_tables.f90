@@ -80,7 +80,7 @@ contains
       end do
    end function kinematics_table
 
-   !> Makes room for `before` columns and the columns of both wheels.
+   !> Allocates `before` columns and the columns of both wheels.
    subroutine wheel_columns(columns, before)
       character(name_length), allocatable, intent(out) :: columns(:)
       integer, intent(in) :: before
@@ -94,8 +94,8 @@ contains
       end do
    end subroutine wheel_columns
 
-   !> One row per state: the loads on the left and on the right wheel, then the quantities of both; of a deck with one wheel, those
-   !> of this wheel only.
+   !> One row per state: the loads on the left and on the right wheel, then the quantities of both; for a deck with one wheel,
+   !> only the quantities of this wheel.
    function loads_table(map, loads, is_sae, checksum) result(table)
       type(kandc_map_t), intent(in) :: map
       type(load_table_result_t), intent(in) :: loads

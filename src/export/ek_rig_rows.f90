@@ -1,4 +1,5 @@
-!> Many states of an axle on the rig at once, each given by heights, loads and the steering driver: a test 'table' made in memory.
+!> Solves many states of an axle on the rig, each given by heights, loads and the steering driver, as a test 'table' created in
+!> memory.
 module ek_rig_rows
    use ek_kinds, only: wp, millimetre
    use ek_error, only: error_t, fail, exit_model, exit_convergence
@@ -17,7 +18,7 @@ module ek_rig_rows
 
 contains
 
-   !> A case of the rig that stands in no deck.
+   !> A case of the rig that is not defined in a deck.
    pure function rig_case(test, vertical) result(case)
       character(*), intent(in) :: test
       character(*), intent(in) :: vertical                  !! 'centre', 'road'; '': as in the test

@@ -1,5 +1,5 @@
-!> Curves and slopes of a map that simulators take: columns over the travel of the wheel centre without steer, and slopes at design
-!> of the angles of a wheel under loads at its contact point or its centre.
+!> Curves and slopes of a map for simulators: columns over the travel of the wheel centre without steer, and slopes at design of
+!> the angles of a wheel under loads at its contact point or its centre.
 !>
 !> ISO 8855, SI: see ek_wheel_motion. The wheels are held in the slopes as in the compliance of the map.
 module ek_slopes
@@ -13,7 +13,7 @@ module ek_slopes
    private
    public :: travel_curve, steer_curve, slope_at_zero, load_response_t, load_response, wheel_rate, roll_rates, zero_of
 
-   !> Slopes of one wheel under a unit of one load on it [per N, per N m].
+   !> Slopes of one wheel under a unit of one load on this wheel [per N, per N m].
    type :: load_response_t
       real(wp) :: shift(3) = 0.0_wp      !! of the wheel centre [m]
       real(wp) :: toe = 0.0_wp, camber = 0.0_wp   !! rad; toe positive: front edge inward, camber positive: top outward
@@ -28,7 +28,7 @@ contains
       place = minloc(abs(values), dim=1)
    end function zero_of
 
-   !> A quantity over the travel, without steer; of a map over the other wheel both wheels at the same travel.
+   !> A quantity over the travel, without steer. In a map over the travel of the other wheel, both wheels have the same travel.
    pure function travel_curve(map, quantity, side) result(curve)
       type(kandc_map_t), intent(in) :: map
       integer, intent(in) :: quantity, side
@@ -65,7 +65,7 @@ contains
       slope = (before*h(2) + after*h(1))/(h(1) + h(2))
    end function slope_at_zero
 
-   !> The response of a wheel to a unit of one load on it: component 1–6 is Fx, Fy, Fz, Mx, My, Mz in ISO.
+   !> The response of a wheel to a unit of one load on this wheel: component 1–6 is Fx, Fy, Fz, Mx, My, Mz in ISO.
    pure type(load_response_t) function load_response(map, side, component, is_at_patch) result(response)
       type(kandc_map_t), intent(in) :: map
       integer, intent(in) :: side, component
@@ -85,7 +85,7 @@ contains
       response%spin = own(5, component)
    end function load_response
 
-   !> Vertical force per travel of the wheel centre at design, wheels parallel [N/m].
+   !> Vertical force per travel of the wheel centre at design, in parallel travel [N/m].
    pure real(wp) function wheel_rate(map, side)
       type(kandc_map_t), intent(in) :: map
       integer, intent(in) :: side

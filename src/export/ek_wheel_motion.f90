@@ -1,4 +1,4 @@
-!> The motion of a wheel as simulators take it: translations and rotations of the wheel centre, lengths of spring and damper.
+!> The motion of a wheel for simulators: translations and rotations of the wheel centre, lengths of spring and damper.
 !>
 !> Frame ISO 8855: x forward, y to the left, z up, regardless of the deck's axes. SI and radians.
 !>

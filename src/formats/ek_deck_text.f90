@@ -122,7 +122,7 @@ contains
       call self%buffer%line(' /')
    end subroutine text_end
 
-   !> The text so far.
+   !> The text of the deck written so far.
    function text_text(self) result(text)
       class(deck_text_t), intent(in) :: self
       character(:), allocatable :: text

@@ -60,7 +60,7 @@ contains
       character(:), allocatable :: text
 
       text = self%words%line(k)
-      if (k == most_kept .and. self%untold > 0) text = text//' (and '//plural(self%untold, 'more mistake', 'more mistakes')// &
+      if (k == most_kept .and. self%untold > 0) text = text//' (and '//plural(self%untold, 'more error', 'more errors')// &
          '; is this the right file?)'
    end function flaws_what
 

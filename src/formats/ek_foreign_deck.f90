@@ -66,7 +66,7 @@ contains
       if (flaws%count() > 0) call fail(error, exit_deck, flaws%text())
    end subroutine import_file
 
-   !> Converts a text as import_file does a file; errors are in `flaws`, and with them `text` is ''.
+   !> Converts a text, as import_file converts a file. Errors are in `flaws`; `text` is '' if there are errors.
    subroutine import_text(content, path, text, kind, flaws)
       character(*), intent(in) :: content, path
       character(:), allocatable, intent(out) :: text
@@ -187,7 +187,7 @@ contains
       text = deck%text()//commented(element%text())
    end subroutine import_law
 
-   !> Every line as a comment.
+   !> A text with every line as a comment of a deck.
    function commented(text) result(lines)
       character(*), intent(in) :: text
       character(:), allocatable :: lines
@@ -253,7 +253,7 @@ contains
          inner = new_flaws(found)
          call parse_property(content, property, inner)
          if (inner%count() > 0) then
-            call flaws%add(line, 'mistakes in the bushing:'//new_line('a')//inner%text())
+            call flaws%add(line, 'errors in the bushing:'//new_line('a')//inner%text())
             return
          end if
          if (property%kind /= bushing_file) then
@@ -275,7 +275,7 @@ contains
          mount%note = name//': the rate is that of its name, as the file is not there'
          return
       end if
-      call flaws%add(line, 'cannot find the bushing '//shown(named)//'; put '//shown(name)//' beside '//shown(path))
+      call flaws%add(line, 'cannot find the bushing '//shown(named)//'; put '//shown(name)//' in the folder of '//shown(path))
    end subroutine find_mount
 
    !> Whether the name of a bushing gives its rate: lin01000.gum.

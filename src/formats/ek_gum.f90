@@ -13,14 +13,14 @@ module ek_gum
 
    character(*), parameter :: axes = 'xyz'
 
-   !> The content of a file.
+   !> The content of a .gum file.
    type :: gum_t
       type(law_points_t) :: halves(2, 3)      !! (positive or negative side, axis); y is 0 until the forces are read
       integer :: force_line(2, 3) = 0
       real(wp) :: stiffness(3) = 0.0_wp       !! about each axis [N m/rad]
       logical :: has_stiffness(3) = .false.
       integer :: axis = 0                     !! of the last list
-      integer :: flag = -1                    !! 0: the negative side is the image of the positive one; 1: it has its own numbers
+      integer :: flag = -1                    !! 0: the negative side is the image of the positive one; 1: it has separate numbers
    end type gum_t
 
 contains
@@ -143,7 +143,7 @@ contains
       logical :: is_good
 
       if (gum%axis == 0 .or. size(fields) == 0) then
-         call flaws%add(line, 'expected a number for '//trim(label)//' behind the lists of an axis')
+         call flaws%add(line, 'expected a number for '//trim(label)//' after the lists of an axis')
          return
       end if
       associate (stiffness => gum%stiffness(gum%axis))
@@ -156,7 +156,7 @@ contains
       end associate
    end subroutine take_stiffness
 
-   !> Reads whether the negative side has numbers of its own.
+   !> Reads whether the negative side has separate numbers.
    subroutine take_symmetry(gum, line, field, flaws)
       type(gum_t), intent(inout) :: gum
       integer, intent(in) :: line
@@ -172,7 +172,7 @@ contains
       if (gum%flag < 0) call flaws%add(line, 'expected 0 (symmetric) or 1 (asymmetric), found '//str(value))
    end subroutine take_symmetry
 
-   !> Makes the law of the rotation about an axis.
+   !> Builds the law of the rotation about an axis.
    subroutine put_stiffness(gum, axis, line, law, flaws)
       type(gum_t), intent(in) :: gum
       integer, intent(in) :: axis, line
@@ -187,7 +187,7 @@ contains
       call add_point(law, 1.0_wp, gum%stiffness(axis), line)
    end subroutine put_stiffness
 
-   !> Makes one law of both sides, with the origin between them.
+   !> Joins the laws of both sides to one law, with the origin between them.
    subroutine join_halves(gum, axis, law, flaws)
       type(gum_t), intent(inout) :: gum
       integer, intent(in) :: axis
@@ -201,7 +201,7 @@ contains
          if (.not. gum%halves(k, axis)%is_given) then
             call flaws%add(0, 'expected displacements '//merge('+', '-', k == 1)//axes(axis:axis)//', found none')
          else if (gum%force_line(k, axis) == 0) then
-            call flaws%add(gum%halves(k, axis)%line, 'expected forces behind these displacements, found none')
+            call flaws%add(gum%halves(k, axis)%line, 'expected forces after these displacements, found none')
          else if (.not. gum%halves(k, axis)%is_bad) then
             call finish_half(gum%halves(k, axis), k, flaws)
          end if
@@ -222,7 +222,7 @@ contains
       call finish_law(law, 'the list of '//axes(axis:axis), flaws)
    end subroutine join_halves
 
-   !> Checks that the points of one side lie on it and lead away from 0; a point at 0 is dropped.
+   !> Checks that the points of one side are on this side and lead away from 0. A point at 0 is dropped.
    subroutine finish_half(half, side, flaws)
       type(law_points_t), intent(inout) :: half
       integer, intent(in) :: side

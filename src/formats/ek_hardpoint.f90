@@ -26,7 +26,7 @@ module ek_hardpoint
 
 contains
 
-   !> Adds a point. Two rows of one name must be a left and a right one.
+   !> Adds a point. Two rows with the same name must be a left and a right point.
    subroutine add_hardpoint(sheet, name, at, symmetry, line, flaws)
       type(hardpoints_t), intent(inout) :: sheet
       character(*), intent(in) :: name
@@ -61,7 +61,7 @@ contains
       sheet%points(sheet%used) = point
    end subroutine add_hardpoint
 
-   !> The symmetry that a string names; -1 if it does not name one.
+   !> The symmetry named by a string; -1 if the string is not the name of a symmetry.
    pure integer function symmetry_of(text)
       character(*), intent(in) :: text
 

@@ -31,7 +31,7 @@ contains
       if (.not. allocated(error)) call parse_hardpoints(text, length, sheet, flaws)
    end subroutine read_hardpoints
 
-   !> Reads a text.
+   !> Reads hardpoints from the text of a file.
    subroutine parse_hardpoints(text, length, sheet, flaws)
       character(*), intent(in) :: text
       real(wp), intent(in) :: length

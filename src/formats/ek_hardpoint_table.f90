@@ -52,7 +52,7 @@ contains
             call find_columns(cells, length, columns, units)
             if (any(columns([1, 3, 4, 5]) == 0)) then
                if (.not. is_row(cells, separator)) then
-                  call flaws%add(k, 'expected the heads name, x, y, z, found '//shown(text))
+                  call flaws%add(k, 'expected the column headings name, x, y, z, found '//shown(text))
                   return
                end if
                columns = [1, 0, 2, 3, 4]
@@ -74,7 +74,7 @@ contains
          if (all(is_good) .and. symmetry >= 0) &
             call add_hardpoint(sheet, cells%line(columns(1)), numbers*units, symmetry, k, flaws)
       end do
-      if (.not. has_heads) call flaws%add(0, 'expected the heads name, x, y, z, found no line of text')
+      if (.not. has_heads) call flaws%add(0, 'expected the column headings name, x, y, z, found no line of text')
    end subroutine take_table
 
    pure character function separator_of(text) result(separator)

@@ -35,7 +35,7 @@ module ek_kin
       integer :: line = 0
    end type kin_bushing_t
 
-   !> The file.
+   !> The content of a .kin file.
    type :: kin_t
       character(:), allocatable :: axle_type, remark, position, main_path
       logical :: has_forces = .false., has_subframe = .false., has_elastic_gearbox = .false., is_iso = .false., is_front = .false.

@@ -47,7 +47,7 @@ contains
          'expected factors of the spring curves of 0 or more, found one below')
    end subroutine check_kin
 
-   !> Load on a wheel [N]: half of all masses that the axle carries and of its own.
+   !> Load on a wheel [N]: half the weight of the axle and of all masses that it carries.
    pure real(wp) function wheel_load(kin)
       type(kin_t), intent(in) :: kin
       real(wp) :: whole, half

@@ -41,7 +41,7 @@ contains
                used = 0
                cycle
             end if
-            call flaws%add(k, 'expected '//str(least)//' values behind '//shown(trim(adjustl(fields(1)%text)))//', found '// &
+            call flaws%add(k, 'expected '//str(least)//' values after '//shown(trim(adjustl(fields(1)%text)))//', found '// &
                str(used - 1))
             used = 0
             cursor%line = k
@@ -109,7 +109,7 @@ contains
       choice = 0
       if (flaws%count() > before .or. cursor%is_lost) return
       if (value < 0.0_wp .or. value > most .or. abs(value - aint(value)) > 0.0_wp) then
-         call flaws%add(cursor%line, 'expected a whole number from 0 to '//str(most)//', found '//str(value))
+         call flaws%add(cursor%line, 'expected an integer from 0 to '//str(most)//', found '//str(value))
          return
       end if
       choice = int(value)

@@ -20,7 +20,7 @@ module ek_kin_deck
 
 contains
 
-   !> Writes the deck.
+   !> Writes the axle of a .kin file as a deck.
    subroutine kin_deck(kin, mounts, source, text, flaws)
       type(kin_t), intent(in) :: kin
       type(mount_law_t), intent(in) :: mounts(:)
@@ -33,7 +33,7 @@ contains
       name = legal_name(kin%remark)
       if (len_trim(kin%remark) == 0) name = 'axle'
       call deck%comment('Made by elastokin import from '//source//'; check it before you rely on it.')
-      call deck%comment('The left half of the axle; &mirror makes the right one. mm, N, deg.')
+      call deck%comment('The left half of the axle; &mirror creates the right half. mm, N, deg.')
       call deck%blank()
       call deck%begin('model')
       call deck%word('name', name)

@@ -29,7 +29,7 @@ contains
       if (turns_freely(mounts(7))) then
          call begin_joint(deck, 'tie_rod_ball', 'universal', 'tie_rod', 'carrier', 'tie_rod_outer')
          call deck%numbers('axis_vector', across/norm2(across))
-         call deck%word('note', 'a ball joint that keeps the rod from turning about itself')
+         call deck%word('note', 'a ball joint that prevents the rod from rotating about itself')
       else
          call begin_joint(deck, 'tie_rod_ball', 'spherical', 'tie_rod', 'carrier', 'tie_rod_outer')
       end if
@@ -60,7 +60,7 @@ contains
          call deck%end()
          call begin_joint(deck, 'bar_link', 'distance', 'bar', trim(merge('carrier  ', 'lower_arm', kin%bar == on_carrier)), '')
          call deck%words('at', 'bar_end', 'bar_link')
-         call deck%word('note', 'rigid: the bushing of the link, number 8 of the file, is left out')
+         call deck%word('note', 'rigid: the bushing of the link, number 8 of the file, is omitted')
          call deck%end()
       end if
    end subroutine put_joints

@@ -70,7 +70,7 @@ contains
       call put_point(deck, name, kin%at(:, k), 'point '//str(k))
    end subroutine put_numbered
 
-   !> Writes a &point.
+   !> Writes a record &point.
    subroutine put_point(deck, name, at, note)
       type(deck_text_t), intent(inout) :: deck
       character(*), intent(in) :: name

@@ -26,7 +26,7 @@ contains
       is_kin = head(first:first) == ''''
    end function is_kin
 
-   !> Reads a text.
+   !> Reads an axle from the text of a .kin file.
    subroutine parse_kin(text, kin, flaws)
       character(*), intent(in) :: text
       type(kin_t), intent(out) :: kin

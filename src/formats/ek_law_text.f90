@@ -20,7 +20,7 @@ contains
       y_unit = merge(force*length, force, is_of_rotation(component))
    end subroutine units_of_law
 
-   !> Writes &curve of a law.
+   !> Writes a law as a record &curve.
    subroutine put_curve(deck, name, law, component, kind)
       type(deck_text_t), intent(inout) :: deck
       character(*), intent(in) :: name, kind

@@ -39,7 +39,7 @@ module ek_lcf
 
 contains
 
-   !> Reads a text.
+   !> Reads a load case from the text of a .lcf file.
    subroutine parse_lcf(text, lcf, flaws)
       character(*), intent(in) :: text
       type(lcf_t), intent(out) :: lcf

@@ -57,7 +57,7 @@ contains
       if (.not. allocated(error)) call parse_property(text, property, flaws)
    end subroutine read_property
 
-   !> Reads a text.
+   !> Reads a property file from its text.
    subroutine parse_property(text, property, flaws)
       character(*), intent(in) :: text
       type(property_t), intent(out) :: property
@@ -227,7 +227,7 @@ contains
       law%lines(:law%used) = law%lines(law%used:1:-1)
    end subroutine turn_rebound
 
-   !> ASCII upper case.
+   !> A string with its ASCII letters in upper case.
    pure function upper(text) result(capital)
       character(*), intent(in) :: text
       character(len(text)) :: capital

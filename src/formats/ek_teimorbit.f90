@@ -32,7 +32,7 @@ module ek_teimorbit
       type(field_t), allocatable :: fields(:)   !! of a row, of headings; the value of an entry
    end type item_t
 
-   !> The file; a part of a block is a block of its own, with the name of the block.
+   !> The file. A part of a block is stored as a separate block with the name of the block.
    type :: teimorbit_t
       integer :: blocks = 0
       character(name_length), allocatable :: names(:)     !! lower case
@@ -45,7 +45,7 @@ module ek_teimorbit
 
 contains
 
-   !> Whether a text probably has this format: its first line with a sign of its own begins a block.
+   !> Whether a text probably has this format: its first line that is not a comment or empty begins a block.
    pure logical function is_teimorbit(text)
       character(*), intent(in) :: text
       integer :: at, next

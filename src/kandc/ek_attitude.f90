@@ -78,7 +78,7 @@ contains
       call find_attitude(wheel, origin, now, attitude)
    end function attitude_of
 
-   !> Finds the attitude that attitude_of returns, in place.
+   !> Finds the attitude of a wheel in place; attitude_of returns it as a function value.
    pure subroutine find_attitude(wheel, origin, now, attitude)
       type(wheel_t), intent(in) :: wheel
       real(wp), intent(in) :: origin(3)

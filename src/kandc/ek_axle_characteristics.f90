@@ -33,7 +33,7 @@ contains
       logical, intent(in) :: has_centres            !! roll centres are requested
       type(axle_characteristics_t), intent(inout) :: is
       real(wp) :: at(2:3, 2), height, moment, lift(2)
-      real(wp) :: wheel(2), tyre(2)      ! compliances, wheel under opposed loads [m/N]
+      real(wp) :: wheel(2), tyre(2)      ! compliances, wheel under anti-phase loads [m/N]
       logical :: has_tyres
 
       has_tyres = minval(stand%tyre_rate) > 0.0_wp

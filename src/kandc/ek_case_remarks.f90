@@ -177,8 +177,7 @@ contains
       end do
    end subroutine travel_remarks
 
-   !> Warns of curves used beyond their first or last point, where they are extrapolated linearly and the result does not rest on a
-   !> number of the deck.
+   !> Warns of curves used beyond their first or last point. There they are extrapolated linearly, without data of the deck.
    !>
    !> One message for each end of a curve that was exceeded by more than a thousandth of its span. Elements from one line of
    !> the deck (the two sides of a mirrored one) with the same curve give one message, for the largest excess.
@@ -257,7 +256,8 @@ contains
       end if
    end subroutine extend
 
-   !> Whether another curve of the same line has a larger excess, below and above; of two equal excesses the first is reported.
+   !> Whether another curve of the same line of the deck has a larger excess, below and above. If two excesses are equal, the
+   !> first is reported.
    pure function further(other, own, is_before) result(is_further)
       type(reach_t), intent(in) :: other, own
       logical, intent(in) :: is_before

@@ -1,7 +1,7 @@
 !> Solves one case of a deck: its path of states, their table, and how it ended.
 !>
 !> Every command and every study solves its cases here; they choose options and print or write the result. A solution is numbers
-!> and a code, its outcome. add_remarks describes both in words, on request.
+!> and a code, its outcome. add_remarks describes both as text, on request.
 module ek_case_result
    use ek_kinds, only: wp, i8, millimetre
    use ek_error, only: error_t, fail, exit_model, exit_convergence, exit_file
@@ -130,7 +130,8 @@ contains
       if (size(result%suspension%wheels) > 0) call find_wheels(test, result%suspension%wheels(1)%side)
    end function test_of
 
-   !> Describes the outcome of a solution: notes, warnings, failures. They are texts, which only one thread at a time may make.
+   !> Adds the remarks (notes, warnings, failures) on a solution, also on a case that was not run. They contain strings, so that only
+   !> one thread at a time may call it.
    subroutine add_remarks(options, result)
       type(solve_options_t), intent(in) :: options     !! of the solution
       type(case_result_t), intent(inout) :: result     !! its remarks are replaced

@@ -1,10 +1,10 @@
 !> The characteristics of a wheel, from the compliance matrix: rates, steer and camber in ride and
 !> roll, swing arms, compliances, anti features.
 !>
-!> C(i,j): displacement i per unit load j, 1–6 the wheel centre of this wheel (x y z, rotations about them), global
-!> axes. M is C with the loads at the contact points, CP with the displacements at the contact points as well (ek_loaded_wheels).
-!> Parallel (in phase): both wheels carry the load; opposed (anti phase): the other carries the opposite load. The
-!> slopes of steer, toe, camber and caster are the slopes of the columns of this name, by the chain rule of ek_attitude.
+!> C(i,j): displacement i per unit load j, 1–6 the wheel centre of this wheel (x y z, rotations about them), global axes. M is C
+!> with the loads at the contact points, CP with the displacements at the contact points as well (ek_loaded_wheels). In phase:
+!> both wheels carry the load. Anti-phase: the other wheel carries the opposite load. The slopes of steer, toe, camber and caster
+!> are the slopes of the columns of this name, by the chain rule of ek_attitude.
 !>
 !> Two conditions in the vertical direction: vertical force held (the unchanged matrix), or heights of the wheel centres held
 !> (ek_port_response).
@@ -171,7 +171,7 @@ contains
       real(wp) :: lateral(6), moment(6), twist(6), with
       integer :: k
 
-      do k = in_phase, wheels      ! a single wheel has no opposed loads
+      do k = in_phase, wheels      ! a single wheel has no anti-phase loads
          with = 3.0_wp - 2.0_wp*k
          lateral = phase(wheels, m, place, 2, with)
          moment = phase(wheels, c, place, 6, with)
@@ -226,7 +226,7 @@ contains
       call respond_per(reader, twist, height*per_height, min_compliance*per_height, is%roll)
    end subroutine in_roll
 
-   !> Computes the vertical force of a wheel per lateral force on it, parallel and opposed.
+   !> Computes the vertical force of a wheel per lateral force on this wheel, in phase and anti-phase [-].
    pure subroutine jacking(patch, place, is)
       real(wp), intent(in) :: patch(2:3, 2, 2:3, 2)
       integer, intent(in) :: place

@@ -1,5 +1,6 @@
-!> The columns of a model, block by block, and their values at a state. A block is a wheel, the axle, …: several sections of the
-!> table of quantities, whose values come from one kernel and are computed only if one of them is wanted.
+!> The columns of a model, block by block, and their values at a state. A block (a wheel, the axle, …) consists of several
+!> sections of the table of quantities. Their values come from one kernel and are computed only if one of their columns is
+!> requested.
 module ek_column_list
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp

@@ -212,8 +212,8 @@ contains
       if (kkt%stage == lapack_factors) call gather(self)
    end subroutine solve_symmetric
 
-   !> Moves every load to the column of its own number, zeros between: the last digits of LAPACK's column depend on its number
-   !> and on the number of columns, by the kernels of the processor. A quantity does not depend on the other requested quantities.
+   !> Moves every load to the column with its index, with zeros between. On some processors, the last digits of LAPACK's columns
+   !> depend on their index and number. A quantity does not depend on the other requested quantities.
    pure subroutine spread(self)
       type(compliance_t), intent(inout) :: self
       integer :: j, k

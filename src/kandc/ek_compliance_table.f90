@@ -22,7 +22,7 @@ module ek_compliance_table
 
 contains
 
-   !> Makes a table of the compliance matrix at every converged state of a sweep: one row per state, one column per entry.
+   !> Builds a table of the compliance matrix at every converged state of a sweep: one row per state, one column per entry.
    !>
    !> A column is called <point>_<displacement>_by_<load>_<unit>: displacement and load begin with the wheel (`left_`, `right_`),
    !> then x, y, z (displacements), rx, ry, rz (rotations), fx, fy, fz (forces), mx, my, mz (moments), in the frame of the deck.

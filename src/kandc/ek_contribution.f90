@@ -37,7 +37,7 @@ module ek_contribution
       integer :: part = geometric       !! law 1 to 6 of an element; geometric; of_stiffness: of a driver
    end type share_t
 
-   !> The shares at one state.
+   !> The contributions to the compliance matrix at one state.
    type :: contribution_t
       type(share_t), allocatable :: share(:)
       integer, allocatable :: law(:)               !! share of each law of an element
@@ -245,7 +245,7 @@ contains
       end associate
    end subroutine add_load
 
-   !> Adds the share of the unbalanced forces, as they stand in the tangent of screw motions.
+   !> Adds the share of the unbalanced forces, as contained in the tangent of screw motions.
    subroutine add_unbalanced(bodies, rhs, left, right, matrix)
       integer, intent(in) :: bodies
       real(wp), intent(in) :: rhs(:)

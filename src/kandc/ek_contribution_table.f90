@@ -71,7 +71,7 @@ contains
       call choose_contributions(is_wanted, self)
    end subroutine start_contributions
 
-   !> Restricts the columns.
+   !> Restricts the table to the requested columns.
    subroutine choose_contributions(is_wanted, self)
       logical, intent(in) :: is_wanted(:)
       type(contribution_table_t), intent(inout) :: self

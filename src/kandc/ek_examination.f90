@@ -1,7 +1,7 @@
 !> Examines the cases of a deck before any solution: errors in their references to parts and tables, and whether they can be solved.
 !>
-!> The model is examined as given in the deck, before balance: a preload found by balance must not count as a stiffness.
-!> The full diagnosis is made once per topology and case; a further design of the same case costs one factorisation, unless that
+!> The model is examined as given in the deck, before balance: a preload found by balance must not count as a stiffness. The full
+!> diagnosis runs once per topology and case. A further design of the same case costs one factorisation, unless that factorisation
 !> leaves a doubt (ek_soundness).
 module ek_examination
    use ek_error, only: message_list_t, error_t, fail, exit_deck, exit_file

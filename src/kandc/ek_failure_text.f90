@@ -129,7 +129,7 @@ contains
       end if
    end function reason_text
 
-   !> 'a', 'b' and 'c'.
+   !> The names of joints as a list: 'a', 'b' and 'c'.
    function joint_list(suspension, is_named) result(text)
       type(suspension_t), intent(in) :: suspension
       logical, intent(in) :: is_named(:)

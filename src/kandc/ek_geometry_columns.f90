@@ -240,7 +240,7 @@ contains
       length_of = sqrt(v(1)**2 + v(2)**2 + v(3)**2)
    end function length_of
 
-   !> √(k/m)/2π [Hz]
+   !> The ride frequency √(k/m)/2π [Hz].
    pure real(wp) function ride_frequency(rate, mass) result(frequency)
       real(wp), intent(in) :: rate      !! ride rate [N/m]
       real(wp), intent(in) :: mass      !! kg, above 0

@@ -6,10 +6,10 @@
 !>
 !>     value = size · s_y/s_x · slope
 !>
-!> where `size` converts the unit (per m, per kN, per 100 N m) and the signs depend on the side of the wheel:
-!> steer is positive to the left on both wheels (s_y = side for toe), and with opposed loads (anti phase) x is the force on
-!> the wheel itself. These are the signs of the columns of the compliance matrix: in a small window the fitted slope equals the
-!> column, on either wheel. Only in steering is the input mirrored on the right wheel (s_x): positive towards the side of the wheel.
+!> where `size` converts the unit (per m, per kN, per 100 N m) and the signs depend on the side of the wheel: steer is positive to
+!> the left on both wheels (s_y = side for toe), and with anti-phase loads x is the force on the wheel itself. These are the signs
+!> of the columns of the compliance matrix: in a small window the fitted slope equals the column, on either wheel. Only in
+!> steering is the input mirrored on the right wheel (s_x): positive towards the side of the wheel.
 !>
 !> A column whose change over the window does not exceed the tolerance of Newton and rounding has the slope 0.
 module ek_gradient
@@ -133,13 +133,13 @@ contains
       gradient%value = slope*(gradient%size*gradient%turn)
    end function one_gradient
 
-   !> Fits the slope of a column over another one in the units of both, 0 if it is within the noise; makes no text.
+   !> Fits the slope of one column over another, in the units of both; 0 if it is within the noise. Creates no strings.
    subroutine fit_slope(table, place, over, factor_size, half, slope, points, undefined)
       type(table_t), intent(in) :: table
       integer, intent(in) :: place, over           !! of the columns
       real(wp), intent(in) :: factor_size          !! load or displacement at `factor` = 1, if that is the abscissa
       real(wp), intent(in) :: half                 !! of the window
-      real(wp), intent(out) :: slope               !! not a number if it has too few states, or the column is undefined at one
+      real(wp), intent(out) :: slope               !! NaN if the window has too few states, or a value is undefined
       integer, intent(out) :: points               !! states in the window at which the column is defined
       integer, intent(out), optional :: undefined  !! states in the window at which y is not a number
       logical :: is_good(row_count(table))
@@ -166,7 +166,7 @@ contains
       noise = noises(findloc(endings == column(index(column, '_', back=.true.):), .true., dim=1))
    end function noise_of
 
-   !> s_y/s_x of a wheel.
+   !> The sign s_y/s_x of a wheel in a gradient, −1 or 1.
    pure real(wp) function turn_of(test, definition, side) result(turn)
       type(test_result_t), intent(in) :: test
       type(definition_t), intent(in) :: definition

@@ -55,7 +55,8 @@ contains
       call fill_kandc(suspension, state, inputs, wheels, kkt, self)
    end subroutine observe_kandc
 
-   !> Fills the columns where the attitudes of the wheels are known, and the whole tangent is assembled if self%is_matrix_wanted.
+   !> Fills the columns. The attitudes of the wheels must be given, and the complete tangent must be assembled if
+   !> self%is_matrix_wanted.
    subroutine fill_kandc(suspension, state, inputs, wheels, kkt, self)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state

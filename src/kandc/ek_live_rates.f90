@@ -1,4 +1,4 @@
-!> The rates that contribute most to the key compliances of a suspension: those that a reader of its report may change on the page.
+!> The rates that contribute most to the key compliances of a suspension. A reader of the report may change them on the page.
 !>
 !> A rate is the constant of one law: an axis of a bushing, a spring, a bar. The same law on both sides of an axle is one rate if it
 !> is equal on both. Laws with a curve or a clearance have no rate.
@@ -29,7 +29,7 @@ module ek_live_rates
       logical :: is_of_angle = .false.
    end type live_rate_t
 
-   !> All of them, and the laws that have them.
+   !> All selected rates, and the laws that have these rates.
    type :: live_rates_t
       type(live_rate_t), allocatable :: rate(:)
       integer, allocatable :: of_law(:)                !! rate of each law; a rate of both sides has two laws, the left one first

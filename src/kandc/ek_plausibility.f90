@@ -120,7 +120,7 @@ contains
 
    end subroutine doubt_rack
 
-   !> Checks that a joint of a wheel carrier lies near its wheel, on its side of the car.
+   !> Checks that a joint of a wheel carrier is near the wheel and on the same side of the car.
    subroutine doubt_own_points(suspension, m, doubts)
       type(suspension_t), intent(in) :: suspension
       type(measure_t), intent(in) :: m
@@ -147,7 +147,7 @@ contains
       end do
    end subroutine doubt_own_points
 
-   !> Checks that the end of a link on a carrier lies outboard of its other end.
+   !> Checks that the end of a link on the wheel carrier is outboard of the other end of the link.
    subroutine doubt_ends(suspension, m, ends, doubts)
       type(suspension_t), intent(in) :: suspension
       type(measure_t), intent(in) :: m

@@ -25,7 +25,7 @@ module ek_plausible_range
 
    real(wp), parameter :: pound = 4.4482216_wp      !! N
 
-   !> In order of likelihood.
+   !> The units to which a value may belong, in order of likelihood.
    type(unit_t), parameter :: units_tried(*) = [ &
       unit_t(length, 'm', 1.0_wp), unit_t(length, 'mm', 1.0e-3_wp), unit_t(length, 'inches', 0.0254_wp), &
       unit_t(length, 'cm', 0.01_wp), &
@@ -94,10 +94,10 @@ module ek_plausible_range
       range_t('test moment', moment, 1.0_wp, 5000.0_wp, .false., 'the moment is in N m, regardless of the deck''s units'), &
       range_t('offset of the force', length, 0.0_wp, 200.0_wp, .true., 'give a pneumatic trail'), &
       range_t('caster of a front axle', angle, -3.0_wp, 20.0_wp, .true., 'usually the top is rearward; check axes and sign of x'), &
-      range_t('caster', angle, -25.0_wp, 25.0_wp, .true., 'check the points of the steer axis'), &
+      range_t('caster', angle, -25.0_wp, 25.0_wp, .true., 'check the points of the steering axis'), &
       range_t('kingpin inclination', angle, -6.0_wp, 30.0_wp, .true., 'is the upper point outboard of the lower one?'), &
-      range_t('scrub radius', length, -150.0_wp, 250.0_wp, .true., 'check the points of the steer axis'), &
-      range_t('caster trail', length, -100.0_wp, 200.0_wp, .true., 'check the points of the steer axis'), &
+      range_t('scrub radius', length, -150.0_wp, 250.0_wp, .true., 'check the points of the steering axis'), &
+      range_t('caster trail', length, -100.0_wp, 200.0_wp, .true., 'check the points of the steering axis'), &
       range_t('link length', length, 20.0_wp, 2500.0_wp, .false., 'check its two points'), &
       ! response at design; sources below the table
       range_t('wheel rate', derived_rate, 2.0_wp, 3000.0_wp, .false., 'check the rods and levers between wheel and spring'), &
@@ -117,7 +117,7 @@ module ek_plausible_range
    ! toe: 30 mm of travel, about the least that a Formula Student car must have, would use the range of the static toe. Compliances
    ! have no range: no source covers both trucks and race cars.
 
-   !> The remarks without repetition: both sides of a mirrored deck come from one line and give one remark.
+   !> The remarks without repetition: both sides of a mirrored deck have the same line and give one remark.
    type :: doubts_t
       type(message_list_t) :: remarks
       type(units_t) :: units = units_t()               !! of the deck
@@ -165,7 +165,7 @@ contains
 
    end subroutine add
 
-   !> Compares a value with the range of its quantity, and adds a remark if it lies outside.
+   !> Compares a value with the range of its quantity, and adds a remark if the value is outside the range.
    pure subroutine judge(self, quantity, value, detail)
       class(doubts_t), intent(inout) :: self
       character(*), intent(in) :: quantity     !! of a row of `ranges`
@@ -230,7 +230,7 @@ contains
       high = ranges(k)%high
    end subroutine usual_range
 
-   !> Whether a value (SI) lies in its range.
+   !> Whether a value (SI) is within the range of a row.
    pure logical function is_within(row, value)
       type(range_t), intent(in) :: row
       real(wp), intent(in) :: value

@@ -1,4 +1,4 @@
-!> Plausibility of the geometry of a deck: wheels, steer axes, carriers, hardpoints.
+!> Plausibility of the geometry of a deck: wheels, steering axes, carriers, hardpoints.
 module ek_plausible_shape
    use ek_kinds, only: wp, millimetre, degree
    use ek_text, only: str, quoted

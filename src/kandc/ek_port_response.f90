@@ -9,7 +9,7 @@ module ek_port_response
 
    real(wp), parameter :: rounding = 1.0e-9_wp    !! share of the port's compliance: a port with less left is already held
 
-   !> Ports that are held, one after the other. Reused from state to state, so that its memory is allocated once.
+   !> Ports that are held, one after the other. The variable is reused from state to state, so that its memory is allocated once.
    type :: lock_t
       integer :: held = 0                            !! number of ports that had to be held
       integer, allocatable :: port(:)                !! they, in this order

@@ -23,7 +23,7 @@ module ek_remark
    integer, parameter :: on_end = 1, on_settling = 2, on_drift = 3, on_travel = 4, on_stability = 5, on_rack = 6, on_curve = 7
    integer, parameter :: on_closure = 8
 
-   !> One remark.
+   !> A note, warning or failure as data.
    type :: remark_t
       integer :: severity = note, topic = on_case
       character(:), allocatable :: case      !! name of the case
@@ -56,7 +56,7 @@ contains
       if (case%unit_name /= '-') text = text//' '//case%unit_name
    end function swept_text
 
-   !> 'case 'x': text'
+   !> The text of a remark with its case: "case 'x': text".
    pure function whole(self) result(text)
       class(remark_t), intent(in) :: self
       character(:), allocatable :: text

@@ -1,10 +1,10 @@
 !> The test rig: the rows, loads and actuations that a case of the deck adds to a suspension.
 !>
-!> `rig_of` makes the rig of a case as a value of its own; it cannot fail, reads no file and changes nothing. The tests are in
-!> ek_rig_test.
+!> `rig_of` returns the rig of a case as a separate value. It cannot fail, reads no file and changes no other data. The tests are
+!> in ek_rig_test.
 !>
-!> `put_on` makes one flat model of a suspension and a rig, with its rows and loads after the rows and loads of the suspension:
-!> an increment needs one list of rows, one of loads and one reaction vector λ. The split is by number: `own_rows` of the
+!> `put_on` builds one flat model of a suspension and a rig. The rows and loads of the rig follow those of the suspension, because
+!> an increment needs one list of rows, one list of loads and one reaction vector λ. The split is by number: `own_rows` of the
 !> suspension come first in Φ and in λ, and "released" means without the rows after them. In the same way the case on the rig is
 !> the case with the actuations of its rig. A separate rig would be one more argument of every procedure, without any other
 !> benefit.
@@ -91,9 +91,9 @@ contains
       mounted%is_mounted = .true.
    end subroutine mount_case
 
-   !> Mounts the next design of a blueprint as mount_case does: only numbers may have changed in the suspension and in the case
-   !> since `mounted` was put on the rig. Its numbers are renewed in place: no name is copied, and after the first design nothing is
-   !> allocated.
+   !> Mounts the next design of a blueprint, like mount_case. Since `mounted` was put on the rig, only numbers of the suspension
+   !> and of the case may have changed. Numbers are renewed in place: no name is copied, and no memory is allocated after the
+   !> first design.
    subroutine mount_again(base, given, mounted)
       type(suspension_t), intent(in) :: base
       type(case_t), intent(in) :: given                !! is_mountable
@@ -288,7 +288,7 @@ contains
       integer :: side
 
       is_at_patch = .not. test%is_at_centre .or. suspension%axle%drives_at_patch
-      if (test%is_at_centre .and. is_at_patch) rig%place_name = 'traction force at each patch'
+      if (test%is_at_centre .and. is_at_patch) rig%place_name = 'driving force at each contact point'
       do side = 1, 2
          if (wheels(side) > 0) call add_load(rig, suspension, case, trim(side_name(side)), &
             acting_t(wheels(side), is_at_patch, test%force, test%moment, test%has_trail), &

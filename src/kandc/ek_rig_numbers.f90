@@ -1,7 +1,8 @@
 !> The rig of a case, and its numbers for one design after the other: the points of its heights and loads, the tyres under
 !> its road, the range of the swept value.
 !>
-!> ek_rig makes the parts of a rig once, with their names; `set_rig_numbers` computes every number of them that a design can change.
+!> ek_rig creates the parts of a rig once, with their names; `set_rig_numbers` computes every number of these parts that a design
+!> can change.
 module ek_rig_numbers
    use ek_kinds, only: wp
    use ek_joint, only: joint_t, row_t, term_t
@@ -100,7 +101,7 @@ contains
       end do
    end subroutine set_rig_numbers
 
-   !> Copies the numbers of a rig to a suspension that stands on it already.
+   !> Copies the numbers of a rig to a suspension that is already on this rig.
    pure subroutine copy_rig_numbers(rig, suspension)
       type(rig_t), intent(in) :: rig
       type(suspension_t), intent(inout) :: suspension    !! of put_on

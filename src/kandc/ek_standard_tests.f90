@@ -117,7 +117,7 @@ contains
       this%from = -this%to
    end subroutine cover_rack_travel
 
-   !> A heading for a case: 'Lateral force, opposed (anti phase), 30 mm behind the patch'.
+   !> A heading for a case: 'Lateral force, anti-phase, 30 mm aft of the contact point'.
    pure function test_title(this, wheels) result(title)
       type(case_t), intent(in) :: this
       integer, intent(in) :: wheels              !! number of wheels of the model; a single wheel has no phase
@@ -130,9 +130,9 @@ contains
       title(1:1) = achar(iachar(title(1:1)) - 32)
       test = rig_test(this%test)
       if (wheels > 1 .and. test%has_phase) &
-         title = title//trim(merge(', opposed (anti phase)', ', parallel (in phase) ', this%is_anti))
-      if (abs(this%offset) > 0.0_wp) title = title//', '//str(this%offset/millimetre)//' mm behind the patch'
-      if (this%vertical == 'patch') title = title//', patch heights held'
+         title = title//trim(merge(', anti-phase', ', in phase  ', this%is_anti))
+      if (abs(this%offset) > 0.0_wp) title = title//', '//str(this%offset/millimetre)//' mm aft of the contact point'
+      if (this%vertical == 'patch') title = title//', contact point heights held'
       if (this%vertical == 'centre') title = title//', wheel centres held'
       if (this%vertical == 'force') title = title//', by vertical force'
       if (this%vertical == 'road') title = title//', on the road'
@@ -156,7 +156,7 @@ contains
       case ('centre')
          held = 'wheel centre heights '//word
       case ('patch')
-         held = 'contact patch heights '//word
+         held = 'contact point heights '//word
       case ('road')
          held = 'wheels on a rigid road'
       case ('force')

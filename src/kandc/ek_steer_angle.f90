@@ -33,7 +33,7 @@ contains
       rate = dot_product(steer_gradient(spin), turn)
    end function steer_rate
 
-   !> The factors of θ in it: of many rotations of one carrier they are computed once.
+   !> The factors of θ in the steer angle. They are computed once for many rotations of one carrier.
    !> Equation (C.10) of docs/theory/compliance.md.
    pure function steer_gradient(spin) result(gradient)
       real(wp), intent(in) :: spin(3)

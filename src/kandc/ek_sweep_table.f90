@@ -1,4 +1,4 @@
-!> From the states of a sweep to a table, one row per state: the quantities of a case.
+!> The table of a sweep, one row per state: the quantities of a case.
 !>
 !> The columns come from ek_state_columns and ek_kandc_columns, between `state` and `factor` in front and `converged`,
 !> `iterations` and `constraint_error` at the end.
@@ -93,8 +93,8 @@ contains
       if (case%has_all) is_for = same_columns(suspension, self%kandc)
    end function is_for
 
-   !> Makes the table of a sweep: all states that were reached, and on either side the first state that was not reached,
-   !> marked by converged = 0 and values that are not numbers.
+   !> Builds the table of a sweep: all states that were reached, and on each side the first state that was not reached. The latter
+   !> is marked by converged = 0 and NaN values.
    !>
    !> If the case requests all columns, the K&C quantities precede the last columns, from the compliance matrix
    !> at every state; it is solved only if one of the columns of the observer needs it. With defers_kandc the K&C quantities are not
@@ -281,7 +281,7 @@ contains
       end associate
    end subroutine fill_quantities
 
-   !> Makes the table of a single path, like `observe`, but with an observer of its own.
+   !> Builds the table of a single path, like `observe`, but creates its observer.
    subroutine sweep_table(suspension, case, path, kkt, table, wanted)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case

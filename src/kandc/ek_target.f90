@@ -34,8 +34,8 @@ contains
    !> Searches a sweep of method `equilibrium` for case%target, 'column=value', and solves for the swept value between its
    !> states.
    !>
-   !> The unit of the column may be omitted if only one column begins with the name. Of several solutions the one nearest to
-   !> design is taken. Errors: exit_deck, no such column; exit_convergence, the sweep does not reach the value.
+   !> The unit of the column may be omitted if only one column begins with the name. If there are several solutions, the one
+   !> nearest to design is used. Errors: exit_deck, no such column; exit_convergence, the sweep does not reach the value.
    subroutine find_target(suspension, case, path, table, kkt, found, error)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
@@ -251,7 +251,7 @@ contains
       call fail(error, exit_deck, 'the results have no column '//quoted(name)//hint)
    end subroutine find_column
 
-   !> Names, one after the other.
+   !> Names with a separator between them.
    pure function listed(names, between) result(text)
       character(*), intent(in) :: names(:), between
       character(:), allocatable :: text

@@ -1,7 +1,7 @@
-!> Setting one lane of a thing for four designs from the same thing of one design.
+!> Sets one lane of a value for four designs from the value of one design.
 !>
-!> Kinds, bodies and other properties that are the same for all designs are copied too, so that every call leaves a complete thing.
-!> Names are not.
+!> Kinds, bodies and other properties common to all designs are also copied, so that the value is complete after every call. Names
+!> are not copied.
 module ek_lane_copy
    use ek_contract, only: are_checked, require
    use ek_kinds, only: wp
@@ -26,7 +26,7 @@ module ek_lane_copy
    private
    public :: set_lane
 
-   !> set_lane(thing of lanes, lane, thing)
+   !> set_lane(value of lanes, lane, value of one design): sets one lane.
    interface set_lane
       procedure :: set_number, set_pose, set_measure, set_curve, set_law, set_bushing, set_element, set_row, set_term, set_load
    end interface set_lane

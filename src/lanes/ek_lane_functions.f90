@@ -1,4 +1,4 @@
-!> Functions of numbers of four designs, each lane as the intrinsic function of the same name.
+!> Functions of numbers of four designs. Each lane has the value of the intrinsic function with the same name.
 module ek_lane_functions
    use ek_kinds, only: wp
    use ek_lane_numbers, only: lanes, lanes_t, zero, operator(+), operator(*)
@@ -96,7 +96,7 @@ contains
       end do
    end function dot_product_lanes
 
-   !> a·b, a the same for all designs.
+   !> a·b, where a is the same for all designs.
    pure type(lanes_t) function dot_product_real(a, b) result(y)
       real(wp), intent(in) :: a(:)
       type(lanes_t), intent(in) :: b(:)

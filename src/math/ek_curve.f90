@@ -29,7 +29,7 @@ module ek_curve
 
 contains
 
-   !> Copies the numbers of a curve to another one, whose memory is used again if the number of points is the same.
+   !> Copies the numbers of a curve to another curve, in its memory if the number of points is the same.
    pure subroutine copy_curve(from, to)
       type(curve_t), intent(in) :: from
       type(curve_t), intent(inout) :: to          !! its name is then unchanged

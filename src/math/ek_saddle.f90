@@ -24,7 +24,7 @@ module ek_saddle
    ! of the largest counts as nothing there.
    real(wp), parameter :: stiffness_share = 1.0e-10_wp
 
-   !> The matrix, then its factors.
+   !> The matrix of a saddle-point system, later its factors.
    type :: saddle_t
       integer :: n = 0                           !! rows of K
       integer :: m = 0                           !! columns of F

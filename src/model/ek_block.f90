@@ -30,7 +30,7 @@ contains
       if (at_j >= 0) y(at_j + 1:at_j + 6) = y(at_j + 1:at_j + 6) + factor*gradient(7:12)
    end subroutine add_gradient
 
-   !> A v
+   !> The product A v.
    pure function rotated(a, v) result(w)
       real(num), intent(in) :: a(3, 3), v(3)
       real(num) :: w(3)
@@ -208,7 +208,7 @@ contains
       end do
    end subroutine add_transposed
 
-   !> x yᵀ
+   !> The dyad x yᵀ.
    pure function dyad(x, y) result(m)
       real(num), intent(in) :: x(3), y(3)
       real(num) :: m(3, 3)

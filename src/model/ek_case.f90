@@ -37,7 +37,7 @@ module ek_case
       real(wp), allocatable :: values(:)      !! N, N m, m or rad
    end type table_column_t
 
-   !> A load table as it was read with the deck; no rows: it has errors, or its file cannot be read.
+   !> A load table as read with the deck. It has no rows if it has errors or if its file cannot be read.
    type :: load_table_t
       integer :: rows = 0
       type(table_column_t), allocatable :: columns(:)
@@ -63,7 +63,7 @@ module ek_case
       ! a test of the rig, see ek_rig
       character(:), allocatable :: test     !! name of the test; not allocated or empty: none
       character(:), allocatable :: vertical !! how wheels are held: 'centre', 'patch', 'road', 'force'; '': default of the test
-      logical :: is_anti = .false.          !! opposed: the load on the right wheel is reversed
+      logical :: is_anti = .false.          !! anti-phase: the load on the right wheel is reversed
       real(wp) :: offset = 0.0_wp           !! trail of a lateral force aft of the contact point [m]
       character(:), allocatable :: file     !! name of a load table
       type(load_table_t) :: table           !! its content
@@ -92,7 +92,7 @@ contains
       if (.not. case%says_solver) case%uses_plan = .true.
    end subroutine prefer_plan
 
-   !> Copies the numbers of a case of a deck for another design: nothing is allocated. An empty copy receives the whole case.
+   !> Copies the numbers of a case of a deck for another design, without allocation. An empty copy receives the complete case.
    pure subroutine copy_case_numbers(from, to)
       type(case_t), intent(in) :: from
       type(case_t), intent(inout) :: to

@@ -62,7 +62,7 @@ contains
       bushing%moment0 = rotated(bushing%axes, bushing%preload_moment)
    end subroutine set_bushing_axes
 
-   !> E diag(k) Eᵀ
+   !> The stiffness matrix E diag(k) Eᵀ, from the axes of a marker to the axes of its body.
    pure function in_body(axes, k) result(matrix)
       real(num), intent(in) :: axes(3, 3), k(3)
       real(num) :: matrix(3, 3)

@@ -44,7 +44,7 @@ module ek_element
    ! shapes in pictures
    integer, parameter :: no_shape = 0, coil_shape = 1, damper_shape = 2, stop_shape = 3, bushing_shape = 4
 
-   !> The properties of a kind.
+   !> The properties of a kind of element.
    type :: element_kind_t
       character(8) :: label       !! in messages: the group of the deck
       character(20) :: one, many  !! counted by `check`, in the order of the table; '': not counted
@@ -121,7 +121,7 @@ contains
       end if
    end subroutine set_design_value
 
-   !> Copies the numbers of an element to another one, which is the same but for numbers; nothing is allocated.
+   !> Copies the numbers of an element to another element that differs only in numbers, without allocation.
    pure subroutine copy_element(from, to)
       type(element_t), intent(in) :: from
       type(element_t), intent(inout) :: to
@@ -138,7 +138,7 @@ contains
       end if
    end subroutine copy_element
 
-   !> Copies the numbers of a bushing to another one, which is the same but for numbers; nothing is allocated.
+   !> Copies the numbers of a bushing to another bushing that differs only in numbers, without allocation.
    pure subroutine copy_bushing(from, to)
       type(bushing_t), intent(in) :: from
       type(bushing_t), intent(inout) :: to
@@ -179,7 +179,7 @@ contains
       call find_slopes(element%law, from, to, least, most)
    end subroutine element_slopes
 
-   !> Whether that force is linear in the measure: its slope is the same everywhere.
+   !> Whether the force of an element is linear in its measure, with the same slope everywhere.
    pure logical function is_linear(element)
       type(element_t), intent(in) :: element
       is_linear = .not. (element%law%has_curve .or. element%law%is_one_sided)

@@ -1,5 +1,5 @@
-!> The name of an element in messages, and its shape in pictures. It is not in `ek_element`: that is a kernel, and kernels make no
-!> texts.
+!> The name of an element in messages, and its shape in pictures. It is not in `ek_element`, which is a kernel: kernels create no
+!> strings.
 module ek_element_label
    use ek_kinds, only: wp
    use ek_text, only: quoted
@@ -10,7 +10,7 @@ module ek_element_label
 
 contains
 
-   !> "spring 'coil'"
+   !> The group and name of an element for messages: "spring 'coil'".
    pure function element_label(element) result(text)
       type(element_t), intent(in) :: element
       character(:), allocatable :: text

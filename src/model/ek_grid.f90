@@ -1,7 +1,7 @@
 !> The grid of a test over wheel travel and steering: its levels, and the order in which its states are solved.
 !>
-!> The states run up and down over the travel, one value of the steering driver after the other: neighbours in the order are
-!> neighbours in the grid, and each starts from the one before it.
+!> The states run up and down over the travel, for one value of the steering driver after the other. Consecutive states are
+!> therefore neighbours in the grid, and each solution starts from the previous state.
 module ek_grid
    use ek_kinds, only: wp
    use ek_case, only: case_t

@@ -40,7 +40,7 @@ module ek_joint
    ! parts in pictures: without an attachment point; with one that is not drawn; drawn
    integer, parameter :: no_part = 0, unseen_part = 1, rod_part = 2, ball_part = 3, hinge_part = 4, slider_part = 5, guide_part = 6
 
-   !> The properties of a kind.
+   !> The properties of a kind of joint.
    type :: joint_kind_t
       character(17) :: name
       integer :: min_points, max_points   !! of `at`; 2 and 2: two that do not coincide

@@ -124,7 +124,7 @@ contains
       end select
    end subroutine evaluate
 
-   !> The value alone.
+   !> The value of a measure [m or rad or -], without its derivatives.
    pure real(num) function measure_value(measure, pose_i, pose_j) result(value)
       type(measure_t), intent(in) :: measure
       type(pose_t), intent(in) :: pose_i, pose_j

@@ -6,7 +6,7 @@ module ek_row
    private
    public :: row_t, term_t
 
-   !> coefficient × measure
+   !> A term of a row: coefficient × measure.
    type :: term_t
       type(measure_t) :: measure
       real(num) :: coefficient = one

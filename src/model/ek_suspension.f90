@@ -34,7 +34,7 @@ module ek_suspension
       logical :: is_used = .false.
    end type point_t
 
-   !> A wheel on its carrier.
+   !> A wheel with its points, angles and tyre, on its carrier.
    type :: wheel_t
       character(:), allocatable :: name, where
       integer :: body = 0
@@ -58,7 +58,7 @@ module ek_suspension
       real(wp) :: design_value = 0.0_wp   !! m, - or rad
    end type readout_t
 
-   !> Data of the vehicle around the axle, for characteristics that need the whole car.
+   !> Data of the vehicle, for characteristics of the axle that depend on the complete car.
    type :: axle_t
       logical :: has_axle = .false.       !! the deck has an &axle
       character(:), allocatable :: where
@@ -70,7 +70,7 @@ module ek_suspension
       real(wp) :: drive_share = 1.0_wp    !! share of the car's driving force that acts on THIS axle, 0 to 1
       real(wp) :: front_overhang = 0.0_wp !! front corner of the car ahead of the wheels [m]; 0: not given
       real(wp) :: front_width = 0.0_wp    !! width of the car at its front corners [m]; given together with front_overhang
-      logical :: drives_at_patch = .false.   !! the axle takes the drive torque (solid axle): driving force acts at contact point;
+      logical :: drives_at_patch = .false.   !! the axle carries the drive torque (solid axle): driving force acts at contact point;
                                              !! otherwise (independent suspension) at the wheel centre
    end type axle_t
 
@@ -127,8 +127,8 @@ contains
       self%steering%driver = ''
    end subroutine allocate_lists
 
-   !> Copies the numbers of a suspension to another one, which has the same parts, and may have parts of a rig after them (ek_rig):
-   !> rows, terms and loads. Every number that realise, settle_design or balance sets is copied; nothing is allocated.
+   !> Copies the numbers of a suspension to another suspension with the same parts, which may also have rows, terms and loads of a
+   !> rig after them (ek_rig). Copies every number that realise, settle_design or balance sets, without allocation.
    pure subroutine copy_numbers(from, to)
       type(suspension_t), intent(in) :: from
       type(suspension_t), intent(inout) :: to
@@ -196,7 +196,7 @@ contains
       to%steer_axis = from%steer_axis
    end subroutine copy_wheel
 
-   !> The length of Δq.
+   !> The number of unknowns of the bodies, the length of Δq.
    pure integer function unknowns(self)
       class(suspension_t), intent(in) :: self
       unknowns = 6*size(self%bodies)
@@ -277,7 +277,7 @@ contains
       end do
    end function load_number
 
-   !> Whether no load makes the true tangent unsymmetric: none rotates with its body, none has a moment.
+   !> Whether all loads leave the true tangent symmetric: no load rotates with its body, and no load has a moment.
    pure logical function has_symmetric_loads(self)
       type(suspension_t), intent(in) :: self
       integer :: k

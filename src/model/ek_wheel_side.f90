@@ -8,7 +8,7 @@ module ek_wheel_side
 
 contains
 
-   !> 'left' or 'right'
+   !> The name of a side: 'left' or 'right'.
    pure function side_name(side) result(name)
       integer, intent(in) :: side      !! 1 left, 2 right
       character(5) :: name

@@ -80,7 +80,7 @@ contains
          "cannot write '"//path//"': "//trim(nf90_strerror(file%fault)))
    end subroutine write_store_file
 
-   !> Records the first fault.
+   !> Records the first error of the NetCDF library.
    subroutine note(fault, status)
       integer, intent(inout) :: fault
       integer, intent(in) :: status
@@ -97,7 +97,7 @@ contains
          .and. chunk%first + size(chunk%status) - 1 <= store%designs
    end function fits
 
-   !> Variables of a role.
+   !> The number of variables with a role.
    pure integer function count_of(store, role)
       type(store_t), intent(in) :: store
       character(*), intent(in) :: role
@@ -141,7 +141,7 @@ contains
       end do
       if (store%has_limits) then
          call over_designs('within', nf90_byte, file%within)
-         call put_flags(file, file%within, 'whether the design keeps all limits of the responses', 'no yes', 1)
+         call put_flags(file, file%within, 'whether the design satisfies all limits of the responses', 'no yes', 1)
       end if
       call over_designs('status', nf90_byte, file%status)
       call put_flags(file, file%status, 'how the design ended', flag_meanings(), design_invalid)
@@ -185,7 +185,7 @@ contains
 
    end subroutine define
 
-   !> 'solved incomplete …'
+   !> The meanings of the status flags: 'solved incomplete …'.
    pure function flag_meanings() result(text)
       character(:), allocatable :: text
       integer :: k

@@ -65,7 +65,7 @@ contains
       if (file%id /= 0) call note(file, nf90_close(file%id))
    end subroutine write_store_tables
 
-   !> Records the first fault.
+   !> Records the first error of the NetCDF library.
    subroutine note(file, status)
       type(store_file_t), intent(inout) :: file
       integer, intent(in) :: status
@@ -81,7 +81,7 @@ contains
       call fail(error, exit_file, 'it is not the store of a study, or damaged: '//trim(nf90_strerror(file%fault)))
    end subroutine check
 
-   !> Reads dimensions and variables.
+   !> Reads the dimensions and variables of the store.
    subroutine survey(file)
       type(store_file_t), intent(inout) :: file
       character(nf90_max_name) :: name
@@ -159,7 +159,7 @@ contains
       call table_file%add(csv_head(table))
    end subroutine add_head
 
-   !> Writes a row per design.
+   !> Writes the table of responses, one row per design.
    subroutine write_rows(file, rows)
       type(store_file_t), intent(inout) :: file
       type(writer_t), intent(inout) :: rows

@@ -47,7 +47,7 @@ contains
       status = 0
       text = argument(4)
       if (len(text) > 0) read (text, *, iostat=status) every
-      if (status /= 0 .or. every < 1) call fail(error, exit_usage, '--csv: N must be a whole number, 1 or more')
+      if (status /= 0 .or. every < 1) call fail(error, exit_usage, '--csv: N must be an integer, 1 or more')
    end subroutine read_every
 
    !> An argument; '' if there is none.

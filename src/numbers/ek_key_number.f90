@@ -1,7 +1,7 @@
 !> A key number of a suspension: its definition, the columns and tests that contain it, and the way its value is read from them.
 !>
-!> ek_key_numbers lists the numbers that tests can have, from the headings of their tables alone; read_source reads one of them when
-!> the tests are solved. It makes no text, so that several threads can read at the same time.
+!> ek_key_numbers lists the numbers that tests can have, from the headings of their tables alone; read_source reads one of them
+!> when the tests are solved. It creates no strings, so that several threads can read at the same time.
 module ek_key_number
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
@@ -58,7 +58,7 @@ contains
       has_value = ieee_is_finite(number%left) .or. ieee_is_finite(number%right)
    end function has_value
 
-   !> Whether a number depends on states that lie far from design.
+   !> Whether a number depends on states far from design.
    pure logical function needs_path(how)
       integer, intent(in) :: how
       needs_path = .not. (how == at_design .or. is_slope(how))

@@ -25,10 +25,10 @@ module ek_key_numbers
       character(38) :: title = ''       !! of an extreme; otherwise the title of the column or gradient
    end type entry_t
 
-   character(*), parameter :: phases(slope:anti_phase) = [character(25) :: '', ', parallel (in phase)', ', opposed (anti phase)']
+   character(*), parameter :: phases(slope:anti_phase) = [character(12) :: '', ', in phase', ', anti-phase']
 
    character(*), parameter :: attitude = 'Attitude at design', rates = 'Rates', ride = 'Ride', roll = 'Roll', &
-      comply = 'Compliance', held = 'Compliance at design', elastic = 'Elastic steer axis', &
+      comply = 'Compliance', held = 'Compliance at design', elastic = 'Elastic steering axis', &
       anti = 'Anti-dive, anti-lift, anti-squat', steer = 'Steering', travel = 'parallel_travel', lateral = 'lateral_force', &
       torque = 'aligning_torque', instant = 'instant'
 

@@ -18,7 +18,7 @@ module ek_number_names
 
 contains
 
-   !> Makes the message on unknown names.
+   !> Creates the error message on unknown names.
    subroutine explain_unknown(names, suspension, cases, error)
       character(*), intent(in) :: names(:)
       type(suspension_t), intent(in) :: suspension
@@ -70,7 +70,8 @@ contains
       end do
    end subroutine find_number
 
-   !> Lists all names, with units and definitions, in the order of the report. Nothing is solved, so one of them may have no value.
+   !> Lists all names, with units and definitions, in the order of the report. No case is solved, so the value of a listed number
+   !> may be NaN.
    subroutine list_numbers(suspension, cases, names, units, definitions)
       type(suspension_t), intent(in) :: suspension      !! on no rig
       type(case_t), intent(in) :: cases(:)

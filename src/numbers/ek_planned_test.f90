@@ -81,7 +81,7 @@ contains
          norm2(suspension%wheels(k)%centre - suspension%loads(load)%arm) < same, k=1, size(suspension%wheels))])
    end function is_at_centre
 
-   !> 'Wheel travel sweep' of 'wheel_travel_sweep'.
+   !> The title of a case from its name: 'Wheel travel sweep' of 'wheel_travel_sweep'.
    pure function title_of(name) result(title)
       character(*), intent(in) :: name
       character(:), allocatable :: title

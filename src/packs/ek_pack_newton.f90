@@ -1,4 +1,4 @@
-!> Newton's method for four designs at a time: the steps of find_equilibrium (ek_newton), each design taking its own.
+!> Newton's method for four designs at the same time. Each design takes the steps of find_equilibrium (ek_newton).
 !>
 !> A design that has converged or failed is not changed while the others continue, so its result does not depend on them.
 module ek_pack_newton

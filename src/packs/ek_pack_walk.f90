@@ -1,4 +1,4 @@
-!> The paths of four designs, state after state at the same time.
+!> Follows the paths of four designs at the same time, state after state.
 !>
 !> All designs of the pack take each step together: prediction, Newton's method, and the tests of ek_reach and ek_branch that the
 !> state is on the path (the prediction was close, or the tangents agree with the motion; the joints are in the same assembly). A
@@ -36,7 +36,8 @@ contains
       can_walk = case%method == 'equilibrium' .and. .not. case%follows_arc .and. path%start > 0 .and. .not. path%is_table
    end function can_walk
 
-   !> Walks the paths of all members (of new_path, with the same swept values); is_walked of each: whether its path is complete.
+   !> Walks the paths of all members, created by new_path with the same swept values. is_walked of a member is .true. if its path
+   !> is complete.
    subroutine walk_pack(self, members)
       type(walker_t), intent(inout) :: self      !! its pack is made for these designs
       type(member_t), intent(inout) :: members(lanes)

@@ -25,7 +25,7 @@ module ek_walker
       logical :: is_walked = .false.             !! the path is complete; otherwise it is to be swept alone
    end type member_t
 
-   !> Where a design stands on its path.
+   !> Position of a design on its path.
    type :: place_t
       type(schedule_t) :: schedule
       integer :: trusted = depth                 !! states used for the prediction
@@ -137,7 +137,7 @@ contains
       end do
    end subroutine put_lane
 
-   !> Takes the numbers of one design from its lane.
+   !> Copies the numbers of one design from its lane.
    pure subroutine get_lane(lane, x, numbers)
       integer, intent(in) :: lane
       type(lanes_t), intent(in) :: x(:)

@@ -1,4 +1,4 @@
-!> The camera of a scene: direction of view, scale, and where a point stands in the picture.
+!> The camera of a scene: direction of view, scale, and the position of a point in the picture.
 !>
 !> It has the two angles [deg] of gnuplot's `set view`: at turn = 0 it looks to the right, from the left of the car, at 270
 !> rearward from its front.
@@ -51,7 +51,7 @@ contains
       self%centre = camera%centre
    end function new_projection
 
-   !> Where a point stands: shares of the width from the left and of the height from below.
+   !> The position of a point in the picture: share of the width from the left, and share of the height from below [-].
    pure function in_picture(self, at) result(place)
       type(projection_t), intent(in) :: self
       real(wp), intent(in) :: at(3)      !! m

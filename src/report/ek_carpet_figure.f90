@@ -1,8 +1,7 @@
 !> Carpet plot over a grid of two factors: each response over an abscissa that is shifted with the second factor, as lines on which
 !> one of the factors is constant. The figure shows both factors at any response, and the response with the accuracy of an axis.
 !>
-!> A carpet is plain numbers: a study makes a carpet of its grid of designs, a report makes a carpet of a test over travel and
-!> steering.
+!> A carpet is plain numbers. A study creates it from a grid of designs, a report from a test over travel and steering.
 module ek_carpet_figure
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
@@ -193,8 +192,8 @@ contains
       call end_data(sheet)
    end subroutine add_lines
 
-   !> Whether the lines of equal factor f carry their values at the smallest value of the other factor. The values stand on the
-   !> edge of the carpet on which the response changes most, so that they do not overlap.
+   !> Whether the lines of equal factor f carry their values at the smallest value of the other factor. The values are on the edge
+   !> of the carpet along which the response changes most, so that they do not overlap.
    pure logical function is_at_begin(carpet, f, r)
       type(carpet_t), intent(in) :: carpet
       integer, intent(in) :: f, r

@@ -23,7 +23,7 @@ module ek_compare_charts
       logical :: is_known = .false.           !! some states can be compared
    end type chart_change_t
 
-   !> One curve of one result against the first.
+   !> The difference of a curve of one result from the curve of the first result.
    type :: curve_difference_t
       character(:), allocatable :: test, chart, title, label, curve
       integer :: result = 2
@@ -81,7 +81,7 @@ contains
       charts = charts(:used)
    end subroutine compare_charts
 
-   !> The chart of the same name over the same abscissa; 0: there is none.
+   !> The index of the chart with the same name and abscissa; 0 if there is none.
    pure integer function chart_number(list, chart) result(number)
       type(chart_t), intent(in) :: list(:), chart
 
@@ -224,8 +224,8 @@ contains
       largest = one
    end subroutine take
 
-   !> The curves of a chart with which a curve of another result is compared: curves of the same name; a curve for both sides
-   !> counts for each side.
+   !> The curves of a chart with which a curve of another result is compared. They have the same name; a curve for both sides is
+   !> compared with each side.
    pure function partners(chart, title) result(found)
       type(chart_t), intent(in) :: chart
       character(*), intent(in) :: title
@@ -272,8 +272,8 @@ contains
       end if
    end subroutine dress
 
-   !> Names of a curve's numbers in the data of a page, where every result has its own; the abscissa of the first serves if it is
-   !> the same.
+   !> Sets the names of a curve's numbers in the data of a page, in which every result has separate names. The abscissa of the
+   !> first result is used if the abscissae are equal.
    pure subroutine name_columns(trace, chart, r)
       type(trace_t), intent(inout) :: trace
       type(chart_t), intent(in) :: chart
@@ -291,7 +291,7 @@ contains
       if (.not. is_same) trace%over = letter_of(r)//' '//trace%over
    end subroutine name_columns
 
-   !> Whether two abscissae are the same to rounding.
+   !> Whether two abscissae are equal to rounding.
    pure logical function are_near(a, b)
       real(wp), intent(in) :: a(:), b(:)
       real(wp) :: near
@@ -304,7 +304,7 @@ contains
       are_near = all(abs(a - b) <= near)
    end function are_near
 
-   !> The distance of curve b from curve a where both have values: state by state if they have the same abscissa, otherwise
+   !> The distance of curve b from curve a over their common range: state by state if they have the same abscissa, otherwise
    !> between the states of a. The scale is the largest magnitude of a, or the least span of the chart.
    pure type(chart_change_t) function distance(a, b, chart) result(change)
       type(trace_t), intent(in) :: a, b

@@ -24,7 +24,7 @@ module ek_compare_page
 
 contains
 
-   !> compare.html
+   !> The text of the page compare.html.
    function page_of(this, why_none) result(text)
       type(comparison_t), intent(in) :: this
       character(*), intent(in) :: why_none          !! why there are no pictures; '' if there is no message
@@ -68,7 +68,7 @@ contains
       end if
       if (.not. all(this%results%deck%is_known)) then
          if (.not. any(this%results%is_report)) then
-            call add_text(page, 'p', 'Lone tables do not hold the values of their decks; reports do. What their headers say:')
+            call add_text(page, 'p', 'Tables without a report do not contain the values of their decks. Their headers give:')
          else
             do r = 1, size(this%results)
                if (.not. this%results(r)%deck%is_known) call add_text(page, 'p', letter_of(r)// &
@@ -114,7 +114,7 @@ contains
       if (size(list) > most_rows) call add_markup(page, '</details>')
    end subroutine add_values
 
-   !> '(both sides)', or nothing.
+   !> A note in brackets, as '(both sides)'; '' for an empty note.
    pure function bracketed(words) result(text)
       character(*), intent(in) :: words
       character(:), allocatable :: text
@@ -139,7 +139,7 @@ contains
       call begin_table(page, heads, 'numbers')
    end subroutine begin_rows
 
-   !> Ends a table and begins a folded one with the same headings.
+   !> Ends a table and begins a folded table with the same headings.
    subroutine fold_rows(page, heads, rows, what)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: heads(:), what
@@ -221,7 +221,7 @@ contains
       call end_table(page)
    end subroutine add_results
 
-   !> Adds the table of key numbers and gradients; those that did not change are folded.
+   !> Adds the table of key numbers and gradients. Unchanged numbers are in a folded table.
    subroutine add_numbers(page, this)
       type(page_t), intent(inout) :: page
       type(comparison_t), intent(in) :: this

@@ -74,7 +74,8 @@ contains
       text = text_table_csv(table)
    end function differences_csv
 
-   !> One row per curve: the largest difference, in the unit of the label, and where it is on the abscissa of the test.
+   !> The table of curves, one row per curve: the largest difference, in the unit of the label, and its position on the abscissa
+   !> of the test.
    function curves_csv(this) result(text)
       type(comparison_t), intent(in) :: this
       character(:), allocatable :: text

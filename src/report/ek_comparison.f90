@@ -40,8 +40,8 @@ module ek_comparison
 
 contains
 
-   !> Compares all gradients of all results; the same test, quantity and side are one row. Rows are in the order of the first
-   !> result, followed by gradients of the others only.
+   !> Compares all gradients of all results. Gradients with the same test, quantity and side are one row. Rows are in the order of
+   !> the first result, followed by gradients of the others only.
    subroutine compare_gradients(results, rows)
       type(results_t), intent(in) :: results(:)
       type(difference_t), allocatable, intent(out) :: rows(:)
@@ -138,8 +138,8 @@ contains
       end do
    end function largest_change
 
-   !> The key numbers and gradients for a page: a gradient that is a key number too once, both sides once where every result shows
-   !> the same or the opposite numbers for them; the largest change first, then numbers without a value.
+   !> The key numbers and gradients for a page, the largest change first, and numbers without a value last. A gradient that is
+   !> also a key number is listed once. Both sides are one row if every result has equal or opposite numbers for them.
    function results_shown(numbers, rows) result(shown)
       type(difference_t), intent(in) :: numbers(:), rows(:)
       type(difference_t), allocatable :: shown(:), others(:)

@@ -31,7 +31,7 @@ contains
       end do
    end subroutine states_in_contact
 
-   !> The stretches of all stops.
+   !> The ranges of states in which stops are in contact.
    pure function contacts_of(table) result(list)
       type(table_t), intent(in) :: table
       type(contact_t), allocatable :: list(:)

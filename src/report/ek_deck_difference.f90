@@ -20,8 +20,8 @@ module ek_deck_difference
 
 contains
 
-   !> Finds the facts and values that are not the same in all records, in the order of the first. A value that only some decks
-   !> give is a difference; of the two sides of an axle that changed alike there is one row.
+   !> Finds the facts and values that differ between the records, in the order of the first record. A value that only some decks
+   !> give is a difference. If both sides of an axle changed equally, they are one row.
    subroutine find_differences(records, facts, values)
       type(deck_record_t), intent(in) :: records(:)
       type(deck_difference_t), allocatable, intent(out) :: facts(:), values(:)
@@ -112,7 +112,7 @@ contains
       place = 0
    end function place_of
 
-   !> Whether two values are the same: as numbers, if both are.
+   !> Whether two values are equal; as numbers if both are numbers.
    logical function is_equal(a, b)
       character(*), intent(in) :: a, b
       real(wp) :: x, y

@@ -22,8 +22,8 @@ module ek_drawing
 
 contains
 
-   !> Runs gnuplot once on existing scripts. They find their data in the same folder and draw into the folder where they run; a
-   !> picture of another folder ('../x.svg') is drawn as `to.'x.svg'`, where `to` is '' here.
+   !> Runs gnuplot once on existing scripts. The scripts read data from their folder and draw into the working folder. A picture
+   !> of another folder ('../x.svg') is drawn as `to.'x.svg'`, where `to` is '' here.
    subroutine run_gnuplot(scripts, pictures, folder, message, error)
       type(message_list_t), intent(in) :: scripts         !! names in the folder
       type(message_list_t), intent(in) :: pictures        !! paths relative to the folder

@@ -90,7 +90,7 @@ contains
       text = end_panels(sheet)
    end function line_script
 
-   !> '[low:high]'
+   !> The range of some values for gnuplot: '[low:high]'.
    pure function bounds(values) result(text)
       real(wp), intent(in) :: values(:)
       character(:), allocatable :: text

@@ -21,7 +21,7 @@ module ek_explanation
 
    integer, parameter :: shown = 10      !! contributions of a column
 
-   !> A column at design.
+   !> A column at design with its contributions.
    type :: explanation_t
       character(:), allocatable :: title, column, unit
       real(wp) :: value = 0.0_wp
@@ -132,7 +132,7 @@ contains
 
       rate%column = column
       rate%unit = unit_text(unit_of(column))
-      rate%title = 'Wheel rate at design, wheels parallel'
+      rate%title = 'Wheel rate at design, wheels in parallel travel'
       if (index(column, 'roll_rate') > 0) rate%title = 'Suspension roll rate at design'
       rate%value = value
       do c = 1, size(shares)
@@ -170,7 +170,7 @@ contains
       integer :: c, k
 
       if (size(list) == 0) return
-      call begin_section(page, 'contributions', 'What makes these numbers', is_printed=.false.)
+      call begin_section(page, 'contributions', 'Contributions to these numbers', is_printed=.false.)
       call add_text(page, 'p', 'Each compliance at design is the exact sum of what every axis of every bushing, spring, bar '// &
          'and preload adds to it; elastokin explain lists all of them at every state. Geometric: by the force that the part '// &
          'carries, not by its rate. A rate that is 1 % higher lowers the compliance by 1 % of its contribution. '// &

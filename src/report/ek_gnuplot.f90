@@ -56,7 +56,7 @@ contains
       call run_gnuplot(scripts, pictures, folder, message, error)
    end subroutine draw_figures
 
-   !> The script as text.
+   !> The gnuplot script of a figure.
    pure function figure_script(figure) result(text)
       type(figure_t), intent(in) :: figure
       character(:), allocatable :: text
@@ -240,7 +240,7 @@ contains
       call add_quantities('camber', 'Camber', ['camber_deg'])
       call add_quantities('lateral', 'Lateral movement of the contact patch', ['track_change_mm'])
       call add_quantities('longitudinal', 'Longitudinal movement of the contact patch', ['wheelbase_change_mm'])
-      call add_quantities('steer_axis', 'Steer axis', [character(23) :: 'caster_deg', 'kingpin_inclination_deg', &
+      call add_quantities('steer_axis', 'Steering axis', [character(23) :: 'caster_deg', 'kingpin_inclination_deg', &
          'scrub_radius_mm', 'caster_trail_mm'])
       chart = ending_chart(test, 'force', '_force_n', '', 'force, N    (+ compression)', 1.0_wp)
       chart%traces = pack(chart%traces, [(chart%traces(k)%title /= 'steering_rack', k=1, size(chart%traces))])

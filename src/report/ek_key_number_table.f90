@@ -19,7 +19,7 @@ module ek_key_number_table
 
 contains
 
-   !> Writes both files.
+   !> Writes key_numbers.csv and key_numbers.json.
    subroutine write_key_numbers(numbers, is_pair, model, checksum, csv_path, json_path, error)
       type(key_number_t), intent(in) :: numbers(:)
       logical, intent(in) :: is_pair                   !! the model has two wheels

@@ -16,8 +16,8 @@ module ek_label_places
 
 contains
 
-   !> Places the names of points one after the other, the first as near as possible. A name stands to the left of a point in the
-   !> right part of the panel; it is moved up and down in small steps until it does not overlap another name or a named point.
+   !> Places the names of points one after the other, the first as near as possible. In the right part of the panel, a name is to
+   !> the left of its point. A name is moved up and down in small steps until it does not overlap another name or a named point.
    pure subroutine place_labels(x, y, widths, height, places)
       real(wp), intent(in) :: x(:), y(:)          !! shares of the panel
       real(wp), intent(in) :: widths(:), height   !! of the texts, shares of the panel

@@ -28,8 +28,8 @@ module ek_live_small
 
 contains
 
-   !> Takes columns of a test: the used column with the lowest number, and the columns that need the same laws, which then are not
-   !> used any more. With all digits (`is_exact`): all used columns and all laws.
+   !> Takes columns of a test: the used column with the lowest index, and the columns that need the same laws; marks all of them
+   !> as no longer used. With all digits (`is_exact`): takes all used columns and all laws.
    subroutine make_small(test, of_law, is_exact, is_used, small)
       type(live_test_t), intent(in) :: test
       integer, intent(in) :: of_law(:)

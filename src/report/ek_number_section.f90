@@ -47,7 +47,7 @@ contains
       call add_markup(page, '</ul>')
    end subroutine add_summary
 
-   !> Adds a line per domain: its numbers, and whether they lie in their bands.
+   !> Adds a line per domain, which gives its numbers and whether they are inside their bands.
    subroutine add_verdicts(page, report)
       type(page_t), intent(inout) :: page
       type(report_t), intent(in) :: report
@@ -147,7 +147,7 @@ contains
       if (is_opposite(number)) html = html//' <small>left; right wheel opposite</small>'
    end function values_of
 
-   !> One number if the axle has one, or both wheels the same to the digits shown; otherwise left and right.
+   !> One number if it is a number of the axle or if both wheels are equal to the printed digits; otherwise left and right.
    function pair_of(number) result(html)
       type(key_number_t), intent(in) :: number
       character(:), allocatable :: html, right

@@ -1,4 +1,4 @@
-!> The meaning of a key number for an engineer: understeer or oversteer, inside or outside its target, the same on both sides.
+!> The meaning of a key number for an engineer: understeer or oversteer, inside or outside its target, equal on both sides.
 module ek_number_words
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
@@ -81,7 +81,7 @@ contains
       if (name(1:1) >= 'a' .and. name(1:1) <= 'z') name(1:1) = achar(iachar(name(1:1)) - 32)
    end function short_name
 
-   !> Both wheels have the same number to the digits shown.
+   !> Whether both wheels have equal numbers to the printed digits.
    pure logical function is_symmetric(number)
       type(key_number_t), intent(in) :: number
 

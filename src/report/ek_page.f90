@@ -67,7 +67,7 @@ contains
       if (len(html) > 0) call page%body%line(html)
    end subroutine add_markup
 
-   !> Begins a section and ends the one before; on paper it starts a page. `id` has letters, digits, _ and -.
+   !> Begins a section and ends the previous section. In print, the section starts a page. `id` has letters, digits, _ and -.
    pure subroutine begin_section(page, id, title, condition, is_printed)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: id, title
@@ -111,7 +111,7 @@ contains
       call page%body%line('</ul></div>')
    end subroutine add_warnings
 
-   !> A message with a line break in the page for each of its own.
+   !> A message as HTML, with a line break for each line break of the message.
    pure function lines_html(text) result(html)
       character(*), intent(in) :: text
       character(:), allocatable :: html
@@ -280,7 +280,7 @@ contains
       call page%body%line('</p>')
    end subroutine add_legend
 
-   !> The whole page.
+   !> The complete HTML text of the page.
    pure function page_text(page) result(text)
       type(page_t), intent(in) :: page
       character(:), allocatable :: text

@@ -18,10 +18,10 @@ contains
       integer :: e, c
 
       call begin_section(page, 'peak-loads', 'Peak loads', is_printed=.false.)
-      call add_text(page, 'p', 'Largest values over all tests, each by itself: force and moment on the body in the frame of '// &
-         'the deck, the moment about the hardpoint; own: the force of a bushing along its own axes. '// &
-         'On the first body of each member the forces are opposite: '// &
-         'peak-loads.csv has both bodies and the state of every component, loads.csv all states.')
+      call add_text(page, 'p', 'Largest value of each component over all tests: force and moment on the body in the frame of '// &
+         'the deck, with the moment about the hardpoint. The columns "own" give the force of a bushing along its own axes. '// &
+         'The forces on the first body of each member are opposite. '// &
+         'peak-loads.csv contains both bodies and the state of every component; loads.csv contains all states.')
       call begin_table(page, [character(15) :: 'Member', 'On body', 'At', '>Fx [N]', '>Fy [N]', '>Fz [N]', '>Force [N]', &
          '>Moment [N m]', '>own Fx [N]', '>own Fy [N]', '>own Fz [N]', 'Largest load in', '>at'])
       do e = 2, size(record%ends), 2

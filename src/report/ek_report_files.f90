@@ -105,8 +105,8 @@ contains
       call write_whole(path, text_table_csv(table), error)
    end subroutine write_contents
 
-   !> Reads a report folder, or one CSV file, whose gradients are then computed. The files listed in the folder's contents
-   !> must lie in the folder itself.
+   !> Reads a report folder, or one CSV file, whose gradients are then computed. The files listed in the contents of the folder
+   !> must be in the folder itself.
    subroutine read_results(path, windows, results, error)
       character(*), intent(in) :: path
       type(windows_t), intent(in) :: windows

@@ -63,11 +63,11 @@ contains
       type(page_t), intent(inout) :: page
 
       call begin_section(page, 'what-if', 'What if: other rates', is_printed=.false.)
-      call add_text(page, 'p', 'A slider multiplies a rate of the deck by 0.1 to 10, on both sides of an axle; the number '// &
-         'beside it may be any. Compliances, stiffnesses and their curves follow at once, without a new solution: '// &
-         'exactly, by the formula of Woodbury, for every state as it stands. How far a run of the deck with these rates '// &
-         'gives the same is stated below the sliders.')
-      call add_markup(page, '<div id="rates"><noscript><p>The sliders are made by the script of this page.</p></noscript></div>')
+      call add_text(page, 'p', 'A slider multiplies a rate of the deck by 0.1 to 10, on both sides of an axle. The field '// &
+         'next to it accepts any number. Compliances, stiffnesses and their curves are updated without a new solution, '// &
+         'exactly for each state as shown (formula of Woodbury). The text below the sliders states the difference from '// &
+         'a run of the deck with these rates.')
+      call add_markup(page, '<div id="rates"><noscript><p>The script of this page creates the sliders.</p></noscript></div>')
    end subroutine add_rates
 
    !> Adds the picture in space, the turntable, the views with hardpoints, and the animation.

@@ -27,7 +27,7 @@ contains
       if (every > 1) words = '; one in '//str(every)//' of the '//str(of)//' designs is drawn'
    end function thinned
 
-   !> '; 9 of 12 responses'
+   !> A note on omitted responses for a subtitle: '; 9 of 12 responses'.
    pure function cut(drawn, of, what) result(words)
       integer, intent(in) :: drawn, of
       character(*), intent(in) :: what
@@ -58,7 +58,7 @@ contains
       text = str(1.0_wp - real(pixels, wp)/full_height(sheet), 5)
    end function above
 
-   !> Median, and the bands in which half and 90 % of the curves lie.
+   !> The script of a fan figure: the median, and the bands that contain 50 % and 90 % of the curves.
    function fan_script(study, name, subtitle) result(text)
       type(study_data_t), intent(in) :: study
       character(*), intent(in) :: name, subtitle
@@ -267,7 +267,8 @@ contains
       text = end_panels(sheet)
    end function histogram_script
 
-   !> The density by derivatives, normal with skewness (Edgeworth), as it is plotted over the histogram; '' if there is none.
+   !> The plot command of the density computed from derivatives (normal with skewness, Edgeworth), drawn over the histogram; '' if
+   !> there is no such density.
    function density_of(study, r) result(more)
       type(study_data_t), intent(in) :: study
       integer, intent(in) :: r                       !! response

@@ -1,4 +1,4 @@
-!> The axes of another report: two reports whose charts have the same scales can be laid side by side.
+!> The axes of another report: reports whose charts have the same scales can be compared side by side.
 module ek_scales
    use ek_kinds, only: wp
    use ek_error, only: error_t
@@ -29,7 +29,7 @@ contains
       end do
    end subroutine read_scales
 
-   !> Gives charts the axes of the charts with the same name; the axes of other charts are unchanged.
+   !> Sets the axes of charts to those of the charts with the same name. The axes of other charts are unchanged.
    subroutine take_scales(from, charts)
       type(chart_t), intent(in) :: from(:)
       type(chart_t), intent(inout) :: charts(:)

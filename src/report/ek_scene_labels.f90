@@ -26,7 +26,7 @@ module ek_scene_labels
 
 contains
 
-   !> Places the names one after the other, each at the lowest cost that the names before it allow.
+   !> Places the names one after the other, each at the lowest cost that the previous names allow.
    subroutine place_in_scene(scene, camera, placed)
       type(scene_t), intent(in) :: scene
       type(camera_t), intent(in) :: camera                !! fitted
@@ -70,7 +70,7 @@ contains
       end do
    end subroutine place_in_scene
 
-   !> Letters of a UTF-8 text.
+   !> The number of characters of a UTF-8 string.
    pure integer function letters_in(text)
       character(*), intent(in) :: text
       integer :: k

@@ -169,7 +169,7 @@ contains
       call script%line("      1/0 notitle")
    end subroutine add_splot
 
-   !> Adds the names of points where they cover little, each with a line from its point if it lies apart.
+   !> Adds the names of points at positions that cover little. A name away from its point has a line to the point.
    subroutine add_labels(script, scene, camera)
       type(buffer_t), intent(inout) :: script
       type(scene_t), intent(in) :: scene
@@ -190,7 +190,7 @@ contains
       end do
    end subroutine add_labels
 
-   !> A position in the picture, shares of its width and height, as gnuplot takes it.
+   !> A position in the picture as gnuplot text: shares of the width and of the height [-].
    pure function on_screen(at) result(text)
       real(wp), intent(in) :: at(2)
       character(:), allocatable :: text

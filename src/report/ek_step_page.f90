@@ -27,7 +27,7 @@ module ek_step_page
 
 contains
 
-   !> The page as text.
+   !> The text of the page of a step-size study.
    function step_page(title, name, deck, case, table, folder, message) result(text)
       character(*), intent(in) :: title, name, deck, case     !! of the study; the title may be ''
       type(text_table_t), intent(in) :: table                 !! of the study
@@ -162,7 +162,7 @@ contains
       if (ieee_is_finite(value)) text = str(value, 3)
    end function short
 
-   !> A number of the table; not a number if the table does not have it.
+   !> A number of the table; NaN if the table does not contain it.
    pure real(wp) function value_of(table, row, column) result(value)
       type(text_table_t), intent(in) :: table
       integer, intent(in) :: row

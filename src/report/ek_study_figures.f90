@@ -14,7 +14,7 @@ module ek_study_figures
    private
    public :: figure_rule_t, rules, applies, script_of, figure_name
 
-   !> When a figure is drawn.
+   !> The conditions for drawing a figure.
    type :: figure_rule_t
       character(11) :: name
       character(48) :: title

@@ -22,14 +22,15 @@ module ek_study_page
 
 contains
 
-   !> '<study>.html'
+   !> The file name of the page: '<study>.html'.
    pure function page_name(study) result(name)
       type(study_data_t), intent(in) :: study
       character(:), allocatable :: name
       name = study%name//'.html'
    end function page_name
 
-   !> The page as HTML. It shows the figures that apply, from the folder of figures; without a folder ('') it shows no pictures.
+   !> The page as HTML. The page shows the figures that apply, from the folder of figures. Without a folder ('') it shows no
+   !> pictures.
    function study_page(study, figures, message) result(text)
       type(study_data_t), intent(in) :: study
       character(*), intent(in) :: figures            !! folder of the pictures
@@ -52,7 +53,7 @@ contains
       call add('Program', 'elastokin '//version)
       call add_facts(page, names, values)
       call add_warnings(page, plural(study%failed, 'design', 'designs')//' of '//str(study%designs)// &
-         ' failed and are left out below', study%reasons)
+         ' failed and are omitted below', study%reasons)
       if (message /= '') call trouble%add(message)
       call add_warnings(page, 'Figures', trouble)
       call add_responses(page, study)
@@ -79,7 +80,7 @@ contains
       any_limit = any(study%responses%lower > -huge(1.0_wp) .or. study%responses%upper < huge(1.0_wp))
    end function any_limit
 
-   !> '97.3 %'
+   !> A share in percent: '97.3 %'.
    pure function share(part, whole) result(text)
       integer, intent(in) :: part, whole
       character(:), allocatable :: text
@@ -237,7 +238,7 @@ contains
       end do
    end subroutine add_figures
 
-   !> Adds the best and the worst designs, with the numbers that make them.
+   !> Adds the best and the worst designs, with their factor values.
    subroutine add_extremes(page, study)
       type(page_t), intent(inout) :: page
       type(study_data_t), intent(in) :: study

@@ -189,13 +189,13 @@ contains
       expression = gnuplot_text(trim(label(:at)))//'."\n".'//gnuplot_text(label(at + 1:))
    end function two_lines
 
-   !> Height of the whole picture, pixels.
+   !> Height of the complete picture [pixels].
    pure integer function full_height(sheet)
       type(sheet_t), intent(in) :: sheet
       full_height = title_height + sheet%height*((sheet%panels + sheet%columns - 1)/sheet%columns)
    end function full_height
 
-   !> Places the next panel, by rows from the top, and gives it title and axis labels.
+   !> Places the next panel, by rows from the top, and sets its title and axis labels.
    pure subroutine begin_panel(sheet, number, title, x_label, y_label, most)
       type(sheet_t), intent(inout) :: sheet
       integer, intent(in) :: number

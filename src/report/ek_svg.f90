@@ -212,7 +212,7 @@ contains
       if (index(self%used, ' '//name//' ') == 0) self%used = self%used//name//' '
    end subroutine refer
 
-   !> Copies a picture without the point symbols to which it does not refer: gnuplot defines all sixteen in every picture.
+   !> Copies a picture without unused point symbols. gnuplot defines all sixteen symbols in every picture.
    pure subroutine take_used(out, symbols, svg)
       type(buffer_t), intent(in) :: out
       type(symbols_t), intent(in) :: symbols

@@ -187,7 +187,7 @@ contains
          title = without_phase(title)
          label = without_phase(label)
       end if
-      at = index(title, ', parallel')
+      at = index(title, ', in phase')
       if (at > 0) then                ! too long for a heading
          label = unit_text(unit_of(trim(quantity%name)))//'    ('//title(at + 2:)//')'
          title = title(:at - 1)

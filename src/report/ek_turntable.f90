@@ -49,7 +49,7 @@ module ek_turntable
 
 contains
 
-   !> Makes the turntable of a report; not allocated if nothing moves.
+   !> Creates the turntable of a report; not allocated if no body moves.
    subroutine make_turntable(suspension, tests, paths, table)
       type(suspension_t), intent(in) :: suspension
       type(test_result_t), intent(in) :: tests(:)
@@ -76,7 +76,8 @@ contains
       end do
    end subroutine make_turntable
 
-   !> An axle is seen from its front left, one wheel from the middle of the car, ahead of it.
+   !> The first angle of view [deg]: an axle is seen from its front left, one wheel from the middle of the car, ahead of the
+   !> wheel.
    pure real(wp) function first_turn(suspension)
       type(suspension_t), intent(in) :: suspension
       real(wp) :: frame(3)
@@ -138,7 +139,7 @@ contains
 
    end subroutine add_links
 
-   !> Adds circles of the tread.
+   !> Adds the circles of the tyre treads.
    subroutine add_wheels(suspension, lines)
       type(suspension_t), intent(in) :: suspension
       type(fixed_line_t), allocatable, intent(inout) :: lines(:)

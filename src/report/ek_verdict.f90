@@ -14,7 +14,7 @@ module ek_verdict
    private
    public :: verdict_t, verdict_lines, plain
 
-   !> One line.
+   !> One line of the verdict.
    type :: verdict_t
       character(24) :: domain = ''
       character(:), allocatable :: text
@@ -105,7 +105,7 @@ contains
       end do
    end function load_state
 
-   !> Makes the line of a domain; its text is '' if the report has none of its numbers.
+   !> Creates the line of a domain; its text is '' if the report has no number of this domain.
    subroutine judge(report, domain, line)
       type(report_t), intent(in) :: report
       type(domain_t), intent(in) :: domain
@@ -131,7 +131,7 @@ contains
       end do
    end subroutine judge
 
-   !> Makes the text of a number: 'bump camber −13.83 deg/m (inside the target −30 … −20)', 'lateral force steer 0.108 deg/kN:
+   !> Creates the text of a number: 'bump camber −13.83 deg/m (inside the target −30 … −20)', 'lateral force steer 0.108 deg/kN:
    !> understeer'.
    subroutine speak(number, axle, words, verdict)
       type(key_number_t), intent(in) :: number

@@ -21,7 +21,7 @@ module ek_table
    type :: table_t
       character(name_length), allocatable :: columns(:)   !! names with unit suffix, e.g. toe_deg
       real(wp), allocatable :: values(:, :)               !! (column, row): a row is contiguous
-      logical, allocatable :: is_whole(:)                 !! column of whole numbers: state, iterations
+      logical, allocatable :: is_whole(:)                 !! column of integers: state, iterations
       type(message_list_t) :: header                      !! written above the table, each with '# '
    end type table_t
 
@@ -120,7 +120,7 @@ contains
    !> One row with its line end.
    pure function csv_row(values, is_whole) result(text)
       real(wp), intent(in) :: values(:)
-      logical, intent(in) :: is_whole(:)        !! the columns of whole numbers
+      logical, intent(in) :: is_whole(:)        !! the columns of integers
       character(:), allocatable :: text
       character(max(size(values)*(longest_decimal + 1), 1)) :: line
       integer :: k, filled
@@ -260,7 +260,7 @@ contains
       table%values = table%values(:, :rows)
    end subroutine read_csv
 
-   !> Finds the positions of the commas of a line outside quotes, and those before and after it.
+   !> Finds the positions of the commas of a line outside quotes, with the positions before the line and after the line.
    pure subroutine find_commas(content, at)
       character(*), intent(in) :: content
       integer, allocatable, intent(out) :: at(:)

@@ -202,7 +202,8 @@ contains
 
    contains
 
-      !> The first row on one side at which the factor changes direction; one beyond the table if there is none.
+      !> The index of the first row on one side at which the factor changes direction; the index after the last row if there is
+      !> none.
       pure integer function rotation_behind(middle, step) result(row)
          integer, intent(in) :: middle, step
          real(wp) :: before, way, first_way

@@ -13,7 +13,7 @@ module ek_text_table
 
    character(*), parameter :: line_end = new_line('a')
 
-   !> A text of its own length.
+   !> A string with its own length.
    type :: cell_t
       character(:), allocatable :: text
    end type cell_t
@@ -72,7 +72,7 @@ contains
       end do
    end function cell_of
 
-   !> The table as text.
+   !> The table as CSV text.
    pure function text_table_csv(table) result(text)
       type(text_table_t), intent(in) :: table
       character(:), allocatable :: text
@@ -110,7 +110,7 @@ contains
       cell = cell//'"'
    end function protected_cell
 
-   !> Reads a table back.
+   !> Reads a table from a CSV file, as written by text_table_csv.
    subroutine read_text_table(path, table, error)
       character(*), intent(in) :: path
       type(text_table_t), intent(out) :: table

@@ -1,5 +1,5 @@
-!> A case with the derivatives of its columns at every state: its table at a design, and the same table of a neighbouring design, to
-!> first order and without a solution.
+!> A case with the derivatives of its columns at every state: its table at a design, and the table of a neighbouring design to
+!> first order, without a solution.
 module ek_case_slopes
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
@@ -59,7 +59,7 @@ contains
       end associate
    end subroutine solve_with_slopes
 
-   !> Makes a table with the derived columns of a case and the derived entries of its compliance matrix.
+   !> Builds a table with the differentiated columns of a case and the differentiated entries of its compliance matrix.
    subroutine make_table(table, derivatives, whole, place, row)
       type(table_t), intent(in) :: table
       type(derivatives_t), intent(in) :: derivatives

@@ -71,7 +71,7 @@ contains
          end do
       end function is_read
 
-      !> Moves from the state by one unknown of a body; 0: by all of them.
+      !> Moves from the state by one unknown of a body; unknown = 0 moves by all unknowns.
       subroutine move(b, unknown, distance)
          integer, intent(in) :: b, unknown
          real(wp), intent(in) :: distance

@@ -29,7 +29,7 @@ module ek_column_observer
 
 contains
 
-   !> Creates an observer of the columns that the model defines. Makes texts.
+   !> Creates an observer of the columns that the model defines. Creates strings.
    subroutine new_column_observer(suspension, case, columns, self)
       type(suspension_t), intent(in) :: suspension         !! on the rig
       type(case_t), intent(in) :: case

@@ -22,7 +22,7 @@ module ek_condition_solver
       real(wp) :: lower = 0.0_wp, upper = 0.0_wp     !! in its unit
    end type unknown_t
 
-   !> The result of the search.
+   !> The result of the search: unknowns, values before and after, effects and conflicts.
    type :: findings_t
       real(wp), allocatable :: x(:)                  !! of the unknowns, in their units
       integer, allocatable :: held(:)                !! −1, +1: an unknown stays at its lower or upper bound; 0: between them
@@ -40,7 +40,7 @@ module ek_condition_solver
 
 contains
 
-   !> Solves the conditions, and leaves the workspace with the numbers found. Makes texts.
+   !> Solves the conditions; the workspace then contains the numbers found. Creates strings.
    subroutine solve_conditions(unknowns, wanted, targets, max_sweeps, workspace, found, error)
       type(unknown_t), intent(in) :: unknowns(:)
       type(wanted_number_t), intent(in) :: wanted(:)
@@ -91,7 +91,7 @@ contains
 
    contains
 
-      !> Records the findings: at the last point if it meets all conditions, otherwise at the best one.
+      !> Records the findings at the last point if it satisfies all conditions, otherwise at the best point.
       subroutine conclude()
          type(singular_values_t) :: parts
          real(wp), allocatable :: effect(:, :)

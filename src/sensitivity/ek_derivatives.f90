@@ -62,7 +62,7 @@ module ek_derivatives
 
 contains
 
-   !> Prepares the derivatives of a case that is solved by `workspace`. Makes texts.
+   !> Prepares the derivatives of a case that is solved by `workspace`. Creates strings.
    subroutine begin_derivatives(workspace, k, columns, directions, self)
       type(workspace_t), intent(in) :: workspace          !! the case was solved at its present numbers (solve_or_explain)
       integer, intent(in) :: k                             !! the case, not refused by refuse_case

@@ -20,7 +20,7 @@ module ek_direction
 
    !> A number of the deck, and the numbers that change with it.
    type :: direction_t
-      character(:), allocatable :: path, unit        !! as --set takes it; 'N/mm', '' where there is none
+      character(:), allocatable :: path, unit        !! as written in --set; 'N/mm', '' if there is no unit
       type(choice_t), allocatable :: found(:)        !! the parameters, with their signs
       real(wp) :: value = 0.0_wp                     !! in the deck, in its unit
       real(wp) :: si = 1.0_wp                        !! SI value of the unit
@@ -111,8 +111,8 @@ contains
       end associate
    end subroutine gather
 
-   !> The direction of a factor of a study: all its numbers move together. A sign is all that a direction needs to know of the
-   !> size. The value of the factor is not set.
+   !> The direction of a factor of a study: all its numbers move together. A direction contains only the sign of the change. The
+   !> value of the factor is not set.
    function factor_direction(design, name, paths) result(direction)
       type(design_t), intent(in) :: design
       character(*), intent(in) :: name
@@ -199,7 +199,7 @@ contains
          call replace(text, '=1: ', ': ')
          call replace(text, 'group.name.key=value', 'group.name.key')
       else
-         text = quoted(path)//' has no derivative: it is a whole number, a name or a switch, or the deck does not give it; '// &
+         text = quoted(path)//' has no derivative: it is an integer, a name or a switch, or the deck does not give it; '// &
             'only numbers that vary continuously have one'
       end if
    end function fault_of

@@ -18,7 +18,7 @@ module ek_fit_problem
    private
    public :: fit_problem_t, fit_variable_t, fit_point_t, make_problem
 
-   !> A factor.
+   !> A factor of a fit.
    type :: fit_variable_t
       character(:), allocatable :: name
       type(direction_t) :: direction
@@ -304,7 +304,7 @@ contains
 
    end subroutine add_curve
 
-   !> Makes a slope within a window of design, read as a gradient of the report is.
+   !> Defines a slope within a window around design, fitted like a gradient of the report.
    subroutine make_slope(target, wanted)
       type(fit_target_t), intent(in) :: target
       type(wanted_number_t), intent(inout) :: wanted

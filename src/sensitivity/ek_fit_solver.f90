@@ -27,7 +27,7 @@ module ek_fit_solver
 
 contains
 
-   !> Solves a fit; the workspace then contains the design found. Makes texts.
+   !> Solves a fit; the workspace then contains the design found. Creates strings.
    subroutine solve_fit(problem, iterations, workspace, found, error)
       type(fit_problem_t), intent(in) :: problem
       integer, intent(in) :: iterations                    !! at most

@@ -36,7 +36,7 @@ module ek_neighbour
 
 contains
 
-   !> Prepares the neighbours of a design. Makes texts.
+   !> Prepares the neighbours of a design. Creates strings.
    subroutine begin_neighbour(workspace, k, self)
       type(workspace_t), intent(in) :: workspace          !! the case was solved at its present numbers
       integer, intent(in) :: k                             !! the case
@@ -60,8 +60,9 @@ contains
       call keep_choices(workspace%raw, self%workspace%raw)
    end subroutine follow_design
 
-   !> Gives the neighbours the directions that the rows of joints take across an axis. The free choice is the global axis with the
-   !> least component along it; where two are equal it changes between neighbours, and λ would have another meaning in each.
+   !> Copies to the neighbours the directions that the rows of joints use perpendicular to an axis. Each is chosen as the global
+   !> axis with the least component along the joint axis. If two components are equal, the choice would change between neighbours,
+   !> and λ would have a different meaning in each.
    subroutine keep_choices(design, neighbour)
       type(suspension_t), intent(in) :: design
       type(suspension_t), intent(inout) :: neighbour
@@ -132,7 +133,7 @@ contains
       end do
    end subroutine learn_number
 
-   !> Learns the change by the points of a stencil; can_move is .false. if one of them is not a design.
+   !> Finds the change from the points of a stencil. can_move is .false. if a point is not a valid design.
    subroutine visit_neighbours(x, direction, stencil, result, points, here, self, draft, change, can_move)
       real(wp), intent(in) :: x(:)
       type(direction_t), intent(in) :: direction

@@ -21,21 +21,21 @@ module ek_part_change
 
    real(wp), parameter :: rounding = 1.0e-6_wp             !! N, N m: smaller corners of preloads are not looked for
 
-   !> Of a term: ∂(number)/∂p.
+   !> The changes of a term of a row: ∂(number)/∂p.
    type :: term_change_t
       integer :: term = 0, row = 0
       logical :: is_touched = .false., has_arms = .false., has_directions = .false.
       real(wp) :: arms(6) = 0.0_wp, u(3) = 0.0_wp, v(3) = 0.0_wp, coefficient = 0.0_wp
    end type term_change_t
 
-   !> The change of a row.
+   !> The changes of the numbers of a row.
    type :: row_change_t
       integer :: row = 0
       logical :: is_touched = .false.
       real(wp) :: target = 0.0_wp, compliance = 0.0_wp
    end type row_change_t
 
-   !> The change of an element.
+   !> The changes of the numbers of an element.
    type :: element_change_t
       integer :: element = 0
       logical :: is_touched = .false., has_arms = .false., has_directions = .false., has_stiffness = .false., has_load = .false.
@@ -194,7 +194,7 @@ contains
       elements(change%elements%element) = .true.
    end subroutine mark_parts
 
-   !> Whether the numbers of a wheel from which its attitude follows are the same.
+   !> Whether two wheels have the same numbers that define their attitude.
    elemental logical function same_wheel(a, b)
       type(wheel_t), intent(in) :: a, b
       same_wheel = .not. (any(abs(a%centre - b%centre) > 0.0_wp) .or. any(abs(a%contact - b%contact) > 0.0_wp) .or. &
@@ -365,7 +365,7 @@ contains
       same_law = same_form(a, b) .and. .not. (abs(a%reference - b%reference) > 0.0_wp .or. abs(a%rate - b%rate) > 0.0_wp)
    end function same_law
 
-   !> Whether two laws differ by their reference at most; of one without a curve the rate is not compared where it is linear.
+   !> Whether two laws differ at most by their reference. The rate of a linear law without a curve is not compared.
    pure logical function same_form(a, b)
       type(law_t), intent(in) :: a, b
 

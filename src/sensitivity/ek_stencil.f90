@@ -47,7 +47,7 @@ contains
       if (sees_corners(stencil)) weight = corner_weights(k)
    end function corner_weight
 
-   !> Whether points of a stencil stand on both sides.
+   !> Whether a stencil has points on both sides.
    pure logical function sees_corners(stencil)
       type(stencil_t), intent(in) :: stencil
       sees_corners = stencil%at(1)*stencil%at(4) < 0.0_wp

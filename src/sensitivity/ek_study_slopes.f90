@@ -42,7 +42,7 @@ module ek_study_slopes
 
 contains
 
-   !> Solves the cases at the numbers of the deck and prepares their derivatives. Makes texts.
+   !> Solves the cases with the numbers of the deck and prepares their derivatives. Creates strings.
    subroutine begin_study_slopes(study, deck, designer, self, error)
       type(study_t), intent(in) :: study
       type(deck_t), intent(in) :: deck
@@ -63,7 +63,7 @@ contains
       do f = 1, size(study%factors)
          if (size(self%paths(f)%found) == 0) then
             call mistakes%add(study%factors(f)%where//': factor '//quoted(study%factors(f)%name)// &
-               ': its paths lead to a whole number, a name or a switch, which has no derivative; use kind = ''monte_carlo''')
+               ': its paths lead to an integer, a name or a switch, which has no derivative; use kind = ''monte_carlo''')
          else
             self%directions(f) = factor_direction(self%workspace%design, study%factors(f)%name, self%paths(f))
          end if

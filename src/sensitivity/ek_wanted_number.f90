@@ -19,7 +19,7 @@ module ek_wanted_number
    private
    public :: wanted_number_t, find_column, find_key_number, find_wanted, read_number
 
-   !> One wanted number.
+   !> One requested number.
    type :: wanted_number_t
       character(:), allocatable :: name          !! as the user gave it
       character(:), allocatable :: unit          !! 'deg', '' without one
@@ -119,7 +119,7 @@ contains
       end associate
    end subroutine find_key_number
 
-   !> Reads the value of a wanted number from the tables of its cases; not a number if it has no value in them.
+   !> Reads the value of a requested number from the tables of its cases; NaN if the tables give no value.
    subroutine read_number(wanted, source, table, value)
       type(wanted_number_t), intent(in) :: wanted
       integer, intent(in) :: source                        !! of a key number that is read
@@ -177,8 +177,8 @@ contains
       end if
    end function value_at
 
-   !> The polynomial through some points (Lagrange); at one of them its value to the bit. Where two points have the same x, the
-   !> value of the first.
+   !> The value at `at` of the polynomial through the given points (Lagrange). At a point, its y with the same bits; if two points
+   !> have the same x, the y of the first.
    pure real(wp) function polynomial(x, y, at) result(value)
       real(wp), intent(in) :: x(:), y(:), at
       real(wp) :: weight

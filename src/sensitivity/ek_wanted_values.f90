@@ -29,7 +29,7 @@ module ek_wanted_values
    private
    public :: wanted_values_t, begin_values, find_values
 
-   !> A case that is solved.
+   !> A case that must be solved for the requested values.
    type, extends(case_slopes_t) :: needed_t
       logical :: is_used = .false.                           !! a number is read from it
    end type needed_t
@@ -49,7 +49,7 @@ module ek_wanted_values
 
 contains
 
-   !> Solves the needed cases at the present numbers of the workspace and prepares their derivatives. Makes texts.
+   !> Solves the required cases with the current numbers of the workspace and prepares their derivatives. Creates strings.
    subroutine begin_values(wanted, directions, workspace, self, error)
       type(wanted_number_t), intent(in) :: wanted(:)
       type(direction_t), intent(in) :: directions(:)

@@ -26,7 +26,7 @@ module ek_chunk
    character(*), parameter :: mark = 'elastokin chunk 2'
    character(*), parameter :: line_end = new_line('a')
 
-   !> Why a design failed.
+   !> The reason why a design failed.
    type :: reason_t
       integer :: design = 0
       character(:), allocatable :: text
@@ -119,7 +119,7 @@ contains
       name = 'chunk_'//zeros(:max(0, len(zeros) - len(name)))//name//'.bin'
    end function chunk_name
 
-   !> Writes a chunk: the whole file, or none.
+   !> Writes a chunk: the complete file, or no file.
    subroutine write_chunk(self, path, identity, kernel, error)
       type(chunk_t), intent(in) :: self
       character(*), intent(in) :: path

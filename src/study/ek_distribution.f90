@@ -218,7 +218,7 @@ contains
       end associate
    end function triangle_probability
 
-   !> The mean.
+   !> The mean of a distribution.
    pure real(wp) function mean_of(distribution) result(mean)
       type(distribution_t), intent(in) :: distribution
       real(wp) :: deviation
@@ -226,7 +226,7 @@ contains
       call moments(distribution, mean, deviation)
    end function mean_of
 
-   !> The standard deviation.
+   !> The standard deviation of a distribution.
    pure real(wp) function deviation_of(distribution) result(deviation)
       type(distribution_t), intent(in) :: distribution
       real(wp) :: mean

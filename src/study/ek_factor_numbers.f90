@@ -39,8 +39,8 @@ contains
       if (is_done) call ready_cases(workspace, is_done)
    end subroutine change_design
 
-   !> Writes a factor into x; relative to the numbers of the deck, or instead of them. The right side of an axle takes the value
-   !> with its sign (ek_parameter).
+   !> Writes a factor into x: as a change relative to the numbers of the deck, or in their place. The right side of an axle
+   !> receives the value with its sign (ek_parameter).
    pure subroutine put_factor(factor, value, parameters, x)
       type(factor_paths_t), intent(in) :: factor
       real(wp), intent(in) :: value

@@ -1,5 +1,5 @@
-!> The paths of the factors of a study: the numbers of the deck to which they lead, errors in the paths, and the settings
-!> (as for --set) that make a design.
+!> The paths of the factors of a study: the numbers of the deck to which they lead, errors in the paths, and the settings (as for
+!> --set) that define a design.
 module ek_factor_paths
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t, fail, exit_deck
@@ -21,7 +21,7 @@ module ek_factor_paths
 
 contains
 
-   !> Checks that every path leads to something in the deck that takes a number.
+   !> Checks that every path leads to a number of the deck.
    subroutine check_paths(study, deck, error)
       type(study_t), intent(in) :: study
       type(deck_t), intent(in) :: deck
@@ -123,7 +123,7 @@ contains
       end do
    end subroutine find_paths
 
-   !> The setting of a factor, as --set takes it after the path and =: 5, +5 or *5.
+   !> The setting of a factor, as written in --set after the path and `=`: 5, +5 or *5.
    function setting_of(change, value) result(text)
       integer, intent(in) :: change
       real(wp), intent(in) :: value
@@ -134,7 +134,7 @@ contains
       if (change == by_scale) text = '*'//text
    end function setting_of
 
-   !> 'spring.coil.rate=30 bushing.top_mount.kt(1)=*1.5': the settings that make a design from the deck.
+   !> 'spring.coil.rate=30 bushing.top_mount.kt(1)=*1.5': the settings that define a design of the deck.
    function label_of(study, values) result(label)
       type(study_t), intent(in) :: study
       real(wp), intent(in) :: values(:)

@@ -18,7 +18,8 @@ module ek_factor_remark
 
 contains
 
-   !> Adds the remarks on the factors of a study, at most one of each kind for a line of it: `each = .true.` makes many factors.
+   !> Adds the remarks on the factors of a study, at most one of each kind for each line of the study, because `each = .true.`
+   !> creates many factors.
    subroutine factor_remarks(study, design, paths, words)
       type(study_t), intent(in) :: study
       type(design_t), intent(in) :: design                 !! of the deck

@@ -115,7 +115,7 @@ contains
 
    end function normal_yield
 
-   !> The value below which a share lies of a response that is nearly normal, to the first term of Cornish and Fisher's series.
+   !> The percentile of a response that is nearly normal, to the first term of the series of Cornish and Fisher.
    !>
    !> Equation (D.17) of docs/theory/sampling.md.
    pure real(wp) function normal_percentile(mean, deviation, skewness, share) result(value)

@@ -1,4 +1,4 @@
-!> The processes (ranks) that compute one study together, started by mpirun or srun; without such a launcher, one.
+!> The processes (ranks) that compute one study together, started by mpirun or srun. Without a launcher there is one process.
 !>
 !> MPI is called only if the environment shows a launcher, so that a usual run neither starts nor waits for it. The ranks share
 !> counters, which lie in the memory of rank 0: the work is distributed by tickets in the order of requests. The procedures may be
@@ -54,7 +54,7 @@ contains
       call look_for_launcher(is_launched, launched)
       if (.not. is_launched) then
          if (launched > 1) call fail(error, exit_usage, 'srun started this as one of '//str(launched)// &
-            ' tasks that do not know of each other: each would compute the whole study. Use '// &
+            ' tasks without a connection: each would compute the whole study. Use '// &
             'srun --mpi=pmix, mpirun, --ntasks=1 or --shard. '// &
             'In a shell that srun --pty started: env -u SLURM_STEP_NUM_TASKS elastokin …')
          return
@@ -74,11 +74,11 @@ contains
    end subroutine start_ranks
 
 #ifndef EK_MPI
-   !> Why this program does not go on as the program with MPI.
+   !> The reason why this program is not replaced by the program with MPI.
    function why_no_mpi() result(text)
       character(:), allocatable :: text
 
-      text = 'there is no '//mpi_program//' beside this program (compiled without MPI)'
+      text = 'there is no '//mpi_program//' in the folder of this program (compiled without MPI)'
       if (program_folder() == '') return
       if (file_exists(join_path(program_folder(), mpi_program))) text = join_path(program_folder(), mpi_program)// &
          ' cannot be started (is it executable?)'

@@ -1,5 +1,5 @@
-!> A response that a study asks for: the columns that it needs, the name of its own column, and why it cannot be read from a
-!> table. Its value is read by ek_response_value.
+!> A response of a study: the columns that it requires, the name of its column, and the reason if it cannot be read from a table.
+!> Its value is read by ek_response_value.
 !>
 !> A slope has the units of the report: deg/m over wheel travel, per kN over a force, per 100 N m over a moment,
 !> otherwise the units of its two columns. The column name ends with the unit.

@@ -33,7 +33,7 @@ module ek_response_value
 
 contains
 
-   !> Reads a response of one table, and why it has no value.
+   !> Reads a response from a table, and the reason if it has no value.
    subroutine read_response(reading, table, value, fault)
       type(reading_t), intent(in) :: reading
       type(table_t), intent(in) :: table
@@ -151,7 +151,7 @@ contains
       end if
    end subroutine mark_states
 
-   !> Marks the states from which `between` takes the value at x = at.
+   !> Marks the states from which `between` interpolates the value at x = at.
    pure subroutine mark_neighbours(x, at, is_read)
       real(wp), intent(in) :: x(:), at
       logical, intent(inout) :: is_read(:)

@@ -123,7 +123,7 @@ contains
       coverage = min(1.0_wp, coverage)
    end subroutine percentile_interval
 
-   !> C(n, b) pᵇ(1 − p)ⁿ⁻ᵇ
+   !> The binomial probability C(n, b) pᵇ(1 − p)ⁿ⁻ᵇ [-].
    pure real(wp) function binomial(n, b, p)
       integer, intent(in) :: n, b
       real(wp), intent(in) :: p

@@ -67,7 +67,7 @@ module ek_sampler
 
 contains
 
-   !> Makes a sampler. All errors that a deck can make are errors (exit_deck).
+   !> Creates a sampler. Every error in the settings of a study is returned as an error (exit_deck).
    pure subroutine new_sampler(settings, factors, sampler, error)
       type(sampler_settings_t), intent(in) :: settings
       type(factor_t), intent(in) :: factors(:)
@@ -312,7 +312,7 @@ contains
       end if
    end function level_of
 
-   !> Finds the trajectory that a design lies on, and where.
+   !> Finds the trajectory of a design, and its position on the trajectory.
    pure subroutine find_trajectory(sampler, design, trajectory)
       type(sampler_t), intent(in) :: sampler
       integer(i8), intent(in) :: design

@@ -159,7 +159,7 @@ contains
 
    contains
 
-      !> The index without one row.
+      !> A Sobol index computed without row r of the designs [-].
       pure real(wp) function without_row(r) result(value)
          integer, intent(in) :: r
          real(wp) :: rest(3)

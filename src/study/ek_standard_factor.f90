@@ -17,7 +17,7 @@ module ek_standard_factor
 
 contains
 
-   !> Creates the standard form of a factor of a sampler. scale is 0 if it has one value only.
+   !> Creates the standard form of a factor of a sampler. scale is 0 if the factor has only one value.
    pure subroutine new_standard_factor(factor, standard)
       type(factor_t), intent(in) :: factor
       type(standard_factor_t), intent(out) :: standard
@@ -54,7 +54,7 @@ contains
       if (standard%is_logarithmic) x = exp(x)
    end function value_at
 
-   !> Its derivative dx/du.
+   !> The derivative dx/du of a factor with respect to its standard variable.
    pure real(wp) function slope_at(standard, u) result(slope)
       type(standard_factor_t), intent(in) :: standard
       real(wp), intent(in) :: u

@@ -49,7 +49,7 @@ contains
       texts%changes = changes%text()
    end subroutine keep_texts
 
-   !> The name of the store.
+   !> The file name of the store.
    pure function store_name(study) result(name)
       type(study_t), intent(in) :: study
       character(:), allocatable :: name
@@ -64,8 +64,8 @@ contains
       wants_store = study%format == 'netcdf' .or. (study%format == '' .and. designs > many_designs)
    end function wants_store
 
-   !> Decides whether the results go into a store: if the study requests it; by default, for many designs if the helper
-   !> exists.
+   !> Decides whether the results are written to a store: if the study requests a store, or by default for many designs if the
+   !> helper exists.
    subroutine choose_store(study, plan, is_wanted, error)
       type(study_t), intent(in) :: study
       type(study_plan_t), intent(in) :: plan
@@ -77,7 +77,7 @@ contains
       if (.not. is_wanted) return
       has_helper = helper_exists()
       if (study%format == 'netcdf' .and. .not. has_helper) call fail(error, exit_file, study%where//': format = ''netcdf'' '// &
-         'needs the program '//helper_name//' beside elastokin ('//program_folder()//'), and it is not there; install '// &
+         'needs the program '//helper_name//' in the folder of elastokin, '//program_folder()//'; install '// &
          'NetCDF-Fortran (Debian, Ubuntu: libnetcdff-dev) and build elastokin again, or write format = ''csv''')
       is_wanted = has_helper
    end subroutine choose_store
@@ -92,7 +92,7 @@ contains
       path = join_path(program_folder(), helper_name)
    end function helper
 
-   !> Writes the store from the chunks: the whole file, or none.
+   !> Writes the store from the chunks: the complete file, or no file.
    subroutine write_store(study, plan, out, texts, counts, error)
       type(study_t), intent(in) :: study
       type(study_plan_t), intent(in) :: plan
@@ -115,7 +115,7 @@ contains
       call run_helper(words, scratch%path, trouble)
       if (len(trouble) > 0) then
          call fail(error, exit_file, helper_name//' could not write '//join_path(out, store_name(study))//': '//trouble// &
-            '; the designs are kept: the same command writes it, with format = ''csv'' in the study as CSV')
+            '; the designs are stored: the same command writes it, with format = ''csv'' in the study as CSV')
       else
          call move_file(join_path(scratch%path, store_name(study)), join_path(out, store_name(study)), error, is_awaited=.true.)
       end if
@@ -135,7 +135,7 @@ contains
 
       if (.not. helper_exists()) then
          call fail(error, exit_file, join_path(out, store_name(study))//' can be read only with the program '//helper_name// &
-            ' beside elastokin ('//program_folder()//'), and it is not there; install NetCDF-Fortran (Debian, Ubuntu: '// &
+            ' in the folder of elastokin, '//program_folder()//'; install NetCDF-Fortran (Debian, Ubuntu: '// &
             'libnetcdff-dev) and build elastokin again, or run the study with format = ''csv''')
          return
       end if

@@ -123,14 +123,14 @@ contains
 
    end subroutine write_description
 
-   !> All digits of a number.
+   !> A number as text with all its digits.
    function exact(value) result(text)
       real(wp), intent(in) :: value
       character(26) :: text
       write (text, '(es26.17e3)') value
    end function exact
 
-   !> Reads a description.
+   !> Reads the description of a store.
    subroutine read_description(path, store, error)
       character(*), intent(in) :: path
       type(store_t), intent(out) :: store

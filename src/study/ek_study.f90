@@ -60,7 +60,7 @@ module ek_study
    character(*), parameter, public :: of_names(8) = [character(10) :: 'value', 'slope', 'span', 'min', 'max', 'rms', &
       'gradient', 'difference']
 
-   !> A study.
+   !> The settings of a study, with its factors and responses.
    type :: study_t
       character(:), allocatable :: name, title, deck, case, plot
       integer :: kind = step_size_kind

@@ -66,7 +66,7 @@ contains
       end do
    end subroutine solve_designs
 
-   !> Completes a failed design after the last design of its chunk: reads it from the text, or explains why it failed.
+   !> Completes a failed design after the last design of its chunk: reads the design from the text, or explains its failure.
    subroutine complete_design(study, deck, designer, cause, chunk)
       type(study_t), intent(in) :: study
       type(deck_t), intent(in) :: deck
@@ -110,7 +110,7 @@ contains
       call add_cause(cause, causes)
    end subroutine finish_design
 
-   !> Solves a design that is read from the deck with its factors as settings, with a workspace of its own.
+   !> Solves a design that is read from the deck with its factors as settings, in a separate workspace.
    subroutine solve_from_text(study, deck, designer, k, chunk)
       type(study_t), intent(in) :: study
       type(deck_t), intent(in) :: deck
@@ -160,7 +160,7 @@ contains
       call add_reason(chunk, k, cause_text(cause, designer%case_of, designer%readings, workspace))
    end subroutine solve_from_text
 
-   !> Observes the K&C quantities, which solving does not compute, at the states where a response reads them.
+   !> Observes the K&C quantities, which the solution does not compute, at the states from which a response is read.
    subroutine complete_tables(designer, workspace)
       type(designer_t), intent(in) :: designer
       type(workspace_t), intent(inout) :: workspace     !! its cases are solved
@@ -207,7 +207,7 @@ contains
       if (is_whole) is_whole = all(result%path%failure%state == 0)
    end function is_whole
 
-   !> Inserts the states of a design after those of the designs before it; columns that its model does not define are nan.
+   !> Inserts the states of a design after the states of the previous designs. Columns that its model does not define are NaN.
    pure subroutine take_curves(study, table, k, chunk)
       type(study_t), intent(in) :: study
       type(table_t), intent(in) :: table

@@ -1,5 +1,5 @@
-!> Factors with each = .true.: every number to which their paths lead becomes a factor of its own. Columns with `*`: all that
-!> fit.
+!> Factors with each = .true.: every number to which their paths lead becomes a separate factor. Columns with `*` become all
+!> matching columns.
 module ek_study_each
    use ek_kinds, only: wp
    use ek_error, only: error_t, fail, exit_deck
@@ -23,9 +23,9 @@ module ek_study_each
 
 contains
 
-   !> Replaces such factors. Left out are numbers that the deck omits, zeros that would be scaled, and the distance of a point of a
-   !> mirrored deck from the centre plane in which it lies (unless `shared` names it). The two sides of a mirrored axle are one
-   !> factor, unless the path has the side in its name.
+   !> Replaces factors with each = .true. by one factor per number. Numbers that the deck omits, zeros that would be scaled, and y
+   !> of a point in the centre plane of a mirrored deck (unless `shared` names the point) are omitted. The two sides of a mirrored
+   !> axle are one factor, unless the path contains the side.
    subroutine expand_factors(study, deck, error)
       type(study_t), intent(inout) :: study
       type(deck_t), intent(in) :: deck
@@ -134,7 +134,7 @@ contains
       end do
    end subroutine add_each
 
-   !> 'point.left_ball.z' → 'point.ball.z'
+   !> A path without its side: 'point.left_ball.z' → 'point.ball.z'.
    pure function without_side(path, name, own) result(text)
       character(*), intent(in) :: path, name, own
       character(:), allocatable :: text

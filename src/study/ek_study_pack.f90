@@ -1,4 +1,4 @@
-!> The designs of a study in packs: their numbers are changed one after the other, their paths are walked together.
+!> The designs of a study in packs. Their numbers are set one design after the other; their paths are followed together.
 !>
 !> The plan of elimination, the scale and the swept values of the states come from the deck's own design, so that the result of
 !> a design does not depend on the other designs of the pack. A case that packs cannot walk (linear methods, along an arc,
@@ -15,7 +15,7 @@ module ek_study_pack
    private
    public :: pack_space_t, begin_packs, walk_case, lanes, are_lanes_fast
 
-   !> gfortran makes vector instructions of lanes; flang calls its run-time library for them
+   !> gfortran compiles lanes to vector instructions; flang calls its run-time library for lanes
    logical, parameter :: are_lanes_fast = index(compiler_version(), 'GCC') > 0
 
    !> Work space of a thread.

@@ -43,7 +43,7 @@ module ek_study_plan
 
 contains
 
-   !> Makes the plan, from a designer that has the design of the deck.
+   !> Creates the plan, from a designer that contains the design of the deck.
    subroutine new_plan(study, deck, home, designer, plan, error, shards, chunk, build)
       type(study_t), intent(in) :: study
       type(deck_t), intent(in) :: deck

@@ -391,7 +391,7 @@ contains
       if (size(study%factors) == 0) call complain(reading, '', 'kind = '//quoted(trim(kind_names(study%kind)))// &
          ' needs a &factor')
       if (size(study%responses) == 0 .and. size(study%columns) == 0) call complain(reading, '', &
-         'nothing is asked of the designs: give columns, or a &response')
+         'the study has no output: give columns, or a &response')
    end subroutine check_whole
 
 end module ek_study_reader

@@ -204,8 +204,7 @@ contains
       call remove_empty_folder(folder)
    end subroutine remove_parts
 
-   !> Computes the chunks that are missing, or as many as there is time for. All ranks: `state` covers
-   !> all ranks.
+   !> Computes the missing chunks, or as many of them as the time limit permits. All ranks: `state` covers all ranks.
    subroutine run_chunks(study, plan, deck, out, hold, options, designer, ranks, state, report, error)
       type(study_t), intent(in) :: study
       type(study_plan_t), intent(in) :: plan
@@ -280,7 +279,7 @@ contains
       shared%state%done = shared%state%before
    end subroutine list_pending
 
-   !> Works as one thread: takes chunks until there is none left.
+   !> Works as one thread: computes chunks until none is left.
    subroutine work(study, plan, deck, options, designer, ranks, shared, report)
       type(study_t), intent(in) :: study
       type(study_plan_t), intent(in) :: plan
@@ -369,7 +368,7 @@ contains
       if (allocated(chunk%error)) then
          if (.not. allocated(shared%error)) then
             call move_alloc(chunk%error, shared%error)
-            shared%error%message = shared%error%message//'; finished designs are kept: run the same command again to resume'
+            shared%error%message = shared%error%message//'; finished designs are stored: run the same command again to resume'
          end if
          return
       end if

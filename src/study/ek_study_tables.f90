@@ -66,7 +66,7 @@ contains
       name = tables_of(study%name, 2)
    end function curves_name
 
-   !> Writes both tables as CSV: the whole files, or none.
+   !> Writes both tables as CSV: complete files, or no file.
    !>
    !> gnuplot needs an empty line after every curve, and in the table of responses after every block of a grid.
    subroutine write_tables(study, plan, out, counts, error)
@@ -165,7 +165,7 @@ contains
       if (kernels /= '') text = ', BLAS kernel '//kernels
    end function kernel_words
 
-   !> Reads chunk k.
+   !> Reads chunk k from its file.
    subroutine load_chunk(study, plan, out, k, chunk, error)
       type(study_t), intent(in) :: study
       type(study_plan_t), intent(in) :: plan
@@ -201,7 +201,7 @@ contains
       end do
    end subroutine count_chunk
 
-   !> Header lines and column names.
+   !> The header lines and the column names of a table.
    function head_of(study, plan, counts, columns) result(text)
       type(study_t), intent(in) :: study
       type(study_plan_t), intent(in) :: plan
@@ -257,7 +257,7 @@ contains
 
    end subroutine add_rows
 
-   !> The columns after the responses.
+   !> The names of the columns after the responses.
    pure function last_columns(study) result(names)
       type(study_t), intent(in) :: study
       character(name_length), allocatable :: names(:)
@@ -290,7 +290,7 @@ contains
       if (allocated(study%factors(size(study%factors))%values)) block_of = size(study%factors(size(study%factors))%values)
    end function block_of
 
-   !> A text as a field of CSV (RFC 4180): quoted if there is one, on one line.
+   !> A string as a field of CSV (RFC 4180) on one line: quoted, or empty for an empty string.
    pure function quoted_field(text) result(field)
       character(*), intent(in) :: text
       character(:), allocatable :: field

@@ -345,7 +345,7 @@ END
   done
   kill -TERM $! || { cat said.txt; return 1; }
   wait $!
-  [ $? -eq 6 ] && [ "$chunks" -ge 2 ] && says 'designs are done and kept' && gone out/grid_responses.csv || { cat said.txt; return 1; }
+  [ $? -eq 6 ] && [ "$chunks" -ge 2 ] && says 'designs are done and stored' && gone out/grid_responses.csv || { cat said.txt; return 1; }
   sed -i 's/count = 200/count = 4/' study.nml
   run 5 "$program" study study.nml --out out && says 'holds designs of another study' || return 1
   run 0 "$program" study study.nml --out other --no-plots && [ -s other/grid_responses.csv ] && clean other

@@ -147,7 +147,7 @@ for signal in TERM INT; do
   status=$?
   if [ $status -ne 0 ]; then        # else it had already ended
     [ $status -eq 6 ] || complain "$signal: status $status"
-    grep -q 'stopped: .* designs are done and kept' "$work/said" || complain "$signal: $(cat "$work/said")"
+    grep -q 'stopped: .* designs are done and stored' "$work/said" || complain "$signal: $(cat "$work/said")"
     study "$work/stopped" --quiet >/dev/null || complain "resumed after $signal"
   fi
   same "$work/stopped" "stopped by $signal"

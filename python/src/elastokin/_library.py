@@ -70,7 +70,7 @@ _PROTOTYPES: dict[str, tuple[Any, list[Any]]] = {
 
 
 def _path() -> str:
-    """The library that EK_LIBRARY names, otherwise the one inside this package."""
+    """Path of the library: the environment variable EK_LIBRARY, otherwise the library in this package."""
     named = os.environ.get("EK_LIBRARY")
     if named:
         return named
@@ -85,7 +85,7 @@ def _path() -> str:
 
 
 def _load() -> ctypes.CDLL:
-    """Loads the library. If this also loads an OpenBLAS, it gets one thread: the matrices are small."""
+    """Loads the library. If this also loads OpenBLAS, OpenBLAS uses one thread, because the matrices are small."""
     variable = "OPENBLAS_NUM_THREADS"
     is_ours = variable not in os.environ
     if is_ours:
@@ -109,24 +109,24 @@ lib: Any = _load()
 
 
 def text_of(text: bytes | None) -> str:
-    """A text of the library; '' for a null pointer."""
+    """Converts a string of the library; '' for a null pointer."""
     return "" if text is None else text.decode("utf-8", "replace")
 
 
 def bytes_for(text: str, what: str) -> bytes:
-    """A text for the library, which ends it at the first NUL. `what`: for the message, as "a path"."""
+    """Converts a string for the library. Raises UsageError if it contains NUL. `what` names the string in the message, as "a path"."""
     if not isinstance(text, str):
         raise TypeError(f"{what} must be a str, found {type(text).__name__}")
     return without_nul(text.encode("utf-8", "surrogateescape"), what)
 
 
 def without_nul(text: bytes, what: str) -> bytes:
-    """The same bytes. Raises UsageError if there is a NUL among them."""
+    """Returns the bytes unchanged. Raises UsageError if they contain NUL. `what` names them in the message."""
     if b"\0" in text:
         raise errors.UsageError(f"{what} must not contain a NUL character, found {text[:60]!r}")
     return text
 
 
 def texts_for(texts: list[str], what: str = "a text") -> Any:
-    """An array of texts for the library."""
+    """Converts strings to an array of C strings for the library."""
     return (c_char_p * len(texts))(*(bytes_for(text, what) for text in texts))

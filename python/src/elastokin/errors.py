@@ -1,4 +1,4 @@
-"""What can fail: one exception per code of the library, and a warning for states that did not converge."""
+"""Exceptions, one for each code of the library, and warnings on states that did not converge and on models with remarks."""
 
 from __future__ import annotations
 
@@ -6,25 +6,25 @@ OK, USAGE, DECK, MODEL, CONVERGENCE, FILE = range(6)
 
 
 class ElastokinError(Exception):
-    """Base of all errors of elastokin. `code` is the exit status of the program `elastokin` for the same fault."""
+    """Base class of all errors of elastokin. `code` is the exit status of the program `elastokin` for the same error."""
 
     code: int = USAGE
 
 
 class UsageError(ElastokinError, ValueError):
-    """An unknown path, case, column or key number, or a position outside its range."""
+    """An unknown path, case, column or key number, or an index outside its range."""
 
     code = USAGE
 
 
 class DeckError(ElastokinError, ValueError):
-    """Mistakes of the deck, or a value outside its legal range; the message lists all of them with file and line."""
+    """Errors of the deck, or values outside their legal ranges. The message lists all of them with file and line."""
 
     code = DECK
 
 
 class ModelError(ElastokinError):
-    """The model is a mechanism or has redundant constraints: nothing was solved."""
+    """The model is a mechanism or has redundant constraints; no case was solved."""
 
     code = MODEL
 
@@ -36,18 +36,18 @@ class ConvergenceError(ElastokinError):
 
 
 class FileError(ElastokinError, OSError):
-    """A file cannot be read, or the memory does not suffice."""
+    """A file cannot be read, or memory does not suffice."""
 
     code = FILE
 
 
 class ConvergenceWarning(UserWarning):
-    """Some states did not converge. Their rows hold NaN and `converged` = 0, and key numbers that need them are NaN; the others are good."""
+    """Some states did not converge. Their rows have NaN and `converged` = 0. Key numbers that require them are NaN. Others are valid."""
 
 
 class ModelWarning(UserWarning):
-    """A deck was read whose model may be wrong: no spring, a contact point that is not on the ground, implausible values, or a model that
-    cannot be solved. The message has all of `Model.remarks`."""
+    """The model of an opened deck may be wrong: no spring, a contact point that does not match the wheel, implausible values, or a model
+    that cannot be solved. The message contains all `Model.remarks`."""
 
 
 _CLASSES: dict[int, type[ElastokinError]] = {
@@ -56,5 +56,5 @@ _CLASSES: dict[int, type[ElastokinError]] = {
 
 
 def error_of(code: int, message: str) -> ElastokinError:
-    """The exception for a code of the library."""
+    """Returns the exception for a code of the library."""
     return _CLASSES.get(code, ElastokinError)(message)

@@ -1,4 +1,4 @@
-"""A suspension: its deck with its present numbers, solved on demand."""
+"""The class Model: a deck with its current numbers, and the solution of its cases."""
 
 from __future__ import annotations
 
@@ -24,11 +24,11 @@ _Change = tuple[str, Any]
 
 
 class Model:
-    """A suspension: a deck with its present numbers.
+    """The model of a suspension: a deck with its current numbers.
 
-    Open one with `Model.from_file` or `Model.from_text`. Each model may be used by several threads: one waits for the other;
-    different models are solved at the same time. A model can be copied and pickled, for instance for
-    `multiprocessing`: the copy has the files as they were when the model was opened, and the same changes.
+    Open a model with `Model.from_file` or `Model.from_text`. Several threads may use one model; its calls then wait for each other.
+    Different models are solved at the same time. A model can be copied and pickled, for instance for `multiprocessing`. The copy
+    contains the changes, and the files with their contents at the time of opening.
     """
 
     def __init__(self) -> None:
@@ -46,7 +46,7 @@ class Model:
 
     @classmethod
     def from_text(cls, text: str, name: str = "deck.nml") -> Model:
-        """Reads a deck from a text. `name` stands for its file in messages; files that it includes are sought beside that.
+        """Reads a deck from a string. `name` is its file name in messages; included files are relative to the folder of `name`.
 
         Raises FileError, DeckError, ModelError. Issues one ModelWarning if there are `remarks`.
         """
@@ -90,7 +90,7 @@ class Model:
     # ---- end ----
 
     def close(self) -> None:
-        """Frees the model. It cannot be used any more; results stay."""
+        """Frees the model, which cannot be used afterwards. Results stay valid."""
         handle, self._handle = getattr(self, "_handle", None), None
         if handle:
             lib.ek_close(handle)
@@ -122,7 +122,7 @@ class Model:
         return tuple([function(handle, k).decode() for k in range(n)])
 
     def _warn(self) -> None:
-        """Issues a warning if there are remarks; called by the function that opened the model for its caller."""
+        """Issues a warning if there are remarks. Call it directly in from_file or from_text: the warning names their caller."""
         try:
             remarks = self.remarks
         except BaseException:
@@ -141,16 +141,16 @@ class Model:
 
     @property
     def checksum(self) -> str:
-        """Of the deck with its present numbers, 16 hexadecimal digits, as in the heads of result files."""
+        """Checksum of the deck with its current numbers, 16 hexadecimal digits, as in the headers of result files."""
         with self._lock:
             return text_of(lib.ek_checksum(self._open))
 
     @property
     def deck(self) -> str:
-        """The deck with its present numbers as one text, which gives the same results.
+        """The deck with its current numbers as one string. A model opened from this string gives the same results.
 
-        Included files, hardpoints, property files, both sides and changes are written out, load tables by their whole paths.
-        Raises DeckError if the numbers define no valid model.
+        The string contains the contents of included files, hardpoints and property files, both sides of a mirrored axle, and all
+        changes. Load tables are given by absolute paths. Raises DeckError if the numbers do not define a valid model.
         """
         with self._lock:
             text: bytes | None = lib.ek_deck_as_used(self._open)
@@ -160,28 +160,29 @@ class Model:
 
     @property
     def wheels(self) -> int:
-        """Number of wheels: 0, 1 or 2; left before right."""
+        """Number of wheels: 0, 1 or 2. The left wheel comes first."""
         with self._lock:
             return int(lib.ek_wheel_count(self._open))
 
     @property
     def cases(self) -> tuple[str, ...]:
-        """Names of the cases: those of the deck, then the standard tests that it does not have."""
+        """Names of the cases of the deck, then names of the standard tests that the deck does not define."""
         with self._lock:
             return self._texts(lib.ek_case_name, lib.ek_case_count(self._open))
 
     @property
     def deck_cases(self) -> tuple[str, ...]:
-        """Names of the cases of the deck alone."""
+        """Names of the cases that the deck defines, without standard tests."""
         with self._lock:
             return tuple([name for k, name in enumerate(self.cases) if lib.ek_case_is_of_deck(self._open, k)])
 
     @property
     def remarks(self) -> list[str]:
-        """What the command line warns of before it solves a case, at the present numbers: no spring, a contact point that is not where the
-        wheel touches the ground, what balance left out, implausible values ("plausible? …"), or why no case can be solved.
+        """Warnings on the model with its current numbers, as printed by the command line before it solves a case.
 
-        Empty if there is nothing to say. The remarks on a solution are `Result.remarks`.
+        They report missing springs, contact points that do not match the wheel, incomplete balance and implausible values
+        ("plausible? …"). If no case can be solved, they give the reason. The list is empty if there are no warnings. `Result.remarks`
+        lists the remarks on a solution.
         """
         count = ctypes.c_int()
         with self._lock:
@@ -198,18 +199,19 @@ class Model:
     # ---- numbers of the deck ----
 
     def __getitem__(self, path: str) -> float:
-        """A number of the deck in the unit of the deck; NaN if the path leads to several different numbers."""
+        """A number of the deck in the unit of the deck; NaN if the path stands for different numbers."""
         value = c_double()
         with self._lock:
             self._check(lib.ek_get(self._open, bytes_for(path, "a path"), byref(value)))
         return value.value
 
     def __setitem__(self, path: str, value: float | str) -> None:
-        """Changes a number in the unit of the deck, as --set: on both sides of a mirrored axle, `*` in the path for any letters.
+        """Changes a number, in the unit of the deck. The path is as for --set: `*` stands for any letters, and on a mirrored axle a path
+        without a side stands for both sides.
 
-        A text is a word of the deck, or a change of the present number: "*1.1" scales it, "+2" adds to it. The deck is then read again, which
-        takes some milliseconds. A number outside its legal range raises DeckError and changes nothing. Legal numbers that together define no
-        valid model are reported by the next solution.
+        A string is a string value of the deck or a relative change: "*1.1" scales the current number, "+2" adds to it. After a string, the
+        deck is read again, which takes some milliseconds. A number outside its legal range raises DeckError and changes nothing. Legal
+        numbers that together do not define a valid model are reported by the next solution.
         """
         name = bytes_for(path, "a path")
         with self._lock:
@@ -228,7 +230,7 @@ class Model:
             self._changes.append((path, value))
 
     def __delitem__(self, path: str) -> None:
-        """Takes back the changes that were made with this path; the others stay. Raises KeyError if there are none."""
+        """Reverses the changes made with this path; other changes stay. Raises KeyError if no change was made with this path."""
         with self._lock:
             others = [change for change in self._changes if change[0] != path]
             if len(others) == len(self._changes):
@@ -248,20 +250,20 @@ class Model:
         return iter(self.parameters)
 
     def reset(self) -> None:
-        """Takes back all changes: numbers and words are as opened."""
+        """Reverses all changes: numbers and strings have the values of the deck as opened."""
         with self._lock:
             self._check(lib.ek_reset(self._open))
             self._changes.clear()
             self._forget()
 
     def _forget(self) -> None:
-        """Forgets which parameters and columns there are."""
+        """Empties the stored lists of parameters and columns."""
         self._parameters = None
         self._columns.clear()
         self._paths.clear()
 
     def _make(self, changes: list[_Change]) -> None:
-        """Makes changes of the deck that were made before, on this model or on the one of which this is a copy."""
+        """Repeats earlier changes of the deck, made on this model or on the model of which this is a copy."""
         for path, value in changes:
             if path == "":
                 self._check(lib.ek_set_all(self._open, len(value), value.ctypes.data))
@@ -313,15 +315,14 @@ class Model:
     # ---- solving ----
 
     def solve(self, case: str | None = None, columns: Sequence[str] | None = None, compliance: bool = False) -> Result:
-        """Solves a case with the present numbers.
+        """Solves a case with the current numbers.
 
-        `case`: its name; without one the first case. `columns`: the columns to compute, `*` for any letters; the
-        result has them in the order of the program's tables, with the first columns `state` and `factor` and those on convergence; without
-        names it has all columns.
-        `compliance`: also compute the compliance matrix of every state, for `Result.compliance`.
+        `case`: name of the case; default: the first case. `columns`: names of the columns to compute, in which `*` stands for any letters;
+        default: all columns. The result always has `state`, `factor` and the columns on convergence, in the order of the program's tables.
+        `compliance`: whether to compute the compliance matrix of every state for `Result.compliance`.
 
-        States that do not converge do not raise an error: the result has NaN in their rows, `converged` false, and a ConvergenceWarning is
-        issued. Raises UsageError, DeckError, ModelError, FileError.
+        States that do not converge do not raise an error. Their rows are NaN, `converged` is false, and a ConvergenceWarning is issued.
+        Raises UsageError, DeckError, ModelError, FileError.
         """
         if isinstance(columns, str):
             columns = [columns]
@@ -354,7 +355,7 @@ class Model:
         return result
 
     def _columns_of(self, key: tuple[str | None, ...], n: int) -> tuple[tuple[str, ...], tuple[Heading, ...]]:
-        """Names and headings of the n columns of the last solution; kept for the next solution of this case with these columns."""
+        """Names and headings of the n columns of the last solution, stored for the next solution of this case with these columns."""
         if key not in self._columns or len(self._columns[key][0]) != n:
             handle = self._open
             names = self._texts(lib.ek_column_name, n)
@@ -391,11 +392,11 @@ class Model:
     # ---- key numbers ----
 
     def numbers(self, *names: str) -> dict[str, float]:
-        """Key numbers with these names, as in key_numbers.csv of the report: only the tests that they need are solved.
+        """Key numbers with these names, as in key_numbers.csv of the report. Solves only the tests that these numbers require.
 
-        On an axle a name begins with `left_` or `right_`, unless the number is one of the axle. A number is NaN if it needs a state
-        that did not converge (states outside the window of a slope do not matter), or if the model does not define it; a
-        ConvergenceWarning then names all such numbers. The others are good.
+        On an axle, the name of a number of one wheel begins with `left_` or `right_`; the name of an axle number does not. A number is NaN
+        if it requires a state that did not converge, or if the model does not define it. States outside the window of a slope are not
+        required. A ConvergenceWarning names all numbers that are NaN. The other numbers are valid.
         """
         if not names:
             raise TypeError("numbers() needs at least one name, as in numbers('left_bump_toe'); key_numbers() returns all numbers")
@@ -413,32 +414,32 @@ class Model:
         return dict(zip(names, values.tolist()))
 
     def key_numbers(self) -> dict[str, float]:
-        """All key numbers that this model has."""
+        """All key numbers of this model by name."""
         names = self.number_names
         return self.numbers(*names) if names else {}
 
     @property
     def number_names(self) -> tuple[str, ...]:
-        """Names of all key numbers. Nothing is solved, so one of them may have no value (NaN)."""
+        """Names of all key numbers. No case is solved, so the value of a listed number may be NaN."""
         with self._lock:
             return self._texts(lib.ek_number_name, lib.ek_number_count(self._open))
 
     @property
     def number_units(self) -> dict[str, str]:
-        """Unit per key number."""
+        """Unit of each key number by name."""
         with self._lock:
             return dict(zip(self.number_names, self._texts(lib.ek_number_unit, lib.ek_number_count(self._open))))
 
     @property
     def number_definitions(self) -> dict[str, str]:
-        """Definition per key number."""
+        """Definition of each key number by name."""
         with self._lock:
             return dict(zip(self.number_names, self._texts(lib.ek_number_definition, lib.ek_number_count(self._open))))
 
     # ---- copies ----
 
     def copy(self) -> Model:
-        """Another model with the same deck and the same changes, for instance for another thread. No file is read again."""
+        """A new model with the same deck and the same changes, for instance for another thread. No file is read again."""
         handle = c_void_p()
         with self._lock:
             code = lib.ek_copy(self._open, byref(handle))
@@ -459,7 +460,7 @@ class Model:
 
 
 def _from_files(files: list[tuple[bytes, bytes]], source: str, changes: list[_Change]) -> Model:
-    """A model from the files that it was opened from."""
+    """Opens a model from the contents of its files and repeats its changes; used to unpickle."""
     handle = c_void_p()
     n = len(files)
     paths, texts = ((ctypes.c_char_p * n)(*column) for column in zip(*files))
@@ -470,5 +471,5 @@ def _from_files(files: list[tuple[bytes, bytes]], source: str, changes: list[_Ch
 
 
 def _copy_of(text: str, name: str, changes: list[_Change]) -> Model:
-    """What pickles of earlier versions call: they do not have the included files."""
+    """Raises UsageError. Pickles of earlier versions call this function; they do not contain the included files."""
     raise errors.UsageError(f"{name}: this model was pickled by an earlier version of elastokin; open its deck and pickle it again")

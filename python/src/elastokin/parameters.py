@@ -13,17 +13,17 @@ class Parameter(NamedTuple):
     """One number of the deck."""
 
     value: float
-    """In `unit`."""
+    """Current value in `unit`."""
     unit: str
-    """Of the deck, as "N/mm"; "" without dimension."""
+    """Unit of the deck, as "N/mm"; "" if the number is dimensionless."""
     is_given: bool
-    """Whether the deck gives the number; otherwise it has its default."""
+    """Whether the deck gives the number. If not, the value is the default."""
     left: str | None
-    """On a mirrored axle, for a number of the right side: path of the same number on the left side."""
+    """For a number of the right side of a mirrored axle: path of the corresponding number of the left side. Otherwise None."""
 
 
 class Parameters(Mapping[str, Parameter]):
-    """All numbers of a deck, from path to value and unit, with their present values. Numbers are changed through the model."""
+    """Mapping from the path of each number of a deck to its current value and its unit. Change numbers with the model."""
 
     def __init__(
         self, paths: tuple[str, ...], units: tuple[str, ...], given: tuple[bool, ...], left: tuple[int, ...],
@@ -40,7 +40,7 @@ class Parameters(Mapping[str, Parameter]):
 
     @property
     def common_paths(self) -> dict[str, tuple[str, str]]:
-        """On a mirrored axle: paths that lead to both sides (`spring.coil.rate`), with the paths of the left and of the right number."""
+        """For a mirrored axle: each path that stands for both sides (`spring.coil.rate`), with the paths of its left and right numbers."""
         pairs: dict[str, tuple[str, str]] = {}
         for k, j in enumerate(self._left):
             group, _, rest = self.paths[j].partition(".")
@@ -49,7 +49,7 @@ class Parameters(Mapping[str, Parameter]):
         return pairs
 
     def index(self, path: str) -> int:
-        """Position of a number in `Model.x`. Raises KeyError."""
+        """Index of a number in `Model.x`. Raises KeyError if there is no such path."""
         return self._index[path]
 
     def __getitem__(self, path: str) -> Parameter:

@@ -26,25 +26,25 @@ class Remark(NamedTuple):
 
 
 class Derivatives(NamedTuple):
-    """Derivatives at a state, columns x numbers."""
+    """Derivatives of columns with respect to numbers at a state."""
 
     values: NDArray[np.float64]
-    """Unit of the column per unit of the number. NaN: the state did not converge, the column has no value, or the number cannot move."""
+    """Columns x numbers, unit of the column per unit of the number. NaN: no convergence, no value at the state, or not changeable."""
     errors: NDArray[np.float64]
-    """Estimates of their errors; large where the column has a corner (a stop at contact, a point of a curve)."""
+    """Estimates of the errors of `values`; large where the column has a corner (a stop at contact, a point of a curve)."""
 
 
 class Result:
-    """States of one case of a model. It does not change when the model does."""
+    """States of one case of a model. A change of the model does not change the result."""
 
     case: str
     """Name of the case."""
     columns: tuple[str, ...]
-    """Names of the columns; a name ends with its unit, as "left_toe_deg"."""
+    """Names of the columns. A name ends with the unit, as "left_toe_deg"."""
     values: NDArray[np.float64]
-    """States x columns. NaN where a state did not converge or a quantity does not exist."""
+    """States x columns. NaN if the state did not converge or the quantity is not defined at the state."""
     remarks: tuple[Remark, ...]
-    """Notes, warnings and failures."""
+    """Notes, warnings and failures of the solution."""
     status: int
     """0, or 4 if some states did not converge."""
 
@@ -75,37 +75,37 @@ class Result:
         return column in self.columns
 
     def __len__(self) -> int:
-        """The number of states."""
+        """Number of states."""
         return len(self.values)
 
     @property
     def units(self) -> dict[str, str]:
-        """Unit per column, as "deg"; "" without dimension."""
+        """Unit of each column by name, as "deg"; "" if the column is dimensionless."""
         return {name: heading[0] for name, heading in zip(self.columns, self._headings)}
 
     @property
     def titles(self) -> dict[str, str]:
-        """Title per column, as "Toe"; "" if it has none."""
+        """Title of each column by name, as "Toe"; "" if it has no title."""
         return {name: heading[1] for name, heading in zip(self.columns, self._headings)}
 
     @property
     def signs(self) -> dict[str, str]:
-        """Meaning of positive values per column, as "+ toe-in"; "" if it has none."""
+        """Meaning of positive values of each column by name, as "+ toe-in"; "" if it has no sign."""
         return {name: heading[2] for name, heading in zip(self.columns, self._headings)}
 
     @property
     def converged(self) -> bool:
-        """Whether every state converged; `result["converged"]` has 1 or 0 per state."""
+        """Whether every state converged. `result["converged"]` has 1 or 0 for each state."""
         return self.status == errors.OK
 
     # ---- compliance ----
 
     def compliance(self, row: int) -> NDArray[np.float64]:
-        """Compliance matrix at a state: 6 x wheels squared, from loads to displacements at the wheel centres.
+        """Compliance matrix at a state; both dimensions are 6 x wheels.
 
-        Rows are displacement [m] and rotation [rad] of each wheel centre (x y z, rx ry rz), columns force [N] and moment [N m] there, in
-        the frame of the deck; the vertical force on all wheels is held. Available until the model solves its next case; matrices
-        that were asked for before, or by `solve(..., compliance=True)`, stay.
+        Rows are displacement [m] and rotation [rad] of each wheel centre (x y z, rx ry rz). Columns are force [N] and moment [N m] at each
+        wheel centre. Both are in the frame of the deck. The vertical forces on all wheels are held. The matrix is available until the model
+        solves its next case. Matrices already read, and all matrices after `solve(..., compliance=True)`, stay available.
         """
         k = range(len(self.values))[row]
         if k not in self._matrices:
@@ -116,11 +116,12 @@ class Result:
         return self._matrices[k]
 
     def derivatives(self, columns: Sequence[str], numbers: Sequence[str], row: int) -> Derivatives:
-        """Exact derivatives of columns with respect to numbers of the deck at a state; nothing is solved again.
+        """Exact derivatives of columns with respect to numbers of the deck at a state. No solution is repeated.
 
-        `columns`: of the case, or entries of its compliance matrix (as `elastokin run --compliance` names them). `numbers`: paths, each of
-        one number or of both sides of a mirrored axle. The motion of the state, settling and balance are included. Available until the
-        model solves its next case. Raises UsageError, also for a case whose method is not "equilibrium".
+        `columns`: columns of the case, or entries of its compliance matrix (names as in `elastokin run --compliance`). `numbers`: paths;
+        each stands for one number, or for this number on both sides of a mirrored axle. Derivatives include the motion of the state,
+        static equilibrium and balance. They are available until the model solves its next case. Raises UsageError, also for a case with a
+        method other than "equilibrium".
         """
         if self._model is None:
             raise errors.UsageError("a copied result has no derivatives; solve with a model")
@@ -132,13 +133,13 @@ class Result:
     # ---- tables of other packages ----
 
     def to_dataframe(self) -> Any:
-        """A pandas DataFrame, one row per state; `attrs["units"]` has the units. Requires pandas."""
+        """A pandas DataFrame with one row per state; `attrs["units"]` has the units. Requires pandas."""
         frame = import_module("pandas").DataFrame(self.values, columns=list(self.columns))
         frame.attrs.update(case=self.case, units=self.units)
         return frame
 
     def to_xarray(self) -> Any:
-        """An xarray Dataset over the dimension `state`; each variable has the attributes `units`, `long_name` and `sign`. Requires xarray."""
+        """An xarray Dataset over the dimension `state`; variables have the attributes `units`, `long_name`, `sign`. Requires xarray."""
         data: dict[str, Any] = {}
         for k, (name, heading) in enumerate(zip(self.columns, self._headings)):
             attributes = {key: text for key, text in zip(("units", "long_name", "sign"), heading) if text}
