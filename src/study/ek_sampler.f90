@@ -12,7 +12,7 @@
 !> | sobol | n | u = Sobol' point (ek_sobol) |
 !> | saltelli | n (k + 2) | A, AB₁ … AB_k, B from Sobol' points of 2k coordinates, for sensitivity indices (ek_sensitivity) |
 !> | monte_carlo | n | u independent |
-!> | morris | n (k + 1) | n trajectories, on which each factor changes once by p/2 of its p levels (Morris 1991) |
+!> | morris | n (k + 1) | n trajectories (ek_trajectory), on which each factor changes once by p/2 of its p levels (Morris 1991) |
 !> | tolerance | n | designs of monte_carlo, in addition to the moments by derivatives (ek_tolerance) |
 !>
 !> A factor with `values` has only these values: as levels, or at random each with the same probability. Correlations (ek_copula)
