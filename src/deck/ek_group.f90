@@ -15,13 +15,13 @@ module ek_group
       study_group = 11, factor_group = 12, response_group = 13, include_group = 14, mirror_group = 15, &
       curve_group = 16, damper_group = 17, stop_group = 18, torsion_group = 19, axle_group = 20, steering_group = 21, &
       mass_group = 22, correlation_group = 23, hardpoints_group = 24, target_group = 25, fit_group = 26, fit_target_group = 27
-   character(*), parameter :: group_names(27) = [character(11) :: 'model', 'point', 'body', 'measure', 'joint', &
+   character(*), parameter :: group_names(*) = [character(11) :: 'model', 'point', 'body', 'measure', 'joint', &
       'bushing', 'spring', 'wheel', 'load', 'case', 'study', 'factor', 'response', 'include', 'mirror', 'curve', 'damper', &
       'stop', 'torsion', 'axle', 'steering', 'mass', 'correlation', 'hardpoints', 'target_band', &
       'fit', 'target']
 
    integer, parameter :: every_group = 0      !! in the table of keys
-   integer, parameter :: spring_groups(4) = [spring_group, damper_group, stop_group, torsion_group]   ! elements of one measure
+   integer, parameter :: spring_groups(*) = [spring_group, damper_group, stop_group, torsion_group]   ! elements of one measure
    integer, parameter :: result_groups(*) = [measure_group, joint_group, bushing_group, spring_groups]   ! their names make columns
    ! groups of a study, of a fit; all others belong to a deck
    integer, parameter, public :: study_groups(4) = [study_group, factor_group, response_group, correlation_group], &
@@ -61,7 +61,7 @@ module ek_group
       integer :: role = 0
    end type key_t
 
-   integer, parameter :: named(20) = [model_group, point_group, body_group, mass_group, measure_group, joint_group, &
+   integer, parameter :: named(*) = [model_group, point_group, body_group, mass_group, measure_group, joint_group, &
       bushing_group, spring_group, curve_group, damper_group, stop_group, torsion_group, wheel_group, load_group, case_group, &
       study_group, factor_group, response_group, fit_group, fit_target_group]
    integer :: j     ! implied-do index of the table, not used elsewhere

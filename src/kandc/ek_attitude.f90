@@ -13,6 +13,7 @@
 module ek_attitude
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
+   use ek_quantity, only: axis_section => steer_axis
    use ek_relative_rotation, only: pose_t
    use ek_block, only: rotated
    use ek_suspension, only: suspension_t, wheel_t
@@ -138,7 +139,7 @@ contains
    !> The values of the six columns of a steering axis [rad, m]; not numbers if it is unknown.
    pure function axis_values(axis) result(values)
       type(steer_axis_t), intent(in) :: axis
-      real(wp) :: values(6)
+      real(wp) :: values(size(axis_section))
       values = ieee_value(1.0_wp, ieee_quiet_nan)
       if (axis%is_known) values = [axis%caster, axis%kingpin_inclination, axis%scrub_radius, axis%caster_trail, &
          axis%spindle_length, axis%spindle_offset]

@@ -4,6 +4,7 @@
 module ek_geometry_columns
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_is_nan, ieee_quiet_nan
    use ek_kinds, only: wp, pi
+   use ek_quantity, only: wheel_axis, instant_distances, wheel_slopes, axle_geometry
    use ek_rotation, only: cross
    use ek_measure, only: evaluation_t, evaluate, measure_value
    use ek_law, only: deflection
@@ -35,7 +36,7 @@ contains
    pure subroutine axis_geometry(now, frame, values)
       type(attitude_t), intent(in) :: now
       real(wp), intent(in) :: frame(3)              !! from the program's frame to the deck's frame
-      real(wp), intent(inout) :: values(8)
+      real(wp), intent(inout) :: values(size(wheel_axis))
 
       values(1) = now%side_view
       if (now%axes%has_steer_axis) values(2:5) = axis_distances(now%axes%side, now%axis_point, now%axes%steer_axis, &
@@ -47,7 +48,7 @@ contains
    pure subroutine instant_geometry(twist, now, values)
       real(wp), intent(in) :: twist(6)
       type(attitude_t), intent(in) :: now
-      real(wp), intent(inout) :: values(4)
+      real(wp), intent(inout) :: values(size(instant_distances))
       real(wp) :: point(3), turn(3)
 
       turn = twist(4:6)
@@ -64,7 +65,7 @@ contains
       real(wp), intent(in) :: tyre_rate     !! N/m, 0: not given
       real(wp), intent(in) :: mass          !! sprung mass of the wheel [kg], 0: not known
       type(attitude_t), intent(in) :: now
-      real(wp), intent(inout) :: values(3)
+      real(wp), intent(inout) :: values(size(wheel_slopes))
 
       values(1) = 1.0e3_wp*quotient(lift(1), lift(3), min_compliance)
       values(2) = quotient(camber_rate(now%axes, twist(4:6)), steer_rate(now%axes%spin, twist(4:6)), min_rotation)
@@ -79,7 +80,7 @@ contains
       logical, intent(in) :: has_turn              !! there are &axle and &steering
       real(wp), intent(in) :: static(2)            !! steer at design [rad]
       type(attitude_t), intent(in) :: left, right
-      real(wp), intent(inout) :: values(6)
+      real(wp), intent(inout) :: values(size(axle_geometry))
       real(wp) :: track, steer(2), inner, outer
       integer :: side
 

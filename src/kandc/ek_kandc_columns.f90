@@ -10,6 +10,7 @@
 !> wheel centre under driving force), `…_centre_deflection` is the movement of the wheel centre.
 module ek_kandc_columns
    use ek_kinds, only: wp, pi, millimetre
+   use ek_quantity, only: all_quantities, of_turn, of_steering, steer_columns => instant_axis
    use ek_measure, only: measure_value
    use ek_suspension, only: suspension_t
    use ek_state, only: state_t, inputs_t
@@ -33,7 +34,7 @@ module ek_kandc_columns
    public :: observe_kandc, fill_kandc
 
    real(wp), parameter :: min_rack_rate = 1.0e-6_wp              !! rad/m: a rack that does not steer
-   integer, parameter :: most = 40                               !! values of a section
+   integer, parameter :: most = size(all_quantities)             !! values of a section, at most
 
 contains
 
@@ -177,19 +178,19 @@ contains
             values(1) = self%vertical(item)
          case (at_instant_axis)
             if (self%compliance%is_known) &
-               values(1:6) = axis_values(instant_axis(self%free_twist(:, item), self%compliance%has_drive, wheels(order(item))))
+               values(:size(steer_columns)) = axis_values(instant_axis(self%free_twist(:, item), &
+               self%compliance%has_drive, wheels(order(item))))
          case (at_instant_distances)
-            if (self%compliance%is_known) call instant_geometry(self%free_twist(:, item), wheels(order(item)), values(1:4))
+            if (self%compliance%is_known) call instant_geometry(self%free_twist(:, item), wheels(order(item)), values)
          case (at_wheel_axis)
-            call axis_geometry(wheels(order(item)), self%frame, values(1:8))
+            call axis_geometry(wheels(order(item)), self%frame, values)
          case (at_slopes)
             if (.not. self%compliance%is_known) return
             at = 6*(item - 1)
             lift = c(at + 1:at + 6, at + 3)
             if (self%compliance%wheels == 2) lift = lift + c(at + 1:at + 6, 9 - at)
             w = order(item)
-            call slope_values(lift, self%held_twist(:, item), suspension%wheels(w)%tyre_rate, self%mass(item), wheels(w), &
-               values(1:3))
+            call slope_values(lift, self%held_twist(:, item), suspension%wheels(w)%tyre_rate, self%mass(item), wheels(w), values)
          case (at_axle_rates)
             values(1) = is%suspension_roll_rate
             values(2) = is%total_roll_rate
@@ -205,12 +206,12 @@ contains
             values(5) = is%tyre_roll_centre(2) - ground()
             values(6) = is%force_roll_centre
          case (at_turn)
-            call turn_values(wheels(order(1)), wheels(order(2)), axle%wheelbase, self, values(1:3))
+            call turn_values(wheels(order(1)), wheels(order(2)), axle%wheelbase, self, values)
          case (at_steering)
-            call steering_values(suspension, state, wheels, self, values(1:2))
+            call steering_values(suspension, state, wheels, self, values)
          case (at_axle_geometry)
             call axle_geometry_values(axle, self%tyre_width, self%has_turn, self%static, wheels(order(1)), wheels(order(2)), &
-               values(1:6))
+               values)
          case (at_travel_left)
             values(1) = travel_left(suspension, self%compliance, state, item)/millimetre
          case (at_motion_ratio)
@@ -242,7 +243,7 @@ contains
       type(attitude_t), intent(in) :: left_now, right_now
       real(wp), intent(in) :: wheelbase
       type(kandc_t), intent(in) :: self
-      real(wp), intent(inout) :: values(3)
+      real(wp), intent(inout) :: values(size(of_turn))
       real(wp) :: left, right
 
       left = steer_of(left_now%toe, -1)
@@ -261,7 +262,7 @@ contains
       type(state_t), intent(in) :: state
       type(attitude_t), intent(in) :: wheels(:)
       type(kandc_t), intent(in) :: self
-      real(wp), intent(inout) :: values(2)
+      real(wp), intent(inout) :: values(size(of_steering))
       real(wp) :: rate, per_rack
       integer :: k
 

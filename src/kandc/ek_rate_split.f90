@@ -6,7 +6,7 @@
 !> and the rate is k = 1/c = Σ c_e/c²: the part of a spring is its rate times the square of its motion ratio.
 module ek_rate_split
    use ek_kinds, only: wp
-   use ek_element, only: bushing_element, axial_spring, torsion_spring, measure_spring, stop_spring
+   use ek_element, only: element_kinds, spring_share, bar_share, stop_share, bushing_share, gas_share
    use ek_element_label, only: is_rod
    use ek_suspension, only: suspension_t
    use ek_contribution, only: share_t, of_element, of_joint, of_stiffness, geometric
@@ -90,18 +90,16 @@ contains
       if (share%kind == of_joint .and. share%part == of_stiffness) group = joints
       if (share%kind /= of_element .or. share%part == geometric) return
       associate (element => suspension%elements(share%item))
-         select case (element%kind)
-         case (bushing_element)
-            group = bushings
-         case (axial_spring)
+         select case (element_kinds(element%kind)%share)
+         case (spring_share)
             group = merge(rods, springs, is_rod(suspension%elements, share%item))
-         case (measure_spring)
-            group = springs
-         case (torsion_spring)
+         case (bar_share)
             group = bars
-         case (stop_spring)
+         case (stop_share)
             group = stops
-         case default
+         case (bushing_share)
+            group = bushings
+         case (gas_share)
             group = gas
          end select
       end associate

@@ -25,7 +25,7 @@ module ek_state_columns
 
    ! sections: of a wheel, an element of one measure, a measure, a bushing, a joint
    integer, parameter :: of_position = 1, of_axis = 2, of_element = 3, of_readout = 4, of_bushing = 5, of_joint = 6
-   integer, parameter :: most = 12            !! values of a section
+   integer, parameter :: most = max(12, size(wheel_position), size(steer_axis))      !! values of a section: of a bushing 12
 
    ! rotations, cosines, lengths: ending of the column of an element's value, and its unit
    character(*), parameter :: endings(3) = [character(10) :: '_angle_deg', '_cosine', '_length_mm']
@@ -141,7 +141,7 @@ contains
          case (of_position)
             call position_values(wheels(list%item(b)), frame, values)
          case (of_axis)
-            values(1:6) = axis_values(wheels(list%item(b))%axis)
+            values(:size(steer_axis)) = axis_values(wheels(list%item(b))%axis)
          case (of_element)
             call element_values(suspension, state, list%item(b), values)
          case (of_readout)

@@ -28,6 +28,7 @@ module ek_element
    public :: element_numbers, rate_number, preload_number, free_length_number, clearance_number, rounding_number, set_numbers
    public :: look_up_element, element_slopes, is_linear
    public :: no_shape, coil_shape, damper_shape, stop_shape, bushing_shape
+   public :: spring_share, bar_share, stop_share, bushing_share, gas_share
 
    ! kinds, numbered as in element_kinds
    integer, parameter :: bushing_element = 1
@@ -44,6 +45,9 @@ module ek_element
    ! shapes in pictures
    integer, parameter :: no_shape = 0, coil_shape = 1, damper_shape = 2, stop_shape = 3, bushing_shape = 4
 
+   ! classes of the shares in a wheel rate or roll rate (ek_rate_split)
+   integer, parameter :: spring_share = 1, bar_share = 2, stop_share = 3, bushing_share = 4, gas_share = 5
+
    !> The properties of a kind of element.
    type :: element_kind_t
       character(8) :: label       !! in messages: the group of the deck
@@ -52,15 +56,16 @@ module ek_element
       logical :: has_gap          !! a stop: free up to contact; its column is the clearance, not the value of its measure
       logical :: is_axial_spring        !! its preload may be set by balance; its motion ratio is reported
       integer :: shape            !! in pictures, of an element on a distance, or a bushing
+      integer :: share            !! class of its share in a rate
    end type element_kind_t
 
    type(element_kind_t), parameter :: element_kinds(*) = [ &
-      element_kind_t('bushing', 'bushing', 'bushings', .false., .false., .false., bushing_shape), &
-      element_kind_t('spring', 'spring', 'springs', .true., .false., .true., coil_shape), &
-      element_kind_t('torsion', 'torsion spring', 'torsion springs', .false., .false., .false., no_shape), &
-      element_kind_t('spring', 'spring on a measure', 'springs on measures', .true., .false., .false., no_shape), &
-      element_kind_t('stop', 'stop', 'stops', .false., .true., .false., stop_shape), &
-      element_kind_t('damper', '', '', .false., .false., .false., damper_shape)]
+      element_kind_t('bushing', 'bushing', 'bushings', .false., .false., .false., bushing_shape, bushing_share), &
+      element_kind_t('spring', 'spring', 'springs', .true., .false., .true., coil_shape, spring_share), &
+      element_kind_t('torsion', 'torsion spring', 'torsion springs', .false., .false., .false., no_shape, bar_share), &
+      element_kind_t('spring', 'spring on a measure', 'springs on measures', .true., .false., .false., no_shape, spring_share), &
+      element_kind_t('stop', 'stop', 'stops', .false., .true., .false., stop_shape, stop_share), &
+      element_kind_t('damper', '', '', .false., .false., .false., damper_shape, gas_share)]
 
    !> An elastic element. The numbers that the solution reads come first.
    type :: element_t

@@ -49,7 +49,7 @@ module ek_joint
       logical :: is_of_measures = .false.    !! made of named measures, not of points and axes
    end type joint_kind_t
 
-   type(joint_kind_t), parameter :: joint_table(14) = [ &
+   type(joint_kind_t), parameter :: joint_table(*) = [ &
       joint_kind_t('spherical', 1, 1, no_axis, any_angle, ball_part), &
       joint_kind_t('universal', 1, 1, either_axis, right_angle, ball_part), &
       joint_kind_t('constant_velocity', 1, 1, two_axes, not_opposed, ball_part), &

@@ -275,7 +275,8 @@ contains
          change%rate = change%rate + weight*(there%law%rate - here%law%rate)
       end associate
       bends(1) = bends(1) + all%corner(k)*(there%preload - here%preload)
-      if (is_linear(here) .or. same_form(here%law, there%law)) return
+      if (is_linear(here)) return
+      if (same_form(here%law, there%law) .and. .not. abs(there%law%rate - here%law%rate) > 0.0_wp) return
       call keep_neighbour(here, there, k, change%there)
    end subroutine learn_spring
 
@@ -365,12 +366,11 @@ contains
       same_law = same_form(a, b) .and. .not. (abs(a%reference - b%reference) > 0.0_wp .or. abs(a%rate - b%rate) > 0.0_wp)
    end function same_law
 
-   !> Whether two laws differ at most by their reference. The rate of a linear law without a curve is not compared.
+   !> Whether two laws differ at most by their reference and rate.
    pure logical function same_form(a, b)
       type(law_t), intent(in) :: a, b
 
       same_form = .not. (abs(a%sign - b%sign) > 0.0_wp .or. abs(a%rounding - b%rounding) > 0.0_wp)
-      if (a%is_one_sided) same_form = same_form .and. .not. abs(a%rate - b%rate) > 0.0_wp
       if (same_form .and. a%has_curve) same_form = same_curve(a%curve, b%curve)
    end function same_form
 

@@ -12,7 +12,7 @@
 !> | sobol | n | u = Sobol' point (ek_sobol) |
 !> | saltelli | n (k + 2) | A, AB₁ … AB_k, B from Sobol' points of 2k coordinates, for sensitivity indices (ek_sensitivity) |
 !> | monte_carlo | n | u independent |
-!> | morris | n (k + 1) | n trajectories, on which each factor changes once by p/2 of its p levels (Morris 1991) |
+!> | morris | n (k + 1) | n trajectories (ek_trajectory), on which each factor changes once by p/2 of its p levels (Morris 1991) |
 !> | tolerance | n | designs of monte_carlo, in addition to the moments by derivatives (ek_tolerance) |
 !>
 !> A factor with `values` has only these values: as levels, or at random each with the same probability. Correlations (ek_copula)
@@ -27,20 +27,19 @@ module ek_sampler
    use ek_contract, only: are_checked, require
    use ek_error, only: error_t, fail, exit_deck
    use ek_normal, only: normal_quantile, normal_probability
-   use ek_philox, only: uniform, fill_uniforms
+   use ek_philox, only: fill_uniforms
    use ek_permutation, only: permutation_t, new_permutation, image_of, largest_permutation
    use ek_sobol, only: sobol_t, new_sobol, sobol_coordinate
    use ek_distribution, only: quantile, quantile_of_score, ends_of
    use ek_copula, only: copula_t, new_copula, correlate
    use ek_rank_order, only: order_ranks
    use ek_sampler_kind, only: grid_kind, one_at_a_time_kind, list_kind, latin_hypercube_kind, sobol_kind, saltelli_kind, morris_kind
-   use ek_sampler_settings, only: factor_t, sampler_settings_t, check_settings
+   use ek_sampler_settings, only: factor_t, sampler_settings_t, check_settings, design_stream, permutation_stream, &
+      scramble_stream, trajectory_stream
+   use ek_trajectory, only: trajectory_t, find_trajectory, level_on, factor_changed, change_of_level
    implicit none(type, external)
    private
    public :: sampler_t, new_sampler, sample, designs_of, factors_of, is_kind, is_ordered, changed_factor, morris_change
-
-   ! what one seed is used for (ek_philox)
-   integer, parameter :: design_stream = 0, permutation_stream = 1, scramble_stream = 2, trajectory_stream = 3
 
    type :: sampler_t
       private
@@ -56,14 +55,6 @@ module ek_sampler
       integer, allocatable :: intervals(:, :)                !! latin_hypercube: of the correlated factors, see ek_rank_order
       integer, allocatable :: position(:)                    !! of each factor in it, 0: it has no correlation
    end type sampler_t
-
-   !> A design of Morris' method on its trajectory.
-   type :: trajectory_t
-      integer(i8) :: seed = 0, number = 0      !! number from 0
-      integer(i8) :: step = 0                  !! 0 … k: factors already changed
-      integer(i8) :: levels = 2
-      type(permutation_t) :: order             !! of the factors
-   end type trajectory_t
 
 contains
 
@@ -198,10 +189,10 @@ contains
             x(j) = sampler%settings%rows(j, design)
          end do
       case (morris_kind)
-         call find_trajectory(sampler, design, trajectory)
+         call find_trajectory(sampler%settings, k, design, trajectory)
          call fill_uniforms(trajectory%seed, trajectory_stream, trajectory%number, x)
          do j = 1, k
-            x(j) = level_of(sampler, j, morris_level(trajectory, j, x(j)), trajectory%levels)
+            x(j) = level_of(sampler, j, level_on(trajectory, j, x(j)), trajectory%levels)
          end do
       case default
          call sample_at_random(sampler, design, x)
@@ -312,41 +303,6 @@ contains
       end if
    end function level_of
 
-   !> Finds the trajectory of a design, and its position on the trajectory.
-   pure subroutine find_trajectory(sampler, design, trajectory)
-      type(sampler_t), intent(in) :: sampler
-      integer(i8), intent(in) :: design
-      type(trajectory_t), intent(out) :: trajectory
-      integer(i8) :: k
-
-      k = size(sampler%factors)
-      trajectory%seed = sampler%settings%seed
-      trajectory%levels = sampler%settings%levels
-      trajectory%number = (design - 1)/(k + 1)
-      trajectory%step = design - 1 - trajectory%number*(k + 1)
-      trajectory%order = new_permutation(k, trajectory%seed, permutation_stream, trajectory%number)
-   end subroutine find_trajectory
-
-   !> The step, 1 … k, that changes a factor.
-   pure integer(i8) function step_of(trajectory, factor) result(step)
-      type(trajectory_t), intent(in) :: trajectory
-      integer, intent(in) :: factor
-
-      step = 1 + image_of(trajectory%order, int(factor - 1, i8))
-   end function step_of
-
-   !> The level of a factor, 0 … p − 1: random at first; from its step on, half of the levels further (or back).
-   pure integer(i8) function morris_level(trajectory, factor, u) result(level)
-      type(trajectory_t), intent(in) :: trajectory
-      integer, intent(in) :: factor
-      real(wp), intent(in) :: u                !! the random number of factor and trajectory
-
-      associate (t => trajectory)
-         level = min(int(u*t%levels, i8), t%levels - 1)
-         if (t%step >= step_of(t, factor)) level = mod(level + t%levels/2, t%levels)
-      end associate
-   end function morris_level
-
    !> Whether the correlated factors of a latin hypercube have the order of their ranks.
    pure logical function is_ordered(sampler)
       type(sampler_t), intent(in) :: sampler
@@ -375,11 +331,8 @@ contains
          factor = int(mod(design - 1, k + 2_i8))
          if (factor == k + 1) factor = 0
       case (morris_kind)
-         call find_trajectory(sampler, design, trajectory)
-         if (trajectory%step == 0) return
-         do factor = 1, k - 1
-            if (step_of(trajectory, factor) == trajectory%step) return
-         end do
+         call find_trajectory(sampler%settings, k, design, trajectory)
+         factor = factor_changed(trajectory, k)
       end select
    end function changed_factor
 
@@ -389,12 +342,9 @@ contains
       integer(i8), intent(in) :: design            !! not the first of its trajectory
       integer, intent(in) :: factor                !! changed_factor of this design
       type(trajectory_t) :: trajectory
-      integer(i8) :: level
 
-      call find_trajectory(sampler, design, trajectory)
-      level = morris_level(trajectory, factor, uniform(trajectory%seed, trajectory_stream, trajectory%number, factor))
-      level = 2*level - (trajectory%levels - 1)    ! above the middle after a step upwards
-      change = sign(real(trajectory%levels/2, wp)/real(trajectory%levels - 1, wp), real(level, wp))
+      call find_trajectory(sampler%settings, size(sampler%factors), design, trajectory)
+      change = change_of_level(trajectory, factor)
    end function morris_change
 
 end module ek_sampler

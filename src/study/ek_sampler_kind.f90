@@ -18,7 +18,7 @@ module ek_sampler_kind
       logical :: has_correlations
    end type sampler_kind_t
 
-   type(sampler_kind_t), parameter :: sampler_kinds(9) = [ &
+   type(sampler_kind_t), parameter :: sampler_kinds(*) = [ &
       sampler_kind_t('grid', .false., .true., .false., .false.), &
       sampler_kind_t('one_at_a_time', .false., .true., .false., .false.), &
       sampler_kind_t('list', .false., .false., .false., .false.), &

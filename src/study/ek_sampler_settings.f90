@@ -10,6 +10,9 @@ module ek_sampler_settings
    private
    public :: factor_t, sampler_settings_t, check_settings
 
+   ! what one seed is used for (ek_philox)
+   integer, parameter, public :: design_stream = 0, permutation_stream = 1, scramble_stream = 2, trajectory_stream = 3
+
    !> One number, or a group of numbers that change together.
    type :: factor_t
       type(distribution_t) :: distribution
