@@ -67,7 +67,7 @@ contains
       if (len(html) > 0) call page%body%line(html)
    end subroutine add_markup
 
-   !> Begins a section and ends the one before; on paper it starts a page. `id` has letters, digits, _ and -.
+   !> Begins a section and ends the one before. `id` has letters, digits, _ and -.
    pure subroutine begin_section(page, id, title, condition, is_printed)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: id, title

@@ -9,6 +9,7 @@ module ek_study_page
    use ek_study_data, only: study_data_t, study_axis_t, percents, methods, range_of_values
    use ek_study_figures, only: rules, applies, figure_name
    use ek_effect_table, only: add_effects
+   use ek_factor_order, only: most_open, factor_order, strongest_names, effect_measure
    use ek_page, only: page_t, begin_page, begin_section, add_text, add_warnings, add_facts, begin_table, add_cell, add_group, &
       add_markup, end_table, add_picture, page_text, page_number
    implicit none(type, external)
@@ -17,8 +18,6 @@ module ek_study_page
 
    character(*), parameter :: method_words(3) = [character(26) :: 'derivatives, first order', 'derivatives, second order', &
       'Monte Carlo']
-
-   integer, parameter :: most_factors = 12        !! of a table that is not folded
 
 contains
 
@@ -55,12 +54,13 @@ contains
          ' failed and are left out below', study%reasons)
       if (message /= '') call trouble%add(message)
       call add_warnings(page, 'Figures', trouble)
+      ! the summary, in the order of the first page on paper
       call add_responses(page, study)
+      call add_extremes(page, study)
       call add_factors(page, study)
       if (figures /= '') call add_figures(page, study, figures)
       call add_moments(page, study)
       call add_effects(page, study)
-      call add_extremes(page, study)
       text = page_text(page)
 
    contains
@@ -105,13 +105,16 @@ contains
    subroutine add_responses(page, study)
       type(page_t), intent(inout) :: page
       type(study_data_t), intent(in) :: study
-      character(24) :: heads(8 + size(percents))
+      character(24), allocatable :: heads(:)
+      logical :: has_limits
       integer :: r, k
 
       if (size(study%responses) == 0) return
       call begin_section(page, 'responses', 'Responses')
       heads = [character(24) :: 'Response', 'What it is', '>designs', '>mean', '>deviation', '>smallest', &
-         ('>'//str(percents(k))//' %', k=1, size(percents)), '>largest', 'limits, share within']
+         ('>'//str(percents(k))//' %', k=1, size(percents)), '>largest']
+      has_limits = any_limit(study)
+      if (has_limits) heads = [heads, [character(24) :: 'limits, share within']]
       call begin_table(page, heads)
       do r = 1, size(study%responses)
          associate (summary => study%summaries(r), axis => study%responses(r))
@@ -122,7 +125,7 @@ contains
                do k = 1, 4 + size(percents)
                   call add_cell(page, '–', 'n')
                end do
-               call add_cell(page, limits_text(axis))
+               if (has_limits) call add_cell(page, limits_text(axis))
                cycle
             end if
             call add_cell(page, page_number(summary%mean), 'n')
@@ -132,6 +135,7 @@ contains
                call add_cell(page, page_number(summary%percentiles(k)), 'n')
             end do
             call add_cell(page, page_number(summary%highest), 'n')
+            if (.not. has_limits) cycle
             if (limits_text(axis) == '') call add_cell(page, '–')
             if (limits_text(axis) /= '') call add_cell(page, limits_text(axis)//': '//share(summary%within, study%designs))
          end associate
@@ -191,26 +195,63 @@ contains
 
    end subroutine add_moments
 
-   !> Adds the factors and the ranges that the designs cover.
+   !> Adds the strongest factors of each response, then the factors with the ranges that the designs cover, by effect; of many only
+   !> the strongest are not folded.
    subroutine add_factors(page, study)
       type(page_t), intent(inout) :: page
       type(study_data_t), intent(in) :: study
-      real(wp) :: range(2)
-      integer :: f
+      integer, allocatable :: order(:)
+      integer :: k, r
 
       call begin_section(page, 'factors', 'Factors')
-      if (size(study%factors) > most_factors) call add_markup(page, '<details class="more"><summary>'// &
-         plural(size(study%factors), 'factor', 'factors')//'</summary>')
-      call begin_table(page, [character(24) :: 'Factor', 'Numbers of the deck', '>smallest', '>largest'])
-      do f = 1, size(study%factors)
+      order = factor_order(study)
+      if (size(order) > 1 .and. size(study%responses) > 0) call add_text(page, 'p', 'Sorted '//effect_measure(study)//'.')
+      if (size(order) > 1 .and. size(study%responses) > 0) then
+         call begin_table(page, [character(24) :: 'Response', 'Strongest factors'])
+         do r = 1, size(study%responses)
+            call add_cell(page, study%responses(r)%label)
+            call add_cell(page, or_none(strongest_names(study, r)))
+         end do
+         call end_table(page)
+      end if
+      call begin_ranges()
+      do k = 1, size(order)
+         if (k == most_open + 1) then
+            call end_table(page)
+            call add_markup(page, '<details class="more"><summary>'//plural(size(order) - most_open, 'more factor', &
+               'more factors')//', by effect</summary>')
+            call begin_ranges()
+         end if
+         call add_range(order(k))
+      end do
+      call end_table(page)
+      if (size(order) > most_open) call add_markup(page, '</details>')
+
+   contains
+
+      subroutine begin_ranges()
+         call begin_table(page, [character(24) :: 'Factor', 'Numbers of the deck', '>smallest', '>largest'])
+      end subroutine begin_ranges
+
+      subroutine add_range(f)
+         integer, intent(in) :: f
+         real(wp) :: range(2)
+
          range = range_of_values(study%x(f, :))
          call add_cell(page, study%factors(f)%label)
          call add_cell(page, study%factors(f)%note, 's')
          call add_cell(page, page_number(range(1)), 'n')
          call add_cell(page, page_number(range(2)), 'n')
-      end do
-      call end_table(page)
-      if (size(study%factors) > most_factors) call add_markup(page, '</details>')
+      end subroutine add_range
+
+      pure function or_none(words) result(text)
+         character(*), intent(in) :: words
+         character(:), allocatable :: text
+
+         text = words
+         if (words == '') text = 'none'
+      end function or_none
+
    end subroutine add_factors
 
    !> Adds the pictures that were drawn.
@@ -237,7 +278,7 @@ contains
       end do
    end subroutine add_figures
 
-   !> Adds the best and the worst designs, with the numbers that make them.
+   !> Adds the best and the worst designs as a table, then, folded, the settings that make them.
    subroutine add_extremes(page, study)
       type(page_t), intent(inout) :: page
       type(study_data_t), intent(in) :: study
@@ -246,9 +287,21 @@ contains
       if (size(study%extremes) == 0) return
       call begin_section(page, 'designs', 'Best and worst designs')
       call add_text(page, 'p', 'Best is farthest inside the limits of the response, or the smallest deviation; without limits, '// &
-         'the smallest and the largest value are shown. The options make the design on the command line; the lines '// &
-         'of the deck replace the keys of the same names.')
-      call add_markup(page, '<details class="more"><summary>'//plural(size(study%extremes), 'design', 'designs')//'</summary>')
+         'the smallest and the largest value are shown.')
+      call begin_table(page, [character(12) :: 'Response', 'Which', '>value', '>design'])
+      do k = 1, size(study%extremes)
+         associate (extreme => study%extremes(k))
+            call add_cell(page, study%responses(extreme%response)%label)
+            call add_cell(page, extreme%what)
+            call add_cell(page, page_number(extreme%value), 'n')
+            call add_cell(page, str(extreme%design), 'n')
+         end associate
+      end do
+      call end_table(page)
+      call add_markup(page, '<details class="more"><summary>Settings of '//plural(size(study%extremes), 'design', 'designs')// &
+         ', to copy</summary>')
+      call add_text(page, 'p', 'The options make the design on the command line; the lines of the deck replace the keys of the '// &
+         'same names.')
       do k = 1, size(study%extremes)
          associate (extreme => study%extremes(k))
             call add_text(page, 'h3', study%responses(extreme%response)%label//', '//extreme%what//': '// &
