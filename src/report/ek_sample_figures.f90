@@ -15,6 +15,7 @@ module ek_sample_figures
    character(*), parameter :: nl = new_line('a')
    integer, parameter :: most_points = 20000         !! of a scatter matrix, all panels together
    integer, parameter :: most_rows = 6, most_columns = 7     !! of a scatter matrix: responses, factors
+   real(wp), parameter :: room_above = 1.08_wp       !! upper edge of a histogram over its highest bar
 
 contains
 
@@ -234,7 +235,7 @@ contains
          end associate
       end do
       call begin_panels(sheet)
-      call sheet%text%line('set style fill solid 1 noborder; unset yzeroaxis; set yrange [0:*]')
+      call sheet%text%line('set style fill solid 1 noborder; unset yzeroaxis')
       do r = 1, sheet%panels
          associate (summary => study%summaries(r), response => study%responses(r))
             call begin_panel(sheet, r, '', response%label, 'designs')
@@ -258,7 +259,7 @@ contains
             if (response%lower < ends(1) .and. response%lower > ends(1) - room) ends(1) = response%lower
             if (response%upper > ends(2) .and. response%upper < ends(2) + room) ends(2) = response%upper
             call sheet%text%line('set xrange ['//str(ends(1) - 0.06_wp*room, 9)//':'//str(ends(2) + 0.06_wp*room, 9)// &
-               ']; set xtics '//tic_step(ends))
+               ']; set xtics '//tic_step(ends)//nl//'set yrange [0:'//str(room_above*highest(study, r), 7)//']')
             call sheet%text%line('plot $bins'//str(r)//" using 1:2:3 with boxes linecolor rgb '#80BAD8' notitle"// &
                density_of(study, r))
          end associate
@@ -267,22 +268,59 @@ contains
       text = end_panels(sheet)
    end function histogram_script
 
+   !> The height of the highest bar of a histogram, or of the density over it; 1 without designs.
+   pure real(wp) function highest(study, r)
+      type(study_data_t), intent(in) :: study
+      integer, intent(in) :: r                       !! response
+      real(wp), parameter :: step = 0.05_wp          ! of the density in standard deviations: its top is flat
+      real(wp) :: z
+      integer :: k
+
+      associate (summary => study%summaries(r))
+         highest = max(1, merge(maxval(summary%counts), summary%used, summary%highest > summary%lowest))
+         if (.not. has_density(study, r)) return
+         do k = -60, 60
+            z = step*k
+            highest = max(highest, density_height(study, r)*exp(-0.5_wp*z**2)* &
+               (1.0_wp + study%moments(2, r)%skewness/6.0_wp*(z**3 - 3.0_wp*z)))
+         end do
+      end associate
+   end function highest
+
+   !> Whether derivatives give a density that can be drawn over the histogram of a response.
+   pure logical function has_density(study, r)
+      type(study_data_t), intent(in) :: study
+      integer, intent(in) :: r                       !! response
+
+      has_density = allocated(study%moments)
+      if (has_density) has_density = study%moments(2, r)%deviation > 0.0_wp .and. &
+         study%summaries(r)%highest > study%summaries(r)%lowest
+   end function has_density
+
+   !> The height of the normal density over a histogram at its mean, in designs per bar.
+   pure real(wp) function density_height(study, r) result(height)
+      type(study_data_t), intent(in) :: study
+      integer, intent(in) :: r                       !! response
+
+      associate (summary => study%summaries(r))
+         height = summary%used*(summary%highest - summary%lowest)/size(summary%counts)/ &
+            (study%moments(2, r)%deviation*sqrt(2.0_wp*acos(-1.0_wp)))
+      end associate
+   end function density_height
+
    !> The density by derivatives, normal with skewness (Edgeworth), as it is plotted over the histogram; '' if there is none.
    function density_of(study, r) result(more)
       type(study_data_t), intent(in) :: study
       integer, intent(in) :: r                       !! response
       character(:), allocatable :: more
       character(:), allocatable :: z
-      real(wp) :: height
 
       more = ''
-      if (.not. allocated(study%moments)) return
-      associate (row => study%moments(2, r), summary => study%summaries(r))
-         if (.not. (row%deviation > 0.0_wp .and. summary%highest > summary%lowest)) return
-         height = summary%used*(summary%highest - summary%lowest)/size(summary%counts)/(row%deviation*sqrt(2.0_wp*acos(-1.0_wp)))
+      if (.not. has_density(study, r)) return
+      associate (row => study%moments(2, r))
          z = '((x - ('//str(row%mean, 9)//'))/'//str(row%deviation, 9)//')'
-         more = ', \'//nl//'     '//str(height, 7)//'*exp(-0.5*'//z//'**2)*(1 + ('//str(row%skewness/6.0_wp, 7)//')*('// &
-            z//'**3 - 3*'//z//")) with lines linewidth 2 linecolor rgb '#D55E00' notitle"
+         more = ', \'//nl//'     '//str(density_height(study, r), 7)//'*exp(-0.5*'//z//'**2)*(1 + ('// &
+            str(row%skewness/6.0_wp, 7)//')*('//z//'**3 - 3*'//z//")) with lines linewidth 2 linecolor rgb '#D55E00' notitle"
       end associate
    end function density_of
 
