@@ -47,7 +47,7 @@ contains
       least_correlation = min(1.0_wp, sqrt(2.0_wp*log(size(study%factors)/chance)/max(1, study%designs - 1)))
    end function least_correlation
 
-   !> The order in words: 'by μ*', 'by rank correlation; below 0.69 it may be chance'.
+   !> The order as text: 'by μ*', 'by rank correlation; below 0.69 it may be chance'.
    pure function effect_measure(study) result(words)
       type(study_data_t), intent(in) :: study
       character(:), allocatable :: words
