@@ -163,6 +163,7 @@ contains
       character(:), allocatable :: side
 
       axis%name = column
+      axis%unit = unit_text(unit_of(column))
       side = ''
       if (index(column, 'left_') == 1) side = 'left'
       if (index(column, 'right_') == 1) side = 'right'
@@ -243,7 +244,8 @@ contains
       unit = unit_of(trim(study%responses(number)%column))
       if (any([character(10) :: 'slope', 'gradient', 'difference'] == study%responses(number)%of)) unit = unit_of(head)
       axis%label = study%responses(number)%name
-      if (unit /= '') axis%label = axis%label//' ['//unit_text(unit)//']'
+      axis%unit = unit_text(unit)
+      if (unit /= '') axis%label = axis%label//' ['//axis%unit//']'
    end subroutine name_response
 
    !> Counts a failure together with failures of the same message.

@@ -7,9 +7,10 @@ module ek_study_page
    use ek_version, only: version
    use ek_file, only: join_path, file_exists, read_whole
    use ek_study_data, only: study_data_t, study_axis_t, percents, methods, range_of_values
-   use ek_study_figures, only: rules, applies, figure_name
+   use ek_study_figures, only: rules, applies, figure_name, sheets, others
    use ek_effect_table, only: add_effects
    use ek_factor_order, only: most_open, factor_order, strongest_names, effect_measure
+   use ek_svg, only: escape_html
    use ek_page, only: page_t, begin_page, begin_section, add_text, add_warnings, add_facts, begin_table, add_cell, add_group, &
       add_markup, end_table, add_picture, page_text, page_number
    implicit none(type, external)
@@ -254,27 +255,32 @@ contains
 
    end subroutine add_factors
 
-   !> Adds the pictures that were drawn.
+   !> Adds the pictures that were drawn; those of the second sheets folded.
    subroutine add_figures(page, study, folder)
       type(page_t), intent(inout) :: page
       type(study_data_t), intent(in) :: study
       character(*), intent(in) :: folder
       type(error_t), allocatable :: error
-      character(:), allocatable :: svg, path
-      integer :: k
+      character(:), allocatable :: svg, name
+      integer :: k, sheet
       logical :: is_begun
 
       is_begun = .false.
       do k = 1, size(rules)
          if (.not. applies(rules(k), study)) cycle
-         path = join_path(folder, figure_name(rules(k), study)//'.svg')
-         if (.not. file_exists(path)) cycle
-         call read_whole(path, svg, error)
-         if (allocated(error)) cycle
-         if (.not. is_begun) call begin_section(page, 'figures', 'Figures')
-         is_begun = .true.
-         call add_text(page, 'h3', trim(rules(k)%title))
-         call add_picture(page, svg, trim(rules(k)%title), 'figures/'//figure_name(rules(k), study)//'.gp draws this figure.')
+         do sheet = 1, sheets(rules(k), study)
+            name = figure_name(rules(k), study, sheet)
+            if (.not. file_exists(join_path(folder, name//'.svg'))) cycle
+            call read_whole(join_path(folder, name//'.svg'), svg, error)
+            if (allocated(error)) cycle
+            if (.not. is_begun) call begin_section(page, 'figures', 'Figures')
+            is_begun = .true.
+            if (sheet == 1) call add_text(page, 'h3', trim(rules(k)%title))
+            if (sheet == 2) call add_markup(page, '<details class="more"><summary>'//escape_html(trim(rules(k)%title))//': '// &
+               others(rules(k))//'</summary>')
+            call add_picture(page, svg, trim(rules(k)%title), 'figures/'//name//'.gp draws this figure.')
+            if (sheet == 2) call add_markup(page, '</details>')
+         end do
       end do
    end subroutine add_figures
 
