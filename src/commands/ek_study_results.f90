@@ -23,6 +23,7 @@ module ek_study_results
    use ek_study_curves, only: read_curves, curve_step
    use ek_table_lines, only: lines_t, open_table, next_line, take_numbers, close_table
    use ek_moment_tables, only: read_moments
+   use ek_response_bands, only: set_bands
    use ek_study_findings, only: summarise, find_effects, find_extremes
    implicit none(type, external)
    private
@@ -63,6 +64,7 @@ contains
       data%case = trim(designer%workspace%cases(1)%case%name)
       data%designs = int(designs_of(sampler))
       call name_axes(study, designer, data)
+      call set_bands(designer%workspace%design%targets, study%responses, data%responses)
       call find_tables(study, out, data%designs, scratch, folder, error)
       if (.not. allocated(error)) call read_rows(study, deck_checksum(deck), join_path(folder, responses_name(study)), data, error)
       if (allocated(error)) then

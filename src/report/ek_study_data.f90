@@ -19,6 +19,7 @@ module ek_study_data
       character(:), allocatable :: unit                !! of a response or column; '' without one
       character(:), allocatable :: note                !! path of a factor; description of a response
       real(wp) :: lower = -huge(1.0_wp), upper = huge(1.0_wp)      !! limits of a response
+      logical :: is_target = .false.                   !! the limits are the band of the deck, not of the study
    end type study_axis_t
 
    !> A response over all designs that have it.

@@ -48,7 +48,8 @@ contains
       call add('Responses', str(size(study%responses)))
       call add('Case', study%case)
       call add('Failed', str(study%failed))
-      if (any_limit(study)) call add('Within all limits', str(study%within)//' ('//share(study%within, study%designs)//')')
+      if (any_limit(study, of_study=.true.)) call add('Within all limits', str(study%within)// &
+         ' ('//share(study%within, study%designs)//')')
       call add('Program', 'elastokin '//version)
       call add_facts(page, names, values)
       call add_warnings(page, plural(study%failed, 'design', 'designs')//' of '//str(study%designs)// &
@@ -75,9 +76,12 @@ contains
    end function study_page
 
    !> Whether a response has a limit.
-   pure logical function any_limit(study)
+   pure logical function any_limit(study, of_study)
       type(study_data_t), intent(in) :: study
-      any_limit = any(study%responses%lower > -huge(1.0_wp) .or. study%responses%upper < huge(1.0_wp))
+      logical, intent(in) :: of_study                !! .true.: without the bands of the deck
+
+      any_limit = any((study%responses%lower > -huge(1.0_wp) .or. study%responses%upper < huge(1.0_wp)) .and. &
+         .not. (of_study .and. study%responses%is_target))
    end function any_limit
 
    !> '97.3 %'
@@ -102,6 +106,26 @@ contains
       end if
    end function limits_text
 
+   !> The limits, with a word for a band of the deck: 'target −30 … −20'.
+   pure function limits_words(axis) result(text)
+      type(study_axis_t), intent(in) :: axis
+      character(:), allocatable :: text
+
+      text = limits_text(axis)
+      if (axis%is_target) text = 'target '//text
+   end function limits_words
+
+   !> Adds a cell with the verdict on the designs by word and colour: all inside, some outside, all outside.
+   subroutine add_verdict(page, text, is_all, is_any)
+      type(page_t), intent(inout) :: page
+      character(*), intent(in) :: text
+      logical, intent(in) :: is_all, is_any          !! designs inside
+
+      if (is_all) call add_cell(page, text, verdict='inside')
+      if (.not. is_all .and. is_any) call add_cell(page, text, verdict='partly outside')
+      if (.not. is_any) call add_cell(page, text, verdict='outside')
+   end subroutine add_verdict
+
    !> Adds the statistics of the responses.
    subroutine add_responses(page, study)
       type(page_t), intent(inout) :: page
@@ -114,7 +138,7 @@ contains
       call begin_section(page, 'responses', 'Responses')
       heads = [character(24) :: 'Response', 'What it is', '>designs', '>mean', '>deviation', '>smallest', &
          ('>'//str(percents(k))//' %', k=1, size(percents)), '>largest']
-      has_limits = any_limit(study)
+      has_limits = any_limit(study, of_study=.false.)
       if (has_limits) heads = [heads, [character(24) :: 'limits, share within']]
       call begin_table(page, heads)
       do r = 1, size(study%responses)
@@ -126,7 +150,7 @@ contains
                do k = 1, 4 + size(percents)
                   call add_cell(page, '–', 'n')
                end do
-               if (has_limits) call add_cell(page, limits_text(axis))
+               if (has_limits) call add_cell(page, limits_words(axis))
                cycle
             end if
             call add_cell(page, page_number(summary%mean), 'n')
@@ -138,7 +162,8 @@ contains
             call add_cell(page, page_number(summary%highest), 'n')
             if (.not. has_limits) cycle
             if (limits_text(axis) == '') call add_cell(page, '–')
-            if (limits_text(axis) /= '') call add_cell(page, limits_text(axis)//': '//share(summary%within, study%designs))
+            if (limits_text(axis) /= '') call add_verdict(page, limits_words(axis)//': '//share(summary%within, study%designs), &
+               summary%within == study%designs, summary%within > 0)
          end associate
       end do
       call end_table(page)
