@@ -33,7 +33,7 @@ contains
       end do
    end subroutine set_bands
 
-   !> The key number that a response is: a gradient with the window of the report, or a column at design. '' if there is no such number.
+   !> The key number that a response is: a gradient with the window of the report, or a column at design. '' without one.
    pure function key_number_of(response) result(name)
       type(response_t), intent(in) :: response
       character(:), allocatable :: name

@@ -166,7 +166,7 @@ contains
       end do
    end function bands_text
 
-   !> Lines for a terminal: 'target bump camber: −13.83 inside → −35.00 outside deg/m (−30 … −20)'.
+   !> Lists lines for a terminal: 'target bump camber: −13.83 inside → −35.00 outside deg/m (−30 … −20)'.
    subroutine target_lines(targets, lines)
       type(target_t), intent(in) :: targets(:)
       type(message_list_t), intent(out) :: lines

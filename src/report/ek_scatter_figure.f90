@@ -13,8 +13,9 @@ module ek_scatter_figure
    public :: pairs_script, matrix_script, most_columns, leading_factors
 
    character(*), parameter :: nl = new_line('a')
-   integer, parameter :: most_points = 20000         !! of all panels together
+   integer, parameter :: most_points = 6000           !! of all panels together: more make the page slow and large
    integer, parameter :: most_rows = 6, most_columns = 7     !! of a matrix: responses, factors
+   integer, parameter :: most_cells = 26             !! of a matrix: gnuplot names panels by a letter, and further ones alike
 
 contains
 
@@ -78,8 +79,8 @@ contains
       character(:), allocatable :: x_label, y_label
 
       rows = min(size(study%responses), most_rows)
-      allocate (factors(min(most_columns, size(study%factors))))
-      factors(:) = leading_factors(study, most_columns)
+      allocate (factors(min(most_columns, most_cells/rows, size(study%factors))))
+      factors(:) = leading_factors(study, min(most_columns, most_cells/rows))
       every = max(1, (study%designs*rows*size(factors) + most_points - 1)/most_points)
       sheet = new_sheet(name, 'Responses over factors', subtitle//'; r: rank correlation'//thinned(every, study%designs)// &
          cut(size(factors), size(study%factors), 'factors, those with the largest r')// &
