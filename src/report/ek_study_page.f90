@@ -6,7 +6,7 @@ module ek_study_page
    use ek_text, only: str, plural
    use ek_version, only: version
    use ek_file, only: join_path, file_exists, read_whole
-   use ek_study_data, only: study_data_t, study_axis_t, percents, methods, range_of_values
+   use ek_study_data, only: study_data_t, study_axis_t, summary_t, percents, methods, range_of_values
    use ek_study_figures, only: rules, applies, figure_name, sheets, others
    use ek_effect_table, only: add_effects
    use ek_factor_order, only: most_open, factor_order, strongest_names, effect_measure
@@ -37,7 +37,7 @@ contains
       character(:), allocatable :: text
       type(page_t) :: page
       type(message_list_t) :: names, values, trouble
-      character(:), allocatable :: title
+      character(:), allocatable :: title, name
 
       title = study%title
       if (title == '') title = study%name
@@ -48,8 +48,9 @@ contains
       call add('Responses', str(size(study%responses)))
       call add('Case', study%case)
       call add('Failed', str(study%failed))
-      if (any_limit(study, of_study=.true.)) call add('Within all limits', str(study%within)// &
-         ' ('//share(study%within, study%designs)//')')
+      name = 'Within all limits'
+      if (any(study%responses%is_target)) name = 'Within the limits of the study'
+      if (any_limit(study, of_study=.true.)) call add(name, str(study%within)//' ('//share(study%within, study%designs)//')')
       call add('Program', 'elastokin '//version)
       call add_facts(page, names, values)
       call add_warnings(page, plural(study%failed, 'design', 'designs')//' of '//str(study%designs)// &
@@ -136,37 +137,52 @@ contains
 
       if (size(study%responses) == 0) return
       call begin_section(page, 'responses', 'Responses')
-      heads = [character(24) :: 'Response', 'What it is', '>designs', '>mean', '>deviation', '>smallest', &
-         ('>'//str(percents(k))//' %', k=1, size(percents)), '>largest']
       has_limits = any_limit(study, of_study=.false.)
-      if (has_limits) heads = [heads, [character(24) :: 'limits, share within']]
+      heads = [character(24) :: 'Response']
+      if (has_limits) heads = [character(24) :: heads, 'Limits, share within']
+      heads = [character(24) :: heads, '>designs', '>mean', '>deviation', '>smallest', &
+         ('>'//str(percents(k))//' %', k=1, size(percents)), '>largest', 'What it is']
       call begin_table(page, heads)
       do r = 1, size(study%responses)
          associate (summary => study%summaries(r), axis => study%responses(r))
             call add_cell(page, axis%label)
-            call add_cell(page, axis%note, 's')
+            if (has_limits) call add_limits(axis, summary)
             call add_cell(page, str(summary%used), 'n')
             if (summary%used == 0) then
                do k = 1, 4 + size(percents)
                   call add_cell(page, '–', 'n')
                end do
-               if (has_limits) call add_cell(page, limits_words(axis))
-               cycle
+            else
+               call add_cell(page, page_number(summary%mean), 'n')
+               call add_cell(page, page_number(summary%deviation), 'n')
+               call add_cell(page, page_number(summary%lowest), 'n')
+               do k = 1, size(percents)
+                  call add_cell(page, page_number(summary%percentiles(k)), 'n')
+               end do
+               call add_cell(page, page_number(summary%highest), 'n')
             end if
-            call add_cell(page, page_number(summary%mean), 'n')
-            call add_cell(page, page_number(summary%deviation), 'n')
-            call add_cell(page, page_number(summary%lowest), 'n')
-            do k = 1, size(percents)
-               call add_cell(page, page_number(summary%percentiles(k)), 'n')
-            end do
-            call add_cell(page, page_number(summary%highest), 'n')
-            if (.not. has_limits) cycle
-            if (limits_text(axis) == '') call add_cell(page, '–')
-            if (limits_text(axis) /= '') call add_verdict(page, limits_words(axis)//': '//share(summary%within, study%designs), &
-               summary%within == study%designs, summary%within > 0)
+            call add_cell(page, axis%note, 's')
          end associate
       end do
       call end_table(page)
+
+   contains
+
+      !> Adds the cell of the limits.
+      subroutine add_limits(axis, summary)
+         type(study_axis_t), intent(in) :: axis
+         type(summary_t), intent(in) :: summary
+
+         if (limits_text(axis) == '') then
+            call add_cell(page, '–')
+         else if (summary%used == 0) then
+            call add_cell(page, limits_words(axis))
+         else
+            call add_verdict(page, limits_words(axis)//': '//share(summary%within, study%designs), &
+               summary%within == study%designs, summary%within > 0)
+         end if
+      end subroutine add_limits
+
    end subroutine add_responses
 
    !> Adds the scatter of each response by derivatives and by the designs.
