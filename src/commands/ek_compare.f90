@@ -18,6 +18,8 @@ module ek_compare
    use ek_compare_charts, only: compare_charts
    use ek_deck_file, only: deck_record_t
    use ek_deck_difference, only: deck_difference_t, find_differences, step_text
+   use ek_compare_targets, only: find_targets, target_lines
+   use ek_verdict, only: plain
    use ek_compare_tables, only: write_tables
    use ek_compare_page, only: page_of, verdicts
    implicit none(type, external)
@@ -71,6 +73,7 @@ contains
       call find_differences(decks, this%facts, this%deck)
       call compare_gradients(this%results, this%rows)
       call compare_numbers(this%results, this%numbers)
+      call find_targets(this%results, this%targets)
       this%shown = results_shown(this%numbers, this%rows)
       call compare_charts(this%results, this%threshold, this%charts, this%changes, this%curves)
       call find_missing(this%results, this%rows, this%missing)
@@ -213,6 +216,10 @@ contains
       call verdicts(this, lines)
       do k = 1, lines%count()
          call out%line(lines%line(k))
+      end do
+      call target_lines(this%targets, lines)
+      do k = 1, lines%count()
+         call out%line(plain(lines%line(k)))
       end do
       if (size(this%rows) == 0) then
          call out%line('no gradients to compare')

@@ -4,12 +4,11 @@ module ek_load_files
    use ek_buffer, only: buffer_t
    use ek_file, only: write_whole, join_path, remove_file
    use ek_member_loads, only: load_record_t, peak_loads
+   use ek_report_names, only: loads_file, peaks_file
    use ek_console, only: print_path
    implicit none(type, external)
    private
    public :: write_loads, remove_loads
-
-   character(*), parameter :: loads_file = 'loads.csv', peaks_file = 'peak-loads.csv'
 
 contains
 

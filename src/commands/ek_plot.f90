@@ -7,7 +7,7 @@ module ek_plot
    use ek_drawing, only: run_gnuplot
    use ek_study, only: study_t, step_size_kind
    use ek_study_data, only: study_data_t
-   use ek_study_figures, only: figure_rule_t, rules, applies, script_of, figure_name
+   use ek_study_figures, only: figure_rule_t, rules, applies, script_of, figure_name, sheets
    use ek_study_page, only: study_page, page_name
    use ek_step_page, only: step_page, step_script, figure_ending
    use ek_text_table, only: text_table_t, read_text_table
@@ -83,7 +83,7 @@ contains
       type(message_list_t) :: scripts, pictures
       type(error_t), allocatable :: undrawn
       character(:), allocatable :: folder, message, name
-      integer :: k
+      integer :: k, sheet
 
       call read_results_of(study, deck, home, out, data, error)
       if (allocated(error)) return
@@ -91,16 +91,18 @@ contains
       call make_folder(folder, error)
       if (allocated(error)) return
       do k = 1, size(rules)
-         name = figure_name(rules(k), data)
-         if (.not. applies(rules(k), data) .or. .not. is_asked(trim(rules(k)%name))) then
-            call remove_old(rules(k), name)
-            cycle
-         end if
-         call write_whole(join_path(folder, name//'.gp'), script_of(rules(k), data), error, can_be_redrawn=.true.)
-         if (allocated(error)) return
-         call scripts%add(name//'.gp')
-         call pictures%add(name//'.png')
-         call pictures%add(name//'.svg')
+         do sheet = 1, 2
+            name = figure_name(rules(k), data, sheet)
+            if (.not. is_drawn(rules(k), sheet) .or. .not. is_asked(trim(rules(k)%name))) then
+               call remove_old(rules(k), sheet, name)
+               cycle
+            end if
+            call write_whole(join_path(folder, name//'.gp'), script_of(rules(k), data, sheet), error, can_be_redrawn=.true.)
+            if (allocated(error)) return
+            call scripts%add(name//'.gp')
+            call pictures%add(name//'.png')
+            call pictures%add(name//'.svg')
+         end do
       end do
       if (kinds%count() > 0 .and. scripts%count() == 0) then
          call fail(error, exit_usage, '--kind: no such figure applies to this study (kind '//data%kind//')')
@@ -120,21 +122,31 @@ contains
 
    contains
 
+      !> Whether the results have a sheet of a figure.
+      logical function is_drawn(rule, sheet)
+         type(figure_rule_t), intent(in) :: rule
+         integer, intent(in) :: sheet
+
+         is_drawn = applies(rule, data)
+         if (is_drawn) is_drawn = sheet <= sheets(rule, data)
+      end function is_drawn
+
       !> Removes a figure that is not drawn now, unless it shows the current results. It does if its script, which contains the
       !> data, equals the new script.
-      subroutine remove_old(rule, name)
+      subroutine remove_old(rule, sheet, name)
          type(figure_rule_t), intent(in) :: rule
+         integer, intent(in) :: sheet
          character(*), intent(in) :: name
          type(error_t), allocatable :: unread
          character(:), allocatable :: script
          logical :: is_current
 
-         is_current = applies(rule, data)
+         is_current = is_drawn(rule, sheet)
          if (is_current) is_current = file_exists(join_path(folder, name//'.gp'))
          if (is_current) then
             call read_whole(join_path(folder, name//'.gp'), script, unread)
             is_current = .not. allocated(unread)
-            if (is_current) is_current = script == script_of(rule, data)
+            if (is_current) is_current = script == script_of(rule, data, sheet)
          end if
          if (is_current) return
          call remove_file(join_path(folder, name//'.gp'))

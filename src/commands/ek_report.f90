@@ -17,8 +17,9 @@ module ek_report
    use ek_chart, only: chart_t
    use ek_scales, only: read_scales, take_scales
    use ek_gradient, only: test_gradients, write_gradients
-   use ek_report_files, only: write_contents, contents_file, gradients_file, compliance_file, numbers_file, deck_file, test_line, &
-      name_files
+   use ek_report_files, only: write_contents, test_line, name_files
+   use ek_report_names, only: contents_file, gradients_file, gradients_json_file, compliance_file, numbers_file, &
+      numbers_json_file, deck_file, used_deck_file, data_file, page_file
    use ek_deck_file, only: write_deck_file
    use ek_deck, only: deck_t
    use ek_deck_values, only: list_values
@@ -53,7 +54,6 @@ module ek_report
    private
    public :: report, run_planned
 
-   character(*), parameter :: used_deck_file = 'deck_as_used.nml'     !! in the folder of a report
    integer, parameter :: most_live = 24      ! rates: more make the page slow and large
 
    type, extends(deck_settings_t) :: settings_t
@@ -101,7 +101,7 @@ contains
       call name_files(page%tests)
       call find_model_remarks(workspace%suspension, workspace%design%cases, chosen, .true., remarks)
       call print_model_remarks(settings%is_quiet, remarks, page%warnings)
-      call remove_file(join_path(page%folder, 'report.html'))     ! a page of an earlier report must not be mistaken for this one
+      call remove_file(join_path(page%folder, page_file))     ! a page of an earlier report must not be mistaken for this one
       call remove_file(join_path(page%folder, contents_file))
       call remove_file(join_path(page%folder, compliance_file))
       call remove_file(join_path(page%folder, deck_file))
@@ -133,17 +133,17 @@ contains
          page%deck_texts, error)
       if (allocated(error)) return
       call print_path(join_path(page%folder, deck_file), unprinted)
-      call write_deck_as_used(deck, join_path(page%folder, used_deck_file), error)
+      call write_deck_as_used(deck, join_path(page%folder, used_deck_file), error, page%copies)
       if (allocated(error)) return
       call print_path(join_path(page%folder, used_deck_file), unprinted)
-      call write_whole(join_path(page%folder, 'data.json'), report_data(page), error)
+      call write_whole(join_path(page%folder, data_file), report_data(page), error)
       if (allocated(error)) return
-      call print_path(join_path(page%folder, 'data.json'), unprinted)
+      call print_path(join_path(page%folder, data_file), unprinted)
       call write_page(settings, workspace%suspension, page, undrawn, error)
       if (allocated(error)) return
       call renew_list(page, settings%is_quiet, error)
       if (allocated(error)) return
-      call print_path(join_path(page%folder, 'report.html'), unprinted)
+      call print_path(join_path(page%folder, page_file), unprinted)
       call print_verdicts(settings%is_quiet, page)
       if (allocated(incomplete)) then
          call move_alloc(incomplete, error)
@@ -163,17 +163,17 @@ contains
       type(error_t), allocatable, intent(out) :: error          !! exit_file
 
       call write_gradients(page%gradients, workspace%suspension%name, checksum, join_path(page%folder, gradients_file), &
-         join_path(page%folder, 'gradients.json'), error)
+         join_path(page%folder, gradients_json_file), error)
       if (allocated(error)) return
       call print_path(join_path(page%folder, gradients_file), unprinted)
-      call print_path(join_path(page%folder, 'gradients.json'), unprinted)
+      call print_path(join_path(page%folder, gradients_json_file), unprinted)
       call key_numbers(page%tests, page%gradients, page%numbers)
       call set_targets(workspace%design%targets, page%numbers, page%warnings)
       call write_key_numbers(page%numbers, size(workspace%suspension%wheels) > 1, workspace%suspension%name, checksum, &
-         join_path(page%folder, numbers_file), join_path(page%folder, 'key_numbers.json'), error)
+         join_path(page%folder, numbers_file), join_path(page%folder, numbers_json_file), error)
       if (allocated(error)) return
       call print_path(join_path(page%folder, numbers_file), unprinted)
-      call print_path(join_path(page%folder, 'key_numbers.json'), unprinted)
+      call print_path(join_path(page%folder, numbers_json_file), unprinted)
       call write_contents(page%tests, join_path(page%folder, contents_file), error)
    end subroutine write_numbers
 
@@ -191,7 +191,7 @@ contains
       if (settings%has_plots) then
          warnings = page%warnings
          call page%warnings%add('The page has no pictures: gnuplot has not finished')
-         call write_whole(join_path(page%folder, 'report.html'), report_page(page), error, can_be_redrawn=.true.)
+         call write_whole(join_path(page%folder, page_file), report_page(page), error, can_be_redrawn=.true.)
          if (allocated(error)) return
          page%warnings = warnings
       end if
@@ -204,7 +204,7 @@ contains
          call page%warnings%add('The page has no pictures: '//message)
       end if
       page%has_pictures = .not. allocated(undrawn) .and. len(message) == 0
-      call write_whole(join_path(page%folder, 'report.html'), report_page(page), error)
+      call write_whole(join_path(page%folder, page_file), report_page(page), error)
    end subroutine write_page
 
    subroutine read_settings(line, settings, error)

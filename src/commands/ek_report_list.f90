@@ -8,17 +8,11 @@ module ek_report_list
    use ek_file, only: write_whole, read_whole, join_path, file_exists, remove_file
    use ek_text_table, only: text_table_t, new_text_table, add_row, text_table_csv, read_text_table, cell_of
    use ek_report_content, only: report_t
-   use ek_report_files, only: contents_file, gradients_file, compliance_file, numbers_file, deck_file
+   use ek_report_names, only: list_file, files_of_reports, files_of_loads
    use ek_console, only: print_note
    implicit none(type, external)
    private
-   public :: renew_list, list_file
-
-   character(*), parameter :: list_file = 'report-files.csv'     !! no test has a hyphen in its name
-
-   !> Files that every report writes.
-   character(*), parameter :: own(*) = [character(18) :: contents_file, gradients_file, 'gradients.json', compliance_file, &
-      numbers_file, 'key_numbers.json', deck_file, 'deck_as_used.nml', 'data.json', 'report.html']
+   public :: renew_list
 
 contains
 
@@ -49,8 +43,8 @@ contains
       type(message_list_t), intent(inout) :: files
       integer :: k
 
-      do k = 1, size(own)
-         call files%add(trim(own(k)))
+      do k = 1, size(files_of_reports)
+         call files%add(trim(files_of_reports(k)))
       end do
       do k = 1, size(report%tests)
          if (.not. report%tests(k)%is_run) cycle
@@ -58,9 +52,13 @@ contains
          if (allocated(report%tests(k)%grid)) call files%add(report%tests(k)%envelope)
       end do
       if (allocated(report%loads)) then
-         call files%add('loads.csv')
-         call files%add('peak-loads.csv')
+         do k = 1, size(files_of_loads)
+            call files%add(trim(files_of_loads(k)))
+         end do
       end if
+      do k = 1, report%copies%count()
+         call files%add(report%copies%line(k))
+      end do
       do k = 1, report%drawn%count()
          call files%add(report%drawn%line(k))
       end do

@@ -23,6 +23,7 @@ module ek_study_results
    use ek_study_curves, only: read_curves, curve_step
    use ek_table_lines, only: lines_t, open_table, next_line, take_numbers, close_table
    use ek_moment_tables, only: read_moments
+   use ek_response_bands, only: set_bands
    use ek_study_findings, only: summarise, find_effects, find_extremes
    implicit none(type, external)
    private
@@ -63,6 +64,7 @@ contains
       data%case = trim(designer%workspace%cases(1)%case%name)
       data%designs = int(designs_of(sampler))
       call name_axes(study, designer, data)
+      call set_bands(designer%workspace%design%targets, study%responses, data%responses)
       call find_tables(study, out, data%designs, scratch, folder, error)
       if (.not. allocated(error)) call read_rows(study, deck_checksum(deck), join_path(folder, responses_name(study)), data, error)
       if (allocated(error)) then
@@ -163,6 +165,7 @@ contains
       character(:), allocatable :: side
 
       axis%name = column
+      axis%unit = unit_text(unit_of(column))
       side = ''
       if (index(column, 'left_') == 1) side = 'left'
       if (index(column, 'right_') == 1) side = 'right'
@@ -243,7 +246,8 @@ contains
       unit = unit_of(trim(study%responses(number)%column))
       if (any([character(10) :: 'slope', 'gradient', 'difference'] == study%responses(number)%of)) unit = unit_of(head)
       axis%label = study%responses(number)%name
-      if (unit /= '') axis%label = axis%label//' ['//unit_text(unit)//']'
+      axis%unit = unit_text(unit)
+      if (unit /= '') axis%label = axis%label//' ['//axis%unit//']'
    end subroutine name_response
 
    !> Counts a failure together with all failures that have the same message.

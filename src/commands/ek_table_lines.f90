@@ -70,10 +70,10 @@ contains
 
       do
          lines%used = 0
-         read (lines%unit, '(a)', advance='no', iostat=status, size=lines%used) lines%content
-         if (status == 0) read (lines%unit, '()', iostat=status)     ! the rest of a long message is not needed
-         if (is_iostat_eor(status)) status = 0
+         ! libgfortran stores everything that it reads without advancing; the rest of a long message is not needed
+         read (lines%unit, '(a)', iostat=status) lines%content
          if (status /= 0) return
+         lines%used = len_trim(lines%content)
          lines%line = lines%line + 1
          if (lines%used > 0) return
       end do

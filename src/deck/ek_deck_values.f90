@@ -3,18 +3,20 @@ module ek_deck_values
    use ek_error, only: message_list_t
    use ek_deck, only: deck_t, finish_deck
    use ek_parameter, only: value_path
+   use ek_record, only: record_t
    implicit none(type, external)
    private
    public :: list_values
 
    ! Groups whose effect is in the values of others, and keys that describe
    character(*), parameter :: left_out(3) = [character(10) :: 'include', 'hardpoints', 'mirror']
+   character(*), parameter :: bands = 'target_band', quantity = 'quantity'
    character(*), parameter :: descriptions(3) = [character(5) :: 'name', 'note', 'title']
 
 contains
 
    !> Lists the values that the model was built from, in the order of the deck: settings made, property files read, both sides of a
-   !> mirrored deck. Paths are written as for --set.
+   !> mirrored deck. Paths are written as for --set; the limits of a band have the name of its number, which --set does not know.
    subroutine list_values(deck, paths, texts)
       type(deck_t), intent(in) :: deck
       type(message_list_t), intent(out) :: paths, texts       !! of the same length
@@ -30,7 +32,9 @@ contains
                if (any(descriptions == record%entries(e)%key)) cycle
                do v = 1, record%entries(e)%used
                   if (record%entries(e)%values(v)%is_empty) cycle
+                  if (record%group == bands .and. record%entries(e)%key == quantity) cycle
                   path = value_path(record, record%entries(e)%key, record%entries(e)%first + v - 1)
+                  if (record%group == bands) path = bands//'.'//quantity_of(record)//'.'//record%entries(e)%key
                   call paths%add(path)
                   call texts%add(record%entries(e)%values(v)%text)
                end do
@@ -38,5 +42,17 @@ contains
          end associate
       end do
    end subroutine list_values
+
+   !> The key number of a band, which has no name of its own.
+   pure function quantity_of(record) result(name)
+      type(record_t), intent(in) :: record
+      character(:), allocatable :: name
+      integer :: e
+
+      name = ''
+      do e = 1, record%used
+         if (record%entries(e)%key == quantity .and. record%entries(e)%used > 0) name = record%entries(e)%values(1)%text
+      end do
+   end function quantity_of
 
 end module ek_deck_values

@@ -2,7 +2,7 @@
 !> settings. Comments give the file and the line of each record, the setting of each value that was set, and the numbers that are
 !> not given. The file gives the same results as the deck from which it was made.
 module ek_deck_writer
-   use ek_error, only: error_t, fail, exit_usage
+   use ek_error, only: error_t, message_list_t, fail, exit_usage
    use ek_text, only: str, quoted
    use ek_buffer, only: buffer_t
    use ek_file, only: write_whole, join_path, folder_name, base_name
@@ -30,10 +30,11 @@ module ek_deck_writer
 contains
 
    !> Writes a deck, and the load tables named in the deck as DECK_TABLE.csv in the same folder.
-   subroutine write_deck_as_used(deck, path, error)
+   subroutine write_deck_as_used(deck, path, error, copies)
       type(deck_t), intent(in) :: deck                     !! without errors
       character(*), intent(in) :: path
       type(error_t), allocatable, intent(out) :: error     !! exit_usage, exit_file; exit_deck if the deck has errors
+      type(message_list_t), intent(inout), optional :: copies     !! gets the names of the load tables
       type(table_t), allocatable :: tables(:)
       character(:), allocatable :: text, content
       integer :: k
@@ -46,6 +47,7 @@ contains
          if (allocated(error)) return
          call read_kept(deck%kept, tables(k)%path, content, error)
          if (.not. allocated(error)) call write_whole(join_path(folder_name(path), tables(k)%name), content, error)
+         if (present(copies)) call copies%add(tables(k)%name)
       end do
    end subroutine write_deck_as_used
 

@@ -199,7 +199,7 @@ contains
             self%speak(row%dimension, meant)
          exit
       end do
-      call self%add(quantity, trim(quantity)//' '//self%speak(row%dimension, x)//' (usual: '// &
+      call self%add(quantity, trim(quantity)//' '//self%speak(row%dimension, x)//' (usual range: '// &
          short(row%low*usual/unit)//' to '//self%speak(row%dimension, row%high*usual)//'); '//text)
    end subroutine judge
 

@@ -14,7 +14,7 @@ module ek_key_numbers
    use ek_place_numbers, only: number_list_t, new_number, add_source, append, numbers_of, place_numbers
    implicit none(type, external)
    private
-   public :: key_number_t, key_numbers, list_key_numbers, number_heads, wanted_gradients, without_side
+   public :: key_number_t, key_numbers, list_key_numbers, number_heads, wanted_gradients, without_side, number_name
 
    !> One number: its group, its column or gradient, and the way it is read.
    type :: entry_t
@@ -176,6 +176,19 @@ contains
          quantities = [character(64) :: quantities, trim(entries(k)%name)//fitted]
       end do
    end subroutine wanted_gradients
+
+   !> The name of the number that is a column at design, or a gradient; '' if no number is. The gradients of loads that are in phase
+   !> or in anti-phase have two numbers of one name, hence none here.
+   pure character(64) function number_name(source, is_slope) result(name)
+      character(*), intent(in) :: source                 !! 'toe_deg', 'bump toe'
+      logical, intent(in) :: is_slope                    !! source is a gradient
+      integer :: k
+
+      name = ''
+      do k = 1, size(entries)
+         if (entries(k)%name == source .and. entries(k)%how == merge(slope, at_design, is_slope)) name = name_of(entries(k))
+      end do
+   end function number_name
 
    !> The name of a number for programs: 'toe_deg', 'bump_toe', 'lateral_deflection_anti', 'largest_steer_deg'.
    pure character(64) function name_of(entry) result(name)

@@ -7,7 +7,7 @@ module ek_carpet_figure
    use ek_kinds, only: wp
    use ek_error, only: message_list_t
    use ek_text, only: str
-   use ek_study_data, only: study_data_t, most_panels, is_geometric, range_of_values
+   use ek_study_data, only: study_data_t, is_geometric, range_of_values
    use ek_study_sheet, only: sheet_t, new_sheet, begin_data, add_numbers, end_data, begin_panels, begin_panel, end_panels
    implicit none(type, external)
    private
@@ -110,8 +110,9 @@ contains
    end function carpet_script
 
    !> The carpet of a study, a grid of two factors, which has the designs of the last factor first.
-   type(carpet_t) function study_carpet(study) result(carpet)
+   type(carpet_t) function study_carpet(study, panels) result(carpet)
       type(study_data_t), intent(in) :: study
+      integer, intent(in) :: panels(:)               !! responses
       integer, allocatable :: order(:), other(:)
       integer :: n(2), f, i, j, k, r
 
@@ -123,16 +124,16 @@ contains
       n(1) = study%designs/n(2)
       allocate (other, source=ascending(study%x(1, 1:n(1)*n(2):n(2))))
       allocate (order, source=ascending(study%x(2, :n(2))))
-      carpet = new_carpet(study%x(1, (other - 1)*n(2) + 1), study%x(2, order), min(size(study%responses), most_panels), &
+      carpet = new_carpet(study%x(1, (other - 1)*n(2) + 1), study%x(2, order), size(panels), &
          [is_geometric(study%x(1, :)), is_geometric(study%x(2, :))])
       do f = 1, 2
          call carpet%factors%add(study%factors(f)%label)
       end do
       do r = 1, size(carpet%value, 3)
-         call carpet%responses%add(study%responses(r)%label)
+         call carpet%responses%add(study%responses(panels(r))%label)
          do j = 1, n(2)
             do i = 1, n(1)
-               carpet%value(i, j, r) = study%y(r, (other(i) - 1)*n(2) + order(j))
+               carpet%value(i, j, r) = study%y(panels(r), (other(i) - 1)*n(2) + order(j))
             end do
          end do
       end do

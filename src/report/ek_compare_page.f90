@@ -11,6 +11,7 @@ module ek_compare_page
    use ek_page, only: page_t, begin_page, begin_section, add_warnings, add_facts, begin_table, add_cell, end_table, add_text, &
       add_legend, add_markup, begin_charts, end_charts, set_data, page_text, page_number
    use ek_change, only: change_of, verdict_of, has_changed, letter_of
+   use ek_compare_targets, only: add_targets
    use ek_comparison, only: comparison_t, difference_t, difference, largest_change, descending, counted
    use ek_deck_difference, only: deck_difference_t, step_text
    use ek_report_data, only: comparison_data
@@ -198,6 +199,8 @@ contains
       end do
       call add_text(page, 'p', 'A change is in percent of A, or of the least span of a chart where A is smaller: '// &
          'noise is no change.')
+      call add_targets(page, this%targets, [(letter_of(k), k=1, size(this%results))])
+      if (size(this%targets) > 0) call add_text(page, 'h3', 'Key numbers and gradients')
       if (size(this%shown) > 0) call add_numbers(page, this)
       order = descending(merge(abs(this%changes%change), -1.0_wp, this%changes%is_known))
       shown = min(most_rows/2, count(this%changes%is_changed))

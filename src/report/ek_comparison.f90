@@ -11,6 +11,7 @@ module ek_comparison
    use ek_change, only: least_of, change_of, has_changed
    use ek_compare_charts, only: chart_change_t, curve_difference_t
    use ek_deck_difference, only: deck_difference_t
+   use ek_compare_targets, only: target_t
    implicit none(type, external)
    private
    public :: comparison_t, difference_t, compare_gradients, compare_numbers, results_shown, difference, percent, largest_change, &
@@ -30,6 +31,7 @@ module ek_comparison
       type(deck_difference_t), allocatable :: facts(:), deck(:)     !! differences of the runs and of the decks
       type(difference_t), allocatable :: rows(:), numbers(:)        !! gradients, key numbers
       type(difference_t), allocatable :: shown(:)       !! gradients and key numbers without repetition, sorted by change
+      type(target_t), allocatable :: targets(:)         !! key numbers with a band in a deck
       type(chart_t), allocatable :: charts(:)           !! of the tests of the first
       type(chart_change_t), allocatable :: changes(:)   !! of each chart
       type(curve_difference_t), allocatable :: curves(:)

@@ -4,7 +4,7 @@ module ek_effect_figures
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
    use ek_text, only: str
-   use ek_study_data, only: study_data_t, effects_t, basis_text, most_panels, range_of_values, is_geometric, tic_step
+   use ek_study_data, only: study_data_t, effects_t, basis_text, range_of_values, is_geometric, tic_step
    use ek_study_sheet, only: sheet_t, new_sheet, begin_data, add_numbers, end_data, begin_panels, begin_panel, end_panels, blues, &
       add_point_names, names_plot
    implicit none(type, external)
@@ -18,20 +18,22 @@ module ek_effect_figures
 contains
 
    !> Contours of each response over two factors of a grid.
-   function map_script(study, name, subtitle) result(text)
+   function map_script(study, name, subtitle, panels) result(text)
       type(study_data_t), intent(in) :: study
+      integer, intent(in) :: panels(:)               !! responses
       character(*), intent(in) :: name, subtitle
       character(:), allocatable :: text
       type(sheet_t) :: sheet
       character(:), allocatable :: data
-      integer :: r, d
+      integer :: p, r, d
 
-      sheet = new_sheet(name, 'Responses over two factors', subtitle, min(size(study%responses), most_panels))
+      sheet = new_sheet(name, 'Responses over two factors', subtitle, size(panels))
       sheet%right = 105
       sheet%left = 130
       sheet%bottom = 92
       if (sheet%panels == 1) sheet%width = 900
-      do r = 1, sheet%panels
+      do p = 1, size(panels)
+         r = panels(p)
          call begin_data(sheet, 'map'//str(r))
          do d = 1, size(study%x, 2)
             if (d > 1) then
@@ -47,8 +49,9 @@ contains
       if (is_geometric(study%x(2, :))) call sheet%text%line('set logscale y')
       call sheet%text%line('set xtics '//tics_of(study%x(1, :))//'; set ytics '//tics_of(study%x(2, :)))
       call sheet%text%line('set xrange '//bounds(study%x(1, :))//'; set yrange '//bounds(study%x(2, :)))
-      do r = 1, sheet%panels
-         call begin_panel(sheet, r, study%responses(r)%label, study%factors(1)%label, study%factors(2)%label)
+      do p = 1, size(panels)
+         r = panels(p)
+         call begin_panel(sheet, p, study%responses(r)%label, study%factors(1)%label, study%factors(2)%label)
          data = '$map'//str(r)
          ! the lines of equal response are computed first, as a table
          call sheet%text%line('set contour base; set cntrparam levels auto 8; unset surface; set table $lines'//nl// &
@@ -66,24 +69,26 @@ contains
    end function map_script
 
    !> Each response over the only factor of a grid.
-   function line_script(study, name, subtitle) result(text)
+   function line_script(study, name, subtitle, panels) result(text)
       type(study_data_t), intent(in) :: study
+      integer, intent(in) :: panels(:)               !! responses
       character(*), intent(in) :: name, subtitle
       character(:), allocatable :: text
       type(sheet_t) :: sheet
-      integer :: r, d
+      integer :: p, r, d
 
-      sheet = new_sheet(name, 'Responses over the factor', subtitle, min(size(study%responses), most_panels))
+      sheet = new_sheet(name, 'Responses over the factor', subtitle, size(panels))
       call begin_data(sheet, 'rows')
       do d = 1, size(study%x, 2)
-         call add_numbers(sheet, [study%x(1, d), study%y(:sheet%panels, d)])
+         call add_numbers(sheet, [study%x(1, d), study%y(panels, d)])
       end do
       call end_data(sheet)
       call begin_panels(sheet)
       if (is_geometric(study%x(1, :))) call sheet%text%line('set logscale x')
-      do r = 1, sheet%panels
-         call begin_panel(sheet, r, study%responses(r)%label, study%factors(1)%label, '')
-         call sheet%text%line('plot $rows using 1:'//str(r + 1)// &
+      do p = 1, size(panels)
+         r = panels(p)
+         call begin_panel(sheet, p, study%responses(r)%label, study%factors(1)%label, '')
+         call sheet%text%line('plot $rows using 1:'//str(p + 1)// &
             " with linespoints pointtype 7 pointsize 0.7 linewidth 2.2 linecolor rgb '#0072B2' notitle")
       end do
       call sheet%text%line('unset logscale')
@@ -150,12 +155,13 @@ contains
    end function name_room
 
    !> A sheet of horizontal bars, one panel per response.
-   function new_bars(study, name, title, subtitle) result(sheet)
+   function new_bars(study, panels, name, title, subtitle) result(sheet)
       type(study_data_t), intent(in) :: study
+      integer, intent(in) :: panels(:)               !! responses
       character(*), intent(in) :: name, title, subtitle
       type(sheet_t) :: sheet
 
-      sheet = new_sheet(name, title, subtitle, min(size(study%responses), most_panels), &
+      sheet = new_sheet(name, title, subtitle, size(panels), &
          height=max(170, 110 + 30*min(size(study%factors), most_bars)))
       sheet%columns = min(sheet%panels, 2)
       sheet%letters = 14
@@ -170,26 +176,26 @@ contains
       words = ''
       if (size(study%factors) > most_bars) words = '; the '//str(most_bars)//' most important of '// &
          str(size(study%factors))//' factors'
-      if (size(study%responses) > most_panels) words = words//'; '//str(most_panels)//' of '//str(size(study%responses))// &
-         ' responses'
    end function cut
 
    !> The change of each response when one factor changes alone.
-   function tornado_script(study, name, subtitle) result(text)
+   function tornado_script(study, name, subtitle, panels) result(text)
       type(study_data_t), intent(in) :: study
+      integer, intent(in) :: panels(:)               !! responses
       character(*), intent(in) :: name, subtitle
       character(:), allocatable :: text
       type(sheet_t) :: sheet
       character(:), allocatable :: data, way
       integer :: order(min(most_bars, size(study%factors)))
-      integer :: r, k
+      integer :: p, r, k
 
       way = ''
       if (study%kind == 'tolerance') way = ', to second order by derivatives'
-      sheet = new_bars(study, name, 'One factor at a time'//way, subtitle// &
+      sheet = new_bars(study, panels, name, 'One factor at a time'//way, subtitle// &
          '; blue: the smallest value of the factor, orange: the largest'//cut(study))
       if (any_gap(study%effects(:sheet%panels))) sheet%subtitle = sheet%subtitle//'; –: the design at this end failed'
-      do r = 1, sheet%panels
+      do p = 1, size(panels)
+         r = panels(p)
          associate (effect => study%effects(r))
             order(:) = ranked(effect%highest - effect%lowest, most_bars)
             call begin_data(sheet, 'bars'//str(r))
@@ -211,8 +217,9 @@ contains
       call begin_panels(sheet)
       call sheet%text%line('set style fill solid 1 noborder; unset xzeroaxis; unset yzeroaxis; set grid noytics')
       call sheet%text%line('set yrange ['//str(size(order) + 0.6_wp)//':0.4]; set border 1; set ytics scale 0')
-      do r = 1, sheet%panels
-         call begin_panel(sheet, r, study%responses(r)%label, '', '')
+      do p = 1, size(panels)
+         r = panels(p)
+         call begin_panel(sheet, p, study%responses(r)%label, '', '')
          call sheet%text%line('set xtics '//tic_step([study%effects(r)%lowest, study%effects(r)%highest]))
          data = '$bars'//str(r)
          call sheet%text%line('plot '//data// &
@@ -251,20 +258,22 @@ contains
    end function gaps_plot
 
    !> Sobol indices with their 95 % intervals.
-   function sobol_script(study, name, subtitle) result(text)
+   function sobol_script(study, name, subtitle, panels) result(text)
       type(study_data_t), intent(in) :: study
+      integer, intent(in) :: panels(:)               !! responses
       character(*), intent(in) :: name, subtitle
       character(:), allocatable :: text
       type(sheet_t) :: sheet
       character(:), allocatable :: data, way
       integer :: order(min(most_bars, size(study%factors)))
-      integer :: r, k
+      integer :: p, r, k
 
       way = '; lines: 95 % confidence'
       if (study%kind == 'tolerance') way = '; to second order by derivatives'
-      sheet = new_bars(study, name, 'Sobol indices: share of the variance', subtitle// &
+      sheet = new_bars(study, panels, name, 'Sobol indices: share of the variance', subtitle// &
          '; blue: the factor alone, orange: with its interactions'//way//cut(study))
-      do r = 1, sheet%panels
+      do p = 1, size(panels)
+         r = panels(p)
          associate (effect => study%effects(r))
             order(:) = ranked(effect%total, most_bars)
             call begin_data(sheet, 'bars'//str(r))
@@ -279,8 +288,9 @@ contains
       call sheet%text%line('set style fill solid 1 noborder; set grid noytics; unset xzeroaxis')
       call sheet%text%line('set yrange ['//str(size(order) + 0.6_wp)//':0.4]; set border 1; set ytics scale 0')
       call sheet%text%line('set xrange [* < 0:1 < *]')
-      do r = 1, sheet%panels
-         call begin_panel(sheet, r, study%responses(r)%label//basis_text(study%effects(r), 'base points'), &
+      do p = 1, size(panels)
+         r = panels(p)
+         call begin_panel(sheet, p, study%responses(r)%label//basis_text(study%effects(r), 'base points'), &
             'share of the variance [–]', '')
          data = '$bars'//str(r)
          call sheet%text%line('plot '//data// &
@@ -295,21 +305,23 @@ contains
    end function sobol_script
 
    !> Morris' μ* and σ: far right matters, high up acts nonlinearly or with others.
-   function morris_script(study, name, subtitle) result(text)
+   function morris_script(study, name, subtitle, panels) result(text)
       type(study_data_t), intent(in) :: study
+      integer, intent(in) :: panels(:)               !! responses
       character(*), intent(in) :: name, subtitle
       character(:), allocatable :: text
       type(sheet_t) :: sheet
       character(63) :: names(min(named_points, size(study%factors)))
-      real(wp) :: range(2), ends(2, most_panels)
+      real(wp) :: range(2), ends(2, size(study%responses))
       integer :: order(size(study%factors))
-      integer :: r, k
+      integer :: p, r, k
 
       sheet = new_sheet(name, 'Morris: size and spread of the effects', subtitle// &
          '; effect: change of the response over the full range of the factor; dotted: σ = μ*', &
-         min(size(study%responses), most_panels))
+         size(panels))
       sheet%left = 115
-      do r = 1, sheet%panels
+      do p = 1, size(panels)
+         r = panels(p)
          associate (effect => study%effects(r))
             order(:) = ranked(effect%mean_size, size(study%factors))
             range = range_of_values(effect%mean_size)
@@ -326,8 +338,9 @@ contains
          end associate
       end do
       call begin_panels(sheet)
-      do r = 1, sheet%panels
-         call begin_panel(sheet, r, study%responses(r)%label//basis_text(study%effects(r), 'effects'), &
+      do p = 1, size(panels)
+         r = panels(p)
+         call begin_panel(sheet, p, study%responses(r)%label//basis_text(study%effects(r), 'effects'), &
             'μ*, mean size of the effect', 'σ, spread of the effect')
          call sheet%text%line('set ytics '//tic_step([0.0_wp, ends(2, r)])//'; set xtics '//tic_step([0.0_wp, ends(1, r)])// &
             '; set xrange [0:'//str(ends(1, r), 6)//']; set yrange [0:'//str(ends(2, r), 6)//']')

@@ -1,10 +1,11 @@
-!> The table of the effects of the factors of a study on its responses: strongest factor first, factors without an effect folded.
+!> The table of the effects of the factors of a study on its responses: strongest factor first; many factors, and those without an
+!> effect, folded.
 module ek_effect_table
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
    use ek_text, only: str, plural
    use ek_study_data, only: study_data_t, effects_t, has_indices
    use ek_effect_figures, only: ranked
+   use ek_factor_order, only: most_open, effect_sizes, has_no_effect
    use ek_page, only: page_t, begin_section, add_text, add_markup, begin_table, add_cell, add_group, end_table, page_number
    implicit none(type, external)
    private
@@ -12,71 +13,43 @@ module ek_effect_table
 
 contains
 
-   !> Adds the table of effects of the factors, for the kinds that yield it.
+   !> Adds the table of effects of the factors, for the kinds that yield it: of each response the strongest factors; the others are
+   !> folded.
    subroutine add_effects(page, study)
       type(page_t), intent(inout) :: page
       type(study_data_t), intent(in) :: study
-      real(wp), allocatable :: sizes(:)
-      integer, allocatable :: order(:)
-      integer :: r, f, k
+      integer :: r, folded
 
       select case (study%kind)
       case ('saltelli', 'list')
          if (.not. has_indices(study)) return
          call begin_section(page, 'indices', 'Sobol indices')
-         call begin_table(page, [character(24) :: 'Factor', '>first order', '>± 95 %', '>total', '>± 95 %', &
-            '>base points'])
       case ('tolerance')
          if (.not. has_indices(study)) return
          call begin_section(page, 'shares', 'Share of the variance')
-         call begin_table(page, [character(32) :: 'Factor', '>at the centre', '>standard deviation', '>slope', &
-            '>effect of one deviation', '>share', '>with interactions'])
       case ('morris')
          call begin_section(page, 'effects', 'Elementary effects')
-         call begin_table(page, [character(24) :: 'Factor', '>μ*', '>σ', '>effects'])
       case ('one_at_a_time')
          call begin_section(page, 'effects', 'One factor at a time')
-         call begin_table(page, [character(24) :: 'Factor', '>at its smallest', '>at its largest', '>span'])
       case default
          return
       end select
+      call begin_effects(page, study)
+      folded = 0
       do r = 1, size(study%responses)
-         call add_group(page, study%responses(r)%label)
-         allocate (sizes, source=effect_sizes(study, r))
-         allocate (order, source=ranked(sizes, size(sizes)))
-         do k = 1, size(order)
-            f = order(k)
-            if (has_no_effect(sizes, f)) cycle
-            call add_cell(page, study%factors(f)%name)
-            associate (effect => study%effects(r))
-               select case (study%kind)
-               case ('saltelli', 'list')
-                  call add_cell(page, page_number(effect%first(f)), 'n')
-                  call add_cell(page, page_number(effect%first_error(f)), 'n')
-                  call add_cell(page, page_number(effect%total(f)), 'n')
-                  call add_cell(page, page_number(effect%total_error(f)), 'n')
-                  call add_cell(page, str(effect%used(f))//' of '//str(effect%planned), 'n')
-               case ('tolerance')
-                  call add_cell(page, page_number(study%centers(f)), 'n')
-                  call add_cell(page, page_number(study%deviations(f)), 'n')
-                  call add_cell(page, page_number(effect%slope(f)), 'n')
-                  call add_cell(page, page_number(effect%effect(f)), 'n')
-                  call add_cell(page, page_number(100.0_wp*effect%first(f))//' %', 'n')
-                  call add_cell(page, page_number(100.0_wp*effect%total(f))//' %', 'n')
-               case ('morris')
-                  call add_cell(page, page_number(effect%mean_size(f)), 'n')
-                  call add_cell(page, page_number(effect%deviation(f)), 'n')
-                  call add_cell(page, str(effect%used(f))//' of '//str(effect%planned), 'n')
-               case default
-                  call add_cell(page, page_number(effect%at_low(f)), 'n')
-                  call add_cell(page, page_number(effect%at_high(f)), 'n')
-                  call add_cell(page, page_number(effect%highest(f) - effect%lowest(f)), 'n')
-               end select
-            end associate
-         end do
-         deallocate (sizes, order)
+         call add_rows(page, study, r, 1, most_open)
+         folded = folded + max(0, count_of(study, r) - most_open)
       end do
       call end_table(page)
+      if (folded > 0) then
+         call add_markup(page, '<details class="more"><summary>'//plural(folded, 'row', 'rows')//' with smaller effects</summary>')
+         call begin_effects(page, study)
+         do r = 1, size(study%responses)
+            if (count_of(study, r) > most_open) call add_rows(page, study, r, most_open + 1, count_of(study, r))
+         end do
+         call end_table(page)
+         call add_markup(page, '</details>')
+      end if
       call add_idle(page, study)
       if (study%failed == 0) return
       if (study%kind == 'one_at_a_time') call add_text(page, 'p', '–: the design at this end of the factor '// &
@@ -86,33 +59,81 @@ contains
          'An index rests on the base points whose designs were all solved.')
    end subroutine add_effects
 
-   !> The sizes by which the factors are sorted for a response: total index, share, μ* or span.
-   function effect_sizes(study, r) result(sizes)
+   !> Begins a table of effects with the headings of the kind of the study.
+   subroutine begin_effects(page, study)
+      type(page_t), intent(inout) :: page
+      type(study_data_t), intent(in) :: study
+
+      select case (study%kind)
+      case ('saltelli', 'list')
+         call begin_table(page, [character(24) :: 'Factor', '>first order', '>± 95 %', '>total', '>± 95 %', '>base points'])
+      case ('tolerance')
+         call begin_table(page, [character(32) :: 'Factor', '>at the centre', '>standard deviation', '>slope', &
+            '>effect of one deviation', '>share', '>with interactions'])
+      case ('morris')
+         call begin_table(page, [character(24) :: 'Factor', '>μ*', '>σ', '>effects'])
+      case default
+         call begin_table(page, [character(24) :: 'Factor', '>at its smallest', '>at its largest', '>span'])
+      end select
+   end subroutine begin_effects
+
+   !> The number of factors that have an effect on a response.
+   pure integer function count_of(study, r)
       type(study_data_t), intent(in) :: study
       integer, intent(in) :: r
       real(wp), allocatable :: sizes(:)
+      integer :: f
 
-      associate (effect => study%effects(r))
-         select case (study%kind)
-         case ('saltelli', 'list', 'tolerance')
-            sizes = effect%total
-         case ('morris')
-            sizes = effect%mean_size
-         case default
-            sizes = effect%highest - effect%lowest
-         end select
-      end associate
-   end function effect_sizes
+      sizes = effect_sizes(study, r)
+      count_of = count([(.not. has_no_effect(sizes, f), f=1, size(sizes))])
+   end function count_of
 
-   !> Whether a factor has no effect on a response: less than a millionth of the largest effect.
-   pure logical function has_no_effect(sizes, f)
-      real(wp), intent(in) :: sizes(:)
-      integer, intent(in) :: f
-      real(wp), parameter :: rounding = 1.0e-6_wp
+   !> Adds the rows of a response, strongest first, from one rank to another; factors without an effect have no row.
+   subroutine add_rows(page, study, r, first, last)
+      type(page_t), intent(inout) :: page
+      type(study_data_t), intent(in) :: study
+      integer, intent(in) :: r, first, last
+      real(wp), allocatable :: sizes(:)
+      integer, allocatable :: order(:)
+      integer :: f, k, rank
 
-      has_no_effect = .false.
-      if (ieee_is_finite(sizes(f))) has_no_effect = abs(sizes(f)) <= rounding*maxval(abs(sizes), mask=ieee_is_finite(sizes))
-   end function has_no_effect
+      call add_group(page, study%responses(r)%label)
+      sizes = effect_sizes(study, r)
+      order = ranked(sizes, size(sizes))
+      rank = 0
+      do k = 1, size(order)
+         f = order(k)
+         if (has_no_effect(sizes, f)) cycle
+         rank = rank + 1
+         if (rank < first .or. rank > last) cycle
+         call add_cell(page, study%factors(f)%name)
+         associate (effect => study%effects(r))
+            select case (study%kind)
+            case ('saltelli', 'list')
+               call add_cell(page, page_number(effect%first(f)), 'n')
+               call add_cell(page, page_number(effect%first_error(f)), 'n')
+               call add_cell(page, page_number(effect%total(f)), 'n')
+               call add_cell(page, page_number(effect%total_error(f)), 'n')
+               call add_cell(page, str(effect%used(f))//' of '//str(effect%planned), 'n')
+            case ('tolerance')
+               call add_cell(page, page_number(study%centers(f)), 'n')
+               call add_cell(page, page_number(study%deviations(f)), 'n')
+               call add_cell(page, page_number(effect%slope(f)), 'n')
+               call add_cell(page, page_number(effect%effect(f)), 'n')
+               call add_cell(page, page_number(100.0_wp*effect%first(f))//' %', 'n')
+               call add_cell(page, page_number(100.0_wp*effect%total(f))//' %', 'n')
+            case ('morris')
+               call add_cell(page, page_number(effect%mean_size(f)), 'n')
+               call add_cell(page, page_number(effect%deviation(f)), 'n')
+               call add_cell(page, str(effect%used(f))//' of '//str(effect%planned), 'n')
+            case default
+               call add_cell(page, page_number(effect%at_low(f)), 'n')
+               call add_cell(page, page_number(effect%at_high(f)), 'n')
+               call add_cell(page, page_number(effect%highest(f) - effect%lowest(f)), 'n')
+            end select
+         end associate
+      end do
+   end subroutine add_rows
 
    !> Adds the factors without an effect, folded.
    subroutine add_idle(page, study)

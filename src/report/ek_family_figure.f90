@@ -3,9 +3,9 @@ module ek_family_figure
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
    use ek_text, only: str
-   use ek_study_data, only: study_data_t, most_panels, is_geometric, range_of_values
+   use ek_study_data, only: study_data_t, is_geometric, range_of_values
    use ek_study_sheet, only: sheet_t, new_sheet, begin_data, add_numbers, end_data, begin_panels, begin_panel, end_panels, blues
-   use ek_sample_figures, only: thinned, cut, add_scale
+   use ek_sample_figures, only: thinned, add_scale
    implicit none(type, external)
    private
    public :: family_script, curve_leader
@@ -15,8 +15,9 @@ module ek_family_figure
 contains
 
    !> The script of the figure.
-   function family_script(study, name, subtitle) result(text)
+   function family_script(study, name, subtitle, panels) result(text)
       type(study_data_t), intent(in) :: study
+      integer, intent(in) :: panels(:)               !! columns
       character(*), intent(in) :: name, subtitle
       character(:), allocatable :: text
       type(sheet_t) :: sheet
@@ -25,24 +26,23 @@ contains
       integer :: c, every
 
       every = (size(study%drawn) + most_curves - 1)/most_curves
-      sheet = new_sheet(name, 'The curves of all designs', '', min(size(study%columns), most_panels))
+      sheet = new_sheet(name, 'The curves of all designs', '', size(panels))
       if (size(study%drawn)*every < study%designs .or. every > 1) sheet%title = 'The curves of some designs'
       allocate (leaders(sheet%panels))
       do c = 1, sheet%panels
-         leaders(c) = curve_leader(study, c)
+         leaders(c) = curve_leader(study, panels(c))
       end do
       is_common = all(leaders == leaders(1))
       sheet%has_scale = is_common
       sheet%subtitle = subtitle// &
-         thinned(every*max(1, study%designs/max(1, size(study%drawn))), study%designs)// &
-         cut(sheet%panels, size(study%columns), 'columns')
+         thinned(every*max(1, study%designs/max(1, size(study%drawn))), study%designs)
       if (.not. is_common) sheet%subtitle = sheet%subtitle//'; colour: from dark to light the factor above each panel'
-      call add_curves(sheet, study, leaders, every)
+      call add_curves(sheet, study, panels, leaders, every)
       call begin_panels(sheet)
       call sheet%text%line(blues)
       if (is_common) call add_scale(sheet, study%factors(leaders(1))%label, study%x(leaders(1), :))
       do c = 1, sheet%panels
-         call begin_panel(sheet, c, trim(above(c)), study%swept, study%columns(c)%label)
+         call begin_panel(sheet, c, trim(above(c)), study%swept, study%columns(panels(c))%label)
          if (c == 2 .or. .not. is_common) call sheet%text%line('unset colorbox')
          call sheet%text%line('unset logscale cb')
          if (is_geometric(study%x(leaders(c), :))) call sheet%text%line('set logscale cb')
@@ -68,17 +68,17 @@ contains
    end function family_script
 
    !> Adds the data: swept value, the factor of each panel, the column of each panel.
-   subroutine add_curves(sheet, study, leaders, every)
+   subroutine add_curves(sheet, study, panels, leaders, every)
       type(sheet_t), intent(inout) :: sheet
       type(study_data_t), intent(in) :: study
-      integer, intent(in) :: leaders(:), every
+      integer, intent(in) :: panels(:), leaders(:), every
       integer :: k, j
 
       call begin_data(sheet, 'curves')
       do k = 1, size(study%drawn), every
          do j = 1, size(study%sweep)
             if (.not. any(ieee_is_finite(study%curves(:, j, k)))) cycle
-            call add_numbers(sheet, [study%sweep(j), study%x(leaders, study%drawn(k)), study%curves(:size(leaders), j, k)])
+            call add_numbers(sheet, [study%sweep(j), study%x(leaders, study%drawn(k)), study%curves(panels, j, k)])
          end do
          call sheet%text%line('')
       end do

@@ -67,7 +67,7 @@ contains
       if (len(html) > 0) call page%body%line(html)
    end subroutine add_markup
 
-   !> Begins a section and ends the previous section. In print, the section starts a page. `id` has letters, digits, _ and -.
+   !> Begins a section and ends the previous section. `id` has letters, digits, _ and -.
    pure subroutine begin_section(page, id, title, condition, is_printed)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: id, title
@@ -170,11 +170,12 @@ contains
    end subroutine add_group
 
    !> Adds the next cell, of text, of a number (kind 'n'), or of small text ('s'); a row has as many as the table has headings.
-   pure subroutine add_cell(page, text, kind, link)
+   pure subroutine add_cell(page, text, kind, link, verdict)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: text
       character(1), intent(in), optional :: kind
       character(*), intent(in), optional :: link       !! id of the target of the link on the page
+      character(*), intent(in), optional :: verdict    !! after the text, in colour: 'inside' in that of good, others in that of bad
 
       if (page%cells == 0) call page%body%add('<tr>')
       call page%body%add('<td')
@@ -182,11 +183,23 @@ contains
       if (present(link)) then
          call page%body%add('><a href="#'//escape_html(link)//'">'//escape_html(text)//'</a></td>')
       else
-         call page%body%add('>'//escape_html(text)//'</td>')
+         call page%body%add('>'//escape_html(text))
+         if (present(verdict)) call page%body%add(verdict_html(verdict))
+         call page%body%add('</td>')
       end if
       page%cells = modulo(page%cells + 1, page%table_columns)
       if (page%cells == 0) call page%body%line('</tr>')
    end subroutine add_cell
+
+   !> A verdict by word and colour; '' without one.
+   pure function verdict_html(verdict) result(html)
+      character(*), intent(in) :: verdict
+      character(:), allocatable :: html
+
+      html = ''
+      if (verdict /= '') html = ' <span class="target '//trim(merge('inside ', 'outside', verdict == 'inside'))//'">'// &
+         escape_html(verdict)//'</span>'
+   end function verdict_html
 
    !> Adds the next cell: a bar from the middle to the right or, of a negative share, to the left.
    pure subroutine add_bar(page, share)

@@ -7,7 +7,8 @@ module ek_parallel_figure
    use ek_study_data, only: study_data_t, range_of_values
    use ek_study_sheet, only: sheet_t, new_sheet, two_lines, begin_data, add_numbers, end_data, begin_panels, begin_panel, &
       end_panels, blues
-   use ek_sample_figures, only: most_columns, thinned, cut, add_scale, leading_factors
+   use ek_sample_figures, only: thinned, cut, add_scale
+   use ek_scatter_figure, only: most_columns, leading_factors
    implicit none(type, external)
    private
    public :: parallel_script

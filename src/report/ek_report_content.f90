@@ -31,6 +31,7 @@ module ek_report_content
       type(turntable_t), allocatable :: turntable      !! the suspension in space, if something moves
       integer :: axle = 0                              !! −1 front, 1 rear, 0 unknown; for the effect of steer on the car
       type(message_list_t) :: drawn                    !! scripts and pictures of this report, relative to the folder
+      type(message_list_t) :: copies                   !! load tables that stand with the deck as it was used, in the folder
       integer :: incomplete = 0                        !! tests that failed or were not run to their ends
       logical :: is_static = .false.                   !! the charts of gnuplot, no script
       logical :: has_pictures = .false., has_animation = .false., has_views = .false.   !! the folder has these of this report

@@ -12,14 +12,13 @@ module ek_report_files
    use ek_test_result, only: test_result_t, find_wheels, choose_abscissa, read_frame_line
    use ek_gradient, only: gradient_t, test_gradients, read_gradients
    use ek_gradient_definition, only: windows_t
+   use ek_report_names, only: contents_file, gradients_file, numbers_file, deck_file, is_table_of_report
    use ek_deck_file, only: deck_record_t, read_deck_file, facts_of_table
    implicit none(type, external)
    private
-   public :: results_t, read_results, read_test, write_contents, test_line, name_files, table_file, envelope_file, contents_file, &
-      gradients_file, compliance_file, numbers_file, deck_file, test_number
+   public :: results_t, read_results, read_test, write_contents, test_line, name_files, table_file, envelope_file, &
+      test_number
 
-   character(*), parameter :: contents_file = 'tests.csv', gradients_file = 'gradients.csv', &
-      compliance_file = 'compliance.csv', numbers_file = 'key_numbers.csv', deck_file = 'deck.csv'
    character(*), parameter :: mark = 'test ', size_mark = 'factor size ', anti_mark = '(anti phase)'
 
    !> Results to be compared: a report folder or one table.
@@ -67,9 +66,7 @@ contains
       character(:), allocatable :: file
 
       file = name//'.csv'
-      if (any(lower(file) == [character(15) :: contents_file, gradients_file, compliance_file, numbers_file, deck_file, &
-         'loads.csv'])) &
-         file = name//'-case.csv'
+      if (is_table_of_report(lower(file))) file = name//'-case.csv'
    end function table_file
 
    !> The file of the wheel envelope of a test, different from the files of the tables.

@@ -4,17 +4,16 @@ module ek_sample_figures
    use ek_kinds, only: wp
    use ek_text, only: str
    use ek_gnuplot_text, only: gnuplot_text
-   use ek_study_data, only: study_data_t, most_panels, range_of_values, is_geometric, tic_step, has_expected
+   use ek_study_data, only: study_data_t, range_of_values, is_geometric, tic_step, has_expected
    use ek_study_sheet, only: sheet_t, new_sheet, begin_data, add_numbers, end_data, begin_panels, begin_panel, end_panels, &
       full_height, blues
    implicit none(type, external)
    private
-   public :: fan_script, scatter_script, histogram_script, convergence_script
-   public :: most_columns, thinned, cut, add_scale, leading_factors
+   public :: fan_script, histogram_script, convergence_script
+   public :: thinned, cut, add_scale
 
    character(*), parameter :: nl = new_line('a')
-   integer, parameter :: most_points = 20000         !! of a scatter matrix, all panels together
-   integer, parameter :: most_rows = 6, most_columns = 7     !! of a scatter matrix: responses, factors
+   real(wp), parameter :: room_above = 1.08_wp       !! upper edge of a histogram over its highest bar
 
 contains
 
@@ -59,22 +58,23 @@ contains
    end function above
 
    !> The script of a fan figure: the median, and the bands that contain 50 % and 90 % of the curves.
-   function fan_script(study, name, subtitle) result(text)
+   function fan_script(study, name, subtitle, panels) result(text)
       type(study_data_t), intent(in) :: study
+      integer, intent(in) :: panels(:)               !! columns
       character(*), intent(in) :: name, subtitle
       character(:), allocatable :: text
       type(sheet_t) :: sheet
       character(:), allocatable :: data, which
       real(wp) :: base
-      integer :: c, j
+      integer :: p, c, j
 
       which = 'the'
       if (2*size(study%drawn) <= study%designs) which = str(size(study%drawn))//' of the'
       sheet = new_sheet(name, 'The band of the curves', subtitle// &
          '; line: median, dark: 25 to 75 %, light: 5 to 95 % of '//which//' designs'// &
-         trim(merge('; dashed: 5, 95 % by derivatives', '                                ', has_expected(study)))// &
-         cut(min(size(study%columns), most_panels), size(study%columns), 'columns'), min(size(study%columns), most_panels))
-      do c = 1, sheet%panels
+         trim(merge('; dashed: 5, 95 % by derivatives', '                                ', has_expected(study))), size(panels))
+      do p = 1, size(panels)
+         c = panels(p)
          call begin_data(sheet, 'band'//str(c))
          do j = 1, size(study%sweep)
             if (.not. ieee_is_finite(study%bands(1, c, j))) cycle
@@ -92,8 +92,9 @@ contains
          call end_data(sheet)
       end do
       call begin_panels(sheet)
-      do c = 1, sheet%panels
-         call begin_panel(sheet, c, trim(merge('deviation from the median', '                         ', is_narrow(study, c))), &
+      do p = 1, size(panels)
+         c = panels(p)
+         call begin_panel(sheet, p, trim(merge('deviation from the median', '                         ', is_narrow(study, c))), &
             study%swept, study%columns(c)%label)
          data = '$band'//str(c)
          call sheet%text%line('plot '//data//" using 1:2:6 with filledcurves fillcolor rgb '#CCE3F0' notitle, \"//nl// &
@@ -128,98 +129,23 @@ contains
       is_narrow = width(2) < 0.05_wp*(range(2) - range(1))
    end function is_narrow
 
-   !> Responses over factors; the factors with the largest rank correlations if there are many.
-   function scatter_script(study, name, subtitle) result(text)
-      type(study_data_t), intent(in) :: study
-      character(*), intent(in) :: name, subtitle
-      character(:), allocatable :: text
-      type(sheet_t) :: sheet
-      integer, allocatable :: factors(:)
-      integer :: r, f, d, rows, every, number
-      character(:), allocatable :: x_label, y_label, title
-
-      rows = min(size(study%responses), most_rows)
-      allocate (factors(min(most_columns, size(study%factors))))
-      factors(:) = leading_factors(study, most_columns)
-      every = max(1, (study%designs*rows*size(factors) + most_points - 1)/most_points)
-      sheet = new_sheet(name, 'Responses over factors', subtitle//'; r: rank correlation'//thinned(every, study%designs)// &
-         cut(size(factors), size(study%factors), 'factors, those with the largest r')// &
-         cut(rows, size(study%responses), 'responses'), rows*size(factors), height=merge(250, 340, rows*size(factors) > 4))
-      sheet%columns = size(factors)
-      sheet%width = max(900, min(1700, 120 + 270*size(factors)))
-      sheet%letters = 12
-      sheet%left = 84
-      sheet%right = 20
-      sheet%bottom = 76
-      call begin_data(sheet, 'rows')
-      do d = 1, study%designs, every
-         call add_numbers(sheet, [study%x(factors, d), study%y(:rows, d)])
-      end do
-      call end_data(sheet)
-      call begin_panels(sheet)
-      call sheet%text%line('unset xzeroaxis; unset yzeroaxis')
-      number = 0
-      do r = 1, rows
-         do f = 1, size(factors)
-            number = number + 1
-            x_label = study%factors(factors(f))%label
-            if (r < rows) x_label = ''
-            y_label = study%responses(r)%label
-            if (f > 1) y_label = ''
-            title = 'r = –'
-            if (ieee_is_finite(study%effects(r)%correlation(factors(f)))) &
-               title = 'r = '//str(real(nint(100*study%effects(r)%correlation(factors(f))), wp)/100, 2)
-            call begin_panel(sheet, number, title, x_label, y_label, most=19)
-            call sheet%text%line('set xtics '//tic_step(study%x(factors(f), :))//'; set ytics '//tic_step(study%y(r, :))//nl// &
-               'plot $rows using '//str(f)//':'// &
-               str(size(factors) + r)//" with points pointtype 7 pointsize 0.35 linecolor rgb '#600072B2' notitle")
-         end do
-      end do
-      call sheet%text%line('set xtics autofreq; set ytics autofreq')
-      text = end_panels(sheet)
-   end function scatter_script
-
-   !> The factors in their order; of many, those with the largest rank correlation with any response.
-   pure function leading_factors(study, most) result(factors)
-      type(study_data_t), intent(in) :: study
-      integer, intent(in) :: most
-      integer, allocatable :: factors(:)
-      real(wp) :: size_of(size(study%factors))
-      logical :: is_used(size(study%factors))
-      integer :: f, r, at
-
-      size_of = 0.0_wp
-      do r = 1, size(study%responses)
-         do f = 1, size(size_of)
-            if (ieee_is_finite(study%effects(r)%correlation(f))) &
-               size_of(f) = max(size_of(f), abs(study%effects(r)%correlation(f)))
-         end do
-      end do
-      is_used = .false.
-      do f = 1, min(most, size(size_of))
-         at = maxloc(size_of, dim=1, mask=.not. is_used)
-         is_used(at) = .true.
-      end do
-      factors = pack([(f, f=1, size(size_of))], is_used)
-   end function leading_factors
-
    !> Histogram of each response with its percentiles and limits.
-   function histogram_script(study, name, subtitle) result(text)
+   function histogram_script(study, name, subtitle, panels) result(text)
       type(study_data_t), intent(in) :: study
+      integer, intent(in) :: panels(:)               !! responses
       character(*), intent(in) :: name, subtitle
       character(:), allocatable :: text
       type(sheet_t) :: sheet
       character(:), allocatable :: line
       real(wp) :: width, room, ends(2)
       logical :: has_scatter
-      integer :: r, k
+      integer :: p, r, k
 
       sheet = new_sheet(name, 'Distribution of the responses', subtitle// &
          '; lines: 5, 50 and 95 %, dashed: limits'// &
-         trim(merge('; orange: by derivatives', '                        ', allocated(study%moments)))// &
-         cut(min(size(study%responses), most_panels), size(study%responses), &
-         'responses'), min(size(study%responses), most_panels))
-      do r = 1, sheet%panels
+         trim(merge('; orange: by derivatives', '                        ', allocated(study%moments))), size(panels))
+      do p = 1, size(panels)
+         r = panels(p)
          if (maxval([0, study%summaries(r)%counts]) >= 10000) sheet%left = 130
          associate (summary => study%summaries(r))
             call begin_data(sheet, 'bins'//str(r))
@@ -234,10 +160,11 @@ contains
          end associate
       end do
       call begin_panels(sheet)
-      call sheet%text%line('set style fill solid 1 noborder; unset yzeroaxis; set yrange [0:*]')
-      do r = 1, sheet%panels
+      call sheet%text%line('set style fill solid 1 noborder; unset yzeroaxis')
+      do p = 1, size(panels)
+         r = panels(p)
          associate (summary => study%summaries(r), response => study%responses(r))
-            call begin_panel(sheet, r, '', response%label, 'designs')
+            call begin_panel(sheet, p, '', response%label, 'designs')
             call sheet%text%line('unset arrow; unset label 3; unset label 4; unset label 5')
             has_scatter = summary%highest > summary%lowest
             do k = merge(1, 2, has_scatter), merge(3, 2, has_scatter)
@@ -258,7 +185,7 @@ contains
             if (response%lower < ends(1) .and. response%lower > ends(1) - room) ends(1) = response%lower
             if (response%upper > ends(2) .and. response%upper < ends(2) + room) ends(2) = response%upper
             call sheet%text%line('set xrange ['//str(ends(1) - 0.06_wp*room, 9)//':'//str(ends(2) + 0.06_wp*room, 9)// &
-               ']; set xtics '//tic_step(ends))
+               ']; set xtics '//tic_step(ends)//nl//'set yrange [0:'//str(room_above*highest(study, r), 7)//']')
             call sheet%text%line('plot $bins'//str(r)//" using 1:2:3 with boxes linecolor rgb '#80BAD8' notitle"// &
                density_of(study, r))
          end associate
@@ -267,6 +194,46 @@ contains
       text = end_panels(sheet)
    end function histogram_script
 
+   !> The height of the highest bar of a histogram, or of the density over it; 1 without designs.
+   pure real(wp) function highest(study, r)
+      type(study_data_t), intent(in) :: study
+      integer, intent(in) :: r                       !! response
+      real(wp), parameter :: step = 0.05_wp          ! of the density in standard deviations: its top is flat
+      real(wp) :: z
+      integer :: k
+
+      associate (summary => study%summaries(r))
+         highest = max(1, merge(maxval(summary%counts), summary%used, summary%highest > summary%lowest))
+         if (.not. has_density(study, r)) return
+         do k = -60, 60
+            z = step*k
+            highest = max(highest, density_height(study, r)*exp(-0.5_wp*z**2)* &
+               (1.0_wp + study%moments(2, r)%skewness/6.0_wp*(z**3 - 3.0_wp*z)))
+         end do
+      end associate
+   end function highest
+
+   !> Whether derivatives give a density that can be drawn over the histogram of a response.
+   pure logical function has_density(study, r)
+      type(study_data_t), intent(in) :: study
+      integer, intent(in) :: r                       !! response
+
+      has_density = allocated(study%moments)
+      if (has_density) has_density = study%moments(2, r)%deviation > 0.0_wp .and. &
+         study%summaries(r)%highest > study%summaries(r)%lowest
+   end function has_density
+
+   !> The height of the normal density over a histogram at its mean, in designs per bar.
+   pure real(wp) function density_height(study, r) result(height)
+      type(study_data_t), intent(in) :: study
+      integer, intent(in) :: r                       !! response
+
+      associate (summary => study%summaries(r))
+         height = summary%used*(summary%highest - summary%lowest)/size(summary%counts)/ &
+            (study%moments(2, r)%deviation*sqrt(2.0_wp*acos(-1.0_wp)))
+      end associate
+   end function density_height
+
    !> The plot command of the density computed from derivatives (normal with skewness, Edgeworth), drawn over the histogram; '' if
    !> there is no such density.
    function density_of(study, r) result(more)
@@ -274,16 +241,13 @@ contains
       integer, intent(in) :: r                       !! response
       character(:), allocatable :: more
       character(:), allocatable :: z
-      real(wp) :: height
 
       more = ''
-      if (.not. allocated(study%moments)) return
-      associate (row => study%moments(2, r), summary => study%summaries(r))
-         if (.not. (row%deviation > 0.0_wp .and. summary%highest > summary%lowest)) return
-         height = summary%used*(summary%highest - summary%lowest)/size(summary%counts)/(row%deviation*sqrt(2.0_wp*acos(-1.0_wp)))
+      if (.not. has_density(study, r)) return
+      associate (row => study%moments(2, r))
          z = '((x - ('//str(row%mean, 9)//'))/'//str(row%deviation, 9)//')'
-         more = ', \'//nl//'     '//str(height, 7)//'*exp(-0.5*'//z//'**2)*(1 + ('//str(row%skewness/6.0_wp, 7)//')*('// &
-            z//'**3 - 3*'//z//")) with lines linewidth 2 linecolor rgb '#D55E00' notitle"
+         more = ', \'//nl//'     '//str(density_height(study, r), 7)//'*exp(-0.5*'//z//'**2)*(1 + ('// &
+            str(row%skewness/6.0_wp, 7)//')*('//z//'**3 - 3*'//z//")) with lines linewidth 2 linecolor rgb '#D55E00' notitle"
       end associate
    end function density_of
 
@@ -305,20 +269,20 @@ contains
    end subroutine add_mark
 
    !> The mean of the first n designs with its 95 % interval, over n.
-   function convergence_script(study, name, subtitle) result(text)
+   function convergence_script(study, name, subtitle, panels) result(text)
       type(study_data_t), intent(in) :: study
+      integer, intent(in) :: panels(:)               !! responses
       character(*), intent(in) :: name, subtitle
       character(:), allocatable :: text
       type(sheet_t) :: sheet
       character(:), allocatable :: data
-      integer :: r, k
+      integer :: p, r, k
 
       sheet = new_sheet(name, 'Convergence of the mean', subtitle// &
-         '; band: 95 % confidence if the designs were drawn at random'// &
-         cut(min(size(study%responses), most_panels), size(study%responses), 'responses'), &
-         min(size(study%responses), most_panels))
+         '; band: 95 % confidence if the designs were drawn at random', size(panels))
       sheet%right = 48
-      do r = 1, sheet%panels
+      do p = 1, size(panels)
+         r = panels(p)
          associate (summary => study%summaries(r))
             call begin_data(sheet, 'mean'//str(r))
             if (size(summary%steps) == 0) call add_numbers(sheet, [1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp])
@@ -331,9 +295,10 @@ contains
       end do
       call begin_panels(sheet)
       call sheet%text%line('set logscale x; unset xzeroaxis; unset yzeroaxis')
-      do r = 1, sheet%panels
+      do p = 1, size(panels)
+         r = panels(p)
          data = '$mean'//str(r)
-         call begin_panel(sheet, r, '', 'number of designs', 'mean of '//study%responses(r)%label)
+         call begin_panel(sheet, p, '', 'number of designs', 'mean of '//study%responses(r)%label)
          call sheet%text%line('plot '//data//" using 1:3:4 with filledcurves fillcolor rgb '#CCE3F0' notitle, \"//nl// &
             '     '//data//" using 1:2 with lines linewidth 2.2 linecolor rgb '#00486F' notitle")
       end do

@@ -9,7 +9,8 @@ module ek_step_page
    use ek_file, only: join_path, file_exists, read_whole
    use ek_text_table, only: text_table_t, cell_of
    use ek_chart, only: palette
-   use ek_study_sheet, only: sheet_t, new_sheet, begin_data, add_numbers, end_data, begin_panels, begin_panel, end_panels
+   use ek_study_sheet, only: sheet_t, new_sheet, begin_data, add_numbers, end_data, begin_panels, begin_panel, end_panels, &
+      full_height
    use ek_page, only: page_t, begin_page, begin_section, add_text, add_warnings, add_facts, begin_table, add_cell, add_group, &
       end_table, add_picture, page_text, page_number
    implicit none(type, external)
@@ -129,7 +130,8 @@ contains
          call end_data(sheet)
       end do
       call begin_panels(sheet)
-      call sheet%text%line("set logscale xy; set key bottom left samplen 1.6 textcolor rgb '#404040'")
+      call sheet%text%line("set logscale xy; set key at screen 0.97, screen "//str(1.0_wp - 12.0_wp/full_height(sheet), 5)// &
+         " right top samplen 1.6 textcolor rgb '#404040'")
       call sheet%text%line("set format y '%.0e'")
       do e = 1, errors
          call begin_panel(sheet, e, '', 'increments', trim(labels(e)))
@@ -140,6 +142,7 @@ contains
                "linecolor rgb '"//palette(modulo(m - 1, size(palette)) + 1)//"' title '"//trim(methods(m))//"'"
          end do
          call sheet%text%line(line)
+         if (e == 1) call sheet%text%line('unset key')       ! one legend, above the panels at the right
       end do
       text = end_panels(sheet)
    end function step_script

@@ -6,19 +6,20 @@ module ek_study_data
    use ek_text, only: str
    implicit none(type, external)
    private
-   public :: study_data_t, study_axis_t, summary_t, effects_t, extreme_t, moment_row_t, percents, most_panels, methods, basis_text
+   public :: study_data_t, study_axis_t, summary_t, effects_t, extreme_t, moment_row_t, percents, methods, basis_text
    public :: range_of_values, is_geometric, tic_step, has_indices, has_expected
 
    integer, parameter :: percents(5) = [5, 25, 50, 75, 95]      !! percentiles of a summary and of a band
-   integer, parameter :: most_panels = 9                        !! of one figure; it notes that further responses are omitted
 
    !> A factor, a response or a column of the curves.
    type :: study_axis_t
       character(:), allocatable :: name
       character(:), allocatable :: head                !! of the column of a factor
       character(:), allocatable :: label               !! name with unit
+      character(:), allocatable :: unit                !! of a response or column; '' without one
       character(:), allocatable :: note                !! path of a factor; description of a response
       real(wp) :: lower = -huge(1.0_wp), upper = huge(1.0_wp)      !! limits of a response
+      logical :: is_target = .false.                   !! the limits are the band of the deck, not of the study
    end type study_axis_t
 
    !> A response over all designs that have it.

@@ -6,9 +6,11 @@ module ek_study_page
    use ek_text, only: str, plural
    use ek_version, only: version
    use ek_file, only: join_path, file_exists, read_whole
-   use ek_study_data, only: study_data_t, study_axis_t, percents, methods, range_of_values
-   use ek_study_figures, only: rules, applies, figure_name
+   use ek_study_data, only: study_data_t, study_axis_t, summary_t, percents, methods, range_of_values
+   use ek_study_figures, only: rules, applies, figure_name, sheets, others
    use ek_effect_table, only: add_effects
+   use ek_factor_order, only: most_open, factor_order, strongest_names, effect_measure
+   use ek_svg, only: escape_html
    use ek_page, only: page_t, begin_page, begin_section, add_text, add_warnings, add_facts, begin_table, add_cell, add_group, &
       add_markup, end_table, add_picture, page_text, page_number
    implicit none(type, external)
@@ -17,8 +19,6 @@ module ek_study_page
 
    character(*), parameter :: method_words(3) = [character(26) :: 'derivatives, first order', 'derivatives, second order', &
       'Monte Carlo']
-
-   integer, parameter :: most_factors = 12        !! of a table that is not folded
 
 contains
 
@@ -38,7 +38,7 @@ contains
       character(:), allocatable :: text
       type(page_t) :: page
       type(message_list_t) :: names, values, trouble
-      character(:), allocatable :: title
+      character(:), allocatable :: title, name
 
       title = study%title
       if (title == '') title = study%name
@@ -49,19 +49,22 @@ contains
       call add('Responses', str(size(study%responses)))
       call add('Case', study%case)
       call add('Failed', str(study%failed))
-      if (any_limit(study)) call add('Within all limits', str(study%within)//' ('//share(study%within, study%designs)//')')
+      name = 'Within all limits'
+      if (any(study%responses%is_target)) name = 'Within the limits of the study'
+      if (any_limit(study, of_study=.true.)) call add(name, str(study%within)//' ('//share(study%within, study%designs)//')')
       call add('Program', 'elastokin '//version)
       call add_facts(page, names, values)
       call add_warnings(page, plural(study%failed, 'design', 'designs')//' of '//str(study%designs)// &
          ' failed and are omitted below', study%reasons)
       if (message /= '') call trouble%add(message)
       call add_warnings(page, 'Figures', trouble)
+      ! the summary, in the order of the first page on paper
       call add_responses(page, study)
+      call add_extremes(page, study)
       call add_factors(page, study)
       if (figures /= '') call add_figures(page, study, figures)
       call add_moments(page, study)
       call add_effects(page, study)
-      call add_extremes(page, study)
       text = page_text(page)
 
    contains
@@ -75,9 +78,12 @@ contains
    end function study_page
 
    !> Whether a response has a limit.
-   pure logical function any_limit(study)
+   pure logical function any_limit(study, of_study)
       type(study_data_t), intent(in) :: study
-      any_limit = any(study%responses%lower > -huge(1.0_wp) .or. study%responses%upper < huge(1.0_wp))
+      logical, intent(in) :: of_study                !! .true.: without the bands of the deck
+
+      any_limit = any((study%responses%lower > -huge(1.0_wp) .or. study%responses%upper < huge(1.0_wp)) .and. &
+         .not. (of_study .and. study%responses%is_target))
    end function any_limit
 
    !> A share in percent: '97.3 %'.
@@ -102,42 +108,82 @@ contains
       end if
    end function limits_text
 
+   !> The limits, with a word for a band of the deck: 'target −30 … −20'.
+   pure function limits_words(axis) result(text)
+      type(study_axis_t), intent(in) :: axis
+      character(:), allocatable :: text
+
+      text = limits_text(axis)
+      if (axis%is_target) text = 'target '//text
+   end function limits_words
+
+   !> Adds a cell with the verdict on the designs by word and colour: all inside, some outside, all outside.
+   subroutine add_verdict(page, text, is_all, is_any)
+      type(page_t), intent(inout) :: page
+      character(*), intent(in) :: text
+      logical, intent(in) :: is_all, is_any          !! designs inside
+
+      if (is_all) call add_cell(page, text, verdict='inside')
+      if (.not. is_all .and. is_any) call add_cell(page, text, verdict='partly outside')
+      if (.not. is_any) call add_cell(page, text, verdict='outside')
+   end subroutine add_verdict
+
    !> Adds the statistics of the responses.
    subroutine add_responses(page, study)
       type(page_t), intent(inout) :: page
       type(study_data_t), intent(in) :: study
-      character(24) :: heads(8 + size(percents))
+      character(24), allocatable :: heads(:)
+      logical :: has_limits
       integer :: r, k
 
       if (size(study%responses) == 0) return
       call begin_section(page, 'responses', 'Responses')
-      heads = [character(24) :: 'Response', 'What it is', '>designs', '>mean', '>deviation', '>smallest', &
-         ('>'//str(percents(k))//' %', k=1, size(percents)), '>largest', 'limits, share within']
+      has_limits = any_limit(study, of_study=.false.)
+      heads = [character(24) :: 'Response']
+      if (has_limits) heads = [character(24) :: heads, 'Limits, share within']
+      heads = [character(24) :: heads, '>designs', '>mean', '>deviation', '>smallest', &
+         ('>'//str(percents(k))//' %', k=1, size(percents)), '>largest', 'What it is']
       call begin_table(page, heads)
       do r = 1, size(study%responses)
          associate (summary => study%summaries(r), axis => study%responses(r))
             call add_cell(page, axis%label)
-            call add_cell(page, axis%note, 's')
+            if (has_limits) call add_limits(axis, summary)
             call add_cell(page, str(summary%used), 'n')
             if (summary%used == 0) then
                do k = 1, 4 + size(percents)
                   call add_cell(page, '–', 'n')
                end do
-               call add_cell(page, limits_text(axis))
-               cycle
+            else
+               call add_cell(page, page_number(summary%mean), 'n')
+               call add_cell(page, page_number(summary%deviation), 'n')
+               call add_cell(page, page_number(summary%lowest), 'n')
+               do k = 1, size(percents)
+                  call add_cell(page, page_number(summary%percentiles(k)), 'n')
+               end do
+               call add_cell(page, page_number(summary%highest), 'n')
             end if
-            call add_cell(page, page_number(summary%mean), 'n')
-            call add_cell(page, page_number(summary%deviation), 'n')
-            call add_cell(page, page_number(summary%lowest), 'n')
-            do k = 1, size(percents)
-               call add_cell(page, page_number(summary%percentiles(k)), 'n')
-            end do
-            call add_cell(page, page_number(summary%highest), 'n')
-            if (limits_text(axis) == '') call add_cell(page, '–')
-            if (limits_text(axis) /= '') call add_cell(page, limits_text(axis)//': '//share(summary%within, study%designs))
+            call add_cell(page, axis%note, 's')
          end associate
       end do
       call end_table(page)
+
+   contains
+
+      !> Adds the cell of the limits.
+      subroutine add_limits(axis, summary)
+         type(study_axis_t), intent(in) :: axis
+         type(summary_t), intent(in) :: summary
+
+         if (limits_text(axis) == '') then
+            call add_cell(page, '–')
+         else if (summary%used == 0) then
+            call add_cell(page, limits_words(axis))
+         else
+            call add_verdict(page, limits_words(axis)//': '//share(summary%within, study%designs), &
+               summary%within == study%designs, summary%within > 0)
+         end if
+      end subroutine add_limits
+
    end subroutine add_responses
 
    !> Adds the scatter of each response by derivatives and by the designs.
@@ -192,53 +238,95 @@ contains
 
    end subroutine add_moments
 
-   !> Adds the factors and the ranges that the designs cover.
+   !> Adds the strongest factors of each response, then the factors with the ranges that the designs cover, by effect; of many only
+   !> the strongest are not folded.
    subroutine add_factors(page, study)
       type(page_t), intent(inout) :: page
       type(study_data_t), intent(in) :: study
-      real(wp) :: range(2)
-      integer :: f
+      integer, allocatable :: order(:)
+      integer :: k, r
 
       call begin_section(page, 'factors', 'Factors')
-      if (size(study%factors) > most_factors) call add_markup(page, '<details class="more"><summary>'// &
-         plural(size(study%factors), 'factor', 'factors')//'</summary>')
-      call begin_table(page, [character(24) :: 'Factor', 'Numbers of the deck', '>smallest', '>largest'])
-      do f = 1, size(study%factors)
+      order = factor_order(study)
+      if (size(order) > 1 .and. size(study%responses) > 0) call add_text(page, 'p', 'Sorted '//effect_measure(study)//'.')
+      if (size(order) > 1 .and. size(study%responses) > 0) then
+         call begin_table(page, [character(24) :: 'Response', 'Strongest factors'])
+         do r = 1, size(study%responses)
+            call add_cell(page, study%responses(r)%label)
+            call add_cell(page, or_none(strongest_names(study, r)))
+         end do
+         call end_table(page)
+      end if
+      call begin_ranges()
+      do k = 1, size(order)
+         if (k == most_open + 1) then
+            call end_table(page)
+            call add_markup(page, '<details class="more"><summary>'//plural(size(order) - most_open, 'more factor', &
+               'more factors')//', by effect</summary>')
+            call begin_ranges()
+         end if
+         call add_range(order(k))
+      end do
+      call end_table(page)
+      if (size(order) > most_open) call add_markup(page, '</details>')
+
+   contains
+
+      subroutine begin_ranges()
+         call begin_table(page, [character(24) :: 'Factor', 'Numbers of the deck', '>smallest', '>largest'])
+      end subroutine begin_ranges
+
+      subroutine add_range(f)
+         integer, intent(in) :: f
+         real(wp) :: range(2)
+
          range = range_of_values(study%x(f, :))
          call add_cell(page, study%factors(f)%label)
          call add_cell(page, study%factors(f)%note, 's')
          call add_cell(page, page_number(range(1)), 'n')
          call add_cell(page, page_number(range(2)), 'n')
-      end do
-      call end_table(page)
-      if (size(study%factors) > most_factors) call add_markup(page, '</details>')
+      end subroutine add_range
+
+      pure function or_none(words) result(text)
+         character(*), intent(in) :: words
+         character(:), allocatable :: text
+
+         text = words
+         if (words == '') text = 'none'
+      end function or_none
+
    end subroutine add_factors
 
-   !> Adds the pictures that were drawn.
+   !> Adds the pictures that were drawn; those of the second sheets folded.
    subroutine add_figures(page, study, folder)
       type(page_t), intent(inout) :: page
       type(study_data_t), intent(in) :: study
       character(*), intent(in) :: folder
       type(error_t), allocatable :: error
-      character(:), allocatable :: svg, path
-      integer :: k
+      character(:), allocatable :: svg, name
+      integer :: k, sheet
       logical :: is_begun
 
       is_begun = .false.
       do k = 1, size(rules)
          if (.not. applies(rules(k), study)) cycle
-         path = join_path(folder, figure_name(rules(k), study)//'.svg')
-         if (.not. file_exists(path)) cycle
-         call read_whole(path, svg, error)
-         if (allocated(error)) cycle
-         if (.not. is_begun) call begin_section(page, 'figures', 'Figures')
-         is_begun = .true.
-         call add_text(page, 'h3', trim(rules(k)%title))
-         call add_picture(page, svg, trim(rules(k)%title), 'figures/'//figure_name(rules(k), study)//'.gp draws this figure.')
+         do sheet = 1, sheets(rules(k), study)
+            name = figure_name(rules(k), study, sheet)
+            if (.not. file_exists(join_path(folder, name//'.svg'))) cycle
+            call read_whole(join_path(folder, name//'.svg'), svg, error)
+            if (allocated(error)) cycle
+            if (.not. is_begun) call begin_section(page, 'figures', 'Figures')
+            is_begun = .true.
+            if (sheet == 1) call add_text(page, 'h3', trim(rules(k)%title))
+            if (sheet == 2) call add_markup(page, '<details class="more"><summary>'//escape_html(trim(rules(k)%title))//': '// &
+               others(rules(k))//'</summary>')
+            call add_picture(page, svg, trim(rules(k)%title), 'figures/'//name//'.gp draws this figure.')
+            if (sheet == 2) call add_markup(page, '</details>')
+         end do
       end do
    end subroutine add_figures
 
-   !> Adds the best and the worst designs, with their factor values.
+   !> Adds the best and the worst designs as a table, then, folded, the settings that give them.
    subroutine add_extremes(page, study)
       type(page_t), intent(inout) :: page
       type(study_data_t), intent(in) :: study
@@ -247,9 +335,21 @@ contains
       if (size(study%extremes) == 0) return
       call begin_section(page, 'designs', 'Best and worst designs')
       call add_text(page, 'p', 'Best is farthest inside the limits of the response, or the smallest deviation; without limits, '// &
-         'the smallest and the largest value are shown. The options make the design on the command line; the lines '// &
-         'of the deck replace the keys of the same names.')
-      call add_markup(page, '<details class="more"><summary>'//plural(size(study%extremes), 'design', 'designs')//'</summary>')
+         'the smallest and the largest value are shown.')
+      call begin_table(page, [character(12) :: 'Response', 'Which', '>value', '>design'])
+      do k = 1, size(study%extremes)
+         associate (extreme => study%extremes(k))
+            call add_cell(page, study%responses(extreme%response)%label)
+            call add_cell(page, extreme%what)
+            call add_cell(page, page_number(extreme%value), 'n')
+            call add_cell(page, str(extreme%design), 'n')
+         end associate
+      end do
+      call end_table(page)
+      call add_markup(page, '<details class="more"><summary>Settings of '//plural(size(study%extremes), 'design', 'designs')// &
+         ', to copy</summary>')
+      call add_text(page, 'p', 'The options make the design on the command line; the lines of the deck replace the keys of the '// &
+         'same names.')
       do k = 1, size(study%extremes)
          associate (extreme => study%extremes(k))
             call add_text(page, 'h3', study%responses(extreme%response)%label//', '//extreme%what//': '// &

@@ -171,7 +171,7 @@ contains
       band = 'the target '
       verdict = ''
       if (.not. number%has_target) then
-         band = 'the usual '
+         band = 'the usual range '
          do k = size(numbers_with_range), 1, -1
             if (numbers_with_range(k) == number%name) exit
          end do

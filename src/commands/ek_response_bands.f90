@@ -1,0 +1,53 @@
+!> The bands of a deck (&target_band) as limits of the responses of a study that are the same numbers.
+module ek_response_bands
+   use ek_kinds, only: wp
+   use ek_study, only: response_t
+   use ek_study_data, only: study_axis_t
+   use ek_target_band, only: target_band_t
+   use ek_key_numbers, only: number_name
+   implicit none(type, external)
+   private
+   public :: set_bands
+
+contains
+
+   !> Sets the limits of the responses that a band covers and that have no limits of their own. The last band of a number counts, as
+   !> in a report.
+   subroutine set_bands(targets, responses, axes)
+      type(target_band_t), intent(in) :: targets(:)
+      type(response_t), intent(in) :: responses(:)
+      type(study_axis_t), intent(inout) :: axes(:)   !! of the responses
+      character(:), allocatable :: name
+      integer :: r, t
+
+      do r = 1, size(axes)
+         if (axes(r)%lower > -huge(1.0_wp) .or. axes(r)%upper < huge(1.0_wp)) cycle
+         name = key_number_of(responses(r))
+         if (name == '') cycle
+         do t = 1, size(targets)
+            if (targets(t)%quantity /= name) cycle
+            axes(r)%is_target = .true.
+            axes(r)%lower = targets(t)%low
+            axes(r)%upper = targets(t)%high
+         end do
+      end do
+   end subroutine set_bands
+
+   !> The key number that a response is: a gradient with the window of the report, or a column at design. '' without one.
+   pure function key_number_of(response) result(name)
+      type(response_t), intent(in) :: response
+      character(:), allocatable :: name
+      character(:), allocatable :: column
+
+      name = ''
+      column = response%column
+      if (response%of == 'gradient') then
+         if (response%over == '' .and. .not. abs(response%window) > 0.0_wp) name = trim(number_name(column, is_slope=.true.))
+      else if (response%of == 'value' .and. .not. abs(response%at) > 0.0_wp) then
+         if (index(column, 'left_') == 1) column = column(6:)
+         if (index(column, 'right_') == 1) column = column(7:)
+         name = trim(number_name(column, is_slope=.false.))
+      end if
+   end function key_number_of
+
+end module ek_response_bands

@@ -1,0 +1,125 @@
+!> The factors of a study in the order of their effects on its responses.
+module ek_factor_order
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use ek_kinds, only: wp
+   use ek_text, only: str
+   use ek_study_data, only: study_data_t
+   use ek_effect_figures, only: ranked
+   implicit none(type, external)
+   private
+   public :: most_open, effect_sizes, effect_measure, has_no_effect, factor_order, strongest_names, least_correlation
+
+   integer, parameter :: most_open = 12           !! factors of a table that are not folded
+   integer, parameter :: most_names = 4           !! factors that are named as the strongest of a response
+
+contains
+
+   !> The sizes of the effects on a response, by the best measure that the study yields: total index or share, μ*, span, or else the
+   !> magnitude of the rank correlation. Not a number without a value.
+   pure function effect_sizes(study, r) result(sizes)
+      type(study_data_t), intent(in) :: study
+      integer, intent(in) :: r                    !! response
+      real(wp), allocatable :: sizes(:)
+
+      associate (effect => study%effects(r))
+         if (allocated(effect%total)) then
+            sizes = effect%total
+         else if (allocated(effect%mean_size)) then
+            sizes = effect%mean_size
+         else if (allocated(effect%highest)) then
+            sizes = effect%highest - effect%lowest
+         else
+            sizes = abs(effect%correlation)
+         end if
+      end associate
+   end function effect_sizes
+
+   !> The magnitude of a rank correlation that designs drawn at random give by chance to one or more of the factors, in at most one
+   !> study of twenty: P(|z| > t) ≤ exp(−t²/2) for a normal z = r √(n − 1), for k factors together at most k times that. 0 for the
+   !> kinds whose effects have another measure, and for a grid, where every factor is varied independently of the others.
+   pure real(wp) function least_correlation(study)
+      type(study_data_t), intent(in) :: study
+      real(wp), parameter :: chance = 0.05_wp
+
+      least_correlation = 0.0_wp
+      if (size(study%effects) == 0 .or. study%kind == 'grid') return
+      if (measure_of(study) /= 'rank correlation') return
+      least_correlation = min(1.0_wp, sqrt(2.0_wp*log(size(study%factors)/chance)/max(1, study%designs - 1)))
+   end function least_correlation
+
+   !> The order as text: 'by μ*', 'by rank correlation; below 0.69 it may be chance'.
+   pure function effect_measure(study) result(words)
+      type(study_data_t), intent(in) :: study
+      character(:), allocatable :: words
+
+      words = 'by '//measure_of(study)
+      if (least_correlation(study) > 0.0_wp) words = words//'; below '// &
+         str(least_correlation(study), 2)//' it may be chance'
+   end function effect_measure
+
+   !> The name of the measure of effect_sizes.
+   pure function measure_of(study) result(words)
+      type(study_data_t), intent(in) :: study
+      character(:), allocatable :: words
+
+      words = 'rank correlation'
+      if (size(study%effects) == 0) return
+      if (allocated(study%effects(1)%highest)) words = 'span'
+      if (allocated(study%effects(1)%mean_size)) words = 'μ*'
+      if (allocated(study%effects(1)%total)) words = 'total index'
+      if (allocated(study%effects(1)%total) .and. study%kind == 'tolerance') words = 'share of the variance'
+   end function measure_of
+
+   !> Whether a factor has no effect on a response: less than a millionth of the largest effect.
+   pure logical function has_no_effect(sizes, f)
+      real(wp), intent(in) :: sizes(:)
+      integer, intent(in) :: f
+      real(wp), parameter :: rounding = 1.0e-6_wp
+
+      has_no_effect = .false.
+      if (ieee_is_finite(sizes(f))) has_no_effect = abs(sizes(f)) <= rounding*maxval(abs(sizes), mask=ieee_is_finite(sizes))
+   end function has_no_effect
+
+   !> All factors by their largest effect on any response, as a share of the largest effect on that response; in the order of the
+   !> study where the effects are equal or not known.
+   pure function factor_order(study) result(order)
+      type(study_data_t), intent(in) :: study
+      integer, allocatable :: order(:)
+      real(wp) :: shares(size(study%factors))
+      real(wp), allocatable :: sizes(:)
+      real(wp) :: largest
+      integer :: r
+
+      shares = 0.0_wp
+      do r = 1, size(study%effects)
+         sizes = effect_sizes(study, r)
+         largest = 0.0_wp
+         if (any(ieee_is_finite(sizes))) largest = maxval(abs(sizes), mask=ieee_is_finite(sizes))
+         if (.not. largest > 0.0_wp) cycle
+         where (ieee_is_finite(sizes)) shares = max(shares, abs(sizes)/largest)
+      end do
+      order = ranked(shares, size(shares))
+   end function factor_order
+
+   !> 'tie_rod_inner_z, lca_rear_z': the factors with the largest effects on a response, in order; '' if none has an
+   !> effect that is more than chance.
+   pure function strongest_names(study, r) result(names)
+      type(study_data_t), intent(in) :: study
+      integer, intent(in) :: r                    !! response
+      character(:), allocatable :: names
+      real(wp), allocatable :: sizes(:)
+      integer, allocatable :: order(:)
+      integer :: k
+
+      names = ''
+      sizes = effect_sizes(study, r)
+      order = ranked(sizes, most_names)
+      do k = 1, size(order)
+         if (.not. ieee_is_finite(sizes(order(k)))) exit
+         if (has_no_effect(sizes, order(k)) .or. sizes(order(k)) < least_correlation(study)) exit
+         if (k > 1) names = names//', '
+         names = names//study%factors(order(k))%name
+      end do
+   end function strongest_names
+
+end module ek_factor_order

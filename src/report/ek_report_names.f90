@@ -1,0 +1,31 @@
+!> The names of the files of a report, and which of them every report has: one table for the commands that write, read and remove
+!> them.
+module ek_report_names
+   implicit none(type, external)
+   private
+   public :: contents_file, gradients_file, compliance_file, numbers_file, deck_file, used_deck_file, gradients_json_file, &
+      numbers_json_file, data_file, page_file, loads_file, peaks_file, list_file, files_of_reports, files_of_loads, &
+      is_table_of_report
+
+   character(*), parameter :: contents_file = 'tests.csv', gradients_file = 'gradients.csv', compliance_file = 'compliance.csv', &
+      numbers_file = 'key_numbers.csv', deck_file = 'deck.csv', used_deck_file = 'deck_as_used.nml', &
+      gradients_json_file = 'gradients.json', numbers_json_file = 'key_numbers.json', data_file = 'data.json', &
+      page_file = 'report.html', loads_file = 'loads.csv', peaks_file = 'peak-loads.csv'
+   character(*), parameter :: list_file = 'report-files.csv'     !! no test has a hyphen in its name
+
+   !> Files that every report can have.
+   character(*), parameter :: files_of_reports(*) = [character(18) :: contents_file, gradients_file, gradients_json_file, &
+      compliance_file, numbers_file, numbers_json_file, deck_file, used_deck_file, data_file, page_file]
+
+   !> Files of a report with --loads.
+   character(*), parameter :: files_of_loads(*) = [character(18) :: loads_file, peaks_file]
+
+contains
+
+   !> Whether a name is that of a table that a report has apart from the tables of its tests.
+   pure logical function is_table_of_report(name)
+      character(*), intent(in) :: name
+      is_table_of_report = any(files_of_reports == name) .or. any(files_of_loads == name) .or. name == list_file
+   end function is_table_of_report
+
+end module ek_report_names

@@ -1,0 +1,94 @@
+!> The panels of a figure of a study: responses or columns by the size of their scatter, the strongest on the first sheet, the others
+!> on a second one.
+module ek_study_panels
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use ek_kinds, only: wp
+   use ek_text, only: str
+   use ek_change, only: least_of
+   use ek_study_data, only: study_data_t, study_axis_t, range_of_values
+   use ek_effect_figures, only: ranked
+   implicit none(type, external)
+   private
+   public :: most_panels, sheets_of, response_panels, column_panels, panels_text
+
+   integer, parameter :: most_panels = 6          !! of the first sheet
+   integer, parameter :: most_others = 24         !! of the second sheet
+
+contains
+
+   !> Sheets of a figure: 2 if it has more panels than the first sheet.
+   pure integer function sheets_of(panels)
+      integer, intent(in) :: panels
+      sheets_of = merge(2, 1, panels > most_panels)
+   end function sheets_of
+
+   !> The responses of a sheet: by their standard deviation, as a share of the mean or of the least span that a chart has in their
+   !> unit, where this is larger.
+   pure function response_panels(study, sheet) result(panels)
+      type(study_data_t), intent(in) :: study
+      integer, intent(in) :: sheet
+      integer, allocatable :: panels(:)
+      real(wp) :: sizes(size(study%responses))
+      integer :: r
+
+      do r = 1, size(sizes)
+         sizes(r) = share_of(study%summaries(r)%deviation, abs(study%summaries(r)%mean), study%responses(r))
+      end do
+      panels = part_of(ranked(sizes, size(sizes)), sheet)
+   end function response_panels
+
+   !> The columns of a sheet: by the widest part of the band of 90 % of the curves, as a share of the range of the median curve or of
+   !> the least span of the column, where this is larger.
+   pure function column_panels(study, sheet) result(panels)
+      type(study_data_t), intent(in) :: study
+      integer, intent(in) :: sheet
+      integer, allocatable :: panels(:)
+      real(wp) :: sizes(size(study%columns)), range(2), width(2)
+      integer :: c
+
+      sizes = 0.0_wp
+      do c = 1, size(sizes)
+         if (.not. any(ieee_is_finite(study%bands(1, c, :)))) cycle
+         range = range_of_values(study%bands(3, c, :))
+         width = range_of_values(study%bands(5, c, :) - study%bands(1, c, :))
+         sizes(c) = share_of(width(2), range(2) - range(1), study%columns(c))
+      end do
+      panels = part_of(ranked(sizes, size(sizes)), sheet)
+   end function column_panels
+
+   !> A scatter as a share of the size of a value, or of the least span of its unit; at most 1.
+   pure real(wp) function share_of(scatter, value, axis)
+      real(wp), intent(in) :: scatter, value
+      type(study_axis_t), intent(in) :: axis
+      real(wp) :: least
+
+      share_of = 0.0_wp
+      if (.not. scatter > 0.0_wp) return
+      least = 0.0_wp
+      if (allocated(axis%unit)) least = least_of(axis%unit)
+      share_of = scatter/max(scatter, value, least)
+   end function share_of
+
+   !> The panels of a sheet, of all in order.
+   pure function part_of(order, sheet) result(panels)
+      integer, intent(in) :: order(:), sheet
+      integer, allocatable :: panels(:)
+
+      if (sheet == 1) panels = order(:min(size(order), most_panels))
+      if (sheet == 2) panels = order(most_panels + 1:min(size(order), most_panels + most_others))
+   end function part_of
+
+   !> '; 6 of 9 responses, those with the largest scatter', '; responses 7 to 9 of 9 by scatter'; '' if one sheet shows all.
+   pure function panels_text(of, sheet, noun) result(text)
+      integer, intent(in) :: of, sheet
+      character(*), intent(in) :: noun           !! 'responses', 'columns'
+      character(:), allocatable :: text
+
+      text = ''
+      if (of <= most_panels) return
+      text = '; '//str(most_panels)//' of '//str(of)//' '//noun//', those with the largest scatter'
+      if (sheet == 2) text = '; '//noun//' '//str(most_panels + 1)//' to '//str(min(of, most_panels + most_others))//' of '// &
+         str(of)//' by scatter'
+   end function panels_text
+
+end module ek_study_panels
