@@ -66,7 +66,7 @@ contains
       if (file%tests(i)%is_disabled) then
         write (unit, '(3a)') '  call suite%skip(''', file%tests(i)%name, ''')'
       else
-        write (unit, '(3a,i0,2a)') '  call suite%run(''', file%tests(i)%name, ''', test_', i, fixtures, ')'
+        write (unit, '(3a,/,a,i0,2a)') '  call suite%run(''', file%tests(i)%name, ''', &', '    test_', i, fixtures, ')'
       end if
     end do
     write (unit, '(2a)') '  call suite%finish()', ''
