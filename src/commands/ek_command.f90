@@ -59,9 +59,9 @@ module ek_command
       command_t('compare', 'compare A.csv B.csv …   or   elastokin compare REPORT_A REPORT_B …', 'compare A B', &
       'overlay results and list the differences', &
       'Compares reports (folders written by report), or results of one case. compare.html lists the changes of the'//nl// &
-      'deck, and the key numbers and gradients sorted by change. Its charts contain the curves of all results.'//nl// &
-      'The gradients go to standard output, and the ten largest changes to standard error.'//nl// &
-      'Tables for programs, with change and verdict (changed, same, only in A, only in B,'//nl// &
+      'deck, and the key numbers and gradients sorted by change. The charts contain the curves of all results.'//nl// &
+      'The gradients are printed to standard output, and the ten largest changes to standard error.'//nl// &
+      'Also writes tables with the columns change and verdict (changed, same, only in A, only in B,'//nl// &
       'not a number): differences.csv, number-differences.csv, curve-differences.csv, deck-differences.csv.', '', 2), &
       command_t('study', 'study STUDY.nml [options]', 'study STUDY', 'run many designs of a deck, or study step-size convergence', &
       'Runs the designs of a study. Writes CSV files and the page (as described for plot) into DIR. If gnuplot is'//nl// &
@@ -75,13 +75,13 @@ module ek_command
       command_t('plot', 'plot STUDY.nml [options]', 'plot STUDY', 'draw figures and page of a finished study', &
       'Reads the tables of a finished study in DIR and solves nothing. Writes DIR/<study>.html (one self-contained'//nl// &
       'page with statistics, figures, best and worst designs) and DIR/figures: every figure as PNG, SVG and gnuplot script.'//nl// &
-      'The kind of the study, its columns and its responses determine the figures.', ''), &
+      'The kind, the columns and the responses of the study determine the figures.', ''), &
       command_t('import', 'import FILE … [options]', 'import FILE', 'convert Adams/Car or IPGKinematics files to a deck', &
       'Converts files of other programs to a deck:'//nl// &
       '  .kin files of IPGKinematics to a complete axle (with the .gum bushings in the same folder);'//nl// &
       '  .sub, .asy and CSV hardpoints to points;'//nl// &
       '  .bus, .spr, .bum, .reb and .gum property files to curves;'//nl// &
-      '  .lcf load cases to a table of loads.'//nl// &
+      '  .lcf load cases to a load table.'//nl// &
       'Every error in the files is reported with file and line.', '', 0), &
       command_t('export', 'export DECK --to TARGET [options]', 'export DECK', &
       'write kinematics and compliance for other simulators', &
@@ -94,12 +94,12 @@ module ek_command
       command_t('derivatives', 'derivatives DECK [options]', 'derivatives DECK', &
       'differentiate columns with respect to numbers of a deck', &
       'Solves one case and writes DIR/<model>_<case>_derivatives.csv: the derivative of every column with respect to every'//nl// &
-      'number of the deck, in the unit of the column per unit of the number, with an estimate of its error. Derivatives are'//nl// &
+      'number of the deck, in the unit of the column per unit of the number, and an estimate of the error. Derivatives are'//nl// &
       'exact except for rounding. No solution is repeated. Derivatives account for the change of the state,'//nl// &
       'of the static equilibrium and of the trimmed preloads (balance). A number of a mirrored half deck acts on both'//nl// &
       'sides; the name point.left_lca_front.z selects one side.'//nl// &
-      'With --of, the ten numbers with the largest effects are printed. An effect is the change of a column caused by 1 mm,'//nl// &
-      '0.06 deg, or 1 % of a rate or force.', &
+      'With --of, the ten numbers with the largest effects on each column are printed. An effect is the change of a column'//nl// &
+      'caused by 1 mm, 0.06 deg, or 1 % of a rate or force.', &
       exit_status_text), &
       command_t('solve', 'solve DECK [options]', 'solve DECK', 'find numbers of a deck that give requested values', &
       'Changes the numbers of --vary within their bounds until the quantities of --for have the requested values.'//nl// &
@@ -111,16 +111,16 @@ module ek_command
       command_t('fit', 'fit FIT.nml [options]', 'fit FIT', 'fit factors of a deck to measured or required curves', &
       'Finds the factors of a deck, within their bounds, by weighted least squares. Targets are curves, slopes, key numbers'//nl// &
       'and limits of several cases. Examples: hardpoints for a required curve, bushing rates from a measured curve.'//nl// &
-      'Prints and draws start, target and result. Also prints the 95 % confidence interval of each factor, the factors at'//nl// &
-      'a bound, and the undetermined factors. Writes DIR/<fit>_factors.csv, <fit>_points.csv, <fit>.set for --set-file,'//nl// &
-      'and the figure <fit>.png and .svg.', &
+      'Prints and draws the start, the target and the result. Also prints the 95 % confidence interval of each factor,'//nl// &
+      'the factors at a bound, and the undetermined factors. Writes DIR/<fit>_factors.csv, <fit>_points.csv, <fit>.set'//nl// &
+      'for --set-file, and the figure <fit>.png and .svg.', &
       exit_status_text), &
       command_t('bench', 'bench DECK   or   elastokin bench --growth N', 'bench DECK', &
       'measure the time of increments, relative to LAPACK', &
       'Measures the time of a complete increment and of its parts, for each method and each solver (lapack, plan). The unit'//nl// &
       'is the time of LAPACK''s dsysv (factorisation and solution) on the same matrices in the same run. Also measures:'//nl// &
       '  packs of four designs,'//nl// &
-      '  a row of the compliance matrix,'//nl// &
+      '  the compliance matrix at one state,'//nl// &
       '  a complete design of 20 increments (as in a study), and its time minus the time of its states and one column,'//nl// &
       '  all steps from deck to CSV (omitted with --quiet).', '', alone='--growth')]
 
@@ -140,10 +140,10 @@ module ek_command
       option_t('run', '--results FILE', &
       'file for --responses, with one line `value name` per number (default: -, standard output)'), &
       option_t('run', '--columns a,b,c', &
-      'write only these columns; * stands for any letters; state, factor'//indent// &
-      'and the columns on convergence are always written'), &
-      option_t('run', '--json', 'also write DIR/<model>_run.json: tables, messages and status; with "--out -",'//indent// &
-      'print only this JSON object'), &
+      'write only these columns; * stands for any letters;'//indent// &
+      'state, factor and the columns on convergence are always written'), &
+      option_t('run', '--json', 'also write DIR/<model>_run.json: tables, messages and status;'//indent// &
+      'with "--out -", print only this JSON object'), &
       option_t('run', '--compliance', 'also write DIR/<model>_<case>_compliance.csv: the compliance matrix at every state'), &
       option_t('run', '--loads', 'also write loads.csv (loads of every member at every state) and peak-loads.csv, for all cases'), &
       option_t('run', '--plot', 'also write gnuplot scripts, and PNG and SVG figures if gnuplot is installed'), &
@@ -168,8 +168,8 @@ module ek_command
       option_t('report', '--scales DIR', 'draw the charts with the axes of the report in DIR, for comparison'), &
       option_t('report', '--static', 'write a page without scripts; its charts are pictures drawn by gnuplot'), &
       option_t('report', '--live N', &
-      'add sliders for the N rates (1 to 24) that contribute most to the compliances; the sliders'// &
-      indent//'change numbers and curves that are linear in the compliance matrix; not with --static'), &
+      'add sliders for the N rates (1 to 24) that contribute most to the compliances;'// &
+      indent//'the sliders change numbers and curves that are linear in the compliance matrix; not with --static'), &
       option_t('report', '--quiet', quiet_help), &
       option_t('explain', '--out DIR', 'output folder (default: out)'), &
       option_t('explain', '--case NAME', 'explain only this case'), &
@@ -232,12 +232,12 @@ module ek_command
       option_t('export', '--steer from:to:n', 'travel of the steering driver in mm, positive: wheels to the left, with n points'// &
       indent//'(default: range of test steering, 17 points)'), &
       option_t('export', '--map KIND', &
-      'second argument of the maps in addition to travel: steer | opposite (travel of the other wheel;'// &
-      indent//'default: steer if the deck has &steering, else opposite for carmaker and csv)'), &
+      'second argument of the maps in addition to travel: steer | opposite (travel of the other wheel);'// &
+      indent//'default: steer if the deck has &steering, else opposite for carmaker and csv'), &
       option_t('export', '--driver NAME', 'driver joint that steers (default: driver of &steering)'), &
       option_t('export', '--length what=NAME', &
-      'element used as the spring, damper, stop or bar of a wheel, if the deck has several; NAME'// &
-      indent//'is without left_ and right_, or LEFT,RIGHT; may be repeated: --length spring=coil'), &
+      'element used as the spring, damper, stop or bar of a wheel, if the deck has several;'// &
+      indent//'NAME is without left_ and right_, or is LEFT,RIGHT; may be repeated: --length spring=coil'), &
       option_t('export', '--vertical WORD', 'point whose height defines wheel travel: centre | patch | road (default: patch)'), &
       option_t('export', '--held WORD', &
       'wheels for compliance: on tyre rates (road), with height (centre) or vertical force (force) held:'// &
