@@ -82,10 +82,10 @@ const char *ek_deck_as_used(ek_model *model);
 
 /* ---- remarks on the model ----
  * These are the messages (notes, warnings, failures) about the model that the program prints before it solves a case.
- * They report missing springs, contact points that do not match the wheel, and preloads found by preload trim
+ * These messages report missing springs, contact points that do not match the wheel, and preloads found by preload trim
  * (`balance`). Messages that begin with "plausible?" report implausible values, connections and responses at design. If
  * no case can be solved, a failure gives the reason. ek_model_remarks examines the model with its current numbers,
- * solves no case, and sets count to the number of messages. The list does not change until the next call of
+ * solves no case, and sets count to the number of messages. The list of messages does not change until the next call of
  * ek_model_remarks. */
 int ek_model_remarks(ek_model *model, int *count);
 const char *ek_model_remark_text(ek_model *model, int k);
@@ -122,17 +122,17 @@ const char *ek_case_name(ek_model *model, int k);
 int ek_case_is_of_deck(ek_model *model, int k);     /* 1: defined in the deck; 0: standard test */
 
 /* ---- solving ----
- * The results stay valid until the next ek_solve. They do not change when numbers are changed or reset, or when key
- * numbers are computed. If name is NULL or "", the first case is solved. If n_columns is 0, the table has all columns.
- * Otherwise the table has `state`, `factor`, the given columns in the order of the program's tables, and the columns on
- * convergence. In the name of a given column, * stands for any letters. */
+ * The results stay valid until the next ek_solve. The results do not change when numbers are changed or reset, or when
+ * key numbers are computed. If name is NULL or "", the first case is solved. If n_columns is 0, the table has all
+ * columns. Otherwise the table has `state`, `factor`, the given columns in the order of the program's tables, and the
+ * columns on convergence. In the name of a given column, * stands for any letters. */
 int ek_solve(ek_model *model, const char *name, int n_columns, const char *const *columns);
 int ek_row_count(ek_model *model);                  /* count of rows (states) of the last solution; 0 without a solution */
 int ek_column_count(ek_model *model);
 const char *ek_column_name(ek_model *model, int k);          /* "left_toe_deg" */
 const char *ek_column_unit(ek_model *model, int k);          /* "deg" */
-const char *ek_column_title(ek_model *model, int k);         /* "Toe"; "" if it has no title */
-const char *ek_column_sign(ek_model *model, int k);          /* "+ toe-in"; "" if it has no sign */
+const char *ek_column_title(ek_model *model, int k);         /* "Toe"; "" if the column has no title */
+const char *ek_column_sign(ek_model *model, int k);          /* "+ front edge inward"; "" without a sign */
 int ek_values(ek_model *model, int n, double *values);       /* n must be rows x columns; row after row */
 int ek_column_values(ek_model *model, const char *name, int n, double *values);   /* n must be rows */
 int ek_remark_count(ek_model *model);               /* count of messages about the last solution */
