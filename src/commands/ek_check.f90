@@ -235,7 +235,7 @@ contains
       text = text//', '//plural(case%increments, 'increment', 'increments')//', '//case%method
       if (case%follows_arc) text = text//' along the arc'
       if (diagnosis%is_solvable()) then
-         call add(findings, 'case '//case%name, text//': can be solved, 1/condition '//str(diagnosis%rcond, 2))
+         call add(findings, 'case '//case%name, text//': can be solved, reciprocal condition number '//str(diagnosis%rcond, 2))
       else
          call add(findings, 'case '//case%name, text//': CANNOT be solved')
       end if

@@ -37,46 +37,51 @@ module ek_command
       exit_status_text), &
       command_t('check', 'check DECK', 'check DECK', 'examine a deck and its model', &
       'Reads a deck, reports every error with file and line, and examines the model: bodies, unknowns,'//nl// &
-      'constraints, degrees of freedom, mechanisms, redundant constraints, condition number, unused points.'//nl// &
-      'A remark names a value outside the range of road vehicles, with a likely cause (plausible = .false. in &model'//nl// &
-      'disables these remarks). The last line is OK, or it gives the number of errors, warnings and remarks and the'//nl// &
+      'constraints, degrees of freedom, mechanisms, redundant constraints, reciprocal condition number,'//nl// &
+      'unused points.'//nl// &
+      'A remark reports a value outside the range of road vehicles and a likely cause (plausible = .false. in &model'//nl// &
+      'disables these remarks). The last line is OK, or gives the counts of errors, warnings and remarks and the'//nl// &
       'most severe of these messages. The exit status is 3 if the model cannot be solved.', ''), &
       command_t('report', 'report DECK [options]', 'report DECK', 'write a report page: curves, gradients, key numbers', &
-      'Runs the tests of a deck and writes into DIR: report.html (one self-contained page), one CSV file per'//nl// &
-      'test, key_numbers and gradients as .csv and .json (slopes with window, unit and sign), compliance.csv'//nl// &
-      '(the compliance matrix at every state of the first test), picture.png and picture.svg,'//nl// &
-      'and figures/ with every chart (SVG and gnuplot script) and views.svg with the names of the hardpoints.', ''), &
+      'Runs the tests of a deck and writes into DIR:'//nl// &
+      '  report.html: one self-contained page;'//nl// &
+      '  one CSV file per test, and compliance.csv: the compliance matrix at every state of the first test;'//nl// &
+      '  key_numbers.csv and .json; gradients.csv and .json: slopes with window, unit and sign;'//nl// &
+      '  picture.png and .svg; figures/: every chart (SVG and gnuplot script), views.svg with hardpoint names;'//nl// &
+      '  deck.csv: every value of the deck; deck_as_used.nml: one deck with the same results;'//nl// &
+      '  report-files.csv: list of all files of the report.', ''), &
       command_t('explain', 'explain DECK [options]', 'explain DECK', 'list contributions to each compliance, and load paths', &
-      'Splits each column that is linear in the compliance matrix into exact contributions, at every state. Each axis of a'//nl// &
-      'bushing contributes, and each spring, bar, stop and preload. Prints the ten largest at design. Writes into DIR:'//nl// &
+      'Splits each column that is linear in the compliance matrix into exact contributions, at every state.'//nl// &
+      'Contributions come from each axis of a bushing, each spring, bar, stop and preload, and each driver with a'//nl// &
+      'stiffness. Prints the ten largest contributions at design. Writes into DIR:'//nl// &
       '<model>_<case>_contributions.csv, and <model>_<case>_load_paths.csv (force and moment in every element and joint'//nl// &
       'per newton at a contact point, with shares of strain energy).', exit_status_text), &
       command_t('compare', 'compare A.csv B.csv …   or   elastokin compare REPORT_A REPORT_B …', 'compare A B', &
       'overlay results and list the differences', &
       'Compares reports (folders written by report), or results of one case. compare.html lists the changes of the'//nl// &
-      'deck, and the key numbers and gradients sorted by change. Its charts contain the curves of all results.'//nl// &
-      'The gradients go to standard output, and the ten largest changes to standard error.'//nl// &
-      'Tables for programs, with change and verdict (changed, same, only in A, only in B,'//nl// &
+      'deck, and the key numbers and gradients sorted by change. The charts contain the curves of all results.'//nl// &
+      'The gradients are printed to standard output, and the ten largest changes to standard error.'//nl// &
+      'Also writes tables with the columns change and verdict (changed, same, only in A, only in B,'//nl// &
       'not a number): differences.csv, number-differences.csv, curve-differences.csv, deck-differences.csv.', '', 2), &
-      command_t('study', 'study STUDY.nml [options]', 'study STUDY', 'run many designs of a deck, or step-size convergence', &
-      'Runs the designs of a study and writes CSV files into DIR, and the page (as plot does). If gnuplot is'//nl// &
+      command_t('study', 'study STUDY.nml [options]', 'study STUDY', 'run many designs of a deck, or study step-size convergence', &
+      'Runs the designs of a study. Writes CSV files and the page (as described for plot) into DIR. If gnuplot is'//nl// &
       'installed, draws the figures and runs the plot script of the study. DIR/<study>.parts stores the finished'//nl// &
       'designs: if the study was stopped or killed, run the same command again to resume.', &
       'Exit status 4: the study is complete, but a design failed (0 with --accept-failed). The columns status and'//nl// &
       'reason list failures. 6: the study was stopped; run the same command again to resume.'), &
       command_t('merge', 'merge STUDY.nml', 'merge STUDY', 'write the tables of a study that ran in shards', &
-      'Writes the tables of a study whose shards (study --shard i/n) have all ended, from DIR/<study>.parts.', &
+      'After all shards of a study (study --shard i/n) have ended, writes the tables of the study from DIR/<study>.parts.', &
       'Exit status 4: the study is complete, but a design failed (0 with --accept-failed). 6: designs are missing.'), &
       command_t('plot', 'plot STUDY.nml [options]', 'plot STUDY', 'draw figures and page of a finished study', &
       'Reads the tables of a finished study in DIR and solves nothing. Writes DIR/<study>.html (one self-contained'//nl// &
       'page with statistics, figures, best and worst designs) and DIR/figures: every figure as PNG, SVG and gnuplot script.'//nl// &
-      'The kind of the study, its columns and its responses determine the figures.', ''), &
+      'The kind, the columns and the responses of the study determine the figures.', ''), &
       command_t('import', 'import FILE … [options]', 'import FILE', 'convert Adams/Car or IPGKinematics files to a deck', &
       'Converts files of other programs to a deck:'//nl// &
       '  .kin files of IPGKinematics to a complete axle (with the .gum bushings in the same folder);'//nl// &
       '  .sub, .asy and CSV hardpoints to points;'//nl// &
       '  .bus, .spr, .bum, .reb and .gum property files to curves;'//nl// &
-      '  .lcf load cases to a table of loads.'//nl// &
+      '  .lcf load cases to a load table.'//nl// &
       'Every error in the files is reported with file and line.', '', 0), &
       command_t('export', 'export DECK --to TARGET [options]', 'export DECK', &
       'write kinematics and compliance for other simulators', &
@@ -89,33 +94,34 @@ module ek_command
       command_t('derivatives', 'derivatives DECK [options]', 'derivatives DECK', &
       'differentiate columns with respect to numbers of a deck', &
       'Solves one case and writes DIR/<model>_<case>_derivatives.csv: the derivative of every column with respect to every'//nl// &
-      'number of the deck, in the unit of the column per unit of the number, with an estimate of its error. Derivatives are'//nl// &
-      'exact except for rounding. No solution is repeated. Derivatives include the motion of the state, static equilibrium'// &
-      nl//'and balance. A number of a mirrored half deck acts on both sides; the name point.left_x.z selects one side.'//nl// &
-      'With --of, the numbers with the largest effects are printed. An effect is the change of a column caused by 1 mm,'//nl// &
-      '0.06 deg, or 1 % of a rate or force.', &
+      'number of the deck, in the unit of the column per unit of the number, and an estimate of the error. Derivatives are'//nl// &
+      'exact except for rounding. No solution is repeated. Derivatives account for the change of the state,'//nl// &
+      'of the static equilibrium and of the trimmed preloads (balance). A number of a mirrored half deck acts on both'//nl// &
+      'sides; the name point.left_lca_front.z selects one side.'//nl// &
+      'With --of, the ten numbers with the largest effects on each column are printed. An effect is the change of a column'//nl// &
+      'caused by 1 mm, 0.06 deg, or 1 % of a rate or force.', &
       exit_status_text), &
       command_t('solve', 'solve DECK [options]', 'solve DECK', 'find numbers of a deck that give requested values', &
-      'Changes the numbers of --vary within their bounds until the quantities of --for have their values. A quantity is'//nl// &
-      'a column of a case, an entry of its compliance matrix, or a key number of the report. Derivatives are exact, so'//nl// &
-      'Newton''s method needs only a few sweeps. Prints the values reached, the changed records, and the reason for each'//nl// &
-      'value that was not reached. Writes DIR/<model>_solve.set for --set-file. If there are several solutions, the one'//nl// &
-      'with the smallest change is used.', &
+      'Changes the numbers of --vary within their bounds until the quantities of --for have the requested values.'//nl// &
+      'A quantity is a column of a case, an entry of its compliance matrix, or a key number of the report. Derivatives are'// &
+      nl//'exact, so Newton''s method needs only a few sweeps. Prints the values reached, the changed records, and the reason'// &
+      nl//'for each value that was not reached. Writes DIR/<model>_solve.set for --set-file. If there are several solutions,'// &
+      nl//'the solution with the smallest change is used.', &
       exit_status_text), &
       command_t('fit', 'fit FIT.nml [options]', 'fit FIT', 'fit factors of a deck to measured or required curves', &
       'Finds the factors of a deck, within their bounds, by weighted least squares. Targets are curves, slopes, key numbers'//nl// &
       'and limits of several cases. Examples: hardpoints for a required curve, bushing rates from a measured curve.'//nl// &
-      'Prints and draws start, target and result. Also prints the 95 % confidence interval of each factor, the factors at'//nl// &
-      'a bound, and the undetermined factors. Writes DIR/<fit>_factors.csv, <fit>_points.csv, <fit>.set for --set-file,'//nl// &
-      'and the figure <fit>.png and .svg.', &
+      'Prints and draws the start, the target and the result. Also prints the 95 % confidence interval of each factor,'//nl// &
+      'the factors at a bound, and the undetermined factors. Writes DIR/<fit>_factors.csv, <fit>_points.csv, <fit>.set'//nl// &
+      'for --set-file, and the figure <fit>.png and .svg.', &
       exit_status_text), &
       command_t('bench', 'bench DECK   or   elastokin bench --growth N', 'bench DECK', &
       'measure the time of increments, relative to LAPACK', &
       'Measures the time of a complete increment and of its parts, for each method and each solver (lapack, plan). The unit'//nl// &
       'is the time of LAPACK''s dsysv (factorisation and solution) on the same matrices in the same run. Also measures:'//nl// &
       '  packs of four designs,'//nl// &
-      '  a row of the compliance matrix,'//nl// &
-      '  a design of 20 increments, from its numbers to one column (as in a study), relative to its states alone,'//nl// &
+      '  the compliance matrix at one state,'//nl// &
+      '  a complete design of 20 increments (as in a study), and its time minus the time of its states and one column,'//nl// &
       '  all steps from deck to CSV (omitted with --quiet).', '', alone='--growth')]
 
    ! In the order of the help; neighbours with the same help share a line
@@ -134,8 +140,10 @@ module ek_command
       option_t('run', '--results FILE', &
       'file for --responses, with one line `value name` per number (default: -, standard output)'), &
       option_t('run', '--columns a,b,c', &
-      'write only these columns, and always state, factor, converged …; * stands for any letters'), &
-      option_t('run', '--json', 'also write DIR/<model>_run.json: tables, remarks and status; with --out - print only this'), &
+      'write only these columns; * stands for any letters;'//indent// &
+      'state, factor and the columns on convergence are always written'), &
+      option_t('run', '--json', 'also write DIR/<model>_run.json: tables, messages and status;'//indent// &
+      'with "--out -", print only this JSON object'), &
       option_t('run', '--compliance', 'also write DIR/<model>_<case>_compliance.csv: the compliance matrix at every state'), &
       option_t('run', '--loads', 'also write loads.csv (loads of every member at every state) and peak-loads.csv, for all cases'), &
       option_t('run', '--plot', 'also write gnuplot scripts, and PNG and SVG figures if gnuplot is installed'), &
@@ -144,8 +152,8 @@ module ek_command
       option_t('check', '--set-file FILE', ''), &
       option_t('check', '--json', 'print the messages as one JSON object: severity, file, line, group, key, text'), &
       option_t('check', '--write-deck FILE', &
-      'write the deck as used to one file, with the contents of included, property and hardpoint'// &
-      indent//'files, both sides, and all settings; load tables are copied to the same folder'), &
+      'write to FILE the deck as it was used, with the contents of included, property and'// &
+      indent//'hardpoint files, both sides and all settings; load tables are copied to the folder of FILE'), &
       option_t('report', '--out DIR', 'output folder (default: out)'), &
       option_t('report', '--animate', 'also write animation.gif: the suspension moving through its travel and steering'), &
       option_t('report', '--window what=half', 'half width of a gradient window; may be repeated; the defaults are:'//indent// &
@@ -160,16 +168,18 @@ module ek_command
       option_t('report', '--scales DIR', 'draw the charts with the axes of the report in DIR, for comparison'), &
       option_t('report', '--static', 'write a page without scripts; its charts are pictures drawn by gnuplot'), &
       option_t('report', '--live N', &
-      'add sliders for the N rates (1 to 24) that contribute most to the compliances; they change'// &
-      indent//'numbers and curves that are linear in the compliance matrix; not with --static'), &
+      'add sliders for the N rates (1 to 24) that contribute most to the compliances;'// &
+      indent//'the sliders change numbers and curves that are linear in the compliance matrix; not with --static'), &
       option_t('report', '--quiet', quiet_help), &
       option_t('explain', '--out DIR', 'output folder (default: out)'), &
-      option_t('explain', '--case NAME', 'only this case'), &
-      option_t('explain', '--of a,b,c', 'these columns: responses to loads (lateral_in_load_held_steer_deg_per_kn), or'// &
+      option_t('explain', '--case NAME', 'explain only this case'), &
+      option_t('explain', '--of a,b,c', &
+      'explain only these columns: responses to loads (lateral_in_load_held_steer_deg_per_kn), or'// &
       indent//'matrix entries (patch_z_by_fz_mm_per_kn); * stands for any letters; default: key columns'), &
-      option_t('explain', '--at VALUE', 'only the state nearest to this swept value (default: all states; design is printed)'), &
-      option_t('explain', '--rigid NAME', 'print the columns with this element rigid (arm_front), or with'//indent// &
-      'one axis of this element rigid (arm_front.x); may be repeated'), &
+      option_t('explain', '--at VALUE', 'explain only the state nearest to this swept value'//indent// &
+      '(default: all states; the contributions at the design state are printed)'), &
+      option_t('explain', '--rigid NAME', 'print the columns for a rigid element (arm_front), or for an element with'// &
+      indent//'one rigid axis (arm_front.x); may be repeated'), &
       option_t('explain', '--scan', 'print the locations at which an added stiffness of 1 kN/mm changes the columns most'), &
       option_t('explain', '--json', 'also write DIR/<model>_contributions.json'), &
       option_t('explain', '--increments N', 'as for run'), option_t('explain', '--solver S', 'as for run'), &
@@ -179,7 +189,7 @@ module ek_command
       '--vary point.tie_rod_inner.z=-80:-50'), &
       option_t('solve', '--for name=value', 'a quantity and its requested value: --for left_bump_steer=0; with'// &
       indent//'case and swept value: --for "roll:left_camber_deg@2=-1.5"; may be repeated'), &
-      option_t('solve', '--case NAME', 'case of the columns (default: the first)'), &
+      option_t('solve', '--case NAME', 'case of the columns (default: the first case of the deck)'), &
       option_t('solve', '--at VALUE', 'swept value at which columns are read (default: design)'), &
       option_t('solve', '--out DIR', 'output folder (default: out)'), &
       option_t('solve', '--set path=value', 'as for run'), option_t('solve', '--set-file FILE', 'as for run'), &
@@ -190,14 +200,14 @@ module ek_command
       option_t('compare', '--out DIR', 'output folder (default: out)'), &
       option_t('compare', '--window what=half', 'as for report, if gradients are computed from CSV files'), &
       option_t('compare', '--threshold P%', &
-      'smallest listed change, in percent of A or of the least span of a chart (default: 1%)'), &
+      'smallest listed change, in percent of the value in A or of the least span of a chart (default: 1%)'), &
       option_t('compare', '--no-plots', no_plots_help), &
       option_t('compare', '--static', 'as for report'), &
       option_t('compare', '--quiet', quiet_help), &
       option_t('study', '--out DIR', 'output folder (default: out, in the folder of the study file)'), &
       option_t('study', '--jobs N', 'number of threads (default: one per processor, at most OMP_NUM_THREADS and'//indent// &
       'SLURM_CPUS_PER_TASK; under mpirun one per process)'), &
-      option_t('study', '--samples N', 'number of designs of a trial, instead of `samples` of the study'), &
+      option_t('study', '--samples N', 'number of designs, instead of `samples` of the study; for a trial run'), &
       option_t('study', '--shard i/n', 'run only part i of n of the designs, for a job array; run elastokin merge afterwards'), &
       option_t('study', '--time-limit TIME', 'stop before this time has passed: seconds or [hours:]minutes:seconds'), &
       option_t('study', '--status', 'print the progress of the study and exit'), &
@@ -209,47 +219,54 @@ module ek_command
       option_t('merge', '--set path=value', ''), &
       option_t('merge', '--no-plots', ''), option_t('merge', '--quiet', ''), &
       option_t('plot', '--kind NAME', &
-      'draw only this figure; may be repeated: tornado | sobol | morris | line | map | fan |'//indent// &
-      'family | histogram | scatter | parallel | convergence'), &
+      'draw only this figure; may be repeated: tornado | sobol | morris | line | map | carpet |'//indent// &
+      'fan | family | histogram | scatter | parallel | convergence'), &
       option_t('plot', '--out DIR', 'folder of the tables (default: out, in the folder of the study file)'), &
       option_t('plot', '--samples N', 'number of designs, as in the run of the study'), &
       option_t('plot', '--set path=value', 'change a value of the deck, as in the run of the study'), &
       option_t('plot', '--quiet', quiet_help), &
       option_t('export', '--to TARGET', 'carmaker | carsim | matlab-kc | csv'), &
       option_t('export', '--out DIR', 'output folder (default: out)'), &
-      option_t('export', '--travel from:to:n', 'wheel travel in mm with n points (default: test parallel_travel, 33 points)'), &
-      option_t('export', '--steer from:to:n', 'rack travel in mm, positive to the left (default: test steering, 17 points)'), &
-      option_t('export', '--map KIND', 'second argument of the map: steer | opposite (default: opposite without a steering)'), &
+      option_t('export', '--travel from:to:n', &
+      'wheel travel in mm with n points (default: range of test parallel_travel, 33 points)'), &
+      option_t('export', '--steer from:to:n', 'travel of the steering driver in mm, positive: wheels to the left, with n points'// &
+      indent//'(default: range of test steering, 17 points)'), &
+      option_t('export', '--map KIND', &
+      'second argument of the maps in addition to travel: steer | opposite (travel of the other wheel);'// &
+      indent//'default: steer if the deck has &steering, else opposite for carmaker and csv'), &
       option_t('export', '--driver NAME', 'driver joint that steers (default: driver of &steering)'), &
-      option_t('export', '--length what=NAME', 'spring, damper, stop or bar of a wheel, if the deck has several; give NAME'// &
-      indent//'without left_ and right_, or LEFT,RIGHT; may be repeated: --length spring=coil'), &
+      option_t('export', '--length what=NAME', &
+      'element used as the spring, damper, stop or bar of a wheel, if the deck has several;'// &
+      indent//'NAME is without left_ and right_, or is LEFT,RIGHT; may be repeated: --length spring=coil'), &
       option_t('export', '--vertical WORD', 'point whose height defines wheel travel: centre | patch | road (default: patch)'), &
       option_t('export', '--held WORD', &
-      'condition of the wheels for compliance: on the road (with tyre rates), heights or forces held:'// &
+      'wheels for compliance: on tyre rates (road), with height (centre) or vertical force (force) held:'// &
       indent//'road | centre | force (default: road if every wheel has a tyre_rate, else centre)'), &
       option_t('export', '--axle WORD', 'front | rear (default: position of &axle)'), &
       option_t('export', '--other DECK', 'deck of the other axle, for matlab-kc'), &
       option_t('export', '--signs WORD', 'signs of target csv: iso | sae (default: iso)'), &
       option_t('export', '--loads F:M:n', &
       'largest force [N], largest moment [N m] and n points of target csv (default: 2000:100:21)'), &
-      option_t('export', '--plot', 'also draw the written tables over separately solved curves'), &
+      option_t('export', '--plot', 'also draw the written tables together with separately solved curves, for comparison'), &
       option_t('export', '--set path=value', 'as for run'), &
       option_t('export', '--quiet', quiet_help), &
       option_t('import', '--out FILE', 'write this file (default: -, standard output)'), &
       option_t('import', '--quiet', quiet_help), &
-      option_t('derivatives', '--case NAME', 'case or standard test (default: the first of the deck)'), &
-      option_t('derivatives', '--of a,b,c', 'only these columns of the case or of the compliance matrix (names as in'// &
+      option_t('derivatives', '--case NAME', 'case or standard test (default: the first case of the deck)'), &
+      option_t('derivatives', '--of a,b,c', 'write only these columns of the case or of the compliance matrix (names as in'// &
       indent//'run --compliance); * stands for any letters'), &
-      option_t('derivatives', '--with paths', 'only these numbers, as in --set: point.lca_front.z,bushing.*.kt; may be repeated'), &
+      option_t('derivatives', '--with paths', 'write only derivatives with respect to these numbers, as in --set:'//indent// &
+      'point.lca_front.z,bushing.*.kt; may be repeated'), &
       option_t('derivatives', '--at a,b,c', &
-      'only at the states nearest to these swept values; all: every state (default: 0, design)'), &
+      'write only the states nearest to these swept values; all: every state'//indent//'(default: 0, the design state)'), &
       option_t('derivatives', '--out DIR', 'output folder (default: out); --out - writes the CSV to standard output'), &
       option_t('derivatives', '--set path=value', 'as for run'), option_t('derivatives', '--set-file FILE', 'as for run'), &
       option_t('derivatives', '--quiet', quiet_help), &
       option_t('bench', '--case NAME', ''), option_t('bench', '--increments N', ''), option_t('bench', '--set path=value', ''), &
       option_t('bench', '--growth N', &
       'measure chains of bodies instead of a deck, with matrices of 100 to N rows (at most 2000)'), &
-      option_t('bench', '--derivatives', 'measure the cost of derivatives instead, in sweeps of the same states by LAPACK'), &
+      option_t('bench', '--derivatives', &
+      'measure the cost of derivatives instead; the unit is one sweep of the same states by LAPACK'), &
       option_t('bench', '--json', 'print one JSON object'), option_t('bench', '--quiet', ''), &
       ! of every command
       option_t('', '--log FILE', 'append a record of this run (one line of JSON: arguments, messages, results, exit status)'), &

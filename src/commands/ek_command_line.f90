@@ -17,7 +17,7 @@ module ek_command_line
       character(80) :: usage      !! after 'elastokin'; options without a line of help are appended
       character(18) :: brief      !! the same in the overview
       character(60) :: summary    !! line of the overview
-      character(620) :: text      !! description
+      character(720) :: text      !! description
       character(230) :: ending    !! after the options
       integer :: files = 1        !! 1: one file; 2: two or more; 0: one or more
       character(15) :: alone = '' !! option that is given instead of the files

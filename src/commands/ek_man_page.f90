@@ -17,7 +17,7 @@ contains
    function main_page(commands, options, exit_status) result(text)
       type(command_t), intent(in) :: commands(:)
       type(option_t), intent(in) :: options(:)
-      character(*), intent(in) :: exit_status             !! text on the exit status of all commands
+      character(*), intent(in) :: exit_status             !! section on the exit status of all commands
       character(:), allocatable :: text
       type(buffer_t) :: page
       integer :: k
@@ -25,14 +25,14 @@ contains
       call begin_page(page, 'elastokin', 'elastokinematics (kinematics and compliance) of vehicle suspensions')
       call page%line('.B elastokin'//nl//'.I COMMAND FILE'//nl//'.RI [ options ]'//nl//'.SH DESCRIPTION')
       call page%line('Computes the kinematics and compliance of the suspension of a vehicle axle from a deck: a text file of')
-      call page%line('Fortran namelist groups that lists hardpoints, bodies, joints, bushings, springs, stops and load cases.')
-      call page%line('Results are CSV files, JSON files and HTML pages; their paths are printed to standard output, and messages')
-      call page%line('to standard error.'//nl//'.SH COMMANDS')
+      call page%line('Fortran namelist groups that lists hardpoints, bodies, joints, bushings, springs, bump stops and load cases.')
+      call page%line('Results are CSV files, JSON files and HTML pages. Their paths are printed to standard output. Messages are')
+      call page%line('printed to standard error.'//nl//'.SH COMMANDS')
       do k = 1, size(commands)
          call page%line('.TP'//nl//'.BR elastokin'//roff('-')//trim(commands(k)%name)//' (1)')
          call page%line(roff(trim(commands(k)%summary)))
       end do
-      call page%line('.SH OPTIONS'//nl//'Every command has these options, and those of its own page.')
+      call page%line('.SH OPTIONS'//nl//'Every command accepts these options, and the options on the page of the command.')
       call add_options(page, '', options)
       call page%line('.SH "EXIT STATUS"'//nl//roff(on_one_line(exit_status(index(exit_status, ':') + 1:))))
       call page%line('.SH "SEE ALSO"')
@@ -113,7 +113,7 @@ contains
       end do
    end subroutine add_options
 
-   !> A text for roff: lines end with a break; backslashes, hyphens, dots at the begin of lines and the ellipsis as roff wants them.
+   !> A string for roff: each line ends with a break; backslashes, hyphens, ellipses and dots at the start of a line are escaped.
    pure function roff(text) result(source)
       character(*), intent(in) :: text
       character(:), allocatable :: source
