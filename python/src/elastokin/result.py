@@ -90,7 +90,7 @@ class Result:
 
     @property
     def signs(self) -> dict[str, str]:
-        """Meaning of positive values of each column by name, as "+ toe-in"; "" if it has no sign."""
+        """Meaning of positive values of each column by name, as "+ front edge inward"; "" if it has no sign."""
         return {name: heading[2] for name, heading in zip(self.columns, self._headings)}
 
     @property
@@ -119,8 +119,8 @@ class Result:
         """Exact derivatives of columns with respect to numbers of the deck at a state. No solution is repeated.
 
         `columns`: columns of the case, or entries of its compliance matrix (names as in `elastokin run --compliance`). `numbers`: paths;
-        each stands for one number, or for this number on both sides of a mirrored axle. Derivatives include the motion of the state,
-        static equilibrium and balance. They are available until the model solves its next case. Raises UsageError, also for a case with a
+        each stands for one number, or for this number on both sides of a mirrored axle. Derivatives account for the change of the
+        state, of the static equilibrium and of the trimmed preloads (balance). They are available until the model solves its next case. Raises UsageError, also for a case with a
         method other than "equilibrium".
         """
         if self._model is None:
