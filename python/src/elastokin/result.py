@@ -120,8 +120,8 @@ class Result:
 
         `columns`: columns of the case, or entries of its compliance matrix (names as in `elastokin run --compliance`). `numbers`: paths;
         each stands for one number, or for this number on both sides of a mirrored axle. Derivatives account for the change of the
-        state, of the static equilibrium and of the trimmed preloads (balance). They are available until the model solves its next case. Raises UsageError, also for a case with a
-        method other than "equilibrium".
+        state, of the static equilibrium and of the trimmed preloads (balance). They are available until the model solves its next
+        case. Raises UsageError, also for a case with a method other than "equilibrium".
         """
         if self._model is None:
             raise errors.UsageError("a copied result has no derivatives; solve with a model")
