@@ -310,7 +310,8 @@ contains
       if (k > 0) text = trim(units(k)%text)
    end function unit_text
 
-   !> The unit of a column in SI; 1 without a unit. Percent, mm/m and slopes without a dimension are values as they are.
+   !> SI value of the unit of a column. It is 1 for a column without a unit, for %, mm/m and dimensionless slopes, and for deg/mm
+   !> and N/deg, which are not converted.
    pure real(wp) function unit_size(column) result(size_of)
       character(*), intent(in) :: column
       integer :: k

@@ -151,7 +151,7 @@ contains
       end do
    end subroutine take_heads
 
-   !> Finds decimal commas: commas that separate no columns may be these, unless there are decimal points too.
+   !> Records whether the text contains decimal points. If it does not, commas that do not separate columns are decimal commas.
    pure subroutine find_decimal_marks(text, sheet)
       character(*), intent(in) :: text
       type(sheet_t), intent(inout) :: sheet

@@ -26,8 +26,8 @@ module ek_check
 
 contains
 
-   !> Prints the findings to standard output, the last line OK or the number of messages and the worst; with --json the messages as
-   !> one object instead. exit_model if a case cannot be solved.
+   !> Prints the findings to standard output. The last line is OK, or the number of messages and the worst message. With --json,
+   !> prints the messages as one object. `error` has the code exit_model if the model cannot be solved.
    subroutine check(line, error)
       type(command_line_t), intent(in) :: line
       type(error_t), allocatable, intent(out) :: error

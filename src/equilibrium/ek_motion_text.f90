@@ -30,7 +30,8 @@ contains
       part = norm2(reshape(motion, [6, size(part)]), dim=1)
    end function body_parts
 
-   !> The body that moves most. Left and right of a symmetric axle are equal but for rounding: then the first of them.
+   !> Index of the body that moves most. Of bodies whose motions are equal within 1e-4 (left and right of a symmetric axle), the
+   !> first.
    pure integer function main_body(motion)
       real(wp), intent(in) :: motion(:)            !! scaled unknowns
       real(wp), parameter :: equal = 1.0e-4_wp

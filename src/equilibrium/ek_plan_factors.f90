@@ -150,7 +150,7 @@ contains
       soundness%growth = merge(growth, unlimited, is_sound)
    end subroutine factorise_by
 
-   !> Subtracts the updates of a column: x(places) ← x(places) − l a. No entry of `places` is one of a.
+   !> Subtracts the updates of a column: x(places) ← x(places) − l a. x(places) and a must not overlap.
    pure subroutine subtract_one(length, places, l, a, x)
       integer, intent(in) :: length, places(length)
       real(num), intent(in) :: l, a(length)

@@ -19,7 +19,7 @@ module ek_length_choice
 
 contains
 
-   !> Chooses the four lengths of both sides. Wishes: texts 'spring=NAME', 'damper=LEFT,RIGHT'.
+   !> Chooses the four lengths of both sides. `wishes` are strings such as 'spring=NAME' or 'damper=LEFT,RIGHT'.
    subroutine choose_lengths(suspension, wishes, choices, error)
       type(suspension_t), intent(in) :: suspension
       type(message_list_t), intent(in) :: wishes

@@ -265,7 +265,7 @@ contains
       end select
    end function driver_unit
 
-   !> Number of the load with this name; 0 for an empty name.
+   !> Index of the load with this name; 0 if the name is empty or no load has it.
    pure integer function load_number(self, name)
       type(suspension_t), intent(in) :: self
       character(*), intent(in) :: name

@@ -242,7 +242,7 @@ contains
       end do
    end subroutine put_attributes
 
-   !> Writes the names of the variables of responses and quantities, over dimensions of their own; the numbers of the states.
+   !> Writes the names of the responses and of the quantities, each list over its own dimension. Writes the indices of the states.
    subroutine write_names(store, file)
       type(store_t), intent(in) :: store
       type(file_t), intent(inout) :: file

@@ -211,8 +211,8 @@ contains
       end select
    end function name_of
 
-   !> Lists the names of a number for programs: one of the axle or of a single wheel, or one per wheel, the left one first; '':
-   !> the number does not exist for this wheel.
+   !> Lists the names of a key number for programs: one name for the axle or a single wheel, otherwise one per wheel, left first. A
+   !> name is '' if the wheel does not have the number.
    subroutine number_heads(number, is_pair, heads)
       type(key_number_t), intent(in) :: number
       logical, intent(in) :: is_pair                     !! the model has two wheels

@@ -129,7 +129,7 @@ contains
       text = text(3:)
    end function tics_of
 
-   !> The factors in descending order of importance, at most so many; those without a value last.
+   !> Indices of the factors in descending order of importance, at most `most`. Factors without a value are last.
    pure function ranked(importance, most) result(order)
       real(wp), intent(in) :: importance(:)
       integer, intent(in) :: most

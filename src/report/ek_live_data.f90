@@ -112,7 +112,7 @@ contains
       end do
    end subroutine find_columns
 
-   !> Adds a key number that follows the rates, and the number of the page next to which it is shown.
+   !> Adds a key number that follows the rates, and the name of the key number on the page next to which it is shown.
    subroutine add_number(json, numbers, k, columns, is_used)
       type(json_t), intent(inout) :: json
       type(key_number_t), intent(in) :: numbers(:)

@@ -155,7 +155,7 @@ contains
       call add_gradients(page, test%name, report%gradients)
    end subroutine add_test
 
-   !> The label of the abscissa over which the states of a test are shown.
+   !> Phrase about the abscissa of a test: 'plotted over ...', or 'on a grid of ...'.
    function over_what(test) result(words)
       type(test_result_t), intent(in) :: test
       character(:), allocatable :: words
@@ -250,7 +250,7 @@ contains
       call add_markup(page, '</details>')
    end subroutine add_constants
 
-   !> The middle of a constant; a value that is small against its least span is 0.
+   !> Mean of the smallest and the largest value of a nearly constant curve; 0 if it is below 1e-4 of the least span.
    pure real(wp) function level_of(y, span) result(value)
       real(wp), intent(in) :: y(:), span
 

@@ -31,7 +31,8 @@ module ek_factor_unit
 
 contains
 
-   !> The unit of a factor: 'N/mm'; '' without one: a multiple of the deck, a share, a number whose unit is not known.
+   !> The unit of a factor, for instance 'N/mm'. It is '' for a multiple of the deck's number, for numbers without a known unit, and
+   !> if the paths have different units.
    function factor_unit(design, paths) result(unit)
       type(design_t), intent(in) :: design
       type(factor_paths_t), intent(in) :: paths

@@ -80,7 +80,7 @@ module ek_study
 
 contains
 
-   !> A number that the file does not give.
+   !> NaN, which marks a number that the file does not give.
    pure real(wp) function not_given()
       not_given = ieee_value(1.0_wp, ieee_quiet_nan)
    end function not_given
