@@ -1,5 +1,5 @@
-!> Causes of failed designs. While the designs of a chunk are solved, their causes are stored as numbers. Messages are made of them
-!> after the last design, by one thread at a time.
+!> Causes of failed designs. While the designs of a chunk are solved, their causes are stored as numbers. After the last design,
+!> messages are created from these causes, by one thread at a time.
 module ek_design_cause
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use ek_kinds, only: wp
@@ -24,7 +24,7 @@ module ek_design_cause
       type(table_t), allocatable :: tables(:)      !! of each case; empty where no response has a fault
    end type cause_t
 
-   !> The causes of a chunk, in the order of its designs.
+   !> The causes of a chunk, in the order of the designs.
    type :: causes_t
       integer :: used = 0
       type(cause_t), allocatable :: list(:)
@@ -32,7 +32,7 @@ module ek_design_cause
 
 contains
 
-   !> Adds a design that must be read from the text.
+   !> Adds a design that must be read from the deck's strings.
    pure subroutine add_unread(design, causes)
       integer, intent(in) :: design
       type(causes_t), intent(inout) :: causes
@@ -59,7 +59,7 @@ contains
       causes%list(causes%used) = cause
    end subroutine add_cause
 
-   !> Finds why a design is incomplete. No text is made if all its cases were run.
+   !> Finds why a design is incomplete. No string is created if all cases of the design were run.
    subroutine find_cause(design, case_of, faults, workspace, cause)
       integer, intent(in) :: design
       integer, intent(in) :: case_of(:), faults(:)         !! of each response
