@@ -126,8 +126,8 @@ contains
       ranks%values(counter) = before + by
    end subroutine count_up
 
-   !> Handles accesses of other ranks to the counters, where the network cannot read the memory of rank 0 by itself. Must be called from time
-   !> to time.
+   !> Handles accesses of other ranks to the counters, where the network cannot read the memory of rank 0 by itself. Must be called
+   !> from time to time.
    subroutine help_others(ranks)
       type(ranks_t), intent(in) :: ranks
 #ifdef EK_MPI
