@@ -251,7 +251,7 @@ contains
       end associate
    end function density_of
 
-   !> Half width of the axis that shows a response without scatter.
+   !> The width that replaces the scatter of a constant response on an axis: |value|, or 1 if the value is 0.
    pure real(wp) function room_of_constant(value)
       real(wp), intent(in) :: value
       room_of_constant = merge(abs(value), 1.0_wp, abs(value) > 1.0e-9_wp)
