@@ -33,7 +33,7 @@ contains
       end select
    end function is_inside
 
-   !> 'must be above 0 kg, found -1': the message about a number outside the range of its key.
+   !> Message about a number outside the range of its key: 'must be above 0 kg, found -1'.
    pure function range_text(range, unit, shown) result(words)
       integer, intent(in) :: range            !! not any_number
       character(*), intent(in) :: unit        !! of the limits: ' kg'; '' for none

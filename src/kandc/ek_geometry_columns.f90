@@ -235,7 +235,8 @@ contains
       is(3) = side*dot_product(moment, n)/turn
    end function axis_distances
 
-   !> |v|, of numbers that neither overflow nor underflow when squared: norm2 guards against that at several times the cost.
+   !> The length |v| of a vector whose squares neither overflow nor underflow. norm2 guards against overflow at several times the
+   !> cost.
    pure real(wp) function length_of(v)
       real(wp), intent(in) :: v(3)
       length_of = sqrt(v(1)**2 + v(2)**2 + v(3)**2)

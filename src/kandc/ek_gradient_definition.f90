@@ -80,7 +80,7 @@ module ek_gradient_definition
    character(*), parameter :: names(6) = [character(6) :: 'travel', 'roll', 'force', 'torque', 'rack', 'wheel']
    character(*), parameter :: units(6) = [character(3) :: 'mm', 'deg', 'N', 'N m', 'mm', 'deg']
 
-   !> Half widths of the windows, in the units below; each window is centred on 0. `rack` is the window of the steering input,
+   !> Half widths of the windows, in the units of `units`; each window is centred on 0. `rack` is the window of the steering input,
    !> `wheel` of the steering-wheel angle.
    type :: windows_t
       real(wp) :: half(6) = [15.0_wp, 1.0_wp, 1000.0_wp, 100.0_wp, 10.0_wp, 20.0_wp]

@@ -204,7 +204,7 @@ contains
 
    contains
 
-      !> Rank of a body for the comparison of upper and lower ends: 1 for the chassis, −1 for the body of a wheel, 0 for other bodies.
+      !> Rank of a body for comparing upper and lower ends: 1 for the chassis, −1 for the body of a wheel, 0 for other bodies.
       pure integer function rank_of(body)
          integer, intent(in) :: body
          rank_of = 0

@@ -210,7 +210,7 @@ contains
    end subroutine bushing_values
 
    !> Computes force and moment of a joint on its second body, at its point, in the frame of the deck. For a joint of measures,
-   !> computes the reactions.
+   !> computes the reaction of its first row.
    pure subroutine joint_values(suspension, state, gradients, frame, k, values)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
