@@ -20,7 +20,7 @@ module ek_part_response
    private
    public :: response_t, respond_element, respond_measure, turn_directions
 
-   !> A part at one pair of poses.
+   !> The response of a part at one pair of poses.
    type :: response_t
       real(wp) :: value = 0.0_wp               !! of the measure [m, rad, -]
       real(wp) :: tension = 0.0_wp, slope = 0.0_wp     !! of an element of one measure
