@@ -72,6 +72,7 @@ contains
 
    !> Computes the derivative of one function, and both parts of its error with their signs: the difference of the two quotients,
    !> and the effect of a corner.
+   !> Equation (E.2) of docs/theory/derivatives.md.
    pure subroutine find_quotients(stencil, h, here, y, slope, gap, corner)
       type(stencil_t), intent(in) :: stencil
       real(wp), intent(in) :: h                            !! step
