@@ -23,7 +23,7 @@ module ek_load
 
 contains
 
-   !> Computes force and moment of a load about the body's reference point, global axes; and its arm.
+   !> Computes force and moment of a load about the body's reference point in global axes, and the arm of the load.
    !> Equation (K.1) of docs/theory/kkt.md.
    pure subroutine wrench(load, pose, force, moment, arm)
       type(load_t), intent(in) :: load
