@@ -41,8 +41,8 @@ module ek_decimal
 
 contains
 
-   !> Appends x to a buffer: -102.918270651123, 0.25, 3, 1.23456789012345e-09, nan, inf, -inf.
-   !> Plain for 1e-5 ≤ |x| < 1e15; no trailing zeros; both zeros are `0`.
+   !> Appends the number x to a buffer: -102.918270651123, 0.25, 3, 1.23456789012345e-09, nan, inf, -inf. Numbers with 1e-5 ≤ |x| <
+   !> 1e15 have no exponent. There are no trailing zeros; both zeros are `0`.
    pure subroutine put_decimal(x, buffer, used)
       real(wp), intent(in) :: x
       character(*), intent(inout) :: buffer     !! with room for longest_decimal more
@@ -94,7 +94,7 @@ contains
       used = used + len(word)
    end subroutine put
 
-   !> Finds the 15 digits of a positive finite x as an integer, x ≈ number·10^(decade − 14).
+   !> Finds the 15 digits of a positive finite x as an integer: x ≈ number·10^(decade − 14).
    pure subroutine find_digits(x, number, decade)
       real(wp), intent(in) :: x
       integer(i8), intent(out) :: number        !! 10^14 ≤ number < 10^15
@@ -132,7 +132,7 @@ contains
       end if
    end subroutine find_digits
 
-   !> Finds the digits as find_digits does, by gfortran's formatted write.
+   !> Finds the digits as find_digits does, but by gfortran's formatted write.
    pure subroutine find_digits_slowly(x, number, decade)
       real(wp), intent(in) :: x
       integer(i8), intent(out) :: number
@@ -289,7 +289,7 @@ contains
       end if
    end subroutine get_decimal
 
-   !> Whether a number in digits is larger than the largest double.
+   !> Whether a number given as digits is larger than the largest double.
    pure logical function overflows(text, decades)
       character(*), intent(in) :: text
       integer, intent(in) :: decades            !! digits in front of the decimal point, zeros in front of the first digit included
@@ -316,7 +316,7 @@ contains
       overflows = decades - zeros > 309 .or. (decades - zeros == 309 .and. first > largest)
    end function overflows
 
-   !> Reads a number that enters the calculation: finite and, as in a deck, below 1e30 in magnitude.
+   !> Reads a number for a calculation. The number must be finite and, as in a deck, below 1e30 in magnitude.
    pure subroutine get_bounded(text, x, is_good)
       character(*), intent(in) :: text
       real(wp), intent(out) :: x
@@ -327,7 +327,8 @@ contains
       if (is_good) is_good = abs(x) < number_limit
    end subroutine get_bounded
 
-   !> A hint for a message about a text that get_bounded rejects: ' (write a number below 1e30)' if it is a number, else ''.
+   !> A hint for a message about a string that get_bounded rejects: ' (write a number below 1e30)' if the string is a number,
+   !> otherwise ''.
    pure function size_hint(text) result(words)
       character(*), intent(in) :: text
       character(:), allocatable :: words
@@ -345,7 +346,7 @@ contains
       if (is_number .and. abs(x) > 0.0_wp) words = ' (write a number below 1e30)'
    end function size_hint
 
-   !> The number in a string that has been checked, as a list-directed `read` would give it, but ten times as fast.
+   !> The number in a string that has already been checked, as a list-directed `read` would return it, but ten times as fast.
    real(wp) function checked_number(text) result(x)
       character(*), intent(in) :: text           !! no blanks in front
       logical :: is_number
