@@ -1,5 +1,5 @@
 !> The numbers of a design space as a caller has set them: in SI for the workspace, in the units of the deck for the caller, and
-!> as the settings (as for --set) with which the deck gives the same design when it is read as text.
+!> as the settings (as for --set) with which reading the deck gives the same design.
 !>
 !> After begin_numbers and add_path, only apply_settings creates strings.
 module ek_design_numbers

@@ -100,7 +100,7 @@ contains
       end if
    end subroutine first_number
 
-   !> Sets a value as --set path=text does: '*1.1', '+2', a number or a string. The deck is read again, which takes some
+   !> Sets a value as --set path=value does: '*1.1', '+2', a number or a string. The deck is read again, which takes some
    !> milliseconds.
    subroutine set_text(session, path, text, error)
       type(session_t), intent(inout) :: session

@@ -27,7 +27,7 @@ contains
    !> because it is probably a deck or a table that was named by mistake.
    subroutine open_append_file(path, first, file, error)
       character(*), intent(in) :: path
-      character(1), intent(in) :: first                      !! with which every text begins
+      character(1), intent(in) :: first                      !! with which every string begins
       type(append_file_t), intent(out) :: file
       type(error_t), allocatable, intent(out) :: error       !! exit_file
       type(facts_t) :: facts

@@ -1,4 +1,4 @@
-!> A real as text with 15 significant digits, and back: fast, and correctly rounded.
+!> Conversion of a real to a string with 15 significant digits, and back: fast, and correctly rounded.
 !>
 !> gfortran's formatted write takes about a microsecond per number; writing a table of 600 states and
 !> 70 columns would take longer than its solution.
@@ -10,7 +10,7 @@
 !> is a whole product shifted to the right. It is exact while 5^q < 2^63 (q ≤ 27, |x| ≥ 1e-13).
 !> Above, 5^q is truncated to 63 bits, which bounds the digits from both sides; if the bounds round
 !> to different numbers, the (slow, exact) formatted write decides. It also handles values
-!> outside 1e-40 ≤ |x| < 1e15. Every text is therefore the correctly rounded decimal; a tie
+!> outside 1e-40 ≤ |x| < 1e15. Every string is therefore the correctly rounded decimal; a tie
 !> goes to the even digit, as in the formatted write.
 module ek_decimal
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan, ieee_positive_inf, ieee_negative_inf
@@ -320,7 +320,7 @@ contains
    pure subroutine get_bounded(text, x, is_good)
       character(*), intent(in) :: text
       real(wp), intent(out) :: x
-      logical, intent(out) :: is_good           !! false: another text, or a number beyond the limit
+      logical, intent(out) :: is_good           !! false: not a number, or a number beyond the limit
 
       call get_decimal(text, x, is_good)
       if (is_good) is_good = ieee_is_finite(x)

@@ -1,4 +1,4 @@
-!> Characters of text read from files: encoding, line ends, and invisible characters.
+!> Characters of strings read from files: encoding, line ends, and invisible characters.
 module ek_letters
    implicit none(type, external)
    private

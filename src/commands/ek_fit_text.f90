@@ -1,4 +1,4 @@
-!> The findings of elastokin fit as text.
+!> The findings of elastokin fit as printed.
 module ek_fit_text
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp

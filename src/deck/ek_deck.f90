@@ -153,7 +153,7 @@ contains
    subroutine set_value(deck, path, text, error)
       type(deck_t), intent(inout) :: deck
       character(*), intent(in) :: path    !! group.name.key or model.key
-      character(*), intent(in) :: text    !! the value as in a deck; quotes around texts may be omitted
+      character(*), intent(in) :: text    !! the value as in a deck; quotes around strings may be omitted
       type(error_t), allocatable, intent(out) :: error
       character(:), allocatable :: message, late_message
       type(deck_t) :: whole

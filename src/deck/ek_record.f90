@@ -90,7 +90,7 @@ contains
    !> Appends an entry to a record.
    pure subroutine add_entry(record, entry)
       type(record_t), intent(inout) :: record
-      type(entry_t), intent(inout) :: entry         !! handed over: without its texts afterwards
+      type(entry_t), intent(inout) :: entry         !! moved: without its strings afterwards
 
       if (.not. allocated(record%entries)) allocate (record%entries(8))
       if (record%used == size(record%entries)) record%entries = [record%entries, record%entries]      ! twice the size

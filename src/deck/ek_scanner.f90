@@ -1,4 +1,4 @@
-!> Converts the text of a deck to records.
+!> Converts the content of a deck to records.
 !>
 !> The compiler's namelist read silently accepts misspelt groups, text between groups, keys given twice
 !> and records without an end. Therefore this scanner handles groups, keys, subscripts, repeat

@@ -1,4 +1,4 @@
-!> Settings from the command line or a study: `group.name.key=value` changes numbers and texts of a deck.
+!> Settings from the command line or a study: `group.name.key=value` changes numbers and strings of a deck.
 !>
 !> | path                | meaning                                                  |
 !> |---------------------|----------------------------------------------------------|

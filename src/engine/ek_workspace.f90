@@ -6,9 +6,9 @@
 !>     workspace:  numbers_given → realised → balanced        put_numbers, take_numbers, balance_once
 !>     a case:     not_examined → examined → on_rig           prove_case or examine_again, put_on_rig
 !>
-!> solve_numbers and settle_numbers compute numbers and return a code. They make no text, nor do ready_cases and balance_once.
+!> solve_numbers and settle_numbers compute numbers and return a code. They create no strings, nor do ready_cases and balance_once.
 !> solve_or_explain and settle_or_explain examine the cases in full, call solve_numbers or settle_numbers, and explain a failure.
-!> balance_or_explain calls balance_once and explains a failure. These three make texts. gfortran stores the length of a text that a
+!> balance_or_explain calls balance_once and explains a failure. These three create strings. gfortran stores the length of a text that a
 !> function returns in one location for all threads: the caller allows one thread at a time to call them.
 module ek_workspace
    use ek_kinds, only: wp
@@ -38,7 +38,7 @@ module ek_workspace
 
    ! outcomes of solve_numbers and settle_numbers
    integer, parameter :: succeeded = 0
-   integer, parameter :: out_of_range = 1   !! of the blueprint: the design must be read from the text
+   integer, parameter :: out_of_range = 1   !! of the blueprint: the design must be read from the deck's strings
    integer, parameter :: in_doubt = 2       !! the design may have a defect: prove_case finds it
    integer, parameter :: not_balanced = 3   !! fail_balance explains it
 
@@ -294,7 +294,7 @@ contains
    subroutine settle_model(workspace, is_balanced, is_done, error)
       type(workspace_t), intent(inout) :: workspace
       logical, intent(out) :: is_balanced
-      logical, intent(out) :: is_done                      !! .false.: the design must be read from the text
+      logical, intent(out) :: is_done                      !! .false.: the design must be read from the deck's strings
       type(error_t), allocatable, intent(out) :: error     !! exit_model, exit_convergence: why no case can be solved
       type(message_list_t) :: defects
       character(:), allocatable :: words

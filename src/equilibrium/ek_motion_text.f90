@@ -1,4 +1,4 @@
-!> Describes a motion of the bodies as text: the bodies, the line of the motion, and the hardpoints on it.
+!> Describes a motion of the bodies in a message: the bodies, the line of the motion, and the hardpoints on this line.
 module ek_motion_text
    use ek_kinds, only: wp, millimetre
    use ek_text, only: str, quoted, vector_text, plural

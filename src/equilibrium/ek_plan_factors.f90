@@ -22,7 +22,7 @@ module ek_plan_factors
       real(num) :: negative = zero            !! number of negative eigenvalues (Sylvester's law: of D)
       real(num) :: least = zero, most = zero    !! |eigenvalues| of D
       real(num) :: log_determinant = zero    !! ln |det|
-      real(num) :: growth = zero             !! largest |l|; not a number or huge if the matrix is singular or nearly so
+      real(num) :: growth = zero             !! largest |l|; NaN or huge if the matrix is singular or nearly so
    end type soundness_t
 
 contains

@@ -1,11 +1,11 @@
 !> A file in the TeimOrbit format of Adams/Car: blocks, each with entries and rows of a table.
 !>
 !>     [BLOCK]                         a block, whose name may occur again
-!>     KEY = value                     an entry; a text is in quotes
+!>     KEY = value                     an entry; a string is in quotes
 !>     (PART)                          a part of the block, with entries and rows of its own
 !>     {first second third}            the column headings of the rows that follow
 !>     value value value               a row
-!>     $ text                          a comment, also after values; ! at the begin of a line as well
+!>     $ text                          a comment, also after values; also ! at the beginning of a line
 !>
 !> Case does not matter in names of blocks, keys and headings.
 module ek_teimorbit
@@ -65,7 +65,7 @@ contains
       end do
    end function is_teimorbit
 
-   !> Splits a text into blocks. The reader of the file checks the content of the lines.
+   !> Splits the content of a file into blocks. The reader of the file checks the content of the lines.
    subroutine parse_teimorbit(lines, file, flaws)
       type(lines_t), intent(in) :: lines
       type(teimorbit_t), intent(out) :: file

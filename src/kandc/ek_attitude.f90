@@ -9,7 +9,7 @@
 !>     camber = asin(−w_z):                   δcamber = (θ_y w_x − θ_x w_y)/h
 !>     caster = atan2(k_x, k_z):              δcaster = θ_y − k_y (θ_x k_x + θ_z k_z)/(k_x² + k_z²)
 !>
-!> A vertical spin axis has no toe, a steering axis along y no caster: the quotients are then infinite or not a number.
+!> A vertical spin axis has no toe, and a steering axis along y has no caster: the quotients are then infinite or NaN.
 module ek_attitude
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
@@ -68,7 +68,7 @@ contains
    !>     caster = atan2(k_x, k_z)          kingpin = atan2(−side·k_y, k_z)    k: steering axis, upward
    !>
    !> The ground is the horizontal plane through the contact point. A horizontal steering axis (k_z = 0)
-   !> does not intersect it: scrub radius and trail are then not a number.
+   !> does not intersect it: scrub radius and trail are then NaN.
    !> Equation (C.9) of docs/theory/compliance.md.
    pure function attitude_of(wheel, origin, now) result(attitude)
       type(wheel_t), intent(in) :: wheel

@@ -1,7 +1,7 @@
 !> Solves one case of a deck: its path of states, their table, and how it ended.
 !>
 !> Every command and every study solves its cases here; they choose options and print or write the result. A solution is numbers
-!> and a code, its outcome. add_remarks describes both as text, on request.
+!> and a code, its outcome. add_remarks describes both in messages, on request.
 module ek_case_result
    use ek_kinds, only: wp, i8, millimetre
    use ek_error, only: error_t, fail, exit_model, exit_convergence, exit_file
@@ -34,7 +34,7 @@ module ek_case_result
    !> The requested results of a solution.
    type :: solve_options_t
       character(:), allocatable :: fault           !! defect of the model in this case, which is then not solved; '' for none
-      logical :: has_violation = .true.            !! otherwise constraint_error of equilibria is not a number
+      logical :: has_violation = .true.            !! otherwise constraint_error of equilibria is NaN
       logical :: is_compared = .true.              !! a linear method is compared with equilibrium at the ends of the path
       real(wp) :: min_settling = 1.0e-8_wp       !! displacement of a wheel under the constant loads that is noted [m]
       character(name_length), allocatable :: columns(:)   !! quantities that are computed; not allocated: all

@@ -9,7 +9,7 @@
 !> Two conditions in the vertical direction: vertical force held (the unchanged matrix), or heights of the wheel centres held
 !> (ek_port_response).
 !>
-!> Everything is SI and radians. A quotient with a vanishing denominator is not a number (ek_loaded_wheels). A swing arm longer than
+!> Everything is SI and radians. A quotient with a vanishing denominator is NaN (ek_loaded_wheels). A swing arm longer than
 !> one kilometre is equivalent to parallel guidance.
 module ek_characteristics
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan

@@ -40,9 +40,9 @@ module ek_compliance
       integer :: wheels = 0, springs = 0
       integer, allocatable :: order(:)          !! wheel of the suspension at each index of C: left before right
       integer, allocatable :: spring(:)         !! axial spring of the suspension at each index
-      logical :: is_known = .false.             !! false: the matrix was singular, `response` is not a number
+      logical :: is_known = .false.             !! false: the matrix was singular, `response` is NaN
       logical :: has_drive = .false.            !! the last load is a unit displacement of the steering driver
-      real(wp), allocatable :: response(:, :)   !! (port, load), see above; not a number if it was not requested
+      real(wp), allocatable :: response(:, :)   !! (port, load), see above; NaN if it was not requested
       ! the loads that are solved, and the ports that are read
       integer, private :: solved = 0
       integer, allocatable, private :: load(:)          !! of each solved column

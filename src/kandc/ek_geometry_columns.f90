@@ -210,7 +210,7 @@ contains
    !>
    !>     centre = |d×k|     patch = |(patch − point)×k|     across = d·n     along = side (d×k)·n/|w×k|
    !>
-   !> which solves d = along w + μ k + across n. `along` and `across` are not numbers if w and k are parallel.
+   !> which solves d = along w + μ k + across n. `along` and `across` are NaN if w and k are parallel.
    !> Equation (S.10) of docs/theory/suspension.md.
    pure function axis_distances(side, point, direction, centre, patch, spin) result(is)
       integer, intent(in) :: side

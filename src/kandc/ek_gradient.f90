@@ -41,7 +41,7 @@ module ek_gradient
       character(:), allocatable :: column, over   !! the columns of the table
       character(:), allocatable :: window      !! '±15 mm'
       real(wp) :: window_half = 0.0_wp         !! mm, deg, N or N m
-      real(wp) :: value = 0.0_wp               !! in `unit`; not a number if there is a note
+      real(wp) :: value = 0.0_wp               !! in `unit`; NaN if there is a note
       real(wp) :: turn = 1.0_wp                !! s_y/s_x
       real(wp) :: size = 1.0_wp                !! unit of the value per unit of the slope
       integer :: points = 0                    !! states in the window

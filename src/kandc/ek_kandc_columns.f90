@@ -2,7 +2,7 @@
 !>
 !> The sections of ek_quantity give names, units and conditions; the values of each section are computed in SI, in the same order,
 !> if one of its columns is requested: here, in ek_wheel_columns and in ek_geometry_columns. A quantity
-!> without a value at a state is not a number.
+!> without a value at a state is NaN.
 !>
 !> The suffix of a column names the quantity whose slope the column is: `…_steer`, `…_toe`, `…_camber`, `…_caster` are the
 !> derivatives of the columns steer_deg, toe_deg, camber_deg and caster_deg; `…_rotation_x`, `…_y`, `…_z` are the

@@ -2,7 +2,7 @@
 !> value outside its range.
 !>
 !> A value outside its range is converted with the other units of its dimension: if one of them brings it into the range,
-!> this unit is named. Otherwise the remark gives the text of the table row. No finding is an error.
+!> this unit is named. Otherwise the remark gives the cause in the table row. No finding is an error.
 module ek_plausible_range
    use ek_kinds, only: wp, units_t, degree
    use ek_error, only: message_list_t
@@ -136,7 +136,7 @@ contains
    pure subroutine examine(self, where, thing)
       class(doubts_t), intent(inout) :: self
       character(*), intent(in) :: where        !! file:line
-      character(*), intent(in) :: thing        !! "spring 'coil'", '' for a text without a heading
+      character(*), intent(in) :: thing        !! "spring 'coil'", '' for a remark without a heading
 
       self%where = where
       self%thing = thing

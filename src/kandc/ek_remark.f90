@@ -32,7 +32,7 @@ module ek_remark
       logical :: has_place = .false.
       real(wp) :: place = 0.0_wp             !! swept value to which it applies, SI
    contains
-      procedure :: whole                     !! text of the remark with its heading
+      procedure :: whole                     !! string of the remark with its heading
    end type remark_t
 
    !> The remarks on a case.

@@ -48,7 +48,7 @@ contains
       type(case_t), intent(in) :: case
       type(observer_t), intent(inout) :: self
       character(*), intent(in), optional :: wanted(:)   !! columns; a name that the model does not define has no effect
-      logical, intent(in), optional :: has_violation    !! .false.: constraint_error of equilibria is not a number
+      logical, intent(in), optional :: has_violation    !! .false.: constraint_error of equilibria is NaN
       character(name_length), allocatable :: columns(:), asked(:)
       logical, allocatable :: is_kept(:)
       integer :: k

@@ -122,7 +122,7 @@ contains
       has = nf90_inquire_attribute(file%id, variable, name) == nf90_noerr
    end function has
 
-   !> Reads a text attribute; '' after a fault.
+   !> Reads a string attribute; '' after a fault.
    subroutine get_text(file, variable, name, text)
       type(store_file_t), intent(inout) :: file
       integer, intent(in) :: variable

@@ -40,7 +40,7 @@ module ek_key_number
       character(48) :: held = ''                  !! condition of the wheels of a loaded axle: 'vertical force held'
       logical :: has_target = .false.
       real(wp) :: target(2) = 0.0_wp              !! lower and upper limit that the deck gives, in `unit`
-      real(wp) :: left = 0.0_wp, right = 0.0_wp      !! not a number if missing
+      real(wp) :: left = 0.0_wp, right = 0.0_wp      !! NaN if missing
       logical :: is_of_axle = .false.                !! one number, in `left`
       integer :: how = at_design                     !! one of the constants above
       type(key_source_t), allocatable :: sources(:)  !! tests that may have it; the first that has a value counts
@@ -76,7 +76,7 @@ contains
       integer, intent(in) :: how
       type(key_source_t), intent(in) :: source
       type(table_t), intent(in) :: table                !! of the test
-      real(wp), intent(inout) :: values(2)              !! not a number before the first test
+      real(wp), intent(inout) :: values(2)              !! NaN before the first test
       logical, intent(out) :: is_final
       integer :: wheel, place, over, points
       real(wp) :: value

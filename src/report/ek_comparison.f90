@@ -20,7 +20,7 @@ module ek_comparison
    !> One gradient or key number of all results. For a key number, `test` is its group and `column` its name for programs.
    type, extends(gradient_t) :: difference_t
       real(wp) :: least = 0.0_wp              !! reference of a change where the value is smaller
-      real(wp), allocatable :: values(:)      !! one per result; not a number if it lacks the gradient
+      real(wp), allocatable :: values(:)      !! one per result; NaN if it lacks the gradient
       logical, allocatable :: is_there(:)
    end type difference_t
 

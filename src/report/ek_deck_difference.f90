@@ -135,7 +135,7 @@ contains
       are_numbers = is_number
    end function are_numbers
 
-   !> The difference b − a of two values, such as '+5'; '' if they are not numbers.
+   !> The difference b − a of two values, such as '+5'; '' if a value is not a number.
    function step_text(a, b) result(text)
       character(*), intent(in) :: a, b
       character(:), allocatable :: text

@@ -140,7 +140,7 @@ contains
       type(live_test_t), intent(in) :: test
       integer, intent(in) :: of_law(:)
       logical, intent(in) :: is_exact
-      logical, intent(inout) :: is_used(:)                 !! columns that are to be written; then those that are left
+      logical, intent(inout) :: is_used(:)                 !! columns that are to be written; on return, the columns that are left
       character(:), allocatable :: text, name
       type(small_t) :: small
       type(buffer_t) :: out

@@ -1,7 +1,7 @@
 !> A page of results as one self-contained HTML file: headings, tables and embedded pictures.
 !>
 !> No script, font or picture is fetched: the page itself forbids it (Content-Security-Policy). It is laid out for a screen, in one
-!> column for a phone (tables scroll in their own box), and for paper (A4). Every input text is escaped here. Style sheet and script
+!> column for a phone (tables scroll in their own box), and for paper (A4). Every input string is escaped here. Style sheet and script
 !> are files of their own in page/, put into ek_page_assets by the build.
 module ek_page
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_is_nan
@@ -85,7 +85,7 @@ contains
       call page%contents%line('<li><a href="#'//escape_html(id)//'">'//escape_html(title)//'</a></li>')
    end subroutine begin_section
 
-   !> Adds plain text as a paragraph 'p', or as a heading 'h3' within a section; HTML markup in it is escaped.
+   !> Adds a plain string as a paragraph 'p', or as a heading 'h3' within a section; HTML markup in it is escaped.
    pure subroutine add_text(page, tag, text)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: tag, text
@@ -294,7 +294,7 @@ contains
       call page%body%line('</p>')
    end subroutine add_legend
 
-   !> The complete HTML text of the page.
+   !> The complete HTML of the page.
    pure function page_text(page) result(text)
       type(page_t), intent(in) :: page
       character(:), allocatable :: text

@@ -1,5 +1,5 @@
 !> data.json: the content of the page of a report, without repetition: facts, key numbers, and the curves of every test. The page
-!> carries the same text as a block of data, from which its charts are drawn; schema/data.schema.json describes it.
+!> contains this file as a block of data, from which its charts are drawn; schema/data.schema.json describes it.
 module ek_report_data
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
@@ -26,7 +26,7 @@ module ek_report_data
 
 contains
 
-   !> The data of a report as JSON. The text has no '<', so that it can be inserted into a page unchanged.
+   !> The data of a report as JSON. The string has no '<', so that it can be inserted into a page unchanged.
    function report_data(report) result(text)
       type(report_t), intent(in) :: report
       character(:), allocatable :: text

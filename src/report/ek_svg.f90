@@ -73,7 +73,7 @@ contains
    pure subroutine add_words(out, text, at)
       type(buffer_t), intent(inout) :: out
       character(*), intent(in) :: text
-      integer, intent(inout) :: at           !! where the text begins
+      integer, intent(inout) :: at           !! where the string begins
       logical :: is_blank, has_end
       integer :: first
 

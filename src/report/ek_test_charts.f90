@@ -274,7 +274,7 @@ contains
       type(table_t), intent(in) :: table
       logical, intent(in) :: is_good(:)                    !! rows to consider
       character(name_length), allocatable, intent(out) :: names(:)
-      real(wp), allocatable, intent(out) :: force(:, :)    !! N (row, name); not a number elsewhere
+      real(wp), allocatable, intent(out) :: force(:, :)    !! N (row, name); NaN elsewhere
       integer, intent(out) :: carrying                     !! elements that carry a force
       character(*), intent(in), optional :: elements(:)    !! only these
       character(*), parameter :: ending = '_fx_n'

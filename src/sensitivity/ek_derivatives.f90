@@ -1,6 +1,6 @@
 !> Derivatives of the columns of a case with respect to numbers of the deck, at states of its path. No solution is repeated.
 !>
-!>     call begin_derivatives(workspace, k, columns, directions, self)        once per deck, case, columns and numbers; makes texts
+!>     call begin_derivatives(workspace, k, columns, directions, self)        once per deck, case, columns and numbers; creates strings
 !>     call find_derivatives(workspace, states, self)                         at each design, after its case is solved
 !>
 !> Two steps at every state:
@@ -16,7 +16,7 @@
 !> With the same difference at 2h, Richardson's extrapolation removes the error of order h², and the difference of both quotients
 !> is the reported error: an upper limit where the column is smooth, and large where it has a corner within 2h (a stop at contact, a
 !> curve's point, an absolute value). A neighbouring design is the complete design of x ± h: realised, balanced, mounted. Its
-!> swept values are the swept values of the same state of the path. An undefined derivative is not a number: at a state that was
+!> swept values are the swept values of the same state of the path. An undefined derivative is NaN: at a state that was
 !> not reached or has a singular tangent, for a number that cannot move, for a column without a value at the state.
 module ek_derivatives
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan

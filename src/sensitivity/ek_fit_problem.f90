@@ -24,7 +24,7 @@ module ek_fit_problem
       type(direction_t) :: direction
       real(wp) :: start = 0.0_wp                           !! in the deck, in the unit of the direction
       real(wp) :: lower = -huge(1.0_wp), upper = huge(1.0_wp)
-      real(wp) :: nominal = 0.0_wp, deviation              !! of the prior; deviation is not a number without one
+      real(wp) :: nominal = 0.0_wp, deviation              !! of the prior; deviation is NaN without one
       real(wp) :: scale = 1.0_wp                           !! a change that counts as large
       logical :: is_positive = .false.                     !! a rate, a mass, a multiple: known only if known to be above zero
    end type fit_variable_t
@@ -32,7 +32,7 @@ module ek_fit_problem
    !> One result that is fitted to a target value.
    type :: fit_point_t
       integer :: target = 0
-      real(wp) :: value, low, high                         !! wanted; not a number: not given
+      real(wp) :: value, low, high                         !! wanted; NaN: not given
       real(wp) :: deviation = 1.0_wp                       !! by which the difference is divided: standard deviation over weight
    end type fit_point_t
 

@@ -125,7 +125,7 @@ contains
       type(wanted_number_t), intent(in) :: wanted
       integer, intent(in) :: source                        !! of a key number that is read
       type(table_t), intent(in) :: table                   !! of its case
-      real(wp), intent(inout) :: value                     !! of the sources before; not a number before the first
+      real(wp), intent(inout) :: value                     !! of the sources before; NaN before the first
       real(wp) :: both(2)
       logical :: is_final
 

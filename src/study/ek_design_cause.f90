@@ -17,7 +17,7 @@ module ek_design_cause
 
    type :: cause_t
       integer :: design = 0                        !! in the chunk, from 1
-      logical :: is_unread = .false.               !! the design must be read from the text, which gives the cause
+      logical :: is_unread = .false.               !! the design must be read from the deck's strings, which gives the cause
       type(error_t) :: error                       !! a case was not run: the first such case; message not allocated: none
       real(wp), allocatable :: lost(:, :)          !! (side, case): first swept value without an equilibrium; NaN: none
       integer, allocatable :: faults(:)            !! of each response, see read_response

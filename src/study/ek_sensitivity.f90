@@ -1,7 +1,7 @@
 !> Sensitivity of a response to the factors of a study: Sobol indices, Morris' elementary effects, the bars of a tornado.
 !>
 !> `responses` holds one number per design, in the order of the design numbers of the sampler. A design without a response (failed:
-!> not a number or infinite) omits the row, effect or bar that needs it; `used` counts the remaining rows.
+!> NaN or infinite) omits the row, effect or bar that needs it; `used` counts the remaining rows.
 module ek_sensitivity
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan, ieee_is_finite
    use ek_kinds, only: wp, i8

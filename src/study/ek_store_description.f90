@@ -1,4 +1,4 @@
-!> The input of the program elastokin-netcdf, which writes the store of a study from its chunks: sizes, names, units, texts.
+!> The input of the program elastokin-netcdf, which writes the store of a study from its chunks: sizes, names, units, strings.
 !>
 !> elastokin writes the description into the folder of the chunks; the file is a list of records, each a line with word, name and
 !> length, then so many characters and a line end. A description of another version is rejected.

@@ -16,7 +16,7 @@ module ek_study_survey
 
    !> The content of the folder of the chunks.
    type :: survey_t
-      integer :: done = 0, failed = 0                !! designs; of these, those that failed
+      integer :: done = 0, failed = 0                !! numbers of finished designs, and of failed designs
       logical :: is_at_work = .false.                !! a run has the folder
       real(wp) :: rate = 0.0_wp                      !! designs per second, lately; 0: unknown
    end type survey_t
