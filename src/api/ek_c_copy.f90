@@ -54,7 +54,7 @@ contains
       address = text_of_file(open_handle(model), k, .false.)
    end function ek_file_text
 
-   !> Path or content of a file that was read.
+   !> Path or content of file k of the deck as a C string.
    type(c_ptr) function text_of_file(handle, k, is_path) result(address)
       type(handle_t), pointer, intent(in) :: handle
       integer(c_int), intent(in) :: k

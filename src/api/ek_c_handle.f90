@@ -31,7 +31,7 @@ module ek_c_handle
    end type handle_t
 
    interface
-      !> The length of a C string [bytes], without its final NUL.
+      !> Length of a C string [bytes], without the final NUL.
       integer(c_size_t) function strlen(text) bind(c, name='strlen')
          import :: c_ptr, c_size_t
          implicit none(type, external)
@@ -41,7 +41,7 @@ module ek_c_handle
 
 contains
 
-   !> The handle to which the pointer of a caller points; not associated for NULL.
+   !> The handle to which the caller's pointer points; not associated for NULL.
    function handle_of(model) result(handle)
       type(c_ptr), intent(in) :: model
       type(handle_t), pointer :: handle
@@ -50,8 +50,8 @@ contains
       if (c_associated(model)) call c_f_pointer(model, handle)
    end function handle_of
 
-   !> The handle of a model with a deck, and no message; not associated for NULL, or if the deck could not be read. In the latter
-   !> case the message of opening stays.
+   !> The handle of a model with a deck; the last message is cleared. Not associated for NULL, or if the deck could not be read. In
+   !> the latter case the message of opening the deck is unchanged.
    function open_handle(model) result(handle)
       type(c_ptr), intent(in) :: model
       type(handle_t), pointer :: handle
@@ -65,7 +65,7 @@ contains
       end if
    end function open_handle
 
-   !> Finds a handle as open_handle does, for a call that returns a code: not ek_ok if there is no deck.
+   !> Finds a handle as open_handle does, for a call that returns a code. The code is not ek_ok if there is no deck.
    subroutine take_handle(model, handle, code)
       type(c_ptr), intent(in) :: model
       type(handle_t), pointer, intent(out) :: handle
@@ -76,7 +76,8 @@ contains
       if (.not. associated(handle)) code = refuse(handle_of(model), '')
    end subroutine take_handle
 
-   !> Opens an array of a caller, which must have `wanted` numbers; otherwise the message reports it.
+   !> Sets a pointer to an array of the caller. If the array does not have `wanted` numbers, stores a message and returns an
+   !> error code.
    subroutine take_array(handle, values, n, wanted, message, place, code)
       type(handle_t), pointer, intent(in) :: handle
       type(c_ptr), intent(in) :: values
@@ -94,7 +95,7 @@ contains
       end if
    end subroutine take_array
 
-   !> Copies a text of a caller that must not be NULL; otherwise the message reports it.
+   !> Copies a string of the caller. If the string is NULL, stores a message and returns an error code.
    subroutine take_text(handle, address, message, text, code)
       type(handle_t), pointer, intent(in) :: handle
       type(c_ptr), intent(in) :: address
@@ -106,7 +107,7 @@ contains
       if (.not. c_associated(address)) code = refuse(handle, message)
    end subroutine take_text
 
-   !> Copies a list of n names of a caller. A name that is NULL or longer than a column can be is rejected.
+   !> Copies a list of n names of the caller. Rejects a name that is NULL or longer than a column name can be.
    subroutine take_names(handle, names, n, found, code)
       type(handle_t), pointer, intent(in) :: handle
       type(c_ptr), intent(in) :: names                       !! not NULL if n > 0
@@ -134,7 +135,7 @@ contains
       end do
    end subroutine take_names
 
-   !> The exit code of a call; also stores the message of the call in the handle.
+   !> The exit code of a call. The message of the call is stored in the handle.
    integer(c_int) function finish(handle, error) result(code)
       type(handle_t), intent(inout) :: handle
       type(error_t), allocatable, intent(in) :: error
@@ -146,7 +147,7 @@ contains
       handle%message = error%message//c_null_char
    end function finish
 
-   !> The code of a wrong call.
+   !> Exit code of a call with wrong arguments. The message is stored in the handle.
    integer(c_int) function refuse(handle, message) result(code)
       type(handle_t), pointer, intent(in) :: handle
       character(*), intent(in) :: message
@@ -160,7 +161,7 @@ contains
       end if
    end function refuse
 
-   !> The address of a copy of a string for the caller, which the handle stores.
+   !> Address of a C copy of a string. The handle stores the copy.
    type(c_ptr) function say(handle, text) result(address)
       type(handle_t), pointer, intent(in) :: handle
       character(*), intent(in) :: text
@@ -170,7 +171,7 @@ contains
       address = c_loc(handle%texts(handle%last)%text)
    end function say
 
-   !> Whether a position from 0 is inside a list; if not, the message reports this.
+   !> Whether a position, counted from 0, is inside a list. If not, a message is stored in the handle.
    logical function is_position(handle, k, count, code)
       type(handle_t), pointer, intent(in) :: handle
       integer(c_int), intent(in) :: k
@@ -185,7 +186,7 @@ contains
       !$omp end critical (ek_words)
    end function is_position
 
-   !> Copies a C text; '' for NULL.
+   !> Copies a C string; '' for NULL.
    subroutine from_c(address, text)
       type(c_ptr), intent(in) :: address
       character(:), allocatable, intent(out) :: text

@@ -80,7 +80,7 @@ contains
       !$omp end critical (ek_words)
    end subroutine list
 
-   !> Name, unit or definition of a number of the list that ek_number_count made.
+   !> Name, unit or definition of a key number in the list that ek_number_count has created.
    type(c_ptr) function text_of_number(handle, k, what) result(address)
       type(handle_t), pointer, intent(in) :: handle
       integer(c_int), intent(in) :: k

@@ -17,7 +17,7 @@ module ek_c_parameters
 
 contains
 
-   !> The handle of a model that has a parameter k.
+   !> The handle of a model that has a parameter with index k, counted from 0; otherwise not associated.
    function handle_at(model, k, code) result(handle)
       type(c_ptr), intent(in) :: model
       integer(c_int), intent(in) :: k
@@ -58,7 +58,7 @@ contains
       end associate
    end function ek_parameter_path
 
-   !> Unit of parameter k, from 0, as a C string; empty without dimension.
+   !> Unit of parameter k, from 0, as a C string; empty for a dimensionless parameter.
    type(c_ptr) function ek_parameter_unit(model, k) bind(c) result(address)
       type(c_ptr), value :: model
       integer(c_int), value :: k
@@ -83,7 +83,7 @@ contains
       if (associated(handle)) answer = merge(1_c_int, 0_c_int, handle%session%workspace%design%parameters%list(k + 1)%is_given)
    end function ek_parameter_is_given
 
-   !> Position of the corresponding number of the left side of a mirrored axle; -1 if there is none.
+   !> Position of the corresponding parameter of the left side of a mirrored axle; -1 if there is no such parameter.
    integer(c_int) function ek_parameter_twin(model, k) bind(c) result(twin)
       type(c_ptr), value :: model
       integer(c_int), value :: k
@@ -147,7 +147,7 @@ contains
       code = finish(handle, error)
    end function ek_set_all
 
-   !> Opens the array of a caller for all parameters.
+   !> Sets a pointer to the caller's array for the values of all parameters.
    subroutine take_all(model, n, values, handle, place, code)
       type(c_ptr), intent(in) :: model, values
       integer(c_int), intent(in) :: n

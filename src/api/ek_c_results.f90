@@ -40,7 +40,7 @@ contains
       code = finish(handle, error)
    end function ek_solve
 
-   !> The last solution; not associated if there is none.
+   !> The last solution; not associated if there is no solution.
    function solution_of(handle) result(last)
       type(handle_t), pointer, intent(in) :: handle          !! of open_handle
       type(case_result_t), pointer :: last
@@ -49,7 +49,7 @@ contains
       if (associated(handle)) last => result_of(handle%session)
    end function solution_of
 
-   !> Finds the last solution for a call that returns a code: not ek_ok if there is no solution.
+   !> Finds the last solution for a call that returns a code. The code is not ek_ok if there is no solution.
    subroutine take_solution(model, handle, last, code)
       type(c_ptr), intent(in) :: model
       type(handle_t), pointer, intent(out) :: handle
@@ -102,7 +102,7 @@ contains
       address = text_of_column(open_handle(model), k, 'title')
    end function ek_column_title
 
-   !> Sign convention of column k, from 0, as a C string; empty if the column has none.
+   !> Sign convention of column k, from 0, as a C string; empty if the column has no sign convention.
    type(c_ptr) function ek_column_sign(model, k) bind(c) result(address)
       type(c_ptr), value :: model
       integer(c_int), value :: k
@@ -155,7 +155,7 @@ contains
       if (code == ek_ok) call put_grid(last%table%values, place)
    end function ek_values
 
-   !> Copies a matrix, column after column.
+   !> Copies a matrix column by column.
    pure subroutine put_grid(grid, place)
       real(wp), intent(in) :: grid(:, :)
       real(c_double), intent(inout) :: place(size(grid, 1), size(grid, 2))

@@ -1,5 +1,5 @@
 !> The numbers of a design space as a caller has set them: in SI for the workspace, in the units of the deck for the caller, and
-!> as the settings (as for --set) with which the deck gives the same design when it is read as text.
+!> as the settings (as for --set) with which reading the deck gives the same design.
 !>
 !> After begin_numbers and add_path, only apply_settings creates strings.
 module ek_design_numbers
@@ -69,9 +69,9 @@ contains
       numbers%is_new = .true.
    end subroutine reset_numbers
 
-   !> A number as a person would have written it, with at most 15 digits: the conversion to SI and back changes its last digit. A
-   !> integer of 15 digits and a power of ten up to 1e22 are exact, and one division or product rounds once. The result is the
-   !> number nearest to the decimal, as if read from its text (W. D. Clinger, PLDI 1990).
+   !> A number as a person would have written it, with at most 15 digits: the conversion to SI and back changes the last digit of a
+   !> number. An integer of 15 digits and a power of ten up to 1e22 are exact, and one division or product rounds once. The result
+   !> is the number nearest to the decimal, as if read from its string (W. D. Clinger, PLDI 1990).
    real(wp) function written(value)
       real(wp), intent(in) :: value
       integer :: places                            ! after the decimal point
@@ -93,7 +93,7 @@ contains
       end if
    end function written
 
-   !> The setting of a path that was used before; 0 if it was not.
+   !> Index of the setting of a path that was used before; 0 if the path was not used.
    pure integer function place_number(numbers, path) result(k)
       type(design_numbers_t), intent(in) :: numbers
       character(*), intent(in) :: path
@@ -103,7 +103,7 @@ contains
       end do
    end function place_number
 
-   !> Adds a path; its setting is the last.
+   !> Adds a path; the setting of the path becomes the last setting.
    subroutine add_path(numbers, path, found, setting)
       type(design_numbers_t), intent(inout) :: numbers
       character(*), intent(in) :: path
@@ -118,7 +118,7 @@ contains
       numbers%settings(setting)%turn = 0
    end subroutine add_path
 
-   !> Sets the numbers of a path; on the right side of an axle with their sign (ek_parameter).
+   !> Sets all numbers of a path. A number on the right side of an axle receives the value times its sign (ek_parameter).
    pure subroutine put_path(numbers, setting, value)
       type(design_numbers_t), intent(inout) :: numbers
       integer, intent(in) :: setting
@@ -155,7 +155,7 @@ contains
       end associate
    end function is_legal_path
 
-   !> Whether a value is inside the legal range of one number, and below the limit of all numbers.
+   !> Whether a value is inside the legal range of one number, and its magnitude is below the limit for all numbers.
    pure logical function is_legal_at(numbers, k, value, parameters)
       type(design_numbers_t), intent(in) :: numbers
       integer, intent(in) :: k
@@ -166,7 +166,7 @@ contains
       if (is_legal_at) is_legal_at = is_inside(parameters%list(k)%range, value*numbers%unit(k))
    end function is_legal_at
 
-   !> Sets one number by its position.
+   !> Sets one number, given by its index.
    pure subroutine put_at(numbers, k, value)
       type(design_numbers_t), intent(inout) :: numbers
       integer, intent(in) :: k
@@ -180,7 +180,7 @@ contains
       numbers%is_new = .true.
    end subroutine put_at
 
-   !> Applies the settings to a deck, in their original order.
+   !> Applies the settings to a deck, in the order in which they were set.
    subroutine apply_settings(numbers, design, deck, error)
       type(design_numbers_t), intent(in) :: numbers
       type(design_t), intent(in) :: design                 !! prepared by begin_numbers
@@ -208,7 +208,7 @@ contains
 
    contains
 
-      !> The index of the smallest turn that is larger than `last`; 0: no turn is larger.
+      !> The index of the smallest turn that is larger than `last`; 0 if no turn is larger.
       pure integer function next(turns, last)
          integer, intent(in) :: turns(:), last
          next = 0

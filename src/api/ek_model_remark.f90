@@ -25,7 +25,7 @@ module ek_model_remark
 
 contains
 
-   !> Finds the remarks on a model. One thread at a time.
+   !> Finds the remarks on a model. Only one thread at a time may call it.
    subroutine find_model_remarks(suspension, cases, chosen, is_balanced, remarks)
       type(suspension_t), intent(in) :: suspension      !! balanced if possible; on no rig
       type(case_t), intent(in) :: cases(:), chosen(:)   !! all of the deck; those to be run
@@ -44,7 +44,7 @@ contains
       count_remarks = self%faults%count() + self%notes%count() + self%warnings%count() + self%doubts%count()
    end function count_remarks
 
-   !> Reads remark k: its text, and 'failure', 'note' or 'warning'. Failures come first.
+   !> Reads remark k: its string, and its severity 'failure', 'note' or 'warning'. Failures come first.
    subroutine read_model_remark(remarks, k, text, severity)
       type(model_remarks_t), intent(in) :: remarks
       integer, intent(in) :: k

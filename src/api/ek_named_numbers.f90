@@ -37,7 +37,7 @@ module ek_named_numbers
       class(case_result_t), allocatable :: result
    end type needed_case_t
 
-   !> Wanted numbers of the designs of a deck.
+   !> The requested key numbers of the designs of a deck.
    type :: named_numbers_t
       private
       type(key_number_t), allocatable :: numbers(:)      !! of each wanted name
@@ -88,7 +88,7 @@ contains
       if (.not. is_complete) call explain_unknown(names, suspension, cases, error)
    end subroutine prepare_numbers
 
-   !> Adds the columns and states that a number needs from its cases.
+   !> Adds the columns and states that a key number requires from its cases.
    subroutine add_needs(number, suspension, cases, tests, needed, reach)
       type(key_number_t), intent(in) :: number
       type(suspension_t), intent(in) :: suspension
@@ -124,7 +124,7 @@ contains
 
    end subroutine add_needs
 
-   !> The unit of number k, as in key_numbers.csv.
+   !> The unit of requested number k, as in key_numbers.csv.
    function number_unit(self, k) result(unit)
       class(named_numbers_t), intent(in) :: self
       integer, intent(in) :: k
@@ -132,15 +132,15 @@ contains
       unit = self%numbers(k)%unit
    end function number_unit
 
-   !> Which cases are solved in any event. They must be examined before balance (examine_case).
+   !> Whether each case is solved in any event. Such cases must be examined before balance (examine_case).
    pure function needed_tests(numbers) result(is_needed)
       type(named_numbers_t), intent(in) :: numbers
       logical :: is_needed(size(numbers%cases))
       is_needed = numbers%cases%is_first
    end function needed_tests
 
-   !> Reads the values of a design. A number that needs a state which was not found is not a number: the rest of its states
-   !> would give another number. States beyond its window do not matter.
+   !> Reads the key numbers of a design. A key number is NaN if a state that it requires did not converge: its other states would
+   !> give another value. States beyond the window of the key number do not matter.
    subroutine read_numbers(numbers, suspension, cases, values, is_whole, is_solvable)
       type(named_numbers_t), intent(inout) :: numbers
       type(suspension_t), intent(in) :: suspension       !! the design, balanced, on no rig
@@ -178,7 +178,7 @@ contains
       is_whole = all(ieee_is_finite(values))
    end subroutine read_numbers
 
-   !> Solves the required states and columns of one case.
+   !> Solves one case at the required states, with the required columns.
    subroutine solve(suspension, case, needed)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
@@ -193,8 +193,8 @@ contains
       needed%is_solved = .true.
    end subroutine solve
 
-   !> Explains which numbers the last read_numbers gave no value, and why: the states that were not found, with their cases; a
-   !> quantity that the model does not define. No error if all quantities have a value. Only one thread at a time may call it.
+   !> Explains which key numbers the last read_numbers gave no value, and why: states that did not converge, with their cases, or a
+   !> quantity that the model does not define. No error if all key numbers have a value. Only one thread at a time may call it.
    subroutine explain_missing(numbers, names, values, defects, error)
       type(named_numbers_t), intent(inout) :: numbers
       character(*), intent(in) :: names(:)

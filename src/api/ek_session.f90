@@ -30,7 +30,7 @@ module ek_session
       integer, allocatable :: column(:), direction(:)                  !! where each stands in `derivatives`
    end type derived_t
 
-   !> A deck, its present numbers, and its last solution. A caller may read the components, and changes them by procedures only.
+   !> A deck, its present numbers, and its last solution. A caller may read the components, but must change them through procedures.
    type :: session_t
       type(deck_t) :: original                      !! as opened
       type(deck_t) :: deck                          !! with the settings of set_text
@@ -52,7 +52,7 @@ module ek_session
 
 contains
 
-   !> Empties a session: one procedure where gfortran writes out how a session is given back.
+   !> Empties a session. This is one procedure because gfortran writes out the deallocation of a session at each call.
    subroutine empty_session(session)
       type(session_t), intent(out) :: session
       session%solved = 0
@@ -71,7 +71,7 @@ contains
       !$omp end critical (ek_words)
    end subroutine open_file
 
-   !> Opens a deck that is given as text.
+   !> Opens a deck that is given as a string.
    subroutine open_text(text, name, session, error)
       character(*), intent(in) :: text
       character(*), intent(in) :: name                     !! for messages; its folder contains included files and load tables
@@ -85,7 +85,7 @@ contains
       !$omp end critical (ek_words)
    end subroutine open_text
 
-   !> Opens a deck that was read.
+   !> Opens a deck that has already been read.
    subroutine open_deck(deck, session, error)
       type(deck_t), intent(in) :: deck
       type(session_t), intent(inout) :: session
@@ -98,7 +98,7 @@ contains
       call take_deck(copy, session, error)
    end subroutine open_deck
 
-   !> Opens a deck as open_deck does; the deck is handed over.
+   !> Opens a deck as open_deck does, but moves the deck into the session instead of copying it.
    subroutine take_deck(deck, session, error)
       type(deck_t), intent(inout) :: deck
       type(session_t), intent(inout) :: session
@@ -111,7 +111,7 @@ contains
       !$omp end critical (ek_words)
    end subroutine take_deck
 
-   !> Restores the deck as opened.
+   !> Opens the workspace of the deck as opened, and copies this deck to the current deck.
    subroutine begin_opened(session, error)
       type(session_t), intent(inout) :: session
       type(error_t), allocatable, intent(out) :: error
@@ -123,7 +123,7 @@ contains
       call begin_workspace(session)
    end subroutine begin_opened
 
-   !> Replaces the deck; if the new deck has errors, the session is unchanged. The last solution is not deleted in either case: its
+   !> Replaces the deck. If the new deck has errors, the session is unchanged. The last solution is not deleted in either case: its
    !> workspace is stored until the next solution.
    subroutine begin_again(deck, session, error)
       type(deck_t), intent(in) :: deck
@@ -140,7 +140,7 @@ contains
       call begin_workspace(session)
    end subroutine begin_again
 
-   !> Begins the parts of a session that depend on its workspace's deck.
+   !> Resets the parts of a session that depend on the deck of its workspace.
    subroutine begin_workspace(session)
       type(session_t), intent(inout) :: session
 
@@ -152,7 +152,7 @@ contains
       if (allocated(session%derived)) session%derived%derivatives%case = 0      ! of another workspace: kept as room
    end subroutine begin_workspace
 
-   !> Gives the workspace the numbers that were changed since.
+   !> Passes the numbers that were changed since the last solution to the workspace.
    subroutine take_new_numbers(session)
       type(session_t), intent(inout) :: session
 
@@ -170,7 +170,7 @@ contains
       call apply_settings(session%numbers, session%workspace%design, deck, error)
    end subroutine changed_deck
 
-   !> Removes the option of the command line from a message on a setting, which then names its path alone.
+   !> Removes '--set' from a message about a setting, so that the message gives only the path.
    subroutine without_option(error)
       type(error_t), allocatable, intent(inout) :: error
       if (allocated(error)) call replace(error%message, '--set ', '')

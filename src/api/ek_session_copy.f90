@@ -1,7 +1,6 @@
 !> A deck opened for a program that calls elastokin: copies of it. Part of the Fortran interface (ek_api).
 !>
-!> A copy is the deck as opened. No file is read again, so that the copy has the same checksum even if the files have changed
-!> since.
+!> A copy is the deck as opened. No file is read again. The copy has the same checksum even if the files have changed since.
 module ek_session_copy
    use ek_error, only: error_t, fail, exit_usage
    use ek_kept_files, only: kept_files_t
@@ -43,7 +42,7 @@ contains
       files = session%original%kept
    end function opened_files
 
-   !> Opens a deck from the content of its files (opened_files). A file that is missing there is read.
+   !> Opens a deck from the content of its files (opened_files). A file that is not in this list is read from disk.
    subroutine open_files(files, session, error)
       type(kept_files_t), intent(in) :: files              !! the first is the deck
       type(session_t), intent(inout) :: session
@@ -60,8 +59,8 @@ contains
       !$omp end critical (ek_words)
    end subroutine open_files
 
-   !> Writes the deck with its present numbers as one text: included files, hardpoints, property files, both sides and changes
-   !> are written out.
+   !> Writes the deck with its present numbers as one string. It contains the included files, hardpoints, property files, both sides
+   !> and all changes.
    subroutine used_deck(session, text, error)
       type(session_t), intent(in) :: session
       character(:), allocatable, intent(out) :: text

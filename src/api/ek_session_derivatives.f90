@@ -20,8 +20,8 @@ module ek_session_derivatives
 contains
 
    !> Computes the derivatives of columns in one row of the last solution with respect to numbers of the deck, and estimates of
-   !> their errors [unit of the column per unit of the number]. No solution is repeated (ek_derivatives). Not a number: the state
-   !> did not converge, the column has no value at the state, or the number cannot be changed.
+   !> their errors [unit of the column per unit of the number]. No solution is repeated (ek_derivatives). A derivative is NaN if the
+   !> state did not converge, if the column has no value at the state, or if the number cannot be changed.
    subroutine find_slopes(session, row, columns, paths, slopes, errors, error)
       type(session_t), intent(inout), target :: session
       integer, intent(in) :: row                               !! of the table of the last solution
@@ -56,7 +56,7 @@ contains
 
    contains
 
-      !> Computes the derivatives at the row, and gathers them by column and path.
+      !> Computes the derivatives at the row, and orders them by column and path.
       subroutine find(workspace, derived)
          class(workspace_t), intent(inout) :: workspace
          class(derived_t), intent(inout) :: derived
@@ -73,7 +73,7 @@ contains
 
    end subroutine find_slopes
 
-   !> Whether the last request was for the same columns and numbers, of the same case of the same workspace.
+   !> Whether the last request had the same columns, paths, case and workspace.
    pure logical function is_prepared(session, columns, paths)
       type(session_t), intent(in) :: session
       character(*), intent(in) :: columns(:), paths(:)
@@ -130,7 +130,7 @@ contains
       session%derived%derivatives%case = 0        ! kept as room; is_prepared knows that it is no answer
    end subroutine prepare
 
-   !> Finds the direction of each path; a path that leads to several directions is an error.
+   !> Finds the direction of each path. A path that leads to more or fewer than one direction is an error.
    subroutine place_paths(workspace, session, paths, directions, place, mistakes)
       class(workspace_t), intent(in) :: workspace
       type(session_t), intent(in) :: session

@@ -15,8 +15,8 @@ module ek_session_numbers
 
 contains
 
-   !> Reads key numbers of the report by name, at the present numbers: only the tests that they need are solved, as far as
-   !> needed. The last solution is unchanged.
+   !> Reads key numbers of the report by name, at the present numbers. Only the tests that these key numbers need are solved, as far
+   !> as needed. The last solution is unchanged.
    subroutine read_key_numbers(session, names, values, error)
       type(session_t), intent(inout) :: session
       character(*), intent(in) :: names(:)
@@ -54,7 +54,7 @@ contains
       !$omp end critical (ek_words)
    end subroutine read_key_numbers
 
-   !> Reads key numbers for the first time, or of a design that may have a defect.
+   !> Reads key numbers that were not requested before, or key numbers of a design that may have a defect. Creates strings.
    subroutine read_with_words(session, names, values, error)
       type(session_t), intent(inout) :: session
       character(*), intent(in) :: names(:)

@@ -1,4 +1,4 @@
-!> A deck opened for a program that calls elastokin: its numbers and texts are set, read and reset. Part of the Fortran interface
+!> A deck opened for a program that calls elastokin: sets, reads and resets its numbers and strings. Part of the Fortran interface
 !> (ek_api).
 module ek_session_settings
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
@@ -18,8 +18,8 @@ module ek_session_settings
 
 contains
 
-   !> Sets all numbers to which a path leads, as --set path=value: both sides of a mirrored axle, and * in names. Legal numbers that
-   !> together do not define a valid model are stored, and the next solution reports them.
+   !> Sets all numbers to which a path leads, as --set path=value does. A path may cover both sides of a mirrored axle, and names
+   !> may contain *. Legal numbers that together do not define a valid model are stored; the next solution reports them.
    subroutine set_number(session, path, value, error)
       type(session_t), intent(inout) :: session
       character(*), intent(in) :: path
@@ -43,7 +43,7 @@ contains
       end if
    end subroutine set_number
 
-   !> The message about a number outside its legal range, as the reader of decks gives it.
+   !> Message about a number outside its legal range, as given by the deck reader.
    function range_message(session, path, value) result(message)
       type(session_t), intent(in) :: session
       character(*), intent(in) :: path
@@ -72,8 +72,8 @@ contains
       if (lines%count() == 0) message = setting//': the number is outside its legal range'
    end function range_message
 
-   !> Finds a path that is used for the first time: checks it as --set does. setting is 0 if the path leads to no number of the
-   !> design space, and the value was set in the text.
+   !> Finds a path that is used for the first time, and checks it as --set does. `setting` is 0 if the path leads to no number of
+   !> the design space; the value was then set in the deck's strings.
    subroutine first_number(session, path, value, setting, error)
       type(session_t), intent(inout) :: session
       character(*), intent(in) :: path
@@ -100,7 +100,7 @@ contains
       end if
    end subroutine first_number
 
-   !> Sets a value as --set path=text does: '*1.1', '+2', a number or a string. The deck is read again, which takes some
+   !> Sets a value as --set path=value does: '*1.1', '+2', a number or a string. The deck is read again, which takes some
    !> milliseconds.
    subroutine set_text(session, path, text, error)
       type(session_t), intent(inout) :: session
@@ -125,7 +125,7 @@ contains
       if (.not. allocated(error)) session%is_text_changed = .true.
    end subroutine take_text
 
-   !> Returns the number to which a path leads; not a number if it leads to several that differ.
+   !> Returns the number to which a path leads; NaN if the path leads to several different numbers.
    subroutine get_number(session, path, value, error)
       type(session_t), intent(inout) :: session
       character(*), intent(in) :: path

@@ -22,8 +22,8 @@ module ek_session_solution
 
 contains
 
-   !> Solves a case of the deck or a standard test at the present numbers. The table has all columns, or `state`, `factor`, the
-   !> named columns (in the order of the program's tables) and the last columns on convergence.
+   !> Solves a case of the deck or a standard test at the present numbers. The table has all columns, or only `state`, `factor`, the
+   !> named columns and the last columns on convergence. The named columns are in the order of the program's tables.
    subroutine solve(session, name, error, columns)
       type(session_t), intent(inout) :: session
       character(*), intent(in) :: name                         !! '': the first case of the deck
@@ -111,7 +111,7 @@ contains
       call fail(error, exit_usage, 'no case '//quoted(name)//' in '//file//did_you_mean(name, names))
    end subroutine find_case
 
-   !> Prepares the columns that a case is to have: names with * are replaced by the names that match.
+   !> Prepares the columns that the table of a case shall have. Names with * are replaced by all matching names.
    subroutine prepare(workspace, k, asked, prepared, error)
       type(workspace_t), intent(in) :: workspace
       integer, intent(in) :: k
@@ -137,7 +137,7 @@ contains
       prepared%options%columns = pack(heads, is_wanted)
    end subroutine prepare
 
-   !> Creates the remarks on the last solution, and returns failures as an error.
+   !> Creates the remarks on the last solution. Returns failures as an error.
    subroutine end_solution(session, error)
       type(session_t), intent(inout), target :: session
       type(error_t), allocatable, intent(inout) :: error
@@ -155,8 +155,8 @@ contains
       end if
    end subroutine end_solution
 
-   !> The last solution: result%table has the columns, one row per state; result%remarks the notes, warnings and failures.
-   !> The pointer is not associated if there is no solution.
+   !> The last solution. result%table has the columns, one row per state; result%remarks has the notes, warnings and failures. The
+   !> pointer is not associated if there is no solution.
    function result_of(session) result(last)
       type(session_t), intent(inout), target :: session
       type(case_result_t), pointer :: last
@@ -170,7 +170,7 @@ contains
       end if
    end function result_of
 
-   !> Reads a remark on a solution: its text, and 'note', 'warning' or 'failure'.
+   !> Reads a remark on a solution: its string, and its severity 'note', 'warning' or 'failure'.
    subroutine read_remark(remarks, k, text, severity)
       type(remark_list_t), intent(in) :: remarks
       integer, intent(in) :: k
@@ -184,14 +184,15 @@ contains
       if (remark%severity == warning) severity = 'warning'
    end subroutine read_remark
 
-   !> The state of the path that a row of the table shows.
+   !> Index of the state of the path that a row of the table shows.
    pure integer function state_of_row(result, row)
       type(case_result_t), intent(in) :: result
       integer, intent(in) :: row
       state_of_row = nint(result%table%values(column_index(result%table, 'state'), row)) + 1
    end function state_of_row
 
-   !> Rejects calls on the last solution if key numbers were since read at changed numbers: the model then has the changed numbers.
+   !> Rejects calls on the last solution if key numbers have since been read at changed numbers, because the model then has the
+   !> changed numbers.
    subroutine refuse_other_numbers(session, error)
       type(session_t), intent(in) :: session
       type(error_t), allocatable, intent(out) :: error     !! exit_usage
@@ -207,8 +208,9 @@ contains
          'derivatives are read')
    end subroutine refuse_other_numbers
 
-   !> Computes the compliance matrix at the wheel centres in one row of the last solution, left before right, frame of the deck:
-   !> displacements x y z and rotations [m, rad] by forces and moments [N, N m]; not a number where the state did not converge.
+   !> Computes the compliance matrix at the wheel centres in one row of the last solution: displacements x y z and rotations [m,
+   !> rad] per force and moment [N, N m]. Left is before right; the frame is the frame of the deck. All entries are NaN if the state
+   !> did not converge.
    subroutine compliance_at(session, row, c, error)
       type(session_t), intent(inout), target :: session
       integer, intent(in) :: row

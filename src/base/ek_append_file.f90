@@ -1,7 +1,7 @@
 !> A file to which several processes append whole lines at the same time, on one machine or on several.
 !>
-!> Each text is added by one write to a file opened for appending, so that on a local disk no two texts mix. Network file systems
-!> guarantee this only under a lock, which is held during the write.
+!> Each string is added by one write to a file opened for appending, so that on a local disk two strings never mix. Network file
+!> systems guarantee this only under a lock, which is held during the write.
 module ek_append_file
    use, intrinsic :: iso_c_binding, only: c_associated, c_int, c_long, c_null_char, c_null_ptr, c_ptr
    use ek_error, only: error_t, fail, exit_file
@@ -23,11 +23,11 @@ module ek_append_file
 
 contains
 
-   !> Opens a file for appending; a file that does not exist is created, empty. A file that does not begin with `first` is
-   !> rejected: it would be a deck or a table, named by error.
+   !> Opens a file for appending. A file that does not exist is created empty. A file that does not begin with `first` is rejected,
+   !> because it is probably a deck or a table that was named by mistake.
    subroutine open_append_file(path, first, file, error)
       character(*), intent(in) :: path
-      character(1), intent(in) :: first                      !! with which every text begins
+      character(1), intent(in) :: first                      !! with which every string begins
       type(append_file_t), intent(out) :: file
       type(error_t), allocatable, intent(out) :: error       !! exit_file
       type(facts_t) :: facts
@@ -61,7 +61,7 @@ contains
       is_open = c_associated(self%stream)
    end function is_open
 
-   !> Appends a text by one write.
+   !> Appends a string by one write.
    subroutine append_text(self, text, error)
       class(append_file_t), intent(in) :: self
       character(*), intent(in) :: text                       !! whole lines

@@ -1,4 +1,4 @@
-!> Bytes as text.
+!> Bytes as base64 strings.
 module ek_base64
    use, intrinsic :: iso_fortran_env, only: int32, real32
    use ek_kinds, only: wp
@@ -30,7 +30,7 @@ contains
       end do
    end function base64
 
-   !> Numbers with some 7 digits: IEEE 754 of 32 bits, the lowest byte first, as base64.
+   !> Numbers with about 7 digits (IEEE 754 of 32 bits, lowest byte first) in Base64 encoding.
    pure function base64_of_numbers(values) result(text)
       real(wp), intent(in) :: values(:)
       character(:), allocatable :: text

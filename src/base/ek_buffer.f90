@@ -1,6 +1,6 @@
-!> A text that grows piece by piece, used to build pages, scripts and text tables.
+!> A string that grows piece by piece, used to build pages, scripts and tables.
 !>
-!> The capacity doubles when it is exhausted, so appending n characters costs O(n) however small the pieces are.
+!> The capacity doubles when it is exhausted, so that appending n characters costs O(n) for pieces of any size.
 module ek_buffer
    implicit none(type, external)
    private
@@ -44,7 +44,7 @@ contains
       call self%add(new_line('a'))
    end subroutine buffer_line
 
-   !> The text appended so far.
+   !> The string appended so far.
    pure function buffer_text(self) result(text)
       class(buffer_t), intent(in) :: self
       character(:), allocatable :: text
@@ -53,7 +53,8 @@ contains
       if (allocated(self%letters)) text = self%letters(:self%used)
    end function buffer_text
 
-   !> Copies the characters of the text from `first` on to `part`: pieces of a long text without a copy of all of it.
+   !> Copies the characters of the string from position `first` on to `part`. Pieces of a long string can thus be read without a
+   !> copy of the complete string.
    pure subroutine buffer_copy(self, first, part)
       class(buffer_t), intent(in) :: self
       integer, intent(in) :: first
@@ -68,7 +69,7 @@ contains
       length = self%used
    end function buffer_length
 
-   !> Deletes the text, or the part after its first `behind` characters. The capacity is unchanged.
+   !> Deletes the string, or the part after its first `behind` characters. The capacity is unchanged.
    pure subroutine buffer_clear(self, behind)
       class(buffer_t), intent(inout) :: self
       integer, intent(in), optional :: behind   !! characters that remain, at most the length

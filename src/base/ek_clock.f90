@@ -9,8 +9,8 @@ module ek_clock
 
 contains
 
-   !> Seconds of a monotonic clock; its zero is arbitrary, so only differences are meaningful.
-   !> Resolution 1 ns with gfortran on Linux.
+   !> Seconds of a monotonic clock. Its zero is arbitrary, so that only differences are meaningful. The resolution is 1 ns with
+   !> gfortran on Linux.
    real(wp) function seconds()
       integer(i8) :: ticks, rate
 
@@ -18,8 +18,8 @@ contains
       seconds = real(ticks, wp)/real(rate, wp)
    end function seconds
 
-   !> Seconds that the processors have worked for this process, in all its threads: waiting for a busy processor does not count.
-   !> Resolution 1 us with gfortran on Linux.
+   !> Processor time of this process in all its threads [s]. Waiting for a busy processor does not count. The resolution is 1 us
+   !> with gfortran on Linux.
    real(wp) function processor_seconds()
       call cpu_time(processor_seconds)
    end function processor_seconds
@@ -29,8 +29,8 @@ contains
       seconds_since_1970 = c_time(c_null_ptr)
    end function seconds_since_1970
 
-   !> '2026-01-31 17:05': the local time now; if the environment variable SOURCE_DATE_EPOCH is set, that time in UTC, so that
-   !> the same input gives the same bytes (https://reproducible-builds.org/specs/source-date-epoch/).
+   !> The local time now as '2026-01-31 17:05'. If the environment variable SOURCE_DATE_EPOCH is set, its time in UTC, so that equal
+   !> input gives equal bytes (https://reproducible-builds.org/specs/source-date-epoch/).
    function date_text() result(words)
       character(16) :: words
       character(kind=c_char) :: letters(17)
@@ -50,7 +50,7 @@ contains
       words = transfer(letters(:length), words)
    end function date_text
 
-   !> '2026-01-31T16:05:09Z': the time now in UTC (ISO 8601), to compare the records of several machines.
+   !> The time now in UTC as '2026-01-31T16:05:09Z' (ISO 8601), to compare records of several machines.
    function universal_time() result(words)
       character(20) :: words
       character(kind=c_char) :: letters(21)
@@ -63,7 +63,7 @@ contains
       words = transfer(letters(:length), words)
    end function universal_time
 
-   !> Reads SOURCE_DATE_EPOCH if it is an integer of seconds within the years 1970 to 9999.
+   !> Reads SOURCE_DATE_EPOCH, if it is an integer number of seconds within the years 1970 to 9999.
    subroutine read_set_date(epoch, is_set)
       integer(i8), intent(out) :: epoch
       logical, intent(out) :: is_set

@@ -1,4 +1,4 @@
-!> A real as text with 15 significant digits, and back: fast, and correctly rounded.
+!> Conversion of a real to a string with 15 significant digits, and back: fast, and correctly rounded.
 !>
 !> gfortran's formatted write takes about a microsecond per number; writing a table of 600 states and
 !> 70 columns would take longer than its solution.
@@ -10,7 +10,7 @@
 !> is a whole product shifted to the right. It is exact while 5^q < 2^63 (q ≤ 27, |x| ≥ 1e-13).
 !> Above, 5^q is truncated to 63 bits, which bounds the digits from both sides; if the bounds round
 !> to different numbers, the (slow, exact) formatted write decides. It also handles values
-!> outside 1e-40 ≤ |x| < 1e15. Every text is therefore the correctly rounded decimal; a tie
+!> outside 1e-40 ≤ |x| < 1e15. Every string is therefore the correctly rounded decimal; a tie
 !> goes to the even digit, as in the formatted write.
 module ek_decimal
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan, ieee_positive_inf, ieee_negative_inf
@@ -41,8 +41,8 @@ module ek_decimal
 
 contains
 
-   !> Appends x to a buffer: -102.918270651123, 0.25, 3, 1.23456789012345e-09, nan, inf, -inf.
-   !> Plain for 1e-5 ≤ |x| < 1e15; no trailing zeros; both zeros are `0`.
+   !> Appends the number x to a buffer: -102.918270651123, 0.25, 3, 1.23456789012345e-09, nan, inf, -inf. Numbers with 1e-5 ≤ |x| <
+   !> 1e15 have no exponent. There are no trailing zeros; both zeros are `0`.
    pure subroutine put_decimal(x, buffer, used)
       real(wp), intent(in) :: x
       character(*), intent(inout) :: buffer     !! with room for longest_decimal more
@@ -94,7 +94,7 @@ contains
       used = used + len(word)
    end subroutine put
 
-   !> Finds the 15 digits of a positive finite x as an integer, x ≈ number·10^(decade − 14).
+   !> Finds the 15 digits of a positive finite x as an integer: x ≈ number·10^(decade − 14).
    pure subroutine find_digits(x, number, decade)
       real(wp), intent(in) :: x
       integer(i8), intent(out) :: number        !! 10^14 ≤ number < 10^15
@@ -132,7 +132,7 @@ contains
       end if
    end subroutine find_digits
 
-   !> Finds the digits as find_digits does, by gfortran's formatted write.
+   !> Finds the digits as find_digits does, but by gfortran's formatted write.
    pure subroutine find_digits_slowly(x, number, decade)
       real(wp), intent(in) :: x
       integer(i8), intent(out) :: number
@@ -289,7 +289,7 @@ contains
       end if
    end subroutine get_decimal
 
-   !> Whether a number in digits is larger than the largest double.
+   !> Whether a number given as digits is larger than the largest double.
    pure logical function overflows(text, decades)
       character(*), intent(in) :: text
       integer, intent(in) :: decades            !! digits in front of the decimal point, zeros in front of the first digit included
@@ -316,18 +316,19 @@ contains
       overflows = decades - zeros > 309 .or. (decades - zeros == 309 .and. first > largest)
    end function overflows
 
-   !> Reads a number that enters the calculation: finite and, as in a deck, below 1e30 in magnitude.
+   !> Reads a number for a calculation. The number must be finite and, as in a deck, below 1e30 in magnitude.
    pure subroutine get_bounded(text, x, is_good)
       character(*), intent(in) :: text
       real(wp), intent(out) :: x
-      logical, intent(out) :: is_good           !! false: another text, or a number beyond the limit
+      logical, intent(out) :: is_good           !! false: not a number, or a number beyond the limit
 
       call get_decimal(text, x, is_good)
       if (is_good) is_good = ieee_is_finite(x)
       if (is_good) is_good = abs(x) < number_limit
    end subroutine get_bounded
 
-   !> A hint for a message about a text that get_bounded rejects: ' (write a number below 1e30)' if it is a number, else ''.
+   !> A hint for a message about a string that get_bounded rejects: ' (write a number below 1e30)' if the string is a number,
+   !> otherwise ''.
    pure function size_hint(text) result(words)
       character(*), intent(in) :: text
       character(:), allocatable :: words
@@ -345,7 +346,7 @@ contains
       if (is_number .and. abs(x) > 0.0_wp) words = ' (write a number below 1e30)'
    end function size_hint
 
-   !> The number in a string that has been checked, as a list-directed `read` would give it, but ten times as fast.
+   !> The number in a string that has already been checked, as a list-directed `read` would return it, but ten times as fast.
    real(wp) function checked_number(text) result(x)
       character(*), intent(in) :: text           !! no blanks in front
       logical :: is_number

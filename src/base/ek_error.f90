@@ -14,7 +14,7 @@ module ek_error
    integer, parameter :: exit_file = 5         !! a file cannot be read or written
    integer, parameter :: exit_stopped = 6      !! a study was stopped before its end; of the command line only
 
-   !> The error message and the exit status of the program.
+   !> An error: its message and the exit status of the program.
    type :: error_t
       integer :: code = exit_usage
       character(:), allocatable :: message    !! one or more lines, no trailing newline
@@ -63,7 +63,7 @@ contains
       list_count = self%used
    end function list_count
 
-   !> Message number k.
+   !> Message k.
    pure function list_line(self, k) result(text)
       class(message_list_t), intent(in) :: self
       integer, intent(in) :: k

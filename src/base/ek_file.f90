@@ -22,7 +22,7 @@ module ek_file
 
 contains
 
-   !> Writes `text` as the content of `path`, atomically for other readers. A device (`/dev/stdout`) is written directly.
+   !> Writes `text` as the content of the file `path`, atomically for other readers. A device (`/dev/stdout`) is written directly.
    subroutine write_whole(path, text, error, can_be_redrawn)
       character(*), intent(in) :: path
       character(*), intent(in) :: text                       !! bytes, written as they are
@@ -97,7 +97,7 @@ contains
       call fail(error, exit_file, "cannot read '"//path//"': "//reason)
    end subroutine read_whole
 
-   !> Reads a regular file. The files of /proc have the size 0 and a content.
+   !> Reads a regular file. Files of /proc have the size 0 but are not empty.
    subroutine read_regular(path, text, reason)
       character(*), intent(in) :: path
       character(:), allocatable, intent(out) :: text
@@ -168,13 +168,14 @@ contains
       ignored = c_remove(path//c_null_char)
    end subroutine remove_file
 
-   !> Whether a file or folder of this name exists.
+   !> Whether a file or folder with this name exists.
    logical function file_exists(path)
       character(*), intent(in) :: path
       file_exists = c_access(path//c_null_char, may_exist) == 0
    end function file_exists
 
-   !> Can a program of this name be started? It must be in PATH or, if the name contains a slash, exist at that path.
+   !> Whether a program with this name can be started. The program must be in PATH, or exist at its path if the name contains a
+   !> slash.
    logical function program_exists(name) result(is_there)
       character(*), intent(in) :: name
       character(:), allocatable :: path
@@ -210,7 +211,7 @@ contains
       is_terminal = c_isatty(int(descriptor, c_int)) == 1
    end function is_terminal
 
-   !> folder/name; a name that starts with a slash is returned unchanged.
+   !> The path folder/name. A name that starts with a slash is returned unchanged.
    pure function join_path(folder, name) result(path)
       character(*), intent(in) :: folder, name
       character(:), allocatable :: path
@@ -235,7 +236,7 @@ contains
       if (slash > 0) folder = path(:max(1, slash - 1))
    end function folder_name
 
-   !> The name without folder and extension: 'c' for 'a/b/c.nml', 'c.x' for 'c.x.nml', '.rc' for 'a/.rc'.
+   !> The name of a file without folder and extension: 'c' for 'a/b/c.nml', 'c.x' for 'c.x.nml', '.rc' for 'a/.rc'.
    pure function base_name(path) result(name)
       character(*), intent(in) :: path
       character(:), allocatable :: name

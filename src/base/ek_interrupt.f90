@@ -14,7 +14,7 @@ module ek_interrupt
 
 contains
 
-   !> Watches for signals. From this call on, the first signal does not end the process; a second signal does.
+   !> Starts watching for signals. From this call on, the first signal does not end the process; a second signal does.
    subroutine watch_for_stop()
       type(c_funptr) :: ignored, before
       integer :: k
@@ -28,12 +28,12 @@ contains
       end do
    end subroutine watch_for_stop
 
-   !> Whether such a signal has arrived.
+   !> Whether one of these signals has arrived.
    logical function is_stop_asked()
       is_stop_asked = is_asked
    end function is_stop_asked
 
-   !> Handles a signal: notes the stop.
+   !> Handles a signal: records that the run should stop.
    subroutine note_stop(number) bind(c, name='elastokin_note_stop')
       integer(c_int), value :: number
       type(c_funptr) :: ignored

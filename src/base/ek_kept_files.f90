@@ -25,7 +25,7 @@ contains
       kept_count = self%used
    end function kept_count
 
-   !> The path of file k, as it was read.
+   !> The path with which file k was read.
    pure function kept_path(self, k) result(path)
       class(kept_files_t), intent(in) :: self
       integer, intent(in) :: k
@@ -41,14 +41,14 @@ contains
       text = self%list(k)%text
    end function kept_text
 
-   !> Whether a file is stored.
+   !> Whether the content of a file is stored.
    pure logical function kept_has(self, path)
       class(kept_files_t), intent(in) :: self
       character(*), intent(in) :: path
       kept_has = place(self, path) > 0
    end function kept_has
 
-   !> The index of a path among the stored files; 0 if it is not stored.
+   !> The index of a path among the stored files; 0 if the path is not stored.
    pure integer function place(files, path) result(k)
       type(kept_files_t), intent(in) :: files
       character(*), intent(in) :: path
@@ -71,7 +71,7 @@ contains
       files%list(files%used)%text = text
    end subroutine add_file
 
-   !> Reads a file and adds it. A file that cannot be read is not added; its reader reports the reason.
+   !> Reads a file and adds its content. A file that cannot be read is not added; its reader reports the reason.
    subroutine keep_file(files, path)
       type(kept_files_t), intent(inout) :: files
       character(*), intent(in) :: path
@@ -83,7 +83,7 @@ contains
       if (.not. allocated(error)) call add_file(files, path, text)
    end subroutine keep_file
 
-   !> Reads the content of a file: the stored content, otherwise the present content of the file.
+   !> Returns the stored content of a file; if the file is not stored, reads its present content.
    subroutine read_kept(files, path, text, error)
       type(kept_files_t), intent(in) :: files
       character(*), intent(in) :: path

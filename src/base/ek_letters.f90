@@ -1,4 +1,4 @@
-!> Characters of text read from files: encoding, line ends, and invisible characters.
+!> Characters of strings read from files: encoding, line ends, and invisible characters.
 module ek_letters
    implicit none(type, external)
    private
@@ -10,8 +10,8 @@ module ek_letters
 
 contains
 
-   !> A text in which every invisible character is replaced by its number: `<U+00A0>` for a no-break space, `<U+00AD>` for a
-   !> soft hyphen, `<U+200B>` for a zero-width space, `<U+0009>` for a tab. Every byte that is not UTF-8 becomes for example
+   !> A string in which every invisible character is replaced by its number: `<U+00A0>` for a no-break space, `<U+00AD>` for a soft
+   !> hyphen, `<U+200B>` for a zero-width space, `<U+0009>` for a tab. A byte that is not UTF-8 is replaced by its value, as in
    !> `<E4>`. Line ends and ordinary blanks are unchanged.
    pure function visible(text) result(seen)
       character(*), intent(in) :: text
@@ -19,7 +19,7 @@ contains
       seen = with_numbers(text, .true.)
    end function visible
 
-   !> A text that is safe to show on a terminal: control characters, which could move the cursor or set colours, become
+   !> A string that is safe on a terminal. Control characters, which could move the cursor or set colours, become numbers such as
    !> `<U+001B>`. Line ends, tabs and all other bytes are unchanged.
    pure function printable(text) result(shown)
       character(*), intent(in) :: text
@@ -27,7 +27,7 @@ contains
       shown = with_numbers(text, .false.)
    end function printable
 
-   !> A text with numbers instead of control characters, or (`of_all`) of every invisible character and bad byte.
+   !> A string in which control characters are replaced by numbers; with `of_all`, every invisible character and invalid byte.
    pure function with_numbers(text, of_all) result(seen)
       character(*), intent(in) :: text
       logical, intent(in) :: of_all
@@ -56,7 +56,7 @@ contains
       seen = seen//text(first:)
    end function with_numbers
 
-   !> Position of the first byte that is not valid UTF-8; 0 if there is none.
+   !> Position of the first byte that is not valid UTF-8; 0 if there is no such byte.
    pure integer function bad_byte(text) result(k)
       character(*), intent(in) :: text
       integer :: length, code
@@ -71,7 +71,7 @@ contains
       k = 0
    end function bad_byte
 
-   !> A text in which every byte that is not valid UTF-8 is replaced by the replacement character, U+FFFD.
+   !> A string in which every byte that is not valid UTF-8 is replaced by the replacement character, U+FFFD.
    pure function as_utf8(text) result(sound)
       character(*), intent(in) :: text
       character(:), allocatable :: sound
@@ -88,7 +88,7 @@ contains
       sound = sound//text(first:)
    end function as_utf8
 
-   !> Whether a text uses two or four bytes per character (UTF-16, UTF-32) or is binary: it begins with the byte order mark of
+   !> Whether a string uses two or four bytes per character (UTF-16, UTF-32) or is binary: it begins with the byte order mark of
    !> UTF-16, or contains a zero byte.
    pure logical function is_wide(text)
       character(*), intent(in) :: text
@@ -97,8 +97,7 @@ contains
          (index(text, char(255)//char(254)) == 1 .or. index(text, char(254)//char(255)) == 1 .or. index(text, achar(0)) > 0)
    end function is_wide
 
-   !> A text without a byte order mark and with single-byte line ends: CR LF (Windows) and single CR (old Macs) become
-   !> a newline.
+   !> A string without a byte order mark and with single-byte line ends: CR LF (Windows) and single CR (old Macs) become a newline.
    pure function with_line_ends(text) result(plain)
       character(*), intent(in) :: text
       character(:), allocatable :: plain
@@ -125,7 +124,7 @@ contains
       plain = plain(:used)
    end function with_line_ends
 
-   !> The number of lines of a text. The last line counts even if it is empty.
+   !> The number of lines of a string. The last line counts even if it is empty.
    pure integer function line_count(text) result(lines)
       character(*), intent(in) :: text
       integer :: k
@@ -136,7 +135,7 @@ contains
       end do
    end function line_count
 
-   !> Decodes the character at byte k: its number and its length in bytes; length 0 where the bytes are not valid UTF-8.
+   !> Decodes the character at byte k into its number and its length in bytes. The length is 0 where the bytes are not valid UTF-8.
    pure subroutine decode(text, k, code, length)
       character(*), intent(in) :: text
       integer, intent(in) :: k
@@ -159,8 +158,8 @@ contains
       if (code < least(length) .or. code > 1114111 .or. (code >= 55296 .and. code < 57344)) length = 0
    end subroutine decode
 
-   !> Whether a character is hidden: control characters; with `of_all` also tab, other blanks, soft hyphen, zero-width characters,
-   !> direction marks.
+   !> Whether a character is hidden. Control characters are; with `of_all` also tab, other blanks, soft hyphen, zero-width
+   !> characters and direction marks.
    pure logical function is_hidden(code, of_all)
       integer, intent(in) :: code
       logical, intent(in) :: of_all

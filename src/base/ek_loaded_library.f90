@@ -17,7 +17,7 @@ module ek_loaded_library
 
 contains
 
-   !> Path of the loaded library (or program) that contains a symbol; '' if there is none.
+   !> Path of the loaded library (or program) that contains a symbol; '' if no library contains it.
    function library_with(symbol) result(path)
       character(*), intent(in) :: symbol              !! name in C: 'dgemm_'
       character(:), allocatable :: path
@@ -31,7 +31,7 @@ contains
       if (c_dladdr(address, facts) /= 0) path = text_at(facts(1))
    end function library_with
 
-   !> The text that a C function `const char *name(void)` of a loaded library returns; '' without this function.
+   !> The string that a C function `const char *name(void)` of a loaded library returns; '' if there is no such function.
    function text_from_library(name) result(text)
       character(*), intent(in) :: name
       character(:), allocatable :: text
@@ -45,7 +45,7 @@ contains
       text = trim(text_at(ask()))
    end function text_from_library
 
-   !> The text that ends with a null character.
+   !> The string at an address, up to its null character.
    function text_at(address) result(text)
       type(c_ptr), intent(in) :: address
       character(:), allocatable :: text

@@ -16,10 +16,11 @@ module ek_process
 
 contains
 
-   !> Runs a program, found in PATH, in `folder`; its output goes to the file `log`, its standard input is empty.
+   !> Runs a program, which is found in PATH, in `folder`. The output of the program goes to the file `log`; its standard input is
+   !> empty.
    !>
-   !> The program and its children form a process group, which is killed at the time limit. If this process itself is killed
-   !> first, an alarm ends the program soon after the limit.
+   !> The program and its children form a process group, which is killed at the time limit. If this process itself is killed first,
+   !> an alarm ends the program soon after the limit.
    subroutine run_program(words, folder, log, limit, status, trouble)
       type(message_list_t), intent(in) :: words               !! the program and its arguments
       character(*), intent(in) :: folder, log                 !! log: path relative to the current folder
@@ -87,7 +88,7 @@ contains
       ignored = c_execvp(path//c_null_char, pointers)
    end subroutine go_on_as
 
-   !> Waits for a process, and kills its group at the time limit.
+   !> Waits for a process to end, and kills its group at the time limit.
    subroutine wait_for(process, limit, status, trouble)
       integer(c_int), intent(in) :: process
       integer, intent(in) :: limit                            !! s

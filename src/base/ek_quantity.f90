@@ -210,7 +210,7 @@ module ek_quantity
    character(*), parameter, public :: element_endings(*) = [character(15) :: '_mm', '_deg', '_cosine', '_length_mm', '_force_n', &
       '_angle_deg', '_moment_nm', '_motion_ratio', '_gap_mm', '_travel_left_mm', '_reaction_n', '_reaction_nm', '_fx_n', '_mx_nm']
 
-   !> A unit as the end of a column's name, in texts, and its size in SI.
+   !> A unit as the suffix of a column name and as a label, with its SI value.
    type :: unit_t
       character(13) :: ending
       character(12) :: text
@@ -227,7 +227,7 @@ module ek_quantity
 
 contains
 
-   !> The quantity of a column; without a declared title the column name is the title.
+   !> The quantity of a column. If no title is declared, the column name is the title.
    pure type(quantity_t) function quantity_named(name) result(quantity)
       character(*), intent(in) :: name
       integer :: k, c
@@ -247,7 +247,7 @@ contains
       quantity%title = name
    end function quantity_named
 
-   !> A name with its '*' replaced: 1 load_held, 2 height_held.
+   !> A name in which '*' is replaced by the condition: load_held (1) or height_held (2).
    pure function held_name(name, condition) result(full)
       character(*), intent(in) :: name
       integer, intent(in) :: condition
@@ -259,7 +259,7 @@ contains
       if (star > 0) full = name(:star - 1)//trim(conditions(condition))//trim(name(star + 1:))
    end function held_name
 
-   !> Label of an axis: unit and sign.
+   !> Label of an axis, with unit and sign convention.
    pure function label_of(quantity) result(label)
       type(quantity_t), intent(in) :: quantity
       character(:), allocatable :: label
@@ -267,7 +267,7 @@ contains
       if (quantity%sign /= '') label = label//'    ('//trim(quantity%sign)//')'
    end function label_of
 
-   !> A title or label for a single wheel: without its note on the phase of two wheels.
+   !> A title or label for a single wheel, without its note on the phase of two wheels.
    pure function without_phase(text) result(words)
       character(*), intent(in) :: text
       character(:), allocatable :: words
@@ -284,7 +284,7 @@ contains
       end do
    end function without_phase
 
-   !> The unit at the end of a column name: 'mm', 'n_per_mm'; '' if it has none.
+   !> The unit at the end of a column name: 'mm', 'n_per_mm'; '' if the name has no unit.
    pure function unit_of(column) result(unit)
       character(*), intent(in) :: column
       character(:), allocatable :: unit
@@ -299,7 +299,7 @@ contains
       end if
    end function unit_of
 
-   !> A unit in texts: 'N/mm' for 'n_per_mm'; '–' for none.
+   !> A unit as a label: 'N/mm' for 'n_per_mm'; '–' for no unit.
    pure function unit_text(unit) result(text)
       character(*), intent(in) :: unit
       character(:), allocatable :: text
@@ -310,7 +310,8 @@ contains
       if (k > 0) text = trim(units(k)%text)
    end function unit_text
 
-   !> The unit of a column in SI; 1 without a unit. Percent, mm/m and slopes without a dimension are values as they are.
+   !> SI value of the unit of a column. It is 1 for a column without a unit, for %, mm/m and dimensionless slopes, and for deg/mm
+   !> and N/deg, which are not converted.
    pure real(wp) function unit_size(column) result(size_of)
       character(*), intent(in) :: column
       integer :: k
@@ -320,8 +321,9 @@ contains
       if (k > 0) size_of = units(k)%size
    end function unit_size
 
-   !> Finds the unit of a slope as the end of a column name, 'deg_per_m', and the factor on the slope in the units of its two
-   !> columns: deg/m over wheel travel, per kN over a force, per 100 N m over a moment, otherwise the units of the columns.
+   !> Finds the unit of a slope as the suffix of a column name, 'deg_per_m', and the factor that converts the slope from the units
+   !> of its two columns. Units are deg/m over wheel travel, per kN over a force, per 100 N m over a moment, otherwise the units of
+   !> the columns.
    pure subroutine slope_unit(column, over, factor_unit, unit, factor)
       character(*), intent(in) :: column, over
       character(*), intent(in) :: factor_unit             !! of the column `factor`: 'mm', 'deg', 'N', 'N m', '-'
@@ -353,7 +355,7 @@ contains
       if (upper /= '') unit = upper//'_'//unit
    end subroutine slope_unit
 
-   !> A column heading with a unit at its end: 'seat' and 'mm' give 'seat_mm'; the heading 'seat_mm' is unchanged.
+   !> A column heading with a unit as suffix: 'seat_mm' for 'seat' and 'mm'. The heading 'seat_mm' is unchanged.
    pure function head_with_unit(name, ending) result(head)
       character(*), intent(in) :: name
       character(*), intent(in) :: ending             !! as in column names; '': none
@@ -369,7 +371,7 @@ contains
       head = name//'_'//ending
    end function head_with_unit
 
-   !> The quantity whose column an element of this name could have as well; '' if there is none.
+   !> A quantity that has the column name of an element with this name; '' if there is none.
    pure function column_of_stem(stem) result(column)
       character(*), intent(in) :: stem      !! lower case, without left_ and right_
       character(:), allocatable :: column

@@ -88,7 +88,7 @@ module ek_rig_test
 
 contains
 
-   !> The row of a test; for any other name a row without an action, with the abscissa of a wheel travel.
+   !> The table row of a test. Any other name gives a row without loads and heights, and with wheel travel as abscissa.
    pure type(rig_test_t) function rig_test(name) result(test)
       character(*), intent(in) :: name
       integer :: k
@@ -104,7 +104,7 @@ contains
       needs_both = test%action == rolls .or. minval(test%shares) < 0.0_wp
    end function needs_both
 
-   !> Whether a test moves one wheel, which the case names.
+   !> Whether a test moves only one wheel, which the case names.
    pure logical function of_one_wheel(test)
       type(rig_test_t), intent(in) :: test
       of_one_wheel = test%action == moves_heights .and. any(.not. abs(test%shares) > 0.0_wp)
@@ -116,7 +116,7 @@ contains
       lifts = sum(test%shares) > 0.0_wp .or. test%force(3) > 0.0_wp
    end function lifts
 
-   !> Whether the states of a test form no path, so that they are drawn as points.
+   !> Whether the states of a test do not form a path, so that they are drawn as points.
    pure logical function is_scattered(name)
       character(*), intent(in) :: name
       type(rig_test_t) :: test
@@ -125,7 +125,7 @@ contains
       is_scattered = any(test%action == [takes_table, covers_grid])
    end function is_scattered
 
-   !> The SI value of a unit of the swept value.
+   !> The SI value of the unit of a swept value.
    pure real(wp) function swept_unit(unit)
       character(*), intent(in) :: unit
 

@@ -23,7 +23,7 @@ module ek_sheet
    real(wp), parameter :: most = 1.0e31_wp      !! as in a deck: larger numbers are errors, and could overflow later
    integer, parameter :: max_reported = 100        !! errors reported in the rows of one table
 
-   !> The content of a file. Rows with an error are not among the values.
+   !> The content of a file. Rows with an error are omitted from the values.
    type :: sheet_t
       character(:), allocatable :: file
       integer :: head_line = 0                          !! 0: no headings
@@ -105,14 +105,14 @@ contains
       if (sheet%untold > 0) call mistakes%add(sheet%file//': and '//plural(sheet%untold, 'more error', 'more errors'))
    end subroutine mistakes_of
 
-   !> 'table.csv:1: ', for a message about the headings.
+   !> Location for a message about the headings: 'table.csv:1: '.
    pure function head_place(sheet) result(words)
       type(sheet_t), intent(in) :: sheet
       character(:), allocatable :: words
       words = sheet%file//':'//str(sheet%head_line)//': '
    end function head_place
 
-   !> Whether a line is a comment: it begins with #, but not with an error value of a spreadsheet.
+   !> Whether a line is a comment: it begins with #, but not with a spreadsheet's error value.
    pure logical function is_comment(content, sheet)
       character(*), intent(in) :: content
       type(sheet_t), intent(in) :: sheet
@@ -151,7 +151,7 @@ contains
       end do
    end subroutine take_heads
 
-   !> Finds decimal commas: commas that separate no columns may be these, unless there are decimal points too.
+   !> Records whether the text contains decimal points. If it does not, commas that do not separate columns are decimal commas.
    pure subroutine find_decimal_marks(text, sheet)
       character(*), intent(in) :: text
       type(sheet_t), intent(inout) :: sheet
@@ -218,7 +218,7 @@ contains
       sheet%values(:, rows) = row
    end subroutine take_row
 
-   !> Reads the number in a cell, or the error in it.
+   !> Reads the number in a cell, or describes the error in the cell.
    subroutine read_number(cell, sheet, value, fault)
       character(*), intent(in) :: cell
       type(sheet_t), intent(in) :: sheet
@@ -264,7 +264,7 @@ contains
       end if
    end subroutine read_number
 
-   !> Checks the headings, and that there are rows.
+   !> Checks the headings, and that the file has rows.
    subroutine judge_heads(sheet, rows, is_unnamed)
       type(sheet_t), intent(inout) :: sheet
       integer, intent(in) :: rows
@@ -289,7 +289,7 @@ contains
          call sheet%row_mistakes%add(sheet%file//': the table has no rows')
    end subroutine judge_heads
 
-   !> Adds an error in a row; of very many errors the first are stored.
+   !> Adds an error in a row. Only the first errors are stored if there are very many.
    subroutine complain(sheet, what)
       type(sheet_t), intent(inout) :: sheet
       character(*), intent(in) :: what
@@ -301,7 +301,7 @@ contains
       end if
    end subroutine complain
 
-   !> Reads the cells of one record, which may span several lines. A quoted cell that is not closed ends with the text.
+   !> Reads the cells of one record, which may span several lines. A quoted cell that is not closed ends with the file.
    subroutine take_record(text, separator, at, line, fields, is_closed)
       character(*), intent(in) :: text
       character, intent(in) :: separator

@@ -54,7 +54,7 @@ module ek_system
 
 contains
 
-   !> Kind, identity and age of a path; if `follow` is false, of the link itself.
+   !> Kind, identity and age of a path. If `follow` is .false., the facts of a link itself.
    type(facts_t) function facts_of(path, follow) result(facts)
       character(*), intent(in) :: path
       logical, intent(in) :: follow
@@ -86,7 +86,7 @@ contains
 
    contains
 
-      !> An integer of the structure, lowest byte first, as on all processors in use.
+      !> An integer in the structure, with the lowest byte first, as on all processors in use.
       integer(i8) function number_at(offset, bytes) result(number)
          integer, intent(in) :: offset, bytes
          integer :: k
@@ -99,7 +99,7 @@ contains
 
    end function facts_of
 
-   !> Lists the names in a folder, in system order, without '.' and '..'; none if it cannot be read.
+   !> Lists the names in a folder, in system order, without '.' and '..'. The list is empty if the folder cannot be read.
    subroutine folder_names(path, names)
       character(*), intent(in) :: path
       type(message_list_t), intent(out) :: names
@@ -131,7 +131,8 @@ contains
       if (.not. is_understood) names = message_list_t()
    end subroutine folder_names
 
-   !> Locks an open file or folder; .false. if another process holds it. The lock is released when the process ends.
+   !> Whether an open file or folder could be locked; .false. if another process holds the lock. The lock is released when the
+   !> process ends.
    logical function try_lock(descriptor)
       integer(c_int), intent(in) :: descriptor
       integer(c_int), parameter :: alone_and_at_once = 6      ! LOCK_EX + LOCK_NB
@@ -139,7 +140,8 @@ contains
       try_lock = c_flock(descriptor, alone_and_at_once) == 0
    end function try_lock
 
-   !> 16 unpredictable characters. If the system provides no random bytes, `attempt` separates two calls at the same time.
+   !> A string of 16 unpredictable characters. If the system provides no random bytes, `attempt` distinguishes two calls at the same
+   !> time.
    function random_tag(attempt) result(tag)
       integer, intent(in) :: attempt
       character(16) :: tag
@@ -164,8 +166,9 @@ contains
       write (tag, '(8z2.2)') iachar(bytes)
    end function random_tag
 
-   !> 8 characters that distinguish this running system from others with access to the same folder: from its boot id, or else
-   !> from its name. Containers on one machine share them, as they share its locks.
+   !> A string of 8 characters that distinguishes this running system from other systems with access to the same folder. It is
+   !> computed from the boot id, or else from the name of the system. Containers on one machine share this string, as they share its
+   !> locks.
    function machine_tag() result(tag)
       character(8) :: tag
       character(64) :: text
@@ -223,7 +226,7 @@ contains
       path = path(:max(1, index(path, '/', back=.true.) - 1))
    end function program_folder
 
-   !> The characters before the first null.
+   !> The characters before the first null character.
    pure function text_of(letters) result(text)
       character(kind=c_char), intent(in) :: letters(:)
       character(:), allocatable :: text
@@ -233,7 +236,7 @@ contains
       text = transfer(letters(:length), repeat(' ', length))
    end function text_of
 
-   !> Whether a name is a folder.
+   !> Whether a path is a folder.
    logical function folder_exists(path)
       character(*), intent(in) :: path
 
@@ -241,7 +244,7 @@ contains
       if (len(path) > 0) folder_exists = c_access(path//'/.'//c_null_char, 0_c_int) == 0      ! F_OK
    end function folder_exists
 
-   !> Writes all bytes of a text to an open descriptor; .false. after a failure.
+   !> Whether all bytes of a string were written to an open descriptor.
    logical function write_bytes(descriptor, text)
       integer(c_int), intent(in) :: descriptor
       character(*), intent(in) :: text
@@ -259,7 +262,7 @@ contains
       write_bytes = done == len(text, c_size_t)
    end function write_bytes
 
-   !> Sets the action of a signal: ignored (`is_ignored`), or the system's default.
+   !> Sets the action of a signal: ignored with `is_ignored`, otherwise the system's default.
    subroutine set_signal(number, is_ignored)
       integer, intent(in) :: number
       logical, intent(in) :: is_ignored
@@ -327,7 +330,7 @@ contains
       if (.not. has_memory(bytes)) call fail(error, exit_file, memory_remarks(bytes, purpose))
    end subroutine ask_memory
 
-   !> Whether a block of this many bytes can be allocated.
+   !> Whether a block of a number of bytes can be allocated.
    logical function has_memory(bytes)
       integer(i8), intent(in) :: bytes
       character(1), allocatable, volatile :: block(:)         ! volatile: the optimiser must not remove it as unused
@@ -337,8 +340,8 @@ contains
       has_memory = status == 0
    end function has_memory
 
-   !> The number of blocks of this many bytes that can be allocated at the same time, at most `most`. Several blocks, as a
-   !> kernel may refuse one large block where the parts, which are never filled, are granted.
+   !> The number of blocks of a given size that can be allocated at the same time, at most `most`. Several blocks are tried because
+   !> a kernel may refuse one large block but grant parts that are never filled.
    integer function blocks_in_memory(most, bytes) result(blocks)
       integer, intent(in) :: most
       integer(i8), intent(in) :: bytes                        !! of each
@@ -355,7 +358,7 @@ contains
       blocks = most
    end function blocks_in_memory
 
-   !> Says that a block of this many bytes cannot be allocated.
+   !> Message that a block of a number of bytes cannot be allocated.
    pure function memory_remarks(bytes, purpose) result(text)
       integer(i8), intent(in) :: bytes
       character(*), intent(in) :: purpose

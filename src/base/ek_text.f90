@@ -1,4 +1,4 @@
-!> Conversion between numbers and text, for messages and names. Never used inside an increment.
+!> Conversion between numbers and strings, for messages and names. It is never used inside an increment.
 module ek_text
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_is_finite
    use ek_kinds, only: wp
@@ -15,7 +15,7 @@ module ek_text
 
 contains
 
-   !> An integer without blanks.
+   !> An integer as a string without blanks.
    pure function str_integer(value) result(text)
       integer, intent(in) :: value
       character(:), allocatable :: text
@@ -37,7 +37,7 @@ contains
       text = buffer(first:)
    end function str_integer
 
-   !> A real with `digits` significant digits (default 6), without trailing zeros: 0.25, 1E-05, infinite.
+   !> A real as a string with `digits` significant digits (default 6), without trailing zeros: 0.25, 1E-05, infinite.
    pure function str_real(value, digits) result(text)
       real(wp), intent(in) :: value
       integer, intent(in), optional :: digits
@@ -80,7 +80,7 @@ contains
       if (index(text, '-.') == 1) text = '-0'//text(2:)
    end function str_real
 
-   !> '(1, 2.5, -3)' for a vector.
+   !> A vector as a string: '(1, 2.5, -3)'.
    pure function vector_text(vector, digits) result(text)
       real(wp), intent(in) :: vector(:)
       integer, intent(in), optional :: digits
@@ -108,7 +108,7 @@ contains
       end do
    end function lower
 
-   !> A name between single quotes; invisible characters in it are shown as <U+00A0>.
+   !> A name between single quotes. Invisible characters in the name are shown as <U+00A0>.
    pure function quoted(name) result(text)
       character(*), intent(in) :: name
       character(:), allocatable :: text
@@ -137,8 +137,9 @@ contains
       if (count == 1) text = '1 '//singular
    end function plural
 
-   !> The candidate most similar to a mistyped name, or '' if none is similar: the first that ends in '_name', as left_toe_deg in
-   !> toe_deg; otherwise the candidate of the least edit distance, at most a third of the length, at least 1. For a pattern (*): ''.
+   !> The candidate most similar to a mistyped name; '' if none is similar. The first candidate that ends in '_name' is preferred,
+   !> as left_toe_deg for toe_deg. Otherwise it is the candidate with the smallest edit distance, which must be at most a third of
+   !> the length (at least 1). For a pattern with * it is ''.
    pure function nearest_name(name, candidates) result(best)
       character(*), intent(in) :: name
       character(*), intent(in) :: candidates(:)
@@ -166,8 +167,7 @@ contains
       end do
    end function nearest_name
 
-   !> The shortest candidate that contains a name without regard to underscores, as left_toe_deg contains lefttoe; '' if there is
-   !> none.
+   !> The shortest candidate that contains a name, ignoring underscores, as left_toe_deg contains lefttoe; '' if there is none.
    pure function shortest_with(name, candidates) result(best)
       character(*), intent(in) :: name
       character(*), intent(in) :: candidates(:)
@@ -197,7 +197,7 @@ contains
 
    end function shortest_with
 
-   !> " (did you mean 'kt'?)" if one candidate is similar, otherwise ''.
+   !> Phrase " (did you mean 'kt'?)" if a candidate is similar; otherwise ''.
    pure function suggestion(name, candidates) result(words)
       character(*), intent(in) :: name, candidates(:)      !! blank candidates are ignored
       character(:), allocatable :: words
@@ -206,7 +206,7 @@ contains
       if (words /= '') words = ' (did you mean '//quoted(words)//'?)'
    end function suggestion
 
-   !> As `suggestion`; a name also counts as similar if it is part of a candidate, apart from underscores.
+   !> Phrase as returned by `suggestion`. A name also counts as similar if it is part of a candidate, ignoring underscores.
    pure function suggestion_by_part(name, candidates) result(words)
       character(*), intent(in) :: name, candidates(:)      !! blank candidates are ignored
       character(:), allocatable :: words
@@ -216,7 +216,7 @@ contains
       if (words /= '' .and. words(:min(1, len(words))) /= ' ') words = ' (did you mean '//quoted(words)//'?)'
    end function suggestion_by_part
 
-   !> " (did you mean 'kt'?)" if one candidate is similar, otherwise all candidates.
+   !> Phrase " (did you mean 'kt'?)" if a candidate is similar; otherwise a phrase with all candidates.
    pure function did_you_mean(name, candidates) result(words)
       character(*), intent(in) :: name
       character(*), intent(in) :: candidates(:)    !! blank ones are ignored
@@ -262,7 +262,7 @@ contains
       end do
    end function is_like
 
-   !> The Levenshtein distance of two strings: number of inserted, deleted and replaced characters.
+   !> The Levenshtein distance of two strings: the number of inserted, deleted and replaced characters.
    pure integer function edit_distance(a, b) result(distance)
       character(*), intent(in) :: a, b
       integer :: row(0:len(b)), diagonal, above, i, j
@@ -280,7 +280,7 @@ contains
       distance = row(len(b))
    end function edit_distance
 
-   !> Replaces every occurrence of a text by another.
+   !> Replaces every occurrence of a string by another string.
    pure subroutine replace(text, old, new)
       character(:), allocatable, intent(inout) :: text
       character(*), intent(in) :: old, new

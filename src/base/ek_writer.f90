@@ -59,7 +59,7 @@ module ek_writer
 
 contains
 
-   !> Begins the file `path`. Until it is finished, the name refers to the older file or to none.
+   !> Begins the file `path`. Until the file is finished, the path refers to the older file, or to no file.
    subroutine begin_file(writer, path, error, can_be_redrawn, is_part)
       type(writer_t), intent(out) :: writer
       character(*), intent(in) :: path
@@ -89,14 +89,14 @@ contains
       if (len(writer%reason) > 0) call fail(error, exit_file, "cannot write '"//path//"': "//writer%reason)
    end subroutine begin_file
 
-   !> Devices recognised by name, where the system gives no file kind. /dev/shm is an ordinary folder.
+   !> Whether a path is a device, judged by its name, where the system gives no file kind. /dev/shm is an ordinary folder.
    pure logical function is_device_name(path)
       character(*), intent(in) :: path
 
       is_device_name = (index(path, '/dev/') == 1 .and. index(path, '/dev/shm/') /= 1) .or. index(path, '/proc/') == 1
    end function is_device_name
 
-   !> Creates a new file and locks it. O_EXCL (the x of the mode): a link planted under the name is not followed.
+   !> Creates a new file and locks it. O_EXCL (the x of the mode) ensures that a link planted under the name is not followed.
    subroutine open_temporary(writer, begin, end)
       type(writer_t), intent(inout) :: writer
       character(*), intent(in) :: begin, end                 !! of the path of the new file
@@ -117,7 +117,7 @@ contains
       writer%temporary = ''
    end subroutine open_temporary
 
-   !> Locks the file just created. Without lock support, other runs remove the file only after a day.
+   !> Whether the file just created could be locked. Without lock support, other runs remove the file only after a day.
    logical function is_ours(descriptor, path)
       integer(c_int), intent(in) :: descriptor
       character(*), intent(in) :: path
@@ -141,7 +141,7 @@ contains
       if (.not. write_bytes(c_fileno(self%stream), text)) self%reason = system_reason()      ! not copied: a page has megabytes
    end subroutine writer_add
 
-   !> Passes the added text to the system, so that it survives the end of this process. The text added to a part since the
+   !> Passes the added bytes to the system, so that it survives the end of this process. The bytes added to a part since the
    !> last flush is written in one call, so that a remaining part always ends at a flush.
    subroutine writer_flush(self)
       class(writer_t), intent(inout) :: self
@@ -151,8 +151,8 @@ contains
       call self%rows%clear()
    end subroutine writer_flush
 
-   !> Writes every byte to the disk (unless the file can be redrawn), then renames the file. After a failure there is no new
-   !> file; the rows of a part that were written remain, and the message gives their path.
+   !> Writes every byte to the disk (unless the file can be redrawn), then renames the file. After a failure there is no new file.
+   !> The rows of a part that were written remain, and the message gives their path.
    subroutine writer_finish(self, error)
       class(writer_t), intent(inout) :: self
       type(error_t), allocatable, intent(out) :: error       !! exit_file, with path and reason
@@ -183,7 +183,7 @@ contains
       call fail(error, exit_file, words)
    end subroutine writer_finish
 
-   !> Abandons the file: none is created. A part that is not empty remains. A finished file is left unchanged.
+   !> Abandons the file, so that no file is created. A part that is not empty remains. A finished file is left unchanged.
    subroutine writer_abandon(self)
       class(writer_t), intent(inout) :: self
       integer :: ignored
@@ -194,7 +194,7 @@ contains
       self%stream = c_null_ptr
    end subroutine writer_abandon
 
-   !> The temporary path, which holds the bytes until the file is finished.
+   !> The temporary path, at which the bytes are stored until the file is finished.
    function writer_temporary_name(self) result(path)
       class(writer_t), intent(in) :: self
       character(:), allocatable :: path
@@ -244,7 +244,7 @@ contains
       ignored = c_fclose(stream)
    end subroutine await
 
-   !> Writes the folder entry to the disk. Some file systems cannot; the file is complete nevertheless.
+   !> Writes the folder entry to the disk. Some file systems do not support this; the file is complete nevertheless.
    subroutine keep_name(folder)
       character(*), intent(in) :: folder
       type(c_ptr) :: handle
@@ -278,7 +278,7 @@ contains
       call fail(error, exit_file, "cannot create a folder in '"//folder//"': "//system_reason())
    end subroutine begin_scratch
 
-   !> Shows other machines that its run lives.
+   !> Shows other machines that the run of a scratch folder is active.
    subroutine renew_scratch(scratch)
       type(scratch_t), intent(in) :: scratch
       integer :: ignored
@@ -299,7 +299,8 @@ contains
       scratch%lock = c_null_ptr
    end subroutine end_scratch
 
-   !> Removes a folder with its files. Links are removed, not their targets; a folder with subfolders remains: we create none.
+   !> Removes a folder with its files. Links are removed, but not their targets. A folder with subfolders remains, because this
+   !> program does not create any.
    subroutine remove_folder(path)
       character(*), intent(in) :: path
       type(message_list_t) :: names
@@ -312,7 +313,7 @@ contains
       ignored = c_rmdir(path//c_null_char)
    end subroutine remove_folder
 
-   !> Removes a folder in which nothing is left.
+   !> Removes a folder if it is empty.
    subroutine remove_empty_folder(path)
       character(*), intent(in) :: path
       integer :: ignored
@@ -326,7 +327,7 @@ contains
       call remove_tagged(folder_of(folder//'/'), front, tail)
    end subroutine remove_stale
 
-   !> Finds whether a run that lives has a temporary file or folder in this folder; is_here: a run on this machine.
+   !> Finds whether an active run has a temporary file or folder in a folder. is_here: the run is on this machine.
    subroutine find_users(folder, is_in_use, is_here)
       character(*), intent(in) :: folder
       logical, intent(out) :: is_in_use, is_here
@@ -360,8 +361,8 @@ contains
       end do
    end subroutine remove_tagged
 
-   !> Removes a temporary file or folder of a terminated run. The lock is held meanwhile, so that two runs do not both remove it
-   !> and a run that has just created it notices.
+   !> Removes a temporary file or folder of a terminated run. The lock is held meanwhile. Two runs therefore never both remove it,
+   !> and a run that has just created it notices the removal.
    subroutine remove_dead(path, tag)
       character(*), intent(in) :: path, tag                  !! tag: begins with the tag of its machine
       type(facts_t) :: facts, opened
@@ -390,7 +391,7 @@ contains
       end if
    end subroutine remove_dead
 
-   !> The folder of a path with its slash; '' for the working folder.
+   !> The folder of a path, with its slash; '' for the working folder.
    pure function folder_of(path) result(folder)
       character(*), intent(in) :: path
       character(:), allocatable :: folder

@@ -35,7 +35,7 @@ module ek_bench
 
 contains
 
-   !> Prints the table of ratios to standard output, or with --json an object.
+   !> Prints the table of ratios to standard output; with --json, prints an object.
    subroutine bench(line, error)
       type(command_line_t), intent(in) :: line
       type(error_t), allocatable, intent(out) :: error
@@ -114,7 +114,7 @@ contains
       end if
    end subroutine bench
 
-   !> Loads the first chosen case of a deck on the rig, examined and balanced.
+   !> Puts the first chosen case of a deck on the rig, examined and balanced.
    subroutine load_case(settings, suspension, case, error)
       type(deck_settings_t), intent(in) :: settings
       type(suspension_t), intent(out) :: suspension
@@ -137,7 +137,7 @@ contains
       call mount(workspace%suspension, chosen(1), suspension, case)
    end subroutine load_case
 
-   !> The largest distance between bodies of two sweeps [m].
+   !> The largest distance between the positions of a body in two sweeps [m].
    pure real(wp) function largest_distance(a, b, bodies) result(largest)
       type(path_t), intent(in) :: a, b
       integer, intent(in) :: bodies
@@ -149,7 +149,7 @@ contains
       end do
    end function largest_distance
 
-   !> Times all steps from deck to CSV text within this process: the minimum of some rounds for each.
+   !> Times all steps from deck to CSV string within this process. The shortest of several rounds counts for each step.
    subroutine whole_way(settings, error)
       type(deck_settings_t), intent(in) :: settings
       type(error_t), allocatable, intent(out) :: error

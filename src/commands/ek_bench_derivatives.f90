@@ -44,7 +44,7 @@ module ek_bench_derivatives
 
 contains
 
-   !> Prints the ratios to standard output, or with --json an object.
+   !> Prints the ratios to standard output; with --json, prints an object.
    subroutine bench_derivatives(line, error)
       type(command_line_t), intent(in) :: line
       type(error_t), allocatable, intent(out) :: error
@@ -114,8 +114,8 @@ contains
       end if
    end subroutine time_uses
 
-   !> Lists motions of the states with all coordinates of points; all columns of the state; the compliance matrix; one response
-   !> with all numbers; all motions.
+   !> Lists the uses of derivatives: the motions for all coordinates of points, all columns, the compliance matrix, one response for
+   !> all numbers, and all motions.
    subroutine list_uses(workspace, k, uses)
       type(workspace_t), intent(in) :: workspace
       integer, intent(in) :: k
@@ -213,7 +213,7 @@ contains
       this%time = min(this%time, now - start)
    end subroutine time_use
 
-   !> The time ratios as lines of text.
+   !> The time ratios as lines for the terminal.
    function table_of(workspace, k, uses, walk, row) result(text)
       type(workspace_t), intent(in) :: workspace
       integer, intent(in) :: k
@@ -240,7 +240,7 @@ contains
       text = text//trim(line)//nl
    end function table_of
 
-   !> Time of one number, relative to the columns themselves.
+   !> Time of the derivatives with respect to one number, relative to the time of the columns.
    pure real(wp) function of_one(use, row)
       type(use_t), intent(in) :: use
       real(wp), intent(in) :: row

@@ -35,7 +35,7 @@ module ek_bench_figures
 
 contains
 
-   !> The measured times as lines of text.
+   !> The measured times as lines for the terminal.
    function table_of(figures) result(text)
       type(figures_t), intent(in) :: figures
       character(:), allocatable :: text
@@ -72,7 +72,7 @@ contains
          per_second(figures%design)//nl
    end function table_of
 
-   !> The times of the parts of an increment as text.
+   !> The times of the parts of an increment as a line.
    function parts_of(name, parts) result(text)
       character(*), intent(in) :: name
       type(parts_t), intent(in) :: parts
@@ -110,7 +110,7 @@ contains
       line = trim(words)//nl
    end function timing
 
-   !> The figures as a JSON object.
+   !> The measured values as a JSON object.
    function json_of(figures) result(text)
       type(figures_t), intent(in) :: figures
       character(:), allocatable :: text

@@ -1,4 +1,4 @@
-!> The single measurements of `bench`, in time of the processor.
+!> The single measurements of `bench`, in processor time.
 module ek_bench_times
    use ek_kinds, only: wp
    use ek_error, only: error_t, fail, exit_convergence
@@ -65,8 +65,8 @@ contains
       end do
    end subroutine collect_matrices
 
-   !> Times dsysv on one of the matrices including a copy of it, and the copy alone: the minimum so far of each, so
-   !> that a disturbed round affects neither.
+   !> Times dsysv on one of the matrices including a copy of the matrix, and times the copy alone. The shortest time so far counts
+   !> for each, so that a disturbed round affects neither.
    subroutine time_lapack(n, matrices, together, copying, error)
       integer, intent(in) :: n
       real(wp), intent(in) :: matrices(:, :, :)
@@ -139,7 +139,8 @@ contains
       figures%alone = real(walker%steps_alone, wp)/max(walker%steps, 1)
    end subroutine time_packs
 
-   !> Measures the time of K&C quantities at design by plan: the compliance matrix alone, and with all that is read from it.
+   !> Times the K&C quantities at design by plan: the compliance matrix alone, and the matrix with all quantities that are read from
+   !> it.
    subroutine time_kandc(suspension, case, path, kkt, figures)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
@@ -181,7 +182,8 @@ contains
    end subroutine time_kandc
 
    !> Times complete designs as in a study: numbers to suspension, examination, balance, states and one column. Also times the
-   !> states and the column without the other steps. The first given number of the deck is changed in its tenth digit.
+   !> states and the column without the other steps. In each design, the first number that the deck gives is changed in its tenth
+   !> digit.
    subroutine time_designs(settings, case_name, figures, error)
       type(deck_settings_t), intent(in) :: settings
       character(*), intent(in) :: case_name

@@ -21,7 +21,7 @@ module ek_chain
 
 contains
 
-   !> The number of bodies of the chain whose matrix is nearest to n rows.
+   !> The number of bodies of the chain whose matrix has nearest to n rows.
    pure integer function bodies_of(n)
       integer, intent(in) :: n            !! 10 or more
       bodies_of = max(nint((n - 1)/9.0_wp), 1)
@@ -43,7 +43,7 @@ contains
       if (.not. allocated(error)) call mount(base, cases(1), suspension, case)
    end subroutine read_chain
 
-   !> The chain as the text of a deck.
+   !> The chain as the content of a deck.
    function deck_text(bodies, lift) result(text)
       integer, intent(in) :: bodies, lift      !! lift: mm
       character(:), allocatable :: text

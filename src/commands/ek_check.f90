@@ -26,8 +26,8 @@ module ek_check
 
 contains
 
-   !> Prints the findings to standard output, the last line OK or the number of messages and the worst; with --json the messages as
-   !> one object instead. exit_model if a case cannot be solved.
+   !> Prints the findings to standard output. The last line is OK, or the number of messages and the worst message. With --json,
+   !> prints the messages as one object. `error` has the code exit_model if the model cannot be solved.
    subroutine check(line, error)
       type(command_line_t), intent(in) :: line
       type(error_t), allocatable, intent(out) :: error
@@ -55,7 +55,7 @@ contains
       if (allocated(error)) status_of = error%code
    end function status_of
 
-   !> Collects the findings, including those made before an error.
+   !> Collects the findings. Findings made before an error are included.
    subroutine examine(settings, deck_path, findings, messages, model, checksum, error)
       type(deck_settings_t), intent(in) :: settings
       character(*), intent(in) :: deck_path                !! where the deck as it was used is written; '': nowhere
@@ -112,7 +112,7 @@ contains
       if (size(chosen) > 0) call move_alloc(trouble, error)
    end subroutine examine
 
-   !> Adds each line of a text as a message.
+   !> Adds each line of a string as a message.
    subroutine add_lines(text, list)
       character(*), intent(in) :: text
       type(message_list_t), intent(inout) :: list
@@ -126,7 +126,7 @@ contains
       end do
    end subroutine add_lines
 
-   !> Adds the remarks on the model, balanced if balance succeeds. The preloads that balance finds are results, not findings.
+   !> Adds the remarks on the model, which is balanced if balance succeeds. The preloads found by balance are results, not findings.
    subroutine add_remarks(workspace, chosen, is_solvable, has_warnings, findings, messages, error)
       type(workspace_t), intent(inout) :: workspace
       type(case_t), intent(in) :: chosen(:)
@@ -194,8 +194,8 @@ contains
       call add(findings, 'unused points', unused(3:))
    end subroutine add_model
 
-   !> The size of the system of an increment without the rows of a rig, for LAPACK and for the plan of elimination. Numbers of
-   !> entries refer to the lower triangle.
+   !> Size of the system of an increment without the rows of a rig, for LAPACK and for the plan of elimination, as a string. Numbers
+   !> of entries refer to the lower triangle.
    function matrix_text(suspension) result(text)
       type(suspension_t), intent(in) :: suspension
       character(:), allocatable :: text
@@ -206,7 +206,7 @@ contains
          str(kkt%plan(1)%length)//' with fill; dense '//str((kkt%n*(kkt%n + 1))/2)
    end function matrix_text
 
-   !> "universal 'outer': axis_2_vector = 0, 1, 0": the axis that the program has chosen, in the frame of the deck.
+   !> The axis that the program has chosen for a joint, in the frame of the deck: "universal 'outer': axis_2_vector = 0, 1, 0".
    function axis_text(suspension, k) result(text)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: k                     !! number of the joint
@@ -222,7 +222,7 @@ contains
       end associate
    end function axis_text
 
-   !> Adds one case: its test, load or drive, and whether the case can be solved.
+   !> Adds one case: its test, load or driver, and whether the case can be solved.
    subroutine add_case(case, diagnosis, findings)
       type(case_t), intent(in) :: case
       type(diagnosis_t), intent(in) :: diagnosis
@@ -241,7 +241,7 @@ contains
       end if
    end subroutine add_case
 
-   !> Adds a line 'name: text'; no line for an empty text.
+   !> Adds a line 'name: text'; adds nothing for an empty text.
    subroutine add(findings, name, text)
       type(buffer_t), intent(inout) :: findings
       character(*), intent(in) :: name, text

@@ -21,7 +21,7 @@ module ek_check_messages
 
 contains
 
-   !> 'OK', or '1 warning, 3 remarks, the worst: text': the first of the worst severity.
+   !> The last line of check: 'OK', or '1 warning, 3 remarks, the worst: text' with the first message of the worst severity.
    function last_line(messages) result(text)
       type(check_messages_t), intent(in) :: messages
       character(:), allocatable :: text
@@ -46,7 +46,7 @@ contains
 
    contains
 
-      !> Appends the number of messages of a list, if it is not empty.
+      !> Appends the number of messages of a list; appends nothing for an empty list.
       subroutine count(list, one, many)
          type(message_list_t), intent(in) :: list
          character(*), intent(in) :: one, many
@@ -65,7 +65,7 @@ contains
 
    end function last_line
 
-   !> The messages as one object (schema/check.schema.json).
+   !> The messages as one JSON object (schema/check.schema.json).
    function check_json(messages, file, model, checksum, status) result(text)
       type(check_messages_t), intent(in) :: messages
       character(*), intent(in) :: file, model, checksum   !! model and checksum: '' if the deck could not be read
@@ -103,7 +103,7 @@ contains
 
    end function check_json
 
-   !> Adds one message: its location, and its text without the location.
+   !> Adds one message as a location and a string without the location.
    subroutine add_message(json, message, severity)
       type(json_t), intent(inout) :: json
       character(*), intent(in) :: message, severity
@@ -124,7 +124,7 @@ contains
       call json%close('}')
    end subroutine add_message
 
-   !> Splits 'file:41: text' in three; line 0 if the message has no location.
+   !> Splits 'file:41: text' into three parts. `line` is 0 if the message has no location.
    pure subroutine split_place(message, file, line, text)
       character(*), intent(in) :: message
       character(:), allocatable, intent(out) :: file, text
@@ -167,7 +167,7 @@ contains
       file = message(first:at - 1)
    end subroutine split_place
 
-   !> The group of "spring 'coil': …" and "&model: …"; 0: the text begins with no group.
+   !> Index of the group with which a message begins: "spring 'coil': …" or "&model: …"; 0 if the message begins with no group.
    pure integer function group_of(text) result(group)
       character(*), intent(in) :: text
       character(*), parameter :: free = 'mechanism: ', doubled = 'redundant: '
@@ -182,8 +182,8 @@ contains
       if (group > 0 .and. index(text, '&') /= 1 .and. index(text(min(last, len(text)):), " '") /= 1) group = 0
    end function group_of
 
-   !> The key with which the finding begins: 'rate has 1 element', "'rte' in &spring", 'tyre rate 3 N/mm'; '' if it is not a
-   !> key of the group.
+   !> The key with which a finding begins: 'rate has 1 element', "'rte' in &spring", 'tyre rate 3 N/mm'. '' if the finding begins
+   !> with no key of the group.
    function key_of(text, group) result(name)
       character(*), intent(in) :: text
       integer, intent(in) :: group
@@ -211,7 +211,7 @@ contains
 
    contains
 
-      !> Accepts a candidate as the key, if the group has this key and no key was found before.
+      !> Accepts a candidate as the key if the group has this key and no key was found before.
       subroutine look_up(candidate)
          character(*), intent(in) :: candidate
          if (len(name) > 0) return

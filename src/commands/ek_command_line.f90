@@ -53,7 +53,7 @@ contains
       end do
    end function has
 
-   !> The last value of an option; `default` (or '') if it is not given.
+   !> The last value of an option; `default` (or '') if the option is not given.
    pure function last_value(self, name, default) result(value)
       class(command_line_t), intent(in) :: self
       character(*), intent(in) :: name
@@ -79,7 +79,7 @@ contains
       end do
    end function all_values
 
-   !> The integer of an option; 0 if it is not given.
+   !> The integer value of an option; 0 if the option is not given.
    pure integer function number_of(self, name) result(number)
       class(command_line_t), intent(in) :: self
       character(*), intent(in) :: name
@@ -88,7 +88,7 @@ contains
       if (self%has(name)) call read_number(self%value(name), number)
    end function number_of
 
-   !> Reads an integer of at least 1; 0 if the text is something else.
+   !> Reads an integer of at least 1; returns 0 if the string is anything else.
    pure subroutine read_number(text, number)
       character(*), intent(in) :: text
       integer, intent(out) :: number
@@ -106,7 +106,7 @@ contains
       name = option%label(:index(option%label, ' ') - 1)
    end function option_name
 
-   !> Reads the command line of this process. Nothing is checked against the command if help or the version is requested.
+   !> Reads the command line of this process. If help or the version is requested, nothing is checked against the command.
    subroutine read_command_line(commands, options, line, error)
       type(command_t), intent(in) :: commands(:)
       type(option_t), intent(in) :: options(:)
@@ -234,7 +234,7 @@ contains
       end do
    end subroutine read_windows
 
-   !> Reads --threshold, a change in percent with or without its sign, as a share.
+   !> Reads --threshold, a change in percent with or without '%', as a share.
    subroutine read_threshold(line, threshold, error)
       type(command_line_t), intent(in) :: line
       real(wp), intent(inout) :: threshold
@@ -259,7 +259,7 @@ contains
       end if
    end subroutine read_threshold
 
-   !> 'run, check, report, compare, study, merge, plot, import or bench'
+   !> The names of all commands as a phrase: 'run, check, report, compare, study, merge, plot, import or bench'.
    pure function names_of(commands) result(text)
       type(command_t), intent(in) :: commands(:)
       character(:), allocatable :: text
@@ -271,7 +271,7 @@ contains
       end do
    end function names_of
 
-   !> Argument number k in full length.
+   !> Argument k of the command line in full length.
    function argument(k) result(text)
       integer, intent(in) :: k
       character(:), allocatable :: text

@@ -100,7 +100,7 @@ contains
       call move_alloc(unprinted, error)
    end subroutine compare
 
-   !> Prints the ten largest changes to standard error.
+   !> Prints the largest changes to standard error, at most ten.
    subroutine print_largest(is_quiet, this)
       logical, intent(in) :: is_quiet
       type(comparison_t), intent(in) :: this
@@ -118,7 +118,7 @@ contains
       end do
    end subroutine print_largest
 
-   !> Lists the tests, columns and gradients of one result that another lacks.
+   !> Lists the tests, columns and gradients of one result that another result lacks.
    subroutine find_missing(results, rows, missing)
       type(results_t), intent(in) :: results(:)
       type(difference_t), intent(in) :: rows(:)
@@ -150,7 +150,7 @@ contains
 
    contains
 
-      !> Whether no result before a, other than b, has its test t: each missing test is listed once.
+      !> Whether no result before a, other than b, has test t of result b, so that each missing test is listed once.
       pure logical function is_first(a, b, t)
          integer, intent(in) :: a, b, t
          integer :: c
@@ -163,7 +163,7 @@ contains
 
    end subroutine find_missing
 
-   !> The columns of `one` that are missing in the same test of `other`. A column missing in several tests is listed once.
+   !> The columns of `one` that the same test of `other` lacks. A column missing in several tests is listed once.
    function columns_lacking(one, other) result(lacking)
       type(results_t), intent(in) :: one, other
       type(message_list_t) :: lacking
@@ -185,7 +185,7 @@ contains
       end do
    end function columns_lacking
 
-   !> The first names of a list, and the number of the others: models of different type share few of a thousand columns.
+   !> The first names of a list, and the number of the other names. Models of different types share few of a thousand columns.
    function some_of(names) result(text)
       type(message_list_t), intent(in) :: names
       character(:), allocatable :: text
@@ -200,7 +200,7 @@ contains
       if (names%count() > enough) text = text//' and '//str(names%count() - enough)//' more'
    end function some_of
 
-   !> The text for standard output: changes of the deck, the number of changed results, and the table of gradients.
+   !> The output for standard output: changes of the deck, the number of changed results, and the table of gradients.
    function text_of(this) result(text)
       type(comparison_t), intent(in) :: this
       character(:), allocatable :: text
@@ -229,7 +229,8 @@ contains
       text = out%text()
    end function text_of
 
-   !> Adds 'Deck checksum: 12ab → 34cd', 'point.seat.y: -500 → -520 (-20)'; of many values the first ones.
+   !> Adds lines such as 'Deck checksum: 12ab → 34cd' or 'point.seat.y: -500 → -520 (-20)'. Of many values, only the first are
+   !> added.
    subroutine add_changes(out, facts, values)
       type(buffer_t), intent(inout) :: out
       type(deck_difference_t), intent(in) :: facts(:), values(:)
@@ -264,7 +265,7 @@ contains
          call out%line('')
       end subroutine add_change
 
-      !> A value as text, or 'not given'.
+      !> A value, or 'not given' for an empty value.
       pure function given(words) result(text)
          character(*), intent(in) :: words
          character(:), allocatable :: text
@@ -321,7 +322,7 @@ contains
       text = padded(text, width)
    end function number_text
 
-   !> A text after blanks to fill a width; before them if the width is negative.
+   !> A string with blanks in front to fill a width; with a negative width, the blanks are behind the string.
    pure function padded(text, width) result(filled)
       character(*), intent(in) :: text
       integer, intent(in) :: width

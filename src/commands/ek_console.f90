@@ -42,7 +42,7 @@ contains
       call log_message(printable(text))
    end subroutine print_message
 
-   !> Prints findings on standard output.
+   !> Prints findings to standard output.
    subroutine print_text(text, error)
       character(*), intent(in) :: text                          !! including its line ends
       type(error_t), allocatable, intent(out) :: error          !! exit_file
@@ -50,8 +50,8 @@ contains
       call log_output(printable(text))
    end subroutine print_text
 
-   !> Prints the path of a result on standard output. If standard output is full or closed the work continues, because the
-   !> result exists. The first such failure is stored; a reader that closes the pipe (`| head`) is not a failure.
+   !> Prints the path of a result to standard output. If standard output is full or closed, the work continues, because the result
+   !> exists. The first such failure is stored. A reader that closes the pipe (`| head`) is not a failure.
    subroutine print_path(path, unprinted)
       character(*), intent(in) :: path
       type(error_t), allocatable, intent(inout) :: unprinted      !! exit_file
@@ -75,7 +75,7 @@ contains
       if (.not. allocated(error)) call print_path(path, unprinted)
    end subroutine write_table
 
-   !> Shows a progress line, which overwrites itself; on a terminal only.
+   !> Shows a progress line that overwrites itself, if standard error is a terminal.
    subroutine show_progress(done, total)
       integer, intent(in) :: done, total
       if (is_terminal(2)) call write_standard_error(achar(13)//'  '//str(done)//' of '//str(total)//' states')
@@ -86,8 +86,8 @@ contains
       if (is_terminal(2)) call write_standard_error(achar(13)//repeat(' ', 40)//achar(13))
    end subroutine clear_progress
 
-   !> Prints the remarks on a model before its cases are run: of the remarks on implausible values only the first, with a
-   !> reference to the others. `page` collects the warnings and all remarks.
+   !> Prints the remarks on a model before its cases are run. Of the remarks on implausible values, only the first is printed, with
+   !> a reference to the others. `page` collects the warnings and all remarks.
    subroutine print_model_remarks(quiet, remarks, page)
       logical, intent(in) :: quiet
       type(model_remarks_t), intent(in) :: remarks
@@ -112,7 +112,7 @@ contains
       end do
    end subroutine print_model_remarks
 
-   !> Prints the notes and warnings on a case; its failures become an error.
+   !> Prints the notes and warnings on a case. Its failures are not printed; they become an error.
    subroutine print_remarks(quiet, remarks)
       logical, intent(in) :: quiet
       type(remark_list_t), intent(in) :: remarks

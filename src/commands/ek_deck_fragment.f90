@@ -36,8 +36,8 @@ contains
       text = records_with(designer%workspace%design, x, found)
    end function deck_fragment
 
-   !> Lines such as `&bushing name = 'lca_front', kt = 8000, 2000, 8000 /`: one per key, all numbers of the key. Where the numbers
-   !> of both sides change as one, the record of the half deck.
+   !> Lines such as `&bushing name = 'lca_front', kt = 8000, 2000, 8000 /`: one per key, with all numbers of the key. Where the
+   !> numbers of both sides change together, the record of the half deck is used.
    function records_with(design, x, found) result(text)
       type(design_t), intent(in) :: design
       real(wp), intent(in) :: x(:)                 !! numbers of the new design [SI, axes of the deck]
@@ -55,7 +55,8 @@ contains
       if (len(text) > 0) text = text(:len(text) - 1)
    end function records_with
 
-   !> Whether a number of the right side comes from a number of the half deck, and changes with the number on the left.
+   !> Whether a number of the right side is derived from a number of the half deck, and changes together with the number on the left
+   !> side.
    pure logical function is_image(design, x, found, number)
       type(design_t), intent(in) :: design
       real(wp), intent(in) :: x(:)
@@ -69,7 +70,7 @@ contains
       end associate
    end function is_image
 
-   !> Whether a number of the left side has such an image.
+   !> Whether a number of the left side has a corresponding number on the right side that changes with it.
    pure logical function has_image(design, x, found, number)
       type(design_t), intent(in) :: design
       real(wp), intent(in) :: x(:)
@@ -84,7 +85,7 @@ contains
       end do
    end function has_image
 
-   !> Adds the line of the key of a parameter, unless the text already contains it.
+   !> Adds the line of the key of a parameter, unless the string already contains the line.
    subroutine add_line(design, x, number, is_half, lines, text)
       type(design_t), intent(in) :: design
       real(wp), intent(in) :: x(:)
@@ -115,7 +116,7 @@ contains
       if (lines <= most_lines) text = text//line
    end subroutine add_line
 
-   !> A number without the rounding of its unit: 12 digits.
+   !> A number with 12 digits, which removes the rounding of its conversion from SI.
    function number_text(value) result(text)
       real(wp), intent(in) :: value
       character(:), allocatable :: text

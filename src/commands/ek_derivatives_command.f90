@@ -62,7 +62,7 @@ contains
       if (.not. allocated(error)) call move_alloc(unreached, error)
    end subroutine derive
 
-   !> Chooses the case of --case, or the first.
+   !> Chooses the case of --case, or the first case.
    subroutine choose_case(settings, workspace, k, error)
       type(deck_settings_t), intent(in) :: settings
       type(workspace_t), intent(in) :: workspace
@@ -89,7 +89,7 @@ contains
       end if
    end subroutine choose_case
 
-   !> Chooses the numbers of --with, or all that the deck gives.
+   !> Chooses the numbers of --with, or all numbers that the deck gives.
    subroutine choose_numbers(line, session, directions, error)
       type(command_line_t), intent(in) :: line
       type(session_t), intent(in) :: session
@@ -110,7 +110,7 @@ contains
       if (allocated(error)) error%message = '--with: '//error%message
    end subroutine choose_numbers
 
-   !> Adds the items of a list with commas.
+   !> Adds the items of a comma-separated list.
    subroutine split(list, items)
       character(*), intent(in) :: list
       type(message_list_t), intent(inout) :: items
@@ -151,7 +151,7 @@ contains
       end do
    end subroutine choose_quantities
 
-   !> Solves the case. States that did not converge are reported, and the converged states are used.
+   !> Solves the case. States that did not converge are reported; the converged states are used.
    subroutine solve(settings, k, workspace, unreached, error)
       type(deck_settings_t), intent(in) :: settings
       integer, intent(in) :: k
@@ -176,7 +176,8 @@ contains
       end associate
    end subroutine solve
 
-   !> Chooses the states of --at: the nearest to each swept value, or all; otherwise that nearest to design.
+   !> Chooses the states of --at: the state nearest to each swept value, or all states. Without --at, chooses the state nearest to
+   !> design.
    subroutine choose_states(line, workspace, k, states, error)
       type(command_line_t), intent(in) :: line
       type(workspace_t), intent(in) :: workspace
@@ -215,7 +216,7 @@ contains
       if (size(states) == 0) call fail(error, exit_usage, '--at: no swept value is given')
    end subroutine choose_states
 
-   !> Writes the table, and the numbers with the largest effects on the requested columns.
+   !> Writes the table, and prints the numbers with the largest effects on the requested columns.
    subroutine write_results(line, settings, workspace, found, error)
       type(command_line_t), intent(in) :: line
       type(deck_settings_t), intent(in) :: settings
@@ -282,8 +283,8 @@ contains
       end do
    end subroutine add_csv
 
-   !> Adds the numbers with the largest effect on a column: of 1 mm, of 0.06 deg, of 1 % of a rate or a force (steps of
-   !> ek_direction).
+   !> Adds the numbers with the largest effect on a column. The effects are for changes of 1 mm, of 0.06 deg, or of 1 % of a rate or
+   !> a force (steps of ek_direction).
    subroutine add_list(found, c, s, case, list)
       type(derivatives_t), intent(in) :: found
       integer, intent(in) :: c, s

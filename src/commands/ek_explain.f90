@@ -38,7 +38,7 @@ module ek_explain
 
 contains
 
-   !> Explains the chosen cases of a deck. `error` is then the error of the last case that failed.
+   !> Explains the chosen cases of a deck. `error` is the error of the last case that failed.
    subroutine explain(line, error)
       type(command_line_t), intent(in) :: line
       type(error_t), allocatable, intent(out) :: error
@@ -104,7 +104,7 @@ contains
          size_hint(place))
    end subroutine read_settings
 
-   !> Explains one case: solve, split, write, print.
+   !> Explains one case: solves the case, splits its compliances, and writes and prints the contributions.
    subroutine explain_case(settings, base, wanted, fault, checksum, files, unprinted, error)
       type(settings_t), intent(in) :: settings
       type(suspension_t), intent(in) :: base
@@ -156,7 +156,7 @@ contains
       if (allocated(trouble)) call move_alloc(trouble, error)
    end subroutine explain_case
 
-   !> Restricts the table to the columns that names or patterns mean.
+   !> Restricts the table to the columns that match names or patterns.
    subroutine take_columns(names, table, error)
       character(name_length), intent(in) :: names(:)
       type(contribution_table_t), intent(inout) :: table
@@ -226,7 +226,7 @@ contains
       call print_text(text%text(), error)
    end subroutine print_state
 
-   !> Finds the laws of an element, or the law of `element.part`.
+   !> Finds all laws of an element, or the law named `element.part`.
    subroutine find_laws(name, table, laws, error)
       character(*), intent(in) :: name
       type(contribution_table_t), intent(in) :: table

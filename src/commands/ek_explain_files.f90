@@ -1,4 +1,4 @@
-!> The files of elastokin explain: contributions and load paths of all states as long tables, and as JSON.
+!> The files of elastokin explain: contributions and load paths of all states, as tables with one row per contribution, and as JSON.
 module ek_explain_files
    use ek_kinds, only: wp
    use ek_error, only: error_t
@@ -84,7 +84,7 @@ contains
       if (self%has_json) call add_json_state(state, factor, table, self%json)
    end subroutine add_explain_state
 
-   !> Adds the lines of the load paths of a state.
+   !> Adds the load paths of a state as lines.
    subroutine add_paths(suspension, place, table, lines)
       type(suspension_t), intent(in) :: suspension
       character(*), intent(in) :: place
@@ -124,7 +124,7 @@ contains
       end do
    end subroutine add_paths
 
-   !> Ends both tables; they then exist.
+   !> Ends both tables. The complete files then exist.
    subroutine end_explain_files(self, error)
       type(explain_files_t), intent(inout) :: self
       type(error_t), allocatable, intent(out) :: error
@@ -153,7 +153,7 @@ contains
       call json%open('[', 'cases')
    end subroutine begin_explain_json
 
-   !> Begins the output of a case. The rows are the same at every state.
+   !> Begins the output of a case with the list of rows, which is equal at every state.
    subroutine begin_explain_case(name, unit_name, table, json)
       character(*), intent(in) :: name, unit_name      !! of the swept value
       type(contribution_table_t), intent(in) :: table
@@ -189,7 +189,7 @@ contains
       call json%close('}')
    end subroutine end_explain_json
 
-   !> Adds one state: the value of every column, and the contribution of every row to this column.
+   !> Adds one state: the value of every column, and the contribution of every row to each column.
    subroutine add_json_state(state, factor, table, json)
       integer, intent(in) :: state
       real(wp), intent(in) :: factor

@@ -1,5 +1,5 @@
-!> The output of elastokin explain: the largest contributions to a column with bars, and its value with rigid elements or an
-!> added spring.
+!> The printed output of elastokin explain: the largest contributions to a column with bars, and the value of the column with rigid
+!> elements or an added spring.
 module ek_explain_text
    use ek_kinds, only: wp
    use ek_text, only: str
@@ -23,7 +23,7 @@ module ek_explain_text
 
 contains
 
-   !> Adds the largest contributions to each requested column, and the rest.
+   !> Adds the largest contributions to each requested column, and the sum of the others.
    subroutine add_largest(table, text)
       type(contribution_table_t), intent(in) :: table
       type(buffer_t), intent(inout) :: text
@@ -46,7 +46,7 @@ contains
       end do
    end subroutine add_largest
 
-   !> Adds a line: name, value, share, bar.
+   !> Adds a line with name, value, share and bar.
    subroutine add_bar(name, value, whole, most, text)
       character(*), intent(in) :: name
       real(wp), intent(in) :: value, whole, most
@@ -62,7 +62,7 @@ contains
          repeat(merge('+', '-', value > 0.0_wp), letters))
    end subroutine add_bar
 
-   !> Adds each requested column with some laws rigid, or with a stiffness of 1 kN/mm added to one law.
+   !> Adds the value of each requested column with some laws rigid, or with a stiffness of 1 kN/mm added to one law.
    subroutine add_rigid(suspension, name, laws, kkt, table, text)
       type(suspension_t), intent(in) :: suspension
       character(*), intent(in) :: name                 !! name of the rigid element or axis
@@ -85,7 +85,8 @@ contains
       end do
    end subroutine add_rigid
 
-   !> Adds the locations at which an added spring of 1 kN/mm changes a column most: along axes of bushings, parallel to springs.
+   !> Adds the locations at which an added spring of 1 kN/mm changes a column most. The locations are along axes of bushings and
+   !> parallel to springs.
    subroutine add_scan(suspension, kkt, table, text)
       type(suspension_t), intent(in) :: suspension
       type(kkt_t), intent(inout) :: kkt                !! with the factors of the state

@@ -1,4 +1,4 @@
-!> elastokin export: deck → kinematics and compliance as tables → files that another simulator reads.
+!> elastokin export: computes kinematics and compliance of a deck as tables, and writes them as files that another simulator reads.
 module ek_export
    use ek_kinds, only: wp
    use ek_error, only: error_t
@@ -38,7 +38,7 @@ module ek_export
 
 contains
 
-   !> Solves everything first: where a number cannot be computed, no file is written.
+   !> Runs the export. Everything is solved first: if a number cannot be computed, no file is written.
    subroutine export(line, error)
       type(command_line_t), intent(in) :: line
       type(error_t), allocatable, intent(out) :: error
@@ -105,7 +105,7 @@ contains
       call solve_map(axle%suspension, axle%request, axle%map, error)
    end subroutine solve_axle
 
-   !> Writes a text and prints its path.
+   !> Writes a string to a file and prints the path of the file.
    subroutine write_text(settings, name, text, unprinted, error)
       type(export_settings_t), intent(in) :: settings
       character(*), intent(in) :: name, text
@@ -147,7 +147,7 @@ contains
       call carsim_panels(axle%map, sources, axle%map%model//'_carsim.par', text, panels)
    end subroutine write_carsim
 
-   !> Writes both files of the axle, and those of the other axle if its deck is given.
+   !> Writes both files of the axle, and the files of the other axle if its deck is given.
    subroutine write_mathworks(settings, axle, sources, panels, unprinted, error)
       type(export_settings_t), intent(in) :: settings
       type(axle_map_t), intent(in) :: axle
@@ -179,7 +179,7 @@ contains
          size(axle%map%travel), panels)
    end subroutine write_mathworks
 
-   !> Solves the deck of the other axle. Its steer range comes from its deck, and --set and --axle do not apply to it.
+   !> Solves the deck of the other axle. The steer range of this axle comes from its own deck; --set and --axle do not apply to it.
    subroutine add_other(settings, place, p, error)
       type(export_settings_t), intent(in) :: settings
       integer, intent(in) :: place                       !! 1 front, 2 rear
@@ -210,7 +210,7 @@ contains
       p%checksums(place) = other%checksum
    end subroutine add_other
 
-   !> Writes three tables and the JSON of all of them.
+   !> Writes three tables, and the JSON file of all tables.
    subroutine write_tables(settings, axle, sources, panels, unprinted, error)
       type(export_settings_t), intent(in) :: settings
       type(axle_map_t), intent(in) :: axle

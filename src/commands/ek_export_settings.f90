@@ -126,8 +126,7 @@ contains
       end do
    end function list
 
-   !> Builds the request for a model. Ranges are those of the command line; without them, the ranges of the travel and steering
-   !> tests.
+   !> Builds the request for a model. Ranges come from the command line, otherwise from the tests of travel and steering.
    subroutine make_request(settings, suspension, cases, request, error)
       type(export_settings_t), intent(in) :: settings
       type(suspension_t), intent(in) :: suspension
@@ -171,7 +170,7 @@ contains
       call choose_lengths(suspension, settings%lengths, request%choices, error)
    end subroutine make_request
 
-   !> Chooses whether the map is over steer, and by which driver.
+   !> Decides whether the map has steering as its second input, and chooses the driver.
    subroutine choose_kind(settings, suspension, request, error)
       type(export_settings_t), intent(in) :: settings
       type(suspension_t), intent(in) :: suspension
@@ -206,7 +205,7 @@ contains
          '--steer: this export has no steer; the deck has no &steering: name the driver joint with --driver NAME')
    end subroutine choose_kind
 
-   !> Reads the grid of a range: of the command line, else of a test.
+   !> Reads the grid of a range: from the command line, otherwise from a test.
    subroutine take(option, range, from, to, points, values, error)
       character(*), intent(in) :: option
       type(range_t), intent(in) :: range                      !! mm

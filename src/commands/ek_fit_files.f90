@@ -95,7 +95,7 @@ contains
       text = csv%text()
    end function factors_csv
 
-   !> Adds a cell; nan for a bound that is not given and for an unknown value.
+   !> Adds a cell with a number; nan for a bound that is not given and for an unknown value.
    subroutine add_number(value, csv)
       real(wp), intent(in) :: value
       type(buffer_t), intent(inout) :: csv
@@ -110,7 +110,7 @@ contains
       end if
    end subroutine add_number
 
-   !> One row per point: target, value at the start, value of the result.
+   !> The table of points as CSV, one row per point: target, value at the start, value of the result.
    function points_csv(fit, workspace, problem, found) result(text)
       type(fit_t), intent(in) :: fit
       type(workspace_t), intent(in) :: workspace
@@ -196,7 +196,7 @@ contains
 
    end function settings
 
-   !> A panel for each curve: start, target and result, from the file of the points.
+   !> The script of the figure: a panel for each curve with start, target and result, from the file of the points.
    function script(fit, workspace, problem) result(text)
       type(fit_t), intent(in) :: fit
       type(workspace_t), intent(in) :: workspace
@@ -251,7 +251,7 @@ contains
 
    contains
 
-      !> The swept value with its unit, or the column over which the curve is.
+      !> Label of the abscissa: the swept value with its unit, or the column over which the curve is given.
       function abscissa(t) result(label)
          integer, intent(in) :: t
          character(:), allocatable :: label

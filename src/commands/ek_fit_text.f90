@@ -1,4 +1,4 @@
-!> The findings of elastokin fit as text.
+!> The findings of elastokin fit as printed.
 module ek_fit_text
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
@@ -47,7 +47,7 @@ contains
       call text%line(records_with(workspace%design, workspace%x, changed))
    end subroutine add_fit_findings
 
-   !> Adds how the fit ended, and its quality.
+   !> Adds the reason why the fit ended, and the quality of the fit.
    subroutine add_ending(problem, found, statistics, text)
       type(fit_problem_t), intent(in) :: problem
       type(fit_result_t), intent(in) :: found
@@ -72,7 +72,7 @@ contains
          str(maxval([0.0_wp, statistics%singular]), 4)//' to '//str(minval([huge(1.0_wp), statistics%singular]), 4))
    end subroutine add_ending
 
-   !> Adds root mean squares of the differences, and limits that are exceeded.
+   !> Adds the root mean squares of the differences, and the limits that are exceeded.
    subroutine add_targets(fit, problem, found, text)
       type(fit_t), intent(in) :: fit
       type(fit_problem_t), intent(in) :: problem
@@ -132,7 +132,7 @@ contains
       end do
    end subroutine add_factors
 
-   !> Adds factors that cannot be learned, combinations that are not seen, and strong correlations.
+   !> Adds the factors and combinations of factors that the targets do not determine, and strong correlations.
    subroutine add_doubts(problem, found, statistics, text)
       type(fit_problem_t), intent(in) :: problem
       type(fit_result_t), intent(in) :: found
@@ -163,7 +163,7 @@ contains
       if (pairs > most_pairs) call text%line(str(pairs - most_pairs)//' more correlations above '//str(strong))
    end subroutine add_doubts
 
-   !> The 95 % half width that the tests leave for a factor, and whether its prior determines the result.
+   !> The 95 % half width of a factor, and whether the prior of the factor determines the result.
    function remains(problem, statistics, f) result(words)
       type(fit_problem_t), intent(in) :: problem
       type(fit_statistics_t), intent(in) :: statistics
@@ -179,7 +179,7 @@ contains
       if (is_given(problem%variables(f)%deviation)) words = words//'; the result is that of its prior'
    end function remains
 
-   !> Adds factors of which only combinations are seen.
+   !> Adds the factors of which the targets determine only combinations.
    subroutine add_group(problem, found, direction, members, text)
       type(fit_problem_t), intent(in) :: problem
       type(fit_result_t), intent(in) :: found
@@ -236,7 +236,7 @@ contains
       text = name//repeat(' ', max(1, name_width - len(name)))
    end function padded
 
-   !> A text at the right of a column.
+   !> A string, padded with blanks on the left to the width of its column.
    function right(text, width) result(cell)
       character(*), intent(in) :: text
       integer, intent(in) :: width

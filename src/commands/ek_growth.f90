@@ -130,7 +130,7 @@ contains
       close (unit, iostat=k)
    end function peak_memory
 
-   !> The results of all sizes as lines of text.
+   !> The results of all sizes as lines for the terminal.
    function table_of(sizes) result(text)
       type(size_t), intent(in) :: sizes(:)
       character(:), allocatable :: text

@@ -13,7 +13,8 @@ module ek_help_files
 
 contains
 
-   !> Writes all of them below a folder: man/man1, bash-completion/completions, zsh/site-functions, fish/vendor_completions.d.
+   !> Writes man pages and completions below a folder: man/man1, bash-completion/completions, zsh/site-functions,
+   !> fish/vendor_completions.d.
    subroutine write_help_files(commands, options, exit_status, folder, error)
       type(command_t), intent(in) :: commands(:)
       type(option_t), intent(in) :: options(:)

@@ -1,4 +1,4 @@
-!> elastokin import: files of other programs as a deck.
+!> elastokin import: converts files of other programs to a deck.
 module ek_import
    use ek_error, only: error_t, message_list_t, fail, exit_usage
    use ek_text, only: quoted
@@ -12,7 +12,7 @@ module ek_import
 
 contains
 
-   !> Writes the deck to standard output, or to the file of --out. Errors in all files are reported together.
+   !> Writes the deck to standard output, or to the file given by --out. Errors in all files are reported together.
    subroutine import(line, error)
       type(command_line_t), intent(in) :: line
       type(error_t), allocatable, intent(out) :: error

@@ -20,7 +20,7 @@ module ek_increment_parts
    ! many states are compared, not single steps.
    integer, parameter :: unpacking = 1, reacting = 2, assembling = 3, factorising = 4, solving = 5
 
-   !> Times per increment [s], of the processor.
+   !> Processor times per increment [s].
    type :: parts_t
       real(wp) :: increment = huge(1.0_wp)       !! all of it
       real(wp) :: assembly = 0.0_wp, factor = 0.0_wp, solve = 0.0_wp, rest = 0.0_wp

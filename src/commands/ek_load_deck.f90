@@ -19,8 +19,8 @@ module ek_load_deck
    public :: deck_settings_t, read_deck_settings, load_deck, load_session, read_changed, add_asked_test, chosen_cases, &
       examine_chosen
 
-   !> Options of a command on a deck; a command extends the type by its own settings. An option that it does not accept is not
-   !> given.
+   !> Options of a command with a deck. A command extends the type by its own settings. An option that the command does not accept
+   !> has the value of an option that is not given.
    type :: deck_settings_t
       character(:), allocatable :: file          !! '-' is standard input
       character(:), allocatable :: case          !! '' for all
@@ -35,7 +35,7 @@ module ek_load_deck
 
 contains
 
-   !> Reads the options of the command line that all commands with a deck share.
+   !> Reads the options that all commands with a deck share.
    subroutine read_deck_settings(line, settings)
       type(command_line_t), intent(in) :: line
       class(deck_settings_t), intent(inout) :: settings
@@ -51,7 +51,8 @@ contains
       settings%set_files = line%values('--set-file')
    end subroutine read_deck_settings
 
-   !> Reads a deck, applies --set, builds the model, and checks the tables and targets of its cases; reports all errors together.
+   !> Reads a deck, applies --set, builds the model, and checks the tables and targets of its cases. All errors are reported
+   !> together.
    subroutine load_deck(settings, workspace, checksum, error, needs_tables, used_deck)
       class(deck_settings_t), intent(in) :: settings
       type(workspace_t), intent(out) :: workspace            !! without cases: the command chooses cases of the design
@@ -72,7 +73,7 @@ contains
       if (present(used_deck)) used_deck = deck
    end subroutine load_deck
 
-   !> Opens a deck with its settings as a session, for commands that use a session; load_deck gives a model instead.
+   !> Opens a deck with its settings as a session. (load_deck returns a model instead.)
    subroutine load_session(settings, session, error)
       class(deck_settings_t), intent(in) :: settings
       type(session_t), intent(out) :: session
@@ -105,7 +106,7 @@ contains
       if (size(files) > 0 .and. error%code == exit_deck .and. deck%deck_errors%count() == 0) call move_alloc(error, unset)
    end subroutine read_set_deck
 
-   !> Adds the errors of settings to the errors of the deck, each with the line of its file of settings.
+   !> Adds the errors in settings to the errors of the deck, each with its line in the file of settings.
    subroutine add_unset(files, unset, error)
       type(set_file_t), intent(in) :: files(:)
       type(error_t), allocatable, intent(inout) :: unset, error
@@ -144,7 +145,7 @@ contains
       if (is_logging() .and. .not. allocated(error)) call log_deck(file, deck_checksum(deck))
    end subroutine read_changed
 
-   !> Adds the standard test that --case names, if the deck has no case of this name.
+   !> Adds the standard test named by --case if the deck has no case of this name.
    subroutine add_asked_test(settings, suspension, cases)
       class(deck_settings_t), intent(in) :: settings
       type(suspension_t), intent(in) :: suspension
@@ -213,7 +214,7 @@ contains
       end do
    end subroutine chosen_cases
 
-   !> Examines the cases to run; an error, each defect once, if none can be solved.
+   !> Examines the cases to run. If no case can be solved, returns an error that lists each defect once.
    subroutine examine_chosen(file, suspension, chosen, found, error)
       character(*), intent(in) :: file                  !! the deck, for messages
       type(suspension_t), intent(in) :: suspension      !! not balanced

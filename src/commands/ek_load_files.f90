@@ -1,4 +1,4 @@
-!> The files of --loads: loads.csv, all members at all states of all cases, and peak-loads.csv, the largest values.
+!> The files of --loads. loads.csv contains all members at all states of all cases; peak-loads.csv contains the largest values.
 module ek_load_files
    use ek_error, only: error_t
    use ek_buffer, only: buffer_t
@@ -28,7 +28,7 @@ contains
       if (.not. allocated(error)) call print_path(join_path(folder, peaks_file), unprinted)
    end subroutine write_loads
 
-   !> Removes the files of an earlier run, so that they cannot be mistaken for files of this run.
+   !> Removes the files of an earlier run, so that they cannot be mistaken for results of this run.
    subroutine remove_loads(folder)
       character(*), intent(in) :: folder
 

@@ -1,4 +1,4 @@
-!> Man pages (man(7)) of the program and of its commands, from their tables.
+!> Man pages (man(7)) of the program and of its commands, from the tables of commands and options.
 module ek_man_page
    use ek_version, only: version
    use ek_buffer, only: buffer_t
@@ -13,7 +13,7 @@ module ek_man_page
 
 contains
 
-   !> elastokin(1): purpose of the program, its commands, the options of every command, the exit status.
+   !> The man page elastokin(1): purpose of the program, commands, options of every command, exit status.
    function main_page(commands, options, exit_status) result(text)
       type(command_t), intent(in) :: commands(:)
       type(option_t), intent(in) :: options(:)
@@ -42,7 +42,7 @@ contains
       text = page%text()
    end function main_page
 
-   !> The man page of a command, as elastokin-run(1), in roff.
+   !> The man page of a command in roff, such as elastokin-run(1).
    function command_page(command, options) result(text)
       type(command_t), intent(in) :: command
       type(option_t), intent(in) :: options(:)
@@ -113,7 +113,8 @@ contains
       end do
    end subroutine add_options
 
-   !> A string for roff: each line ends with a break; backslashes, hyphens, ellipses and dots at the start of a line are escaped.
+   !> A string as roff source. Line ends become breaks; backslashes, hyphens, dots at the beginning of lines and the ellipsis are
+   !> escaped.
    pure function roff(text) result(source)
       character(*), intent(in) :: text
       character(:), allocatable :: source

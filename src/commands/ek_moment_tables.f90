@@ -29,7 +29,7 @@ module ek_moment_tables
 
 contains
 
-   !> Copies the results of the derivatives for the responses and the curves.
+   !> Copies the results computed from derivatives for the responses and the curves.
    subroutine take_tolerance(found, columns, data)
       type(tolerance_t), intent(in) :: found
       character(*), intent(in) :: columns(:)         !! of the study; the columns of the data lack the swept value
@@ -87,7 +87,8 @@ contains
 
    end subroutine take_tolerance
 
-   !> Copies the data that the figures of one factor at a time and of the indices need in addition to the values at the ends.
+   !> Copies the data that the figures of one factor at a time and of the indices need in addition to the values at the ends of the
+   !> ranges.
    pure subroutine take_ranges(data, r)
       type(study_data_t), intent(inout) :: data
       integer, intent(in) :: r
@@ -111,7 +112,7 @@ contains
          normal_yield(mean, deviation, skewness, axis%lower, axis%upper), 0.0_wp)
    end function row_of
 
-   !> Copies the results of the designs of the study for its responses.
+   !> Copies the results computed from the designs of the study for its responses.
    subroutine take_sample(data)
       type(study_data_t), intent(inout) :: data
       real(wp), allocatable :: values(:)
@@ -143,12 +144,12 @@ contains
       end do
    end subroutine take_sample
 
-   !> A quiet NaN, for a number without a value.
+   !> A quiet NaN, which marks a number without a value.
    pure real(wp) function nothing()
       nothing = ieee_value(1.0_wp, ieee_quiet_nan)
    end function nothing
 
-   !> Writes the tables into a folder; names: their names.
+   !> Writes the tables into a folder. `names` returns their file names.
    subroutine write_moments(data, out, names, error)
       type(study_data_t), intent(in) :: data
       character(*), intent(in) :: out
@@ -201,7 +202,7 @@ contains
 
    end subroutine write_moments
 
-   !> Adds the other cells of a row; a limit that is not given is nan.
+   !> Adds the remaining cells of a row; nan for a limit that is not given.
    subroutine add_numbers(csv, values)
       type(buffer_t), intent(inout) :: csv
       real(wp), intent(in) :: values(:)
@@ -220,7 +221,7 @@ contains
       call csv%line('')
    end subroutine add_numbers
 
-   !> Reads the tables of a finished study. Data that are missing or do not match stay unallocated.
+   !> Reads the tables of a finished study. Components without a table, or whose table does not match, stay unallocated.
    subroutine read_moments(out, data)
       character(*), intent(in) :: out
       type(study_data_t), intent(inout) :: data

@@ -11,7 +11,7 @@ module ek_number_targets
 
 contains
 
-   !> Sets the targets; a quantity that the report does not have is a warning.
+   !> Sets the targets of the key numbers. A band of a quantity that the report does not have gives a warning.
    subroutine set_targets(targets, numbers, warnings)
       type(target_band_t), intent(in) :: targets(:)
       type(key_number_t), intent(inout) :: numbers(:)

@@ -35,7 +35,7 @@ module ek_opened_study
 
 contains
 
-   !> Reads the study and its deck; nothing is solved.
+   !> Reads the study and its deck. No case is solved.
    subroutine open_study(line, this, error)
       type(command_line_t), intent(in) :: line
       type(opened_study_t), intent(out) :: this
@@ -58,7 +58,7 @@ contains
          join_path(this%home, this%study%deck), line%values('--set'), this%texts)
    end subroutine open_study
 
-   !> Plans the study: the design of the deck, against which the study is checked, and the plan.
+   !> Plans the study: creates the design of the deck, checks the study against it, and creates the plan.
    subroutine plan_study(this, error, shards)
       type(opened_study_t), intent(inout) :: this
       type(error_t), allocatable, intent(out) :: error
@@ -75,7 +75,7 @@ contains
       this%texts%swept_unit = this%designer%workspace%cases(1)%result%case%unit_name
    end subroutine plan_study
 
-   !> The file of the results: the store, or the table of the designs.
+   !> File name of the results: the store, or the table of the designs.
    function results_name(this) result(name)
       type(opened_study_t), intent(in) :: this
       character(:), allocatable :: name
@@ -83,7 +83,7 @@ contains
       if (this%has_store) name = store_name(this%study)
    end function results_name
 
-   !> Sets --samples: a trial of a large study.
+   !> Applies --samples, which reduces a large study to a trial.
    subroutine set_samples(samples, study, error)
       integer, intent(in) :: samples
       type(study_t), intent(inout) :: study

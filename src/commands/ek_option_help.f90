@@ -25,15 +25,15 @@ contains
       is_repeatable = index(option%label, '=') > 0 .or. index(option%help, 'may be repeated') > 0
    end function is_repeatable
 
-   !> 'DIR' of '--out DIR'; '' without a value.
+   !> Name of the value of an option: 'DIR' for '--out DIR'; '' for an option without a value.
    pure function value_name(option) result(name)
       type(option_t), intent(in) :: option
       character(:), allocatable :: name
       name = trim(adjustl(option%label(len_trim(option_name(option)) + 1:)))
    end function value_name
 
-   !> The description of option k. If its help refers to another command ('as for run'), the description of that command is used.
-   !> If its help is empty, the first description of an option with the same name is used. Its lines are not indented.
+   !> The description of option k. If its help refers to another command ('as for run'), the description for that command is
+   !> returned. If its help is empty, the first description of an option with the same name is returned. Lines are not indented.
    pure recursive function description(options, k) result(text)
       type(option_t), intent(in) :: options(:)
       integer, intent(in) :: k
@@ -60,7 +60,7 @@ contains
       end if
    end function description
 
-   !> The first line of a text, without the colon at its end.
+   !> The first line of a string, without a colon at its end.
    pure function first_line(text) result(line)
       character(*), intent(in) :: text
       character(:), allocatable :: line
@@ -73,7 +73,8 @@ contains
       line = text(:length)
    end function first_line
 
-   !> 'recursive corrected equilibrium' of a description with 'recursive | corrected | equilibrium'; '' without such a list.
+   !> The choices in a description, separated by blanks: 'recursive corrected equilibrium' for 'recursive | corrected |
+   !> equilibrium'; '' without such a list.
    pure function choices(text) result(list)
       character(*), intent(in) :: text
       character(:), allocatable :: list, rest
@@ -92,7 +93,7 @@ contains
       end do
    end function choices
 
-   !> A text on one line, with one blank between two parts.
+   !> A string on one line, with one blank between two parts.
    pure function on_one_line(text) result(line)
       character(*), intent(in) :: text
       character(:), allocatable :: line
@@ -109,7 +110,7 @@ contains
       line = trim(line)
    end function on_one_line
 
-   !> A text whose lines begin without blanks.
+   !> A string whose lines begin without blanks.
    pure function without_indent(text) result(plain)
       character(*), intent(in) :: text
       character(:), allocatable :: plain

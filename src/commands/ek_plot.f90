@@ -41,7 +41,7 @@ contains
       call draw_study(this%study, this%deck, join_path(this%home, ''), this%out, line%values('--kind'), line%has('--quiet'), error)
    end subroutine run_plot_command
 
-   !> Checks that the file is a study: results alone do not define the figures.
+   !> Checks that the file is a study. Result files alone do not define the figures.
    subroutine check_file(path, error)
       character(*), intent(in) :: path
       type(error_t), allocatable, intent(out) :: error
@@ -131,8 +131,8 @@ contains
          if (is_drawn) is_drawn = sheet <= sheets(rule, data)
       end function is_drawn
 
-      !> Removes a figure that is not drawn now, unless it shows the current results. It does if its script, which contains the
-      !> data, equals the new script.
+      !> Removes a figure that is not drawn now, unless the figure shows the current results. The script contains the data; the
+      !> figure is current if its script equals the new script.
       subroutine remove_old(rule, sheet, name)
          type(figure_rule_t), intent(in) :: rule
          integer, intent(in) :: sheet
@@ -166,7 +166,7 @@ contains
 
    end subroutine draw_study
 
-   !> Draws the figure of a step-size study and writes its page, from its table.
+   !> Reads the table of a step-size study, draws its figure, and writes its page.
    subroutine draw_steps(study, out, is_quiet, error)
       type(study_t), intent(in) :: study
       character(*), intent(in) :: out                !! folder of the table

@@ -1,4 +1,4 @@
-!> elastokin report: deck → tests → gradients, charts, picture → one page and its files.
+!> elastokin report: runs the tests of a deck, and writes gradients, charts and pictures as one page and its files.
 module ek_report
    use ek_error, only: error_t, message_list_t, fail, exit_usage, exit_convergence
    use ek_text, only: str, plural
@@ -64,8 +64,8 @@ module ek_report
 
 contains
 
-   !> Runs the tests of a deck and writes all files. Of a test that fails part way the converged states are written; the
-   !> error at the end then has code exit_convergence.
+   !> Runs the tests of a deck and writes all files. If a test fails part way, its converged states are written, and `error` has the
+   !> code exit_convergence at the end.
    subroutine report(line, error)
       type(command_line_t), intent(in) :: line
       type(error_t), allocatable, intent(out) :: error
@@ -154,7 +154,7 @@ contains
       end if
    end subroutine report
 
-   !> Writes gradients, key numbers with their targets, and the list of tests.
+   !> Writes the gradients, the key numbers with their targets, and the list of tests.
    subroutine write_numbers(workspace, checksum, page, unprinted, error)
       type(workspace_t), intent(in) :: workspace                !! balanced
       character(*), intent(in) :: checksum
@@ -239,8 +239,8 @@ contains
       end if
    end subroutine read_live
 
-   !> Runs the tests and writes their tables, and the compliance matrix at every state of the first that is run: travel, with
-   !> design.
+   !> Runs the tests and writes their tables. Also writes the compliance matrix at every state of the first test that was run, for a
+   !> suspension with wheels.
    subroutine run_tests(windows, suspension, chosen, found, checksum, page, unprinted, incomplete, error)
       type(windows_t), intent(in) :: windows
       type(suspension_t), intent(in) :: suspension
@@ -335,8 +335,8 @@ contains
       call add_fact(page, 'Date', date_text())
    end subroutine set_head
 
-   !> Runs one test. Its remarks report every failure to converge; `error` then has exit_convergence (or exit_model if the
-   !> model cannot be solved), and the table has the states before it.
+   !> Runs one test. The remarks of the test report every failure to converge. `error` then has the code exit_convergence (or
+   !> exit_model if the model cannot be solved), and the table has the states before the failure.
    subroutine run_planned(base, case, fault, checksum, test, path, error, compliance, loads, explanations, live)
       type(suspension_t), intent(in) :: base
       type(case_t), intent(in) :: case

@@ -1,6 +1,5 @@
-!> A folder is one report: report-files.csv lists the files of a report, with checksums. The next report in the folder removes the
-!> files of that list which it does not write itself and which nobody has changed since; a changed file is not removed, and a note
-!> names it.
+!> A folder contains one report. report-files.csv lists the files of the report, with checksums. The next report in the folder
+!> removes every listed file that it does not write itself, unless the file has been changed since. A note names each changed file.
 module ek_report_list
    use ek_error, only: error_t, message_list_t
    use ek_text, only: quoted
@@ -64,7 +63,7 @@ contains
       end do
    end subroutine list_files
 
-   !> Removes the files of an earlier list that this report did not write. A list that cannot be read removes nothing.
+   !> Removes the files of an earlier list that this report did not write. If the list cannot be read, no file is removed.
    subroutine remove_earlier(folder, files, is_quiet)
       character(*), intent(in) :: folder
       type(message_list_t), intent(in) :: files
@@ -92,7 +91,7 @@ contains
       end do
    end subroutine remove_earlier
 
-   !> Whether a name of the list is the name of a file in the folder or in its figures.
+   !> Whether a listed name is the name of a file in the folder or in its subfolder of figures.
    pure logical function is_inside(name)
       character(*), intent(in) :: name
       character(*), parameter :: figures = 'figures/'
@@ -115,7 +114,7 @@ contains
       end do
    end function is_among
 
-   !> The checksum of a file; '' if it cannot be read.
+   !> The checksum of a file; '' if the file cannot be read.
    function sum_of(path) result(digits)
       character(*), intent(in) :: path
       character(:), allocatable :: digits

@@ -1,4 +1,4 @@
-!> The bands of a deck (&target_band) as limits of the responses of a study that are the same numbers.
+!> Applies the target bands of a deck (&target_band) as limits to those responses of a study that equal key numbers.
 module ek_response_bands
    use ek_kinds, only: wp
    use ek_study, only: response_t
@@ -11,8 +11,8 @@ module ek_response_bands
 
 contains
 
-   !> Sets the limits of the responses that a band covers and that have no limits of their own. The last band of a number counts, as
-   !> in a report.
+   !> Sets the limits of the responses that have a band and no limits of their own. If a key number has several bands, the last band
+   !> counts, as in a report.
    subroutine set_bands(targets, responses, axes)
       type(target_band_t), intent(in) :: targets(:)
       type(response_t), intent(in) :: responses(:)
@@ -33,7 +33,8 @@ contains
       end do
    end subroutine set_bands
 
-   !> The key number that a response is: a gradient with the window of the report, or a column at design. '' without one.
+   !> Name of the key number that a response equals: a gradient with the window of the report, or a column at design. '' if there is
+   !> none.
    pure function key_number_of(response) result(name)
       type(response_t), intent(in) :: response
       character(:), allocatable :: name

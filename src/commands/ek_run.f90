@@ -1,4 +1,4 @@
-!> elastokin run: deck → model → sweep → table → CSV and figures, case by case.
+!> elastokin run: builds the model of a deck, and for each case solves the sweep and writes the table as CSV and the figures.
 module ek_run
    use ek_kinds, only: wp
    use ek_error, only: error_t, fail, exit_usage, exit_convergence
@@ -37,8 +37,8 @@ module ek_run
 
 contains
 
-   !> Runs the chosen cases of a deck. If a case fails part way, its converged states are written, and the other cases are
-   !> run. The error at the end has the code of the first failure other than lack of convergence, otherwise exit_convergence.
+   !> Runs the chosen cases of a deck. If a case fails part way, its converged states are written, and the other cases are run. At
+   !> the end, `error` has the code of the first failure other than lack of convergence; otherwise exit_convergence.
    subroutine run(line, error)
       type(command_line_t), intent(in) :: line
       type(error_t), allocatable, intent(out) :: error
@@ -170,7 +170,7 @@ contains
       end do
    end subroutine refuse_double_files
 
-   !> Runs one case: solve, report, write, draw.
+   !> Runs one case: solves it, reports its remarks, and writes its table and figures.
    subroutine run_case(settings, base, wanted, fault, checksum, json, loads, unprinted, error)
       type(settings_t), intent(in) :: settings
       type(suspension_t), intent(in) :: base
@@ -218,8 +218,8 @@ contains
       call move_alloc(trouble, error)
    end subroutine run_case
 
-   !> Finds the swept value that meets the target of a case, reports it, and writes its state to a separate file (unless the
-   !> results go to standard output). Not for the linear methods, whose states are not equilibria.
+   !> Finds the swept value that meets the target of a case, reports it, and writes the state to a separate file (unless results go
+   !> to standard output). The linear methods are excluded, because their states are not equilibria.
    subroutine aim(settings, result, checksum, path, unprinted, error)
       type(settings_t), intent(in) :: settings
       type(case_result_t), intent(inout) :: result

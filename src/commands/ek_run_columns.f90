@@ -1,4 +1,4 @@
-!> run --columns a,b,c: the columns of the results that are computed and written.
+!> run --columns a,b,c: chooses the columns of the results that are computed and written.
 module ek_run_columns
    use ek_error, only: error_t, message_list_t, fail, exit_usage
    use ek_text, only: quoted, suggestion_by_part, is_like
@@ -63,7 +63,7 @@ contains
 
    contains
 
-      !> Adds the columns of this case that name k means.
+      !> Adds the columns of this case that match name k.
       subroutine take(k)
          integer, intent(in) :: k
          integer :: j

@@ -70,7 +70,7 @@ contains
       call json%close('}')
    end subroutine add_run_json
 
-   !> Ends the object and writes it.
+   !> Ends the JSON object and writes it.
    subroutine write_run_json(json, status, folder, model, error)
       type(json_t), intent(inout) :: json
       integer, intent(in) :: status                                !! exit status of the program

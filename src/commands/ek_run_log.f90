@@ -54,7 +54,7 @@ contains
       is_logging = file%is_open()
    end function is_logging
 
-   !> Logs a note, warning or error, as printed; notes also if --quiet suppresses them.
+   !> Logs a note, warning or error as printed. Notes are logged even if --quiet suppresses them.
    subroutine log_message(text)
       character(*), intent(in) :: text
       if (file%is_open()) call log%messages%add(text)
@@ -79,7 +79,7 @@ contains
       call log%checksums%add(checksum)
    end subroutine log_deck
 
-   !> Drops the record of this process. If a study has several processes, the first one writes the record.
+   !> Drops the record of this process. In a study with several processes, only the first process writes the record.
    subroutine drop_log()
       call file%close()
    end subroutine drop_log

@@ -1,5 +1,5 @@
-!> elastokin run --responses: a deck as a black box of optimisers and drivers. Key numbers by name, one `value name` line each,
-!> and no other file.
+!> elastokin run --responses: evaluates a deck as a black box for optimisers and drivers. It prints key numbers by name, one `value
+!> name` line each, and writes no other file.
 module ek_run_numbers
    use ek_kinds, only: wp
    use ek_error, only: error_t, exit_convergence
@@ -24,8 +24,8 @@ module ek_run_numbers
 
 contains
 
-   !> Writes the wanted numbers of a deck. If one of them has no value or a state that it needs was not found, the results contain
-   !> FAIL, for which drivers search, and the reason.
+   !> Writes the requested key numbers of a deck. If a key number has no value or a required state did not converge, the results
+   !> contain FAIL, for which drivers search, and the reason.
    subroutine run_numbers(line, settings, error)
       type(command_line_t), intent(in) :: line
       class(deck_settings_t), intent(in) :: settings
@@ -71,7 +71,7 @@ contains
       end if
    end subroutine write_results
 
-   !> Solves the tests that the numbers need, in the session of a program.
+   !> Solves the tests that the key numbers need, in a session.
    subroutine find_values(settings, names, values, error)
       class(deck_settings_t), intent(in) :: settings
       character(*), intent(in) :: names(:)
@@ -98,7 +98,7 @@ contains
       if (.not. allocated(unread)) call print_model_remarks(.true., remarks)     ! warnings, no notes
    end subroutine find_values
 
-   !> Splits a list with commas into names, without blanks around them.
+   !> Splits a comma-separated list into names, without surrounding blanks.
    subroutine split_names(list, names)
       character(*), intent(in) :: list
       character(name_length), allocatable, intent(out) :: names(:)

@@ -1,5 +1,5 @@
-!> Completion of command lines by bash, zsh and fish, from the tables of commands and options: commands, the options of a command,
-!> folders after `--out`, the names of a list after `--method`, else files.
+!> Completion of command lines by bash, zsh and fish, from the tables of commands and options. Completed are commands, the options
+!> of a command, folders after `--out`, the names of a list after `--method`, and otherwise files.
 module ek_shell_completion
    use ek_buffer, only: buffer_t
    use ek_command_line, only: command_t, option_t, option_name
@@ -64,7 +64,7 @@ contains
       text = script%text()
    end function bash_completion
 
-   !> ' --out --case': the options of a command.
+   !> The options of a command with blanks in front: ' --out --case'.
    pure function option_list(options, command) result(list)
       type(option_t), intent(in) :: options(:)
       character(*), intent(in) :: command
@@ -77,7 +77,7 @@ contains
       end do
    end function option_list
 
-   !> 'run:--out', or '*:--log' of every command.
+   !> The pattern for an option in the bash script: 'run:--out'; '*:--log' for an option of every command.
    pure function bash_case(option) result(text)
       type(option_t), intent(in) :: option
       character(:), allocatable :: text
@@ -188,7 +188,7 @@ contains
       text = script%text()
    end function fish_completion
 
-   !> The values that may follow option number k.
+   !> The kind of values that may follow option k.
    pure integer function value_kind(options, k) result(kind)
       type(option_t), intent(in) :: options(:)
       integer, intent(in) :: k
@@ -218,7 +218,7 @@ contains
       end do
    end function command_names
 
-   !> A backslash before each of some characters.
+   !> A string with a backslash before each of some characters.
    pure function escaped(text, special) result(word)
       character(*), intent(in) :: text, special
       character(:), allocatable :: word
@@ -231,7 +231,7 @@ contains
       end do
    end function escaped
 
-   !> A word in single quotes. A quote within the word ends the quoted part in zsh, and has a backslash before it in fish.
+   !> A string in single quotes. A quote within the string ends the quoted part in zsh, and has a backslash before it in fish.
    pure function quoted_word(text, is_fish) result(word)
       character(*), intent(in) :: text
       logical, intent(in), optional :: is_fish

@@ -1,4 +1,4 @@
-!> elastokin solve: the numbers of a deck for which quantities have given values.
+!> elastokin solve: finds numbers of a deck for which quantities have given values.
 module ek_solve_command
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t, fail, exit_usage, exit_convergence
@@ -28,7 +28,7 @@ module ek_solve_command
 
 contains
 
-   !> Solves the conditions of --for for the numbers of --vary, and writes the numbers found.
+   !> Finds the numbers of --vary that meet the conditions of --for, and writes these numbers.
    subroutine solve_for(line, error)
       type(command_line_t), intent(in) :: line
       type(error_t), allocatable, intent(out) :: error     !! exit_convergence: not all conditions are met
@@ -198,7 +198,7 @@ contains
       if (mistakes%count() > 0) call fail(error, exit_usage, mistakes%text())
    end subroutine read_conditions
 
-   !> The message on a case that the deck does not have.
+   !> Message about a case that the deck does not have.
    function unknown_case(name, file, workspace) result(text)
       character(*), intent(in) :: name, file
       type(workspace_t), intent(in) :: workspace
@@ -213,7 +213,7 @@ contains
       if (size(names) == 0) text = file//': no &case group and no wheel, so there is no case to solve'
    end function unknown_case
 
-   !> Writes the numbers found as settings, and prints findings and records.
+   !> Writes the numbers found as settings, and prints the findings.
    subroutine write_results(settings, session, unknowns, wanted, targets, found, error)
       type(deck_settings_t), intent(in) :: settings
       type(session_t), intent(in) :: session

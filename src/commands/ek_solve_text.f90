@@ -1,4 +1,4 @@
-!> The findings of elastokin solve as text: values reached, values missed, and the reasons.
+!> The findings of elastokin solve as printed: values that were reached, values that were missed, and the reasons.
 module ek_solve_text
    use ek_kinds, only: wp
    use ek_text, only: str, quoted, plural
@@ -54,7 +54,7 @@ contains
 
    end subroutine add_findings
 
-   !> 'left_toe_deg of parallel_travel at 20 mm'.
+   !> Label of a condition: 'left_toe_deg of parallel_travel at 20 mm'.
    function label_of(workspace, wanted) result(label)
       type(workspace_t), intent(in) :: workspace
       type(wanted_number_t), intent(in) :: wanted
@@ -77,7 +77,7 @@ contains
       if (unit /= '') text = text//' '//unit
    end function quantity
 
-   !> Adds the unknowns that were not needed, where all conditions are met.
+   !> Adds the unknowns that were not needed, if all conditions are met.
    subroutine add_freedom(unknowns, found, text)
       type(unknown_t), intent(in) :: unknowns(:)
       type(findings_t), intent(in) :: found
@@ -92,7 +92,7 @@ contains
          plural(found%rank, 'independent condition', 'independent conditions')//'; this is the smallest change')
    end subroutine add_freedom
 
-   !> Adds the reasons for which conditions are not met.
+   !> Adds the reasons why conditions are not met.
    subroutine add_reasons(unknowns, wanted, targets, found, text)
       type(unknown_t), intent(in) :: unknowns(:)
       type(wanted_number_t), intent(in) :: wanted(:)
@@ -136,7 +136,7 @@ contains
          'a maximum or minimum of the quantity lies between the bounds. Try another start with --set')
    end subroutine add_reasons
 
-   !> Whether an unknown changes no condition.
+   !> Whether unknown j has no effect on any condition.
    pure logical function has_no_effect(found, j)
       type(findings_t), intent(in) :: found
       integer, intent(in) :: j
@@ -148,7 +148,7 @@ contains
       end do
    end function has_no_effect
 
-   !> The cosine between the effects on two conditions; 0 if there are no effects.
+   !> The cosine between the effects of the unknowns on two conditions; 0 if there are no effects.
    pure real(wp) function cosine(found, i, k)
       type(findings_t), intent(in) :: found
       integer, intent(in) :: i, k

@@ -1,5 +1,5 @@
-!> elastokin study: runs a study, writes its tables, and draws its figures; elastokin merge: the tables of a study whose shards ran
-!> as separate jobs.
+!> elastokin study runs a study, writes its tables, and draws its figures. elastokin merge writes the tables of a study whose shards
+!> ran as separate jobs.
 module ek_study_command
    use ek_error, only: error_t, fail, exit_usage, exit_file, exit_stopped, message_list_t
    use ek_text, only: str, plural
@@ -27,8 +27,8 @@ module ek_study_command
 
 contains
 
-   !> Runs a study. Tables are written to DIR (default: out, in the folder of the study) when all designs are done; until then
-   !> DIR/<study>.parts holds the finished chunks, with which the next run resumes. gnuplot then runs the study's plot script;
+   !> Runs a study. Tables are written to DIR (default: out, in the folder of the study) when all designs are finished. Until then
+   !> DIR/<study>.parts contains the finished chunks, with which the next run resumes. gnuplot then runs the study's plot script;
    !> its variable `out` is the folder of the tables and figures. Under mpirun all ranks compute; rank 0 prints and writes the
    !> tables.
    subroutine run_study_command(line, error)
@@ -79,7 +79,7 @@ contains
       call show_results(line, this, tables, error)
    end subroutine run_as_rank
 
-   !> Prints the remarks on the factors, and the warnings and remarks on the design of the deck.
+   !> Prints the remarks on the factors, and the warnings and remarks on the deck's own design.
    subroutine print_doubts(this)
       type(opened_study_t), intent(in) :: this
       type(model_remarks_t) :: remarks
@@ -137,7 +137,7 @@ contains
       call show_results(line, this, tables, error)
    end subroutine run_merge_command
 
-   !> Runs the designs that are missing, then writes the tables unless this is a shard.
+   !> Runs the missing designs, then writes the tables unless this run is a shard.
    subroutine run_designs(line, this, options, ranks, tables, error)
       type(command_line_t), intent(in) :: line
       type(opened_study_t), intent(inout) :: this
@@ -162,7 +162,7 @@ contains
       call end_scratch(hold)
    end subroutine run_designs
 
-   !> Runs the designs that are missing. All ranks.
+   !> Runs the missing designs. All ranks must call it.
    subroutine compute(line, this, options, ranks, hold, error)
       type(command_line_t), intent(in) :: line
       type(opened_study_t), intent(inout) :: this

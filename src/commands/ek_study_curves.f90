@@ -1,4 +1,4 @@
-!> The curves of a finished study for its figures: curves of 5,000 designs at most, at common swept values, and their bands.
+!> The curves of a finished study for its figures: the curves of at most 5,000 designs at common swept values, and their bands.
 module ek_study_curves
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
@@ -64,7 +64,7 @@ contains
       call close_table(lines)
    end subroutine read_curves
 
-   !> Puts the states of each design at the swept values of the design that has most of them.
+   !> Places the states of each design at the swept values of the design that has the most swept values.
    subroutine sort_curves(rows, data)
       real(wp), intent(in) :: rows(:, :)             !! (design, swept value, columns; state)
       type(study_data_t), intent(inout) :: data
@@ -105,7 +105,7 @@ contains
       end do
    end subroutine sort_curves
 
-   !> Finds percentiles at each state over the designs that have it.
+   !> Finds percentiles at each state over the designs that have a value there.
    subroutine find_bands(data)
       type(study_data_t), intent(inout) :: data
       real(wp), allocatable :: values(:)
@@ -129,7 +129,8 @@ contains
       end do
    end subroutine find_bands
 
-   !> Sets the label of the swept value. If it is a column of the curves, it is called so, and the column is not drawn over itself.
+   !> Sets the label of the swept value. If the swept value is a column of the curves, its label is used, and the column is not
+   !> drawn over itself.
    subroutine name_sweep(data)
       type(study_data_t), intent(inout) :: data
       logical :: is_drawn(size(data%columns))

@@ -21,7 +21,7 @@ module ek_study_findings
 
 contains
 
-   !> Computes mean, deviation, percentiles, histogram and running mean of a response.
+   !> Computes the mean, deviation, percentiles, histogram and running mean of a response.
    subroutine summarise(axis, all_values, summary)
       type(study_axis_t), intent(in) :: axis
       real(wp), intent(in) :: all_values(:)          !! in the order of the designs, NaN without a value
@@ -75,7 +75,7 @@ contains
       end do
    end subroutine summarise
 
-   !> Finds the effects of the factors on a response, as the kind of the study yields them.
+   !> Finds the effects of the factors on a response by the method of the study's kind.
    subroutine find_effects(study, sampler, data, r, effects)
       type(study_t), intent(in) :: study
       type(sampler_t), intent(in) :: sampler
@@ -138,7 +138,8 @@ contains
       end select
    end subroutine find_effects
 
-   !> Finds the best and the worst design of a response: by its limits, otherwise the smallest and the largest.
+   !> Finds the best and the worst design of a response. Designs are judged by the limits of the response; without limits, the
+   !> designs with the smallest and the largest value are found.
    subroutine find_extremes(study, designer, data, r)
       type(study_t), intent(in) :: study
       type(designer_t), intent(in) :: designer

@@ -14,7 +14,8 @@ module ek_study_options
 
 contains
 
-   !> Reads --jobs (default: one thread per processor; with several ranks, one thread per rank), --shard and --time-limit.
+   !> Reads --jobs, --shard and --time-limit. The default of --jobs is one thread per processor; with several ranks, one thread per
+   !> rank.
    subroutine read_options(line, ranks, options, error)
       type(command_line_t), intent(in) :: line
       type(ranks_t), intent(in) :: ranks
@@ -45,12 +46,12 @@ contains
       options%is_quiet = line%has('--quiet')
    end subroutine read_options
 
-   !> A thread per processor, but no more than the environment allows.
+   !> Default number of threads: one per processor, but no more than the environment allows.
    integer function usual_jobs() result(jobs)
       jobs = jobs_within(processor_count(), variable('OMP_NUM_THREADS'), variable('SLURM_CPUS_PER_TASK'))
    end function usual_jobs
 
-   !> The value of a variable of the environment; '' without it.
+   !> The value of an environment variable; '' if it is not set.
    function variable(name) result(text)
       character(*), intent(in) :: name
       character(:), allocatable :: text
@@ -61,8 +62,8 @@ contains
       if (length > 0) call get_environment_variable(name, value=text)
    end function variable
 
-   !> The processors, or fewer if OMP_NUM_THREADS (the first number of its list) or the processors that Slurm gave to a task are
-   !> fewer.
+   !> Number of threads: the number of processors, or fewer if OMP_NUM_THREADS (the first number of its list) or the number of
+   !> processors that Slurm assigned to the task is smaller.
    pure integer function jobs_within(processors, openmp, slurm) result(jobs)
       integer, intent(in) :: processors
       character(*), intent(in) :: openmp, slurm      !! '' if it is not set; a string that is not a number above 0 is ignored
@@ -78,7 +79,7 @@ contains
       end do
    end function jobs_within
 
-   !> Reads '90' (seconds), '30:00' or '1:30:00'.
+   !> Reads a time as '90' (seconds), '30:00' or '1:30:00'.
    subroutine read_time(text, time, error)
       character(*), intent(in) :: text
       real(wp), intent(out) :: time                  !! s

@@ -125,7 +125,7 @@ contains
       if (allocated(unprinted) .and. .not. allocated(error)) call move_alloc(unprinted, error)
    end subroutine show_results
 
-   !> Runs the study's plot script over the tables.
+   !> Runs the study's plot script on the tables.
    subroutine draw(is_quiet, script, tables, out, error)
       logical, intent(in) :: is_quiet
       character(*), intent(in) :: script, out

@@ -1,4 +1,4 @@
-!> Progress of a study: a line on the terminal that overwrites itself, a line a minute in a log, and --status.
+!> Progress of a study: a line on the terminal that overwrites itself, one line per minute in a log, and --status.
 module ek_study_progress
    use ek_kinds, only: wp
    use ek_error, only: error_t
@@ -18,7 +18,7 @@ module ek_study_progress
 
 contains
 
-   !> Shows on a terminal a line that overwrites itself, else a line a minute.
+   !> Shows the progress: on a terminal in a line that overwrites itself, otherwise as one line per minute.
    subroutine show_state(state)
       type(run_state_t), intent(inout) :: state
 
@@ -37,7 +37,7 @@ contains
       if (is_terminal(2) .and. .not. state%is_quiet) call write_standard_error(achar(13)//repeat(' ', 78)//achar(13))
    end subroutine end_state
 
-   !> '1200 of 5000 designs, 850/s, 4 s left, 3 failed'; the rate refers to this run only
+   !> Progress as a line: '1200 of 5000 designs, 850/s, 4 s left, 3 failed'. The rate is the rate of this run only.
    function state_text(state) result(text)
       type(run_state_t), intent(in) :: state
       character(:), allocatable :: text
@@ -48,7 +48,7 @@ contains
          rate_text(rate, state%wanted - state%done)//str(state%failed)//' failed'
    end function state_text
 
-   !> '850/s, 4 s left, '; '' without a rate
+   !> Rate and remaining time: '850/s, 4 s left, '; '' if the rate is unknown.
    function rate_text(rate, left) result(text)
       real(wp), intent(in) :: rate                   !! designs per second
       integer, intent(in) :: left                    !! designs
@@ -61,7 +61,7 @@ contains
       text = text//'/s, '//time_text(left/rate)//' left, '
    end function rate_text
 
-   !> '45 s', '12 min', '3.5 h'
+   !> A time in suitable units: '45 s', '12 min', '3.5 h'.
    function time_text(time) result(text)
       real(wp), intent(in) :: time                   !! s
       character(:), allocatable :: text
@@ -75,7 +75,7 @@ contains
       end if
    end function time_text
 
-   !> Prints the progress of a study, which another process may be running.
+   !> Prints the progress of a study that another process may be running.
    subroutine print_status(this, error)
       type(opened_study_t), intent(in) :: this
       type(error_t), allocatable, intent(out) :: error

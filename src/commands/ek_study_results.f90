@@ -1,7 +1,7 @@
-!> The results of a finished study for its figures and its page: the tables are read line by line.
+!> The results of a finished study for its figures and its page. The tables are read line by line.
 !>
-!> All factors and responses of a table are stored (8 bytes each), but the curves of at most 5,000 designs. A
-!> store in NetCDF is written as tables into a scratch folder first (ek_store).
+!> All factors and responses of a table are stored (8 bytes each), but the curves of at most 5,000 designs. A NetCDF store is first
+!> written as tables into a scratch folder (ek_store).
 module ek_study_results
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t, fail, exit_file
@@ -39,7 +39,7 @@ module ek_study_results
 
 contains
 
-   !> Reads the tables of a study that is finished; nothing is solved.
+   !> Reads the tables of a finished study. Nothing is solved.
    subroutine read_results_of(study, deck, home, out, data, error)
       type(study_t), intent(in) :: study
       type(deck_t), intent(in) :: deck
@@ -111,7 +111,7 @@ contains
       end if
    end subroutine find_tables
 
-   !> Names and labels of factors, responses and columns.
+   !> Sets names and labels of factors, responses and columns.
    subroutine name_axes(study, designer, data)
       type(study_t), intent(in) :: study
       type(designer_t), intent(in) :: designer
@@ -157,7 +157,7 @@ contains
       if (rig%unit /= '-') data%swept = data%swept//' ['//rig%unit//']'
    end subroutine name_axes
 
-   !> Sets label and sign of a column: 'Toe, left wheel [deg]'.
+   !> Sets the label and sign convention of a column: 'Toe, left wheel [deg]'.
    subroutine name_column(column, axis)
       character(*), intent(in) :: column
       type(study_axis_t), intent(inout) :: axis
@@ -226,7 +226,7 @@ contains
 
    contains
 
-      !> Reports a table that does not belong to the study.
+      !> Reports that a table does not belong to the study.
       subroutine wrong()
          if (.not. allocated(error)) call fail(error, exit_file, path//': this is not the table of the '// &
             plural(data%designs, 'design', 'designs')//' of the study; run the study again')
@@ -250,7 +250,7 @@ contains
       if (unit /= '') axis%label = axis%label//' ['//axis%unit//']'
    end subroutine name_response
 
-   !> Counts a failure together with all failures that have the same message.
+   !> Counts a failure. Failures with the same message are counted together.
    subroutine count_reason(field, design, reasons)
       character(*), intent(in) :: field              !! of the table, in quotes
       integer, intent(in) :: design
@@ -279,7 +279,7 @@ contains
       reasons = [reasons, new]
    end subroutine count_reason
 
-   !> Lists reasons: '12 designs, for instance design 7: case 'sweep': no equilibrium'.
+   !> Lists the reasons for failures: "12 designs, for instance design 7: case 'sweep': no equilibrium".
    subroutine list_reasons(reasons, list)
       type(reason_t), intent(in) :: reasons(:)
       type(message_list_t), intent(inout) :: list

@@ -1,4 +1,4 @@
-!> A table of a study, read line by line: it may be larger than the memory.
+!> A table of a study that is read line by line, because it may be larger than the memory.
 module ek_table_lines
    use ek_kinds, only: wp
    use ek_error, only: error_t, fail, exit_file

@@ -1,4 +1,5 @@
-!> Results of a tolerance study in addition to its designs: the moments of its responses by derivatives, as tables and as text.
+!> Results of a tolerance study in addition to its designs: the moments of its responses by derivatives, as tables and as printed
+!> lines.
 module ek_tolerance_outcome
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
@@ -35,7 +36,7 @@ contains
       if (allocated(error)) deallocate (this%tolerance)
    end subroutine expand_study
 
-   !> Writes the tables of moments, prints their paths, and the moments.
+   !> Writes the tables of moments, and prints their paths and the moments.
    subroutine write_tolerance(this, error)
       type(opened_study_t), intent(in) :: this
       type(error_t), allocatable, intent(out) :: error     !! exit_file
@@ -60,7 +61,7 @@ contains
       if (.not. allocated(error)) call print_text(text%text(), error)
    end subroutine write_tolerance
 
-   !> Adds the moments of a response by each method, and the factors that matter.
+   !> Adds the moments of a response by each method, and the factors with the largest shares.
    subroutine add_response(data, r, text)
       type(study_data_t), intent(in) :: data
       integer, intent(in) :: r
@@ -127,7 +128,7 @@ contains
       if (ieee_is_finite(share)) text = str(0.01_wp*nint(10000.0_wp*share), 6)//' %'
    end function percent
 
-   !> A text at the right of its column.
+   !> A string, padded with blanks on the left to the width of its column.
    pure function right(text, places) result(padded)
       character(*), intent(in) :: text
       integer, intent(in) :: places

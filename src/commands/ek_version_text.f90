@@ -13,8 +13,8 @@ module ek_version_text
    private
    public :: build_t, program_name, version_text, build_text
 
-   !> The facts of a build from CMake (src/ek_build_facts.f90.in). The main program passes it, so that a new commit
-   !> compiles nothing else again.
+   !> The facts of a build from CMake (src/ek_build_facts.f90.in). The main program passes these facts, so that after a new commit
+   !> no other file is compiled again.
    type :: build_t
       character(60) :: commit       !! '' if it is unknown
       character(100) :: compiler
@@ -33,14 +33,14 @@ contains
       if (build%commit /= '') text = text//' (commit '//trim(build%commit)//')'
    end function program_name
 
-   !> The facts of a build on which its numbers depend: version, commit, compiler and its options, in one line.
+   !> The facts of a build on which its numbers depend, in one line: version, commit, compiler and compiler options.
    pure function build_text(build) result(text)
       type(build_t), intent(in) :: build
       character(:), allocatable :: text
       text = program_name(build)//', '//trim(build%compiler)//', '//trim(build%options)
    end function build_text
 
-   !> The version in the first line, then one fact per line.
+   !> The output of --version: the version in the first line, then one fact per line.
    function version_text(build) result(text)
       type(build_t), intent(in) :: build
       character(:), allocatable :: text
@@ -69,7 +69,7 @@ contains
       text = lines%text()
    end function version_text
 
-   !> The instruction set of packs, from the copy of their kernels that runs: 'x86-64-v3 (AVX2), 4 designs at a time'.
+   !> The instruction set of packs, from the copy of the kernels in use: 'x86-64-v3 (AVX2), 4 designs at a time'.
    function pack_text() result(text)
       character(:), allocatable :: text
       character(60) :: name
@@ -84,7 +84,7 @@ contains
       text = trim(name)//', '//text
    end function pack_text
 
-   !> The library that contains a symbol.
+   !> The path of the library that contains a symbol.
    function library_text(symbol) result(text)
       character(*), intent(in) :: symbol
       character(:), allocatable :: text, program
@@ -94,7 +94,7 @@ contains
       if (text == '' .or. text == program) text = 'part of the program (static)'
    end function library_text
 
-   !> Whether a program that elastokin runs is installed.
+   !> Phrase about whether a program that elastokin runs is installed.
    function beside(name) result(text)
       character(*), intent(in) :: name
       character(:), allocatable :: text

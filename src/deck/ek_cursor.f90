@@ -1,7 +1,7 @@
-!> A position in a text, with procedures that read from it: blanks, identifiers, subscripts, the rest of a line, and the typing
-!> errors between two keys that can be recognised: a missing = sign and a unit after a number.
+!> A position in a string, with procedures that read blanks, identifiers, subscripts and the rest of a line from this position. They
+!> also recognise two typing errors between keys: a missing = sign, and a unit after a number.
 !>
-!> Each `take_…` moves the cursor after the text it returns. Nothing here can fail; the scanner reports errors.
+!> Each `take_…` moves the cursor after the string that it returns. Nothing here can fail; the scanner reports errors.
 module ek_cursor
    use ek_text, only: lower
    use ek_record, only: entry_t
@@ -48,7 +48,7 @@ contains
       end do
    end subroutine skip_blanks
 
-   !> The character here; a blank at the end of the text.
+   !> The character at the cursor; a blank at the end of the string.
    pure character function next_character(text, cursor)
       character(*), intent(in) :: text
       type(cursor_t), intent(in) :: cursor
@@ -56,7 +56,7 @@ contains
       if (cursor%at <= len(text)) next_character = text(cursor%at:cursor%at)
    end function next_character
 
-   !> Whether a key starts here: a word, optionally a subscript, and an = sign.
+   !> Whether a key starts at the cursor: a word, optionally a subscript, and an = sign.
    pure logical function key_follows(text, cursor)
       character(*), intent(in) :: text
       type(cursor_t), intent(in) :: cursor
@@ -67,7 +67,7 @@ contains
       key_follows = next == '='
    end function key_follows
 
-   !> Whether a key of a group starts here, followed by a colon or a value instead of an = sign.
+   !> Whether a key of a group starts at the cursor but is followed by a colon or a value instead of an = sign.
    pure logical function lacks_equals(text, cursor, group)
       character(*), intent(in) :: text, group
       type(cursor_t), intent(in) :: cursor
@@ -80,7 +80,8 @@ contains
       lacks_equals = lacks_equals .and. index(':+-.0123456789''"', next) > 0
    end function lacks_equals
 
-   !> Reads the word at the cursor without moving, and the character after it and its subscript; a blank at the end of the text.
+   !> Reads the word at the cursor without moving the cursor, and the character after the word and its subscript. The character is a
+   !> blank at the end of the string.
    pure subroutine look_past_key(text, cursor, word, next)
       character(*), intent(in) :: text
       type(cursor_t), intent(in) :: cursor
@@ -99,7 +100,7 @@ contains
       next = next_character(text, ahead)
    end subroutine look_past_key
 
-   !> Reads the text between ( and ), blanks removed; the cursor moves after the ).
+   !> Reads the string between ( and ) without its blanks. The cursor moves after the ).
    pure subroutine take_subscript(text, cursor, content)
       character(*), intent(in) :: text
       type(cursor_t), intent(inout) :: cursor
@@ -118,7 +119,7 @@ contains
       cursor%at = cursor%at + 1
    end subroutine take_subscript
 
-   !> Reads the letters, digits, _ and % from here on.
+   !> Reads the letters, digits, _ and % from the cursor on.
    pure subroutine take_word(text, cursor, word)
       character(*), intent(in) :: text
       type(cursor_t), intent(inout) :: cursor
@@ -126,7 +127,7 @@ contains
       call take(text, cursor, verify(text(cursor%at:), letters//digits//'%') - 1, word)
    end subroutine take_word
 
-   !> Reads the text up to a separator, at least one character.
+   !> Reads the string up to a separator, at least one character.
    pure subroutine take_anything(text, cursor, word)
       character(*), intent(in) :: text
       type(cursor_t), intent(inout) :: cursor
@@ -137,7 +138,8 @@ contains
       call take(text, cursor, merge(more, -1, more > 0), word)
    end subroutine take_anything
 
-   !> Reads the rest of a line outside any group, up to the next & or comment; its beginning is enough to identify it.
+   !> Reads the rest of a line outside any group, up to the next & or comment. Only the beginning is returned, which is enough to
+   !> identify the line.
    pure subroutine take_line(text, cursor, content)
       character(*), intent(in) :: text
       type(cursor_t), intent(inout) :: cursor
@@ -147,7 +149,7 @@ contains
       content = trim(content(:min(len(content), 41)))
    end subroutine take_line
 
-   !> Reads the next characters; −1: all that is left.
+   !> Reads the next `count` characters; with −1, all remaining characters.
    pure subroutine take(text, cursor, count, taken)
       character(*), intent(in) :: text
       type(cursor_t), intent(inout) :: cursor
@@ -161,7 +163,7 @@ contains
       cursor%at = last + 1
    end subroutine take
 
-   !> Whether a name can begin with this character.
+   !> Whether a name can begin with a character.
    pure logical function is_word_begin(c)
       character, intent(in) :: c
       select case (c)
@@ -172,7 +174,7 @@ contains
       end select
    end function is_word_begin
 
-   !> Reads the unit after the last value of an entry, as in `30.0 N/mm` and `30.0N/mm`; '' if there is none.
+   !> Reads the unit after the last value of an entry, as in `30.0 N/mm` and `30.0N/mm`; '' if there is no unit.
    pure subroutine drop_unit(text, cursor, entry, unit)
       character(*), intent(in) :: text
       type(cursor_t), intent(inout) :: cursor          !! in: after the value; out: after the unit
@@ -223,7 +225,7 @@ contains
          '; write the number alone (&model sets the units)'
    end function unit_message
 
-   !> Reads letters, the degree sign or % from here on.
+   !> Reads letters, the degree sign or % from the cursor on.
    pure subroutine take_unit_word(text, cursor, word)
       character(*), intent(in) :: text
       type(cursor_t), intent(inout) :: cursor
@@ -266,7 +268,7 @@ contains
       end do
    end subroutine take_quotient
 
-   !> Whether a word is a unit, or begins as a product of units.
+   !> Whether a word is a unit, or begins with a unit as a product of units does.
    pure logical function is_unit(word)
       character(*), intent(in) :: word
       integer :: mark

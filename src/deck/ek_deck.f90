@@ -1,10 +1,10 @@
-!> A deck in memory: read from a file or a text, changed by settings, identified by a checksum.
+!> A deck in memory: read from a file or a string, changed by settings, and identified by a checksum.
 !>
-!> A syntax error (a group without its end, a key given twice) does not stop the reading: it is
-!> stored here, and `build_model` reports it together with all other errors.
-!> Therefore `error` is set only if the file cannot be read (exit_file) or is empty (exit_deck).
+!> A syntax error (a group without its end, a key given twice) does not stop the reading. It is stored in the deck, and
+!> `build_model` reports it together with all other errors. Therefore `error` is set only if the file cannot be read (exit_file) or
+!> is empty (exit_deck).
 !>
-!> Order of processing: text, included files, &hardpoints, settings of records in the deck, property files, &mirror, settings of
+!> Order of processing: string, included files, &hardpoints, settings of records in the deck, property files, &mirror, settings of
 !> records that property files and &mirror have created.
 module ek_deck
    use, intrinsic :: iso_fortran_env, only: input_unit, iostat_eor
@@ -53,7 +53,7 @@ module ek_deck
       character(:), allocatable :: path
    end type file_t
 
-   !> The part of the deck that has been read.
+   !> The files of the deck that have been read so far.
    type :: files_t
       type(file_t) :: open(0:max_nested)     !! from the deck inwards
       integer :: sources = 0, letters = 0     !! files, and their characters
@@ -61,7 +61,7 @@ module ek_deck
 
 contains
 
-   !> Reads a file; '-' is standard input.
+   !> Reads a deck from a file; '-' is standard input.
    subroutine read_deck(path, deck, error, is_study)
       character(*), intent(in) :: path
       type(deck_t), intent(out) :: deck
@@ -81,7 +81,7 @@ contains
       if (.not. allocated(error)) call parse_deck(text, name, deck, error, is_study)
    end subroutine read_deck
 
-   !> Parses a deck from a text; `name` is the file name used in messages, and included files are relative to its folder.
+   !> Parses a deck from a string. `name` is the file name for messages, and included files are relative to its folder.
    subroutine parse_deck(text, name, deck, error, is_study, kept)
       character(*), intent(in) :: text, name
       type(deck_t), intent(out) :: deck
@@ -111,7 +111,7 @@ contains
          call fail(error, exit_deck, deck%file//': the deck is empty')
    end subroutine parse_deck
 
-   !> Stores the property files and the load tables that records name.
+   !> Stores the property files and the load tables that records name in the deck.
    subroutine keep_named(deck)
       type(deck_t), intent(inout) :: deck
       character(:), allocatable :: name
@@ -153,7 +153,7 @@ contains
    subroutine set_value(deck, path, text, error)
       type(deck_t), intent(inout) :: deck
       character(*), intent(in) :: path    !! group.name.key or model.key
-      character(*), intent(in) :: text    !! the value as in a deck; quotes around texts may be omitted
+      character(*), intent(in) :: text    !! the value as in a deck; quotes around strings may be omitted
       type(error_t), allocatable, intent(out) :: error
       character(:), allocatable :: message, late_message
       type(deck_t) :: whole
@@ -178,8 +178,8 @@ contains
       call fail(error, exit_usage, visible(message))
    end subroutine set_value
 
-   !> Finishes the deck: property files read, both sides written out, and the settings of records created by these steps applied.
-   !> Errors are added to its list.
+   !> Finishes the deck: reads property files, creates both sides, and applies the settings of records that these steps have
+   !> created. Errors are added to the list of the deck.
    subroutine finish_deck(deck, whole)
       type(deck_t), intent(in) :: deck
       type(deck_t), intent(out) :: whole
@@ -209,7 +209,7 @@ contains
       end do
    end subroutine finish_deck
 
-   !> Hands over a deck, which has no records afterwards.
+   !> Moves a deck to another variable. The original deck has no records afterwards.
    subroutine move_deck(from, to)
       type(deck_t), intent(inout) :: from
       type(deck_t), intent(out) :: to
@@ -224,8 +224,8 @@ contains
       from%used = 0
    end subroutine move_deck
 
-   !> Checksum of everything that can change a result, 16 hexadecimal digits (FNV-1a, 64 bits): comments,
-   !> notes, titles, layout, target bands and the file of a group are ignored; settings and load tables are included.
+   !> Checksum of everything that can change a result, 16 hexadecimal digits (FNV-1a, 64 bits). Settings and load tables are
+   !> included. Comments, notes, titles, layout, target bands and the file in which a group is are ignored.
    function deck_checksum(deck) result(digits)
       type(deck_t), intent(in) :: deck
       character(16) :: digits
@@ -276,7 +276,7 @@ contains
       end do
    end subroutine include_records
 
-   !> Reads all of standard input line by line: it may be a pipe of unknown size.
+   !> Reads all of standard input line by line, because it may be a pipe of unknown size.
    subroutine read_standard_input(text, error)
       character(:), allocatable, intent(out) :: text
       type(error_t), allocatable, intent(out) :: error      !! exit_file: it is too long
@@ -297,7 +297,7 @@ contains
       text = buffer%text()
    end subroutine read_standard_input
 
-   !> Reads the text of the innermost open file. An &include without a quoted name is left to the check of its keys.
+   !> Reads the content of the innermost open file. An &include without a quoted name is left to the check of its keys.
    recursive subroutine take_text(text, depth, files, deck)
       character(*), intent(in) :: text
       integer, intent(in) :: depth
@@ -322,7 +322,7 @@ contains
       end do
    end subroutine take_text
 
-   !> Reads a file named relative to the innermost open one.
+   !> Reads a file that is named relative to the innermost open file.
    recursive subroutine take_file(name, place, depth, files, deck)
       character(*), intent(in) :: name
       type(place_t), intent(in) :: place        !! of the &include
@@ -368,7 +368,7 @@ contains
          call deck%deck_errors%add(place, 'include: no group found in '//quoted(path))
    end subroutine take_file
 
-   !> A path without 'x/..' and '.', so that different spellings of one path compare equal.
+   !> A path without 'x/..' and '.', so that two spellings of a path compare equal.
    pure function plain_path(path) result(plain)
       character(*), intent(in) :: path
       character(:), allocatable :: plain

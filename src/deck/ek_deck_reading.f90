@@ -75,7 +75,7 @@ contains
       call reading%deck_errors%add(place_in(reading%file, 0, 0), what)
    end subroutine complain_of_all
 
-   !> Whether a group that may occur once has occurred before; reports it as an error.
+   !> Whether a group that may occur once has occurred before. A second occurrence is reported as an error.
    logical function is_second(reading)
       type(deck_reading_t), intent(inout) :: reading
       integer :: first
@@ -86,14 +86,14 @@ contains
          '; the first is in '//line_of(reading, first))
    end function is_second
 
-   !> 'file:line' of the record being read.
+   !> Location 'file:line' of the record being read.
    pure function where_of(reading) result(place)
       type(deck_reading_t), intent(in) :: reading
       character(:), allocatable :: place
       place = reading%records(reading%k)%file//':'//str(reading%records(reading%k)%line)
    end function where_of
 
-   !> 'line 12' of record j, for a message about the record being read.
+   !> Location 'line 12' of record j, for a message about the record being read.
    pure function line_of(reading, j) result(words)
       type(deck_reading_t), intent(in) :: reading
       integer, intent(in) :: j
@@ -108,7 +108,7 @@ contains
       has_key = is_given(reading%records(reading%k), key)
    end function has_key
 
-   !> The entry with element `at` of a key; 0 if it is not given or was rejected.
+   !> Index of the entry with element `at` of a key; 0 if the element is not given or was rejected.
    pure integer function entry_of(reading, key, at)
       type(deck_reading_t), intent(in) :: reading
       character(*), intent(in) :: key
@@ -119,7 +119,7 @@ contains
       if (reading%records(reading%k)%entries(entry_of)%is_bad) entry_of = 0
    end function entry_of
 
-   !> The text of an element of a key as written, '' if it is not given or was rejected.
+   !> The value of an element of a key as written; '' if the element is not given or was rejected.
    pure function raw(reading, key, at) result(text)
       type(deck_reading_t), intent(in) :: reading
       character(*), intent(in) :: key
@@ -148,7 +148,7 @@ contains
       if (text == '' .and. present(default)) text = default
    end function text_of
 
-   !> A list of texts, blank where not given.
+   !> A list of strings; a string is blank where it is not given.
    pure function texts_of(reading, key, most) result(texts)
       type(deck_reading_t), intent(in) :: reading
       character(*), intent(in) :: key
@@ -161,7 +161,7 @@ contains
       end do
    end function texts_of
 
-   !> A number in the unit of the deck.
+   !> A number of the record in the unit of the deck.
    real(wp) function number_of(reading, key, default, at) result(value)
       type(deck_reading_t), intent(in) :: reading
       character(*), intent(in) :: key
@@ -174,7 +174,7 @@ contains
       if (text /= '') value = checked_number(text)
    end function number_of
 
-   !> Some numbers, 0 where not given.
+   !> A list of numbers; a number is 0 where it is not given.
    function numbers_of(reading, key, most) result(values)
       type(deck_reading_t), intent(in) :: reading
       character(*), intent(in) :: key
@@ -210,7 +210,7 @@ contains
       if (text /= '') read (text, *) value
    end function switch_of
 
-   !> The number of values of a key, however they are written.
+   !> The number of values of a key, in any notation.
    pure integer function value_count(reading, key)
       type(deck_reading_t), intent(in) :: reading
       character(*), intent(in) :: key
@@ -224,8 +224,8 @@ contains
       end associate
    end function value_count
 
-   !> Finds the index of a keyword among the choices; 0 if it is not given and has no default, or, with a message, if it is not
-   !> one of them.
+   !> Finds the index of a keyword among the choices. The index is 0 if the keyword is not given and has no default. The index is
+   !> also 0, with a message, if the keyword is not one of the choices.
    subroutine choice(reading, key, choices, number, default)
       type(deck_reading_t), intent(inout) :: reading
       character(*), intent(in) :: key, choices(:)
@@ -236,7 +236,7 @@ contains
       if (text_of(reading, key) == '' .and. present(default)) number = default
    end subroutine choice
 
-   !> Finds the index of a word, element of a key, among the choices.
+   !> Finds the index of a word, which is an element of a key, among the choices.
    subroutine choose(reading, key, word, choices, number)
       type(deck_reading_t), intent(inout) :: reading
       character(*), intent(in) :: key, word, choices(:)
@@ -256,7 +256,7 @@ contains
          imperial_hint(word))
    end subroutine choose
 
-   !> A hint if a string is an imperial unit, else ''.
+   !> A hint if a string is an imperial unit; otherwise ''.
    pure function imperial_hint(word) result(hint)
       character(*), intent(in) :: word
       character(:), allocatable :: hint
@@ -267,7 +267,7 @@ contains
    end function imperial_hint
 
    !> Defines parameters: a number of the record being read, or the first `count` elements of a list. `number` is the index of the
-   !> first parameter, 0 if the key is not given and has no default.
+   !> first parameter; 0 if the key is not given and has no default.
    subroutine slot(reading, key, unit, number, default, count)
       type(deck_reading_t), intent(inout) :: reading
       character(*), intent(in) :: key
@@ -292,7 +292,7 @@ contains
       end do
    end subroutine slot
 
-   !> Reports the parameter added last if its angle is outside its range.
+   !> Reports the parameter added last if it is an angle outside its range.
    subroutine check_angle(reading, key)
       type(deck_reading_t), intent(inout) :: reading
       character(*), intent(in) :: key

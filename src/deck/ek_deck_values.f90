@@ -1,4 +1,4 @@
-!> Every value of a deck, as its path and its text: stored by a report, so that a comparison of two reports can list the changes.
+!> Every value of a deck as path and string. A report stores these values, so that a comparison of two reports can list the changes.
 module ek_deck_values
    use ek_error, only: message_list_t
    use ek_deck, only: deck_t, finish_deck
@@ -15,8 +15,8 @@ module ek_deck_values
 
 contains
 
-   !> Lists the values that the model was built from, in the order of the deck: settings made, property files read, both sides of a
-   !> mirrored deck. Paths are written as for --set; the limits of a band have the name of its number, which --set does not know.
+   !> Lists the values from which the model was built, in the order of the deck, after settings, property files and &mirror. Paths
+   !> are written as for --set. The limits of a band have the name of its key number, which --set does not accept.
    subroutine list_values(deck, paths, texts)
       type(deck_t), intent(in) :: deck
       type(message_list_t), intent(out) :: paths, texts       !! of the same length
@@ -43,7 +43,7 @@ contains
       end do
    end subroutine list_values
 
-   !> The key number of a band, which has no name of its own.
+   !> The key number of a band. A band itself has no name.
    pure function quantity_of(record) result(name)
       type(record_t), intent(in) :: record
       character(:), allocatable :: name

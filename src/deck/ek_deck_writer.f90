@@ -51,7 +51,7 @@ contains
       end do
    end subroutine write_deck_as_used
 
-   !> Rejects writing over a file from which the deck was read.
+   !> Rejects a path that would overwrite a file from which the deck was read.
    subroutine refuse_own_files(deck, path, error)
       type(deck_t), intent(in) :: deck
       character(*), intent(in) :: path
@@ -74,7 +74,7 @@ contains
       end do
    end subroutine refuse_own_files
 
-   !> Writes the text of a deck as it was used. Load tables are not copied; the text has their absolute paths.
+   !> Writes a deck as it was used into a string. Load tables are not copied; the string contains their absolute paths.
    subroutine deck_as_used(deck, text, error)
       type(deck_t), intent(in) :: deck
       character(:), allocatable, intent(out) :: text
@@ -149,7 +149,7 @@ contains
       call lines%line('/')
    end subroutine add_record
 
-   !> 'kt = 700, 700, 150', 'kt(2) = 5', "bodies = 'chassis', 'lca'".
+   !> An entry as written in a deck: 'kt = 700, 700, 150', 'kt(2) = 5', "bodies = 'chassis', 'lca'".
    function entry_text(entry) result(text)
       type(entry_t), intent(in) :: entry
       character(:), allocatable :: text
@@ -168,7 +168,7 @@ contains
       end do
    end function entry_text
 
-   !> A text in quotes; a quote inside is doubled.
+   !> A string in quotes; a quote inside the string is doubled.
    function in_quotes(text) result(words)
       character(*), intent(in) :: text
       character(:), allocatable :: words
@@ -182,8 +182,8 @@ contains
       words = words//"'"
    end function in_quotes
 
-   !> The name of the table of a case in the written deck; it is added to the list. Tables of one name in two folders get numbers.
-   !> A table that could not be read has its original path.
+   !> The name of the table of a case in the written deck. The name is added to the list. Tables with one name from two folders get
+   !> numbers. A table that could not be read has its original path.
    function table_name(record, kept, prefix, tables) result(name)
       type(record_t), intent(in) :: record
       type(kept_files_t), intent(in) :: kept

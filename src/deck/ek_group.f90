@@ -279,7 +279,7 @@ module ek_group
 
 contains
 
-   !> The number of a group, 0 if there is no such group.
+   !> Index of a group; 0 if there is no such group.
    pure integer function group_number(name)
       character(*), intent(in) :: name
       group_number = findloc(group_names, name, dim=1)
@@ -291,7 +291,7 @@ contains
       is_deck_group = group > 0 .and. .not. any([study_groups, fit_groups] == group)
    end function is_deck_group
 
-   !> Whether records of a group have columns in the results: their names must differ. &mirror duplicates them.
+   !> Whether records of a group have columns in the results, so that their names must differ and &mirror duplicates them.
    pure logical function has_results(group)
       integer, intent(in) :: group
       has_results = any(result_groups == group)
@@ -319,7 +319,7 @@ contains
       if (.not. of_deck) names = group_names(study_groups)
    end function names_of_groups
 
-   !> Whether --set addresses a group without a record name: &model, and the other groups without names.
+   !> Whether --set addresses a group without a record name. This holds for &model and the other groups without names.
    pure logical function is_single(group)
       integer, intent(in) :: group
       is_single = group == model_group .or. .not. any(keys%group == group .and. keys%name == 'name' .and. keys%is_required)
@@ -343,7 +343,7 @@ contains
       end do
    end subroutine find_key
 
-   !> The begin of a message on a record: "bushing 'top_mount': ".
+   !> The beginning of a message on a record: "bushing 'top_mount': ".
    pure function record_head(group, name) result(head)
       integer, intent(in) :: group
       character(*), intent(in) :: name     !! '' if the record has no name
@@ -353,7 +353,7 @@ contains
       if (name /= '') head = trim(group_names(group))//' '//quoted(name)//': '
    end function record_head
 
-   !> "there is no key 'rte' in &spring (did you mean 'rate'?)"
+   !> Message about an unknown key: "there is no key 'rte' in &spring (did you mean 'rate'?)".
    pure function unknown_key(group, name) result(words)
       integer, intent(in) :: group
       character(*), intent(in) :: name

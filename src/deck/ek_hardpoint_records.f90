@@ -92,7 +92,7 @@ contains
       end do
    end subroutine attach_hardpoints
 
-   !> Checks that in a deck with &mirror a right point is the image of a left one.
+   !> Checks that, in a deck with &mirror, each right hardpoint is the image of its left hardpoint.
    subroutine check_images(sheet, path, source, deck_errors)
       type(hardpoints_t), intent(in) :: sheet
       character(*), intent(in) :: path
@@ -115,7 +115,8 @@ contains
       end do
    end subroutine check_images
 
-   !> Adds a &point for each hardpoint; without a side the hardpoints of both sides, with left_ and right_ before their names.
+   !> Adds a &point for each hardpoint of a side. Without a side, adds the hardpoints of both sides, with left_ and right_ before
+   !> their names.
    subroutine add_points(sheet, side, sign, length, path, source, records, used)
       type(hardpoints_t), intent(in) :: sheet
       character(*), intent(in) :: side, path        !! side: '' or 'both', 'left', 'right'

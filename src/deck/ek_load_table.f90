@@ -24,7 +24,7 @@ module ek_load_table
    private
    public :: read_tables
 
-   !> Columns of a wheel: loads, by component of table_column_t, and its height.
+   !> Columns of a wheel: loads, in the order of the components of table_column_t, and the height of the wheel.
    character(*), parameter :: wheel_columns(10) = [character(11) :: 'fx_n', 'fy_n', 'fz_n', 'mx_nm', 'my_nm', 'mz_nm', &
       'centre_fx_n', 'centre_fy_n', 'centre_fz_n', 'travel_mm']
    integer, parameter :: height = 10
@@ -32,8 +32,8 @@ module ek_load_table
 
 contains
 
-   !> Reads the tables that cases name. Errors in a table, as 'table.csv:7: error', are stored in its case: only a command that
-   !> uses the case reports them.
+   !> Reads the tables that cases name. Errors in a table, as 'table.csv:7: error', are stored in its case, because only a command
+   !> that uses the case reports them.
    subroutine read_tables(files, cases, suspension, is_whole)
       type(kept_files_t), intent(in) :: files          !! which are not read again
       type(case_t), intent(inout) :: cases(:)
@@ -95,7 +95,7 @@ contains
       table%columns = columns(pack([(k, k=1, size(columns))], is_kept))
    end subroutine read_table
 
-   !> Finds the action of a column by its heading, and the SI value of its unit; 0: the heading has no meaning.
+   !> Finds the meaning of a column by its heading, and the SI value of its unit. The column is 0 if the heading has no meaning.
    pure subroutine find_meaning(head, suspension, wheels, column, unit)
       character(*), intent(in) :: head
       type(suspension_t), intent(in) :: suspension
@@ -129,7 +129,7 @@ contains
       if (.not. is_angle .and. head(mark:) == '_mm') unit = millimetre
    end subroutine find_meaning
 
-   !> Adds errors to the sheet: headings unknown in a model, and too many columns.
+   !> Adds errors to the sheet: headings without a meaning in the model, and too many columns.
    subroutine judge_columns(sheet, suspension, wheels, is_unknown)
       type(sheet_t), intent(inout) :: sheet
       type(suspension_t), intent(in) :: suspension

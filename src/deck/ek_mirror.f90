@@ -119,7 +119,7 @@ contains
       end do
    end subroutine survey
 
-   !> Finds the names in `shared`, each of which must exist. 'none' alone stands for an empty list if no record has this name.
+   !> Finds the names in `shared`, each of which must exist. 'none' alone stands for an empty list unless a record has this name.
    subroutine find_shared(mirror, half, deck_errors)
       type(record_t), intent(in) :: mirror
       type(half_t), intent(inout) :: half
@@ -143,14 +143,14 @@ contains
       end do
    end subroutine find_shared
 
-   !> Whether record k exists once because of `shared` or its name.
+   !> Whether record k exists only once, because of `shared` or because of its name.
    pure logical function is_of_one(half, k)
       type(half_t), intent(in) :: half
       integer, intent(in) :: k
       is_of_one = half%is_shared(k) .or. half%is_right(k) .or. has_side(half%names(k))
    end function is_of_one
 
-   !> Duplicates a point unless it is in the plane. Any other point must be on the left.
+   !> Decides whether a point is duplicated. A point in the plane is not; any other point must be on the left.
    subroutine judge_point(point, half, is_doubled, deck_errors)
       type(record_t), intent(in) :: point
       type(half_t), intent(in) :: half
@@ -174,7 +174,7 @@ contains
          trim(merge('left ', 'right', half%outboard > 0.0_wp))//'); list a point that exists only once in shared')
    end subroutine judge_point
 
-   !> Whether an element is duplicated because it refers to something duplicated.
+   !> Whether an element is duplicated because it refers to something that is duplicated.
    logical function follows(record, half)
       type(record_t), intent(in) :: record
       type(half_t), intent(in) :: half
@@ -196,7 +196,7 @@ contains
       end do
    end function follows
 
-   !> Whether a role is the name of another record, and this record is duplicated.
+   !> Whether a role is the name of another record that is duplicated.
    pure logical function is_doubled_name(half, role, name)
       type(half_t), intent(in) :: half
       integer, intent(in) :: role
@@ -229,7 +229,8 @@ contains
       end do
    end subroutine rename
 
-   !> left_<name>, right_<name>; the wheel 'left' becomes 'left' and 'right'. A name that is too long (reported by `survey`) is cut.
+   !> The name on one side: left_<name> or right_<name>; the wheel 'left' becomes 'left' and 'right'. A name that is too long is
+   !> cut; `survey` reports it.
    pure function name_on_side(group, name, side) result(renamed)
       integer, intent(in) :: group, side
       character(*), intent(in) :: name
@@ -243,7 +244,7 @@ contains
       end if
    end function name_on_side
 
-   !> Copies a record that exists once: duplicated loads of a case act on both sides; any other reference must be unique.
+   !> Copies a record that exists once. Duplicated loads of a case act on both sides; any other reference must be unique.
    subroutine keep_single(half, is_refused, record, deck_errors)
       type(half_t), intent(in) :: half
       logical, intent(in) :: is_refused        !! a wheel of the right side, already reported
@@ -341,7 +342,7 @@ contains
       end select
    end subroutine turn_number
 
-   !> Reflects a curve: 'fy=c' ↔ 'fy=-c', for the components whose sign changes in marker axes.
+   !> Reflects a reference to a curve: 'fy=c' ↔ 'fy=-c'. Only the components whose sign changes in marker axes are reflected.
    subroutine turn_curve(text)
       character(:), allocatable, intent(inout) :: text
       character(:), allocatable :: name, component

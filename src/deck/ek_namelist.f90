@@ -52,7 +52,7 @@ contains
 
    contains
 
-      !> Whether type, count and values of entry k fit its key.
+      !> Whether the type, the number and the values of entry k fit its key.
       logical function fits()
          character(:), allocatable :: name, fault
          logical :: is_same(record%used)
@@ -110,7 +110,7 @@ contains
 
    end subroutine check_record
 
-   !> 'kt(2) must be 0 or more, found -1'; '' if the number is in the range of its key.
+   !> Message about a number outside the range of its key: 'kt(2) must be 0 or more, found -1'; '' if the number is in the range.
    function out_of_range(key, entry, k) result(words)
       type(key_t), intent(in) :: key
       type(entry_t), intent(in) :: entry
@@ -127,7 +127,7 @@ contains
       words = trim(key%name)//words//' '//range_text(key%range, key%unit, str(value))
    end function out_of_range
 
-   !> The number of values that a key requires: 'needs 3 values'.
+   !> Phrase about the number of values that a key requires: 'needs 3 values'.
    pure function needs(key) result(words)
       type(key_t), intent(in) :: key
       character(:), allocatable :: words
@@ -161,7 +161,7 @@ contains
       end do
    end function surplus
 
-   !> '(2)' of a key with several elements.
+   !> The index of an element as written, '(2)'; '' for a key with one element.
    pure function element_text(key, at) result(words)
       type(key_t), intent(in) :: key
       integer, intent(in) :: at
@@ -170,7 +170,7 @@ contains
       if (key%most > 1) words = '('//str(at)//')'
    end function element_text
 
-   !> The error in a value that does not fit its type: 'a number, found …'; '' if the value fits.
+   !> Phrase about a value that does not fit its type: 'a number, found …'; '' if the value fits.
    pure function value_fault(value, type) result(fault)
       type(value_t), intent(in) :: value
       integer, intent(in) :: type
@@ -215,7 +215,7 @@ contains
       end if
    end function value_fault
 
-   !> A hint if a text has typographic quotes.
+   !> A hint if a string has typographic quotes; otherwise ''.
    pure function quote_hint(text) result(words)
       character(*), intent(in) :: text
       character(:), allocatable :: words
@@ -239,7 +239,7 @@ contains
       end if
    end function number_hint
 
-   !> Whether a text is digits with an optional sign.
+   !> Whether a string consists of digits with an optional sign.
    pure logical function is_signed(text)
       character(*), intent(in) :: text
       integer :: first
@@ -249,7 +249,7 @@ contains
       is_signed = len(text) >= first .and. verify(text(first:), digits) == 0
    end function is_signed
 
-   !> [sign] digits [. digits] [e|d [sign] digits], at least one digit before the exponent.
+   !> Whether a string is a number: [sign] digits [. digits] [e|d [sign] digits], with at least one digit before the exponent.
    pure logical function is_number(text)
       character(*), intent(in) :: text
       character(:), allocatable :: mantissa
@@ -263,7 +263,7 @@ contains
       if (mark <= len(text)) is_number = is_number .and. is_signed(text(mark + 1:))
    end function is_number
 
-   !> The power of ten of a well-formed number's first digit; 0 of zero.
+   !> The power of ten of the first digit of a well-formed number; 0 for zero.
    pure integer function size_exponent(text) result(power)
       character(*), intent(in) :: text
       integer :: mark, dot, lead, status
@@ -290,7 +290,7 @@ contains
       is_legal_name = verify(lower(name), letters//'0123456789_') == 0 .and. scan(lower(name), letters) == 1
    end function is_legal_name
 
-   !> The message for an illegal name. A leading or trailing blank is made visible.
+   !> The message for an illegal name. A leading or trailing blank is shown.
    pure function illegal_name(name) result(words)
       character(*), intent(in) :: name     !! as written in the deck
       character(:), allocatable :: words

@@ -33,11 +33,11 @@ contains
       end select
    end function is_inside
 
-   !> 'must be above 0 kg, found -1': the message about a number outside the range of its key.
+   !> Message about a number outside the range of its key: 'must be above 0 kg, found -1'.
    pure function range_text(range, unit, shown) result(words)
       integer, intent(in) :: range            !! not any_number
       character(*), intent(in) :: unit        !! of the limits: ' kg'; '' for none
-      character(*), intent(in) :: shown       !! the value as text
+      character(*), intent(in) :: shown       !! the value as a string
       character(:), allocatable :: words
       character(*), parameter :: ranges(5) = [character(22) :: 'above 0', '0 or more', 'not be zero', '0 to 1', &
          'above -90 and below 90']

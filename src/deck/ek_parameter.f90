@@ -36,13 +36,13 @@ module ek_parameter
       real(wp), allocatable :: x(:)
    end type parameters_t
 
-   !> A parameter to which a path leads.
+   !> A parameter to which a path leads, and its sign.
    type :: choice_t
       integer :: number = 0
       real(wp) :: sign = 1.0_wp           !! −1: the number is minus the value written to the path
    end type choice_t
 
-   !> A path, split; without a name for a group that has none.
+   !> A path, split into its parts; the name is '' for a group without names.
    type :: path_t
       integer :: group = 0
       character(:), allocatable :: name, key
@@ -61,7 +61,8 @@ module ek_parameter
 
 contains
 
-   !> Splits a path: 'bushing.top_mount.kt(1)' → group, name, key and subscript; 'model.length', 'axle.wheelbase' have no name.
+   !> Splits a path: 'bushing.top_mount.kt(1)' into group, name, key and subscript. 'model.length' and 'axle.wheelbase' have no
+   !> name.
    subroutine split_path(text, path, message)
       character(*), intent(in) :: text
       type(path_t), intent(out) :: path
@@ -115,7 +116,7 @@ contains
       call find_key(path%group, path%key, path%row, path%is_known)
    end subroutine split_path
 
-   !> Whether a path leads to this record.
+   !> Whether a path leads to a record.
    pure logical function is_meant(record, path)
       type(record_t), intent(in) :: record
       type(path_t), intent(in) :: path
@@ -124,7 +125,7 @@ contains
       if (is_meant .and. .not. is_single(path%group)) is_meant = is_like(element(record, 'name', 1), path%name)
    end function is_meant
 
-   !> The number after a change, rounded to 15 digits: the number that a person would write into the deck.
+   !> The number after a change, rounded to 15 digits, as a string: the number that a person would write into the deck.
    function changed(change, value) result(text)
       type(change_t), intent(in) :: change
       real(wp), intent(in) :: value          !! in the unit of the deck
@@ -132,7 +133,7 @@ contains
       text = str(change%factor*value + change%term, 15)
    end function changed
 
-   !> Adds a number of a record; its number is parameters%used.
+   !> Adds a number of a record as a parameter. parameters%used becomes the index of the parameter.
    subroutine add_parameter(parameters, records, k, key, at, value, unit, is_given)
       type(parameters_t), intent(inout) :: parameters
       type(record_t), intent(in) :: records(:)
@@ -192,7 +193,7 @@ contains
       end do
    end subroutine find_parameters
 
-   !> Gives the parameters found by a path a value, in the unit of the deck.
+   !> Sets the parameters found by a path to a value, which is in the unit of the deck.
    pure subroutine put_value(parameters, found, value, x)
       type(parameters_t), intent(in) :: parameters
       type(choice_t), intent(in) :: found(:)
@@ -207,7 +208,7 @@ contains
       end do
    end subroutine put_value
 
-   !> Changes the parameters found by a path relative to their values in x, on the right side of an axle as on the left.
+   !> Changes the parameters found by a path, relative to their values in x. The change is equal on both sides of an axle.
    subroutine put_change(parameters, found, change, x)
       type(parameters_t), intent(in) :: parameters
       type(choice_t), intent(in) :: found(:)

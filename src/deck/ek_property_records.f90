@@ -1,4 +1,5 @@
-!> `property_file` of an element: its laws become &curve records in the units of the deck, to which the element then refers.
+!> `property_file` of an element: the laws of the file become &curve records in the units of the deck, and the element refers to
+!> these records.
 module ek_property_records
    use ek_kinds, only: wp, units_t
    use ek_error, only: error_t, message_list_t
@@ -21,7 +22,7 @@ module ek_property_records
 
 contains
 
-   !> Adds the curves of all property files, and to each element the keys that refer to them.
+   !> Adds the curves of all property files, and adds to each element the keys that refer to these curves.
    subroutine attach_properties(files, records, used, deck_errors)
       type(kept_files_t), intent(in) :: files      !! which are not read again
       type(record_t), allocatable, intent(inout) :: records(:)
@@ -154,8 +155,8 @@ contains
       end select
    end function fits_group
 
-   !> Element `at` of a number key; of a key with a single value, this value. `default` if it is not given or no number, which the
-   !> check of the record reports.
+   !> Element `at` of a number key; for a key with a single value, this value. `default` if the element is not given or is not a
+   !> number, which the check of the record reports.
    pure real(wp) function number_in(record, key, at, default) result(value)
       type(record_t), intent(in) :: record
       character(*), intent(in) :: key

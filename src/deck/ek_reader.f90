@@ -60,8 +60,8 @@ contains
       if (present(is_whole)) is_whole = is_complete
    end subroutine build_model
 
-   !> Reads the design of a deck and realises its suspension. The reader has found no error in its numbers; if it has missed
-   !> one, the unfinished model is not returned.
+   !> Reads the design of a deck and realises its suspension. If the reader has missed an error in the numbers, the unfinished model
+   !> is not returned.
    subroutine build_design(deck, design, suspension, error, is_whole)
       type(deck_t), intent(in) :: deck
       type(design_t), intent(out) :: design
@@ -165,7 +165,7 @@ contains
       if (reading%deck_errors%count() > 0) call fail(error, exit_deck, reading%deck_errors%text())
    end subroutine read_records
 
-   !> Reads the targets of key numbers. Their errors come after the errors of the records.
+   !> Reads the targets of key numbers. Their errors are reported after the errors of the records.
    subroutine read_targets(reading, targets, error)
       type(deck_reading_t), intent(inout) :: reading
       type(target_band_t), allocatable, intent(out) :: targets(:)
@@ -186,7 +186,7 @@ contains
       call fail(error, exit_deck, reading%deck_errors%text())
    end subroutine read_targets
 
-   !> Reads the current record by the reader of its group.
+   !> Reads the current record with the reader of its group.
    subroutine read_record(reading)
       type(deck_reading_t), intent(inout) :: reading
 
@@ -278,7 +278,7 @@ contains
       if (group /= model_group) call check_new(reading)
    end subroutine check_names
 
-   !> A number that equal texts have in common.
+   !> A hash value: equal strings have equal numbers.
    pure integer function name_hash(text) result(hash)
       character(*), intent(in) :: text
       integer(i8) :: sum
@@ -313,7 +313,7 @@ contains
 
    contains
 
-      !> If &mirror created only one of the two, its original name.
+      !> Phrase with the original name of a record, if only one of two records with equal names was created by &mirror.
       function doubling(j) result(words)
          integer, intent(in) :: j
          character(:), allocatable :: words
@@ -326,7 +326,7 @@ contains
 
    end subroutine check_new
 
-   !> Rejects a second &model with the same name, as in a file that contains the deck twice. Only this error is reported, not
+   !> Rejects a second &model with the same name, as in a file that contains the deck twice. Only this error is reported, instead of
    !> every duplicate name.
    subroutine refuse_doubled_deck(reading, error)
       type(deck_reading_t), intent(in) :: reading

@@ -93,7 +93,7 @@ contains
       reading%cards(reading%k)%index = size(reading%plan%cases)
    end subroutine read_case
 
-   !> Reads the range of the driver in a grid; by default the travel of the rack, which the design gives.
+   !> Reads the range of the driver in a grid. The default is the travel of the rack, which depends on the design.
    subroutine read_grid(reading, steer_unit, this, plan)
       type(deck_reading_t), intent(inout) :: reading
       real(wp), intent(in) :: steer_unit       !! of the driver → SI
@@ -128,7 +128,7 @@ contains
          str(number_of(reading, 'steer_to', 0.0_wp))//' twice')
    end subroutine read_grid
 
-   !> Reads target = 'column=value', the value in the unit of the column.
+   !> Reads target = 'column=value'. The value is in the unit of the column.
    subroutine read_target(reading, this)
       type(deck_reading_t), intent(inout) :: reading
       type(case_t), intent(inout) :: this      !! with its method
@@ -153,7 +153,7 @@ contains
       end if
    end subroutine read_target
 
-   !> Reads follow = 'arc': needs method 'equilibrium'; tables and targets, which need a unique factor, are not allowed.
+   !> Reads follow = 'arc', which requires method 'equilibrium'. Tables and targets, which need a unique factor, are not allowed.
    subroutine read_follow(reading, test, this)
       type(deck_reading_t), intent(inout) :: reading
       type(rig_test_t), intent(in) :: test
@@ -174,8 +174,8 @@ contains
          "follow = 'arc' needs method = 'equilibrium', found "//quoted(text_of(reading, 'method')))
    end subroutine read_follow
 
-   !> Rejects two cases with the same output file. The target of a case has the file <case>_target, so no other case may have this
-   !> name.
+   !> Rejects two cases with the same output file. The target of a case has the file <case>_target, so that no other case may have
+   !> this name.
    subroutine refuse_one_file_for_two(reading, cases)
       type(deck_reading_t), intent(inout) :: reading
       type(case_t), intent(in) :: cases(:)
@@ -193,7 +193,7 @@ contains
       end do
    end subroutine refuse_one_file_for_two
 
-   !> Reads a case that scales loads or drives a joint directly.
+   !> Reads a case that scales loads or moves a driver directly.
    subroutine read_drive(reading, this, unit)
       type(deck_reading_t), intent(inout) :: reading
       type(case_t), intent(inout) :: this
@@ -336,7 +336,7 @@ contains
 
    end subroutine read_test
 
-   !> Counts the wheels; reports an error if there is no wheel, or more than one wheel on a side.
+   !> Counts the wheels. Reports an error if there is no wheel, or more than one wheel on a side.
    subroutine count_wheels(reading, wheels)
       type(deck_reading_t), intent(inout) :: reading
       integer, intent(out) :: wheels(2)      !! index of the left and of the right wheel; 0: the deck has none
@@ -366,7 +366,7 @@ contains
       end do
    end subroutine check_tyres
 
-   !> Finds the steered joint: `drive` of the case, or else the driver of &steering, or else the only driver.
+   !> Finds the steered joint: the `drive` of the case, otherwise the driver of &steering, otherwise the only driver.
    subroutine find_steering(reading, drive, unit)
       type(deck_reading_t), intent(inout) :: reading
       character(:), allocatable, intent(out) :: drive

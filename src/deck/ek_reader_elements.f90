@@ -122,7 +122,7 @@ contains
 
    end subroutine read_spring
 
-   !> Reads &damper: only the gas force acts in statics.
+   !> Reads &damper. Only the gas force of a damper acts in statics.
    subroutine read_damper(reading)
       type(deck_reading_t), intent(inout) :: reading
       type(element_plan_t) :: plan
@@ -183,7 +183,7 @@ contains
       call add(reading, plan, torsion_spring, measure_t(kind=rotation, body_i=bodies(1), body_j=bodies(2)))
    end subroutine read_torsion
 
-   !> Finds the distance of two distinct points of two different bodies.
+   !> Finds the distance between two distinct points of two different bodies as a measure.
    subroutine find_link(reading, plan, measure)
       type(deck_reading_t), intent(inout) :: reading
       type(element_plan_t), intent(inout) :: plan
@@ -195,7 +195,7 @@ contains
       measure = measure_t(kind=distance, body_i=bodies(1), body_j=bodies(2))
    end subroutine find_link
 
-   !> Finds the law: exactly one of rate and curve.
+   !> Finds the law of an element. Exactly one of rate and curve must be given.
    subroutine find_law(reading, plan)
       type(deck_reading_t), intent(inout) :: reading
       type(element_plan_t), intent(inout) :: plan
@@ -209,7 +209,7 @@ contains
       call slot(reading, 'rate', plan%force_unit/plan%value_unit, plan%numbers(rate_number))
    end subroutine find_law
 
-   !> Adds an element to the prototype, before all bushings, and its plan to the blueprint; `realise` sets the numbers.
+   !> Adds an element to the prototype, before all bushings, and adds its plan to the blueprint. `realise` sets the numbers.
    subroutine add(reading, plan, kind, measure)
       type(deck_reading_t), intent(inout) :: reading
       type(element_plan_t), intent(in) :: plan
@@ -229,7 +229,7 @@ contains
       reading%plan%elements = [reading%plan%elements, plan]
    end subroutine add
 
-   !> Reads &bushing. Rates: force/length and moment/angle, the moment being force × length.
+   !> Reads &bushing. Rates are force/length and moment/angle, with force × length as the unit of the moment.
    subroutine read_bushing(reading)
       type(deck_reading_t), intent(inout) :: reading
       type(bushing_plan_t) :: plan
@@ -258,7 +258,8 @@ contains
       reading%plan%bushings = [reading%plan%bushings, plan]
    end subroutine read_bushing
 
-   !> Finds the curves of a bushing: texts 'fx=c' or 'mz=-c', the minus sign for the curve reflected through the origin.
+   !> Finds the curves of a bushing from strings such as 'fx=c' or 'mz=-c'. The minus sign stands for the curve reflected through
+   !> the origin.
    subroutine find_laws(reading, plan, element)
       type(deck_reading_t), intent(inout) :: reading
       type(bushing_plan_t), intent(inout) :: plan
@@ -302,8 +303,8 @@ contains
       end do
    end subroutine find_laws
 
-   !> Finds the marker axes. If only one is given, the other is chosen perpendicular to it; on the right side of a mirrored axle the
-   !> choice is the mirror image of the choice on the left.
+   !> Finds the marker axes. If only one axis is given, a perpendicular axis is chosen as the other. On the right side of a mirrored
+   !> axle, the choice is the mirror image of the choice on the left.
    subroutine find_axes(reading, plan)
       type(deck_reading_t), intent(inout) :: reading
       type(bushing_plan_t), intent(inout) :: plan

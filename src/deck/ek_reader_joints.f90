@@ -180,7 +180,7 @@ contains
       reading%plan%joints = [reading%plan%joints, plan]
    end subroutine make_driver
 
-   !> Builds a coupler: Σ ratio × value is constrained in deck units. The row is scaled so that the first ratio is unchanged.
+   !> Builds a coupler, which constrains Σ ratio × value in deck units. The row is scaled so that the first ratio is unchanged.
    subroutine make_coupler(reading)
       type(deck_reading_t), intent(inout) :: reading
       type(joint_plan_t) :: plan
@@ -206,7 +206,7 @@ contains
       reading%plan%joints = [reading%plan%joints, plan]
    end subroutine make_coupler
 
-   !> Adds a joint of one row, a term per measure.
+   !> Adds a joint of one row, with one term per measure.
    subroutine append_measures(reading, kind, readouts)
       type(deck_reading_t), intent(inout) :: reading
       character(*), intent(in) :: kind
@@ -217,7 +217,7 @@ contains
       call append_joint(reading%plan%prototype, text_of(reading, 'name'), where_of(reading), kind, terms, [size(terms)])
    end subroutine append_measures
 
-   !> Checks that a joint has the keys that its type requires, and no others.
+   !> Checks that a joint has the keys that its type requires, and no other keys.
    subroutine check_keys(reading, kind)
       type(deck_reading_t), intent(inout) :: reading
       type(joint_kind_t), intent(in) :: kind

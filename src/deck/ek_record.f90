@@ -1,5 +1,5 @@
-!> The parsed content of a deck before interpretation: records (namelist groups) of entries (`key = values`), with the file
-!> and line of each; and the errors found in them, with their locations: they are collected and reported together.
+!> The parsed content of a deck before interpretation. The content is records (namelist groups) of entries (`key = values`), with
+!> the file and line of each. The errors found in them are collected with their locations and reported together.
 module ek_record
    use ek_kinds, only: wp
    use ek_text, only: str, lower
@@ -12,7 +12,8 @@ module ek_record
    public :: add_value, add_entry, add_record, hand_over, entry_index, element, is_given, place_of, line_text, own_name
    public :: role_of, sign_of_image, turns
 
-   !> The sides of the two records that &mirror creates from a record of the left half, which are in their names; or neither.
+   !> The sides of the two records that &mirror creates from a record of the left half, or neither side. The side is part of the
+   !> record name.
    integer, parameter :: single = 0, left_side = 1, right_side = 2
    character(*), parameter :: side_prefix(2) = [character(6) :: 'left_', 'right_']
 
@@ -72,7 +73,7 @@ module ek_record
 
 contains
 
-   !> Appends one value to an entry. A value without text that is not a string is empty.
+   !> Appends one value to an entry. A value that is blank and not a string is empty.
    pure subroutine add_value(entry, text, is_string)
       type(entry_t), intent(inout) :: entry
       character(*), intent(in) :: text
@@ -89,7 +90,7 @@ contains
    !> Appends an entry to a record.
    pure subroutine add_entry(record, entry)
       type(record_t), intent(inout) :: record
-      type(entry_t), intent(inout) :: entry         !! handed over: without its texts afterwards
+      type(entry_t), intent(inout) :: entry         !! moved: without its strings afterwards
 
       if (.not. allocated(record%entries)) allocate (record%entries(8))
       if (record%used == size(record%entries)) record%entries = [record%entries, record%entries]      ! twice the size
@@ -122,8 +123,8 @@ contains
       call move_record(record, records(used))
    end subroutine add_record
 
-   !> Moves the first `used` records out of a list, which is empty afterwards. Copying a deck would allocate memory hundreds of
-   !> times.
+   !> Moves the first `used` records out of a list, which is empty afterwards. Copying a deck instead would allocate memory hundreds
+   !> of times.
    pure subroutine hand_over(from, used, to, room)
       type(record_t), allocatable, intent(inout) :: from(:)
       integer, intent(in) :: used
@@ -154,7 +155,8 @@ contains
       from%used = 0
    end subroutine move_record
 
-   !> The entry that contains element `at` of a key (any element if `at` is 0); 0 if there is none, as for the key ''.
+   !> Index of the entry that contains element `at` of a key (any element if `at` is 0); 0 if there is no such entry, as for the key
+   !> ''.
    pure integer function entry_index(record, key, at)
       type(record_t), intent(in) :: record
       character(*), intent(in) :: key
@@ -172,7 +174,7 @@ contains
       entry_index = 0
    end function entry_index
 
-   !> The text of element `at` of a key; '' if it is not given.
+   !> The value of element `at` of a key as a string; '' if the element is not given.
    pure function element(record, key, at) result(text)
       type(record_t), intent(in) :: record
       character(*), intent(in) :: key
@@ -203,7 +205,7 @@ contains
       if (index(name, trim(side_prefix(record%side))) == 1) name = name(len_trim(side_prefix(record%side)) + 1:)
    end function own_name
 
-   !> The location of a record or one of its entries; --set is sorted after all files.
+   !> The location of a record or of one of its entries. Locations of --set are sorted after all files.
    pure type(place_t) function place_of(record, entry) result(place)
       type(record_t), intent(in) :: record
       integer, intent(in) :: entry            !! 0: the record itself
@@ -218,7 +220,7 @@ contains
       end if
    end function place_of
 
-   !> 'line 12' of a record; 'line 12 of wheels.nml' if the record with the message is in another file.
+   !> Location of a record: 'line 12'; 'line 12 of wheels.nml' if the record with the message is in another file.
    pure function line_text(record, seen_from) result(words)
       type(record_t), intent(in) :: record, seen_from
       character(:), allocatable :: words
@@ -226,7 +228,7 @@ contains
       if (record%source /= seen_from%source) words = words//' of '//record%file
    end function line_text
 
-   !> The role of a key under y → −y, as in the table of keys; 0 if the value is the same on both sides.
+   !> The role of a key under y → −y, as in the table of keys; 0 if its value is equal on both sides.
    pure integer function role_of(record, key) result(role)
       type(record_t), intent(in) :: record
       character(*), intent(in) :: key
@@ -249,7 +251,7 @@ contains
       if (role_of(record, key) == merge(polar, axial, at == 2)) sign = -1.0_wp
    end function sign_of_image
 
-   !> Whether the axis of the record is a rotation axis: the sense of rotation determines the sign of the value.
+   !> Whether the axis of a record is a rotation axis, so that the sense of rotation determines the sign of the value.
    pure logical function turns(record)
       type(record_t), intent(in) :: record
       turns = record%group == 'torsion' .or. (record%group == 'measure' .and. lower(element(record, 'type', 1)) == 'rotation')
@@ -288,7 +290,7 @@ contains
       self%list(self%used)%text = place%words//': '//text
    end subroutine complaints_add
 
-   !> Records that a file is not read to its end, so that the number of errors is unknown.
+   !> Records that a file was not read to its end, so that the number of errors is unknown.
    pure subroutine complaints_cut(self)
       class(deck_errors_t), intent(inout) :: self
       self%is_cut = .true.
@@ -300,8 +302,8 @@ contains
       complaints_count = self%used
    end function complaints_count
 
-   !> The messages, one per line, sorted by file and line number; messages about one line are in the order of insertion. The list
-   !> is cut at a limit: a file with so many errors is probably not a deck.
+   !> The messages as one string, one per line, sorted by file and line number. Messages about one line are in the order of
+   !> insertion. The list is cut at a limit, because a file with so many errors is probably not a deck.
    pure function complaints_text(self) result(text)
       class(deck_errors_t), intent(in) :: self
       character(:), allocatable :: text
@@ -330,7 +332,7 @@ contains
       text = text//'; is this a deck?'
    end function complaints_text
 
-   !> The location of a line of a file; line 0: the file itself.
+   !> The location of a line of a file; line 0 is the file itself.
    pure type(place_t) function place_in(file, source, line) result(place)
       character(*), intent(in) :: file
       integer, intent(in) :: source, line

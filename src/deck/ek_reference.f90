@@ -1,4 +1,4 @@
-!> The records to which a record refers by name: points, bodies, directions, measures; or a message about an unknown name.
+!> Finds the records to which a record refers by name: points, bodies, directions, measures. An unknown name gives a message.
 !>
 !> If an entry was already rejected, the searches report nothing.
 module ek_reference
@@ -16,7 +16,7 @@ module ek_reference
 
 contains
 
-   !> The record of this group with this name; 0 if there is none.
+   !> Index of the record of a group with a name; 0 if there is no such record.
    pure integer function find_card(reading, group, name)
       type(deck_reading_t), intent(in) :: reading
       integer, intent(in) :: group
@@ -53,7 +53,7 @@ contains
       if (group == body_group) names = [names, [character(word_length) :: 'chassis']]
    end function names_of
 
-   !> Finds the record to which a key refers; 0, with a message, if there is no such record.
+   !> Finds the record to which a key refers. The index is 0, with a message, if there is no such record.
    subroutine look_up(reading, key, group, name, found)
       type(deck_reading_t), intent(inout) :: reading
       integer, intent(in) :: group
@@ -71,7 +71,7 @@ contains
 
    contains
 
-      !> The hint for a name of one side in a deck without &mirror; otherwise the given hint.
+      !> The hint for a name with a side in a deck without &mirror; for any other name the given hint.
       function mirror_or(hint) result(words)
          character(*), intent(in) :: hint
          character(:), allocatable :: words
@@ -92,8 +92,8 @@ contains
 
    end subroutine look_up
 
-   !> Whether an unknown name may belong to a record whose own name or group was already rejected:
-   !> then only that is reported, not the references to it.
+   !> Whether an unknown name may belong to a record whose own name or group was already rejected. Then only this rejection is
+   !> reported, not the references to the record.
    pure logical function may_be_meant(reading, group, name)
       type(deck_reading_t), intent(in) :: reading
       integer, intent(in) :: group
@@ -130,7 +130,7 @@ contains
       is_found = reading%cards(found)%is_good
    end subroutine find_point
 
-   !> Finds the number of a named body, 0 for the chassis.
+   !> Finds the index of a named body; 0 is the chassis.
    subroutine find_body(reading, key, name, body, is_found)
       type(deck_reading_t), intent(inout) :: reading
       character(*), intent(in) :: key, name
@@ -179,7 +179,7 @@ contains
       if (present(is_found)) is_found = all(is_there)
    end subroutine find_bodies
 
-   !> Finds two distinct points (key `at`); with one point allowed, the second equals the first.
+   !> Finds two distinct points (key `at`). If one point is allowed and only one is given, the second equals the first.
    subroutine find_ends(reading, may_be_one, ends, is_found)
       type(deck_reading_t), intent(inout) :: reading
       logical, intent(in) :: may_be_one
@@ -273,7 +273,7 @@ contains
       is_good = .true.
    end subroutine find_direction
 
-   !> Finds the curve named by a key; 0 if there is none or it was rejected.
+   !> Finds the curve named by a key. The index is 0 if no curve is given or the curve was rejected.
    subroutine find_curve(reading, key, name, curve)
       type(deck_reading_t), intent(inout) :: reading
       character(*), intent(in) :: key, name
@@ -293,7 +293,7 @@ contains
       is_driver = reading%cards(k)%group == joint_group .and. lower(element(reading%records(k), 'type', 1)) == 'driver'
    end function is_driver
 
-   !> Finds the driver joint named by a case; reports an error if there is none.
+   !> Finds the driver joint named by a case. Reports an error if there is no such joint.
    subroutine find_driver(reading, name, others, unit)
       type(deck_reading_t), intent(inout) :: reading
       character(*), intent(in) :: name, others(:)     !! others: other names that may be driven, for suggestions

@@ -1,4 +1,4 @@
-!> Converts the text of a deck to records.
+!> Converts the content of a deck to records.
 !>
 !> The compiler's namelist read silently accepts misspelt groups, text between groups, keys given twice
 !> and records without an end. Therefore this scanner handles groups, keys, subscripts, repeat
@@ -21,7 +21,7 @@ module ek_scanner
 
 contains
 
-   !> Scans all records of a text. Errors are added to the list of messages as `file:line: error`. Line ends of any system are
+   !> Scans all records of a string. Errors are added to the list of messages as `file:line: error`. Line ends of any system are
    !> accepted.
    subroutine scan_text(written, file, records, used, deck_errors, source)
       character(*), intent(in) :: written
@@ -111,7 +111,7 @@ contains
       if (entry%used == 0) message = 'no value'
    end subroutine scan_values
 
-   !> Reads one group, from after its name to its end.
+   !> Reads one group, from the end of its name to the end of the group.
    subroutine scan_record(text, cursor, record, deck_errors)
       character(*), intent(in) :: text
       type(cursor_t), intent(inout) :: cursor
@@ -235,7 +235,7 @@ contains
       end if
    end subroutine close_entry
 
-   !> Scans one value or comma. Two commas in a row, or n* alone, leave values empty.
+   !> Scans one value or comma. Two consecutive commas, or n* alone, define empty values.
    subroutine scan_value(text, cursor, record, entry, after_comma, deck_errors)
       character(*), intent(in) :: text
       type(cursor_t), intent(inout) :: cursor
@@ -322,7 +322,7 @@ contains
       call complain(deck_errors, record, line, '&'//record%group//': '//what)
    end subroutine complain_of
 
-   !> Reports an error in a line of the file of a record.
+   !> Reports an error at a line of the file that contains a record.
    subroutine complain(deck_errors, record, line, what)
       type(deck_errors_t), intent(inout) :: deck_errors
       type(record_t), intent(in) :: record

@@ -39,8 +39,8 @@ module ek_set_file
 
 contains
 
-   !> Reads a file. Nothing is compared with a deck yet; lines that are not settings are reported with the settings that do not
-   !> match the deck.
+   !> Reads a file of settings. The settings are not compared with a deck. Lines that are not settings are reported later, together
+   !> with settings that do not match the deck.
    subroutine read_set_file(path, file, error)
       character(*), intent(in) :: path
       type(set_file_t), intent(out) :: file
@@ -69,7 +69,7 @@ contains
       if (left > 0) call file%mistakes%add(path//': '//plural(left, 'variable', 'variables')//' missing at the end of the file')
    end subroutine read_set_file
 
-   !> A line without its comment, blanks at the ends, and tabs.
+   !> A line without comment and tabs, and without blanks at both ends.
    pure function bare(line) result(content)
       character(*), intent(in) :: line
       character(:), allocatable :: content
@@ -96,7 +96,7 @@ contains
       ends_with_variables = at > 1 .and. (content(at + 1:) == 'variables' .or. content(at + 1:) == 'variable')
    end function ends_with_variables
 
-   !> Reads the number of variables in the first line of Dakota's parameters file; of any other line −1.
+   !> Reads the number of variables in the first line of Dakota's parameters file; −1 for any other line.
    subroutine read_head(content, left)
       character(*), intent(in) :: content
       integer, intent(inout) :: left
@@ -151,7 +151,7 @@ contains
       file%lines(file%used)%where = where
    end subroutine take_line
 
-   !> Applies the settings of a file to a deck, all of them: each error is reported with its line.
+   !> Applies all settings of a file to a deck. Each error is reported with its line.
    subroutine apply_set_file(file, deck, error)
       type(set_file_t), intent(in) :: file
       type(deck_t), intent(inout) :: deck
@@ -171,7 +171,7 @@ contains
       if (mistakes%count() > 0) call fail(error, exit_deck, visible(mistakes%text()))
    end subroutine apply_set_file
 
-   !> Names the lines of the file in a message about settings: 'params.in:3: path=value' instead of '--set path=value'.
+   !> Replaces '--set' in a message about settings by the file and line: 'params.in:3: path=value' instead of '--set path=value'.
    subroutine show_set_file(file, message)
       type(set_file_t), intent(in) :: file
       character(:), allocatable, intent(inout) :: message

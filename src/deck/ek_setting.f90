@@ -1,4 +1,4 @@
-!> Settings from the command line or a study: `group.name.key=value` changes numbers and texts of a deck.
+!> Settings from the command line or a study: `group.name.key=value` changes numbers and strings of a deck.
 !>
 !> | path                | meaning                                                  |
 !> |---------------------|----------------------------------------------------------|
@@ -44,7 +44,7 @@ contains
       value = trim(adjustl(setting(mark + 1:)))
    end subroutine split_setting
 
-   !> Changes the records given by the path; `message` describes an error, '' if there is none.
+   !> Changes the records to which a path leads. `message` describes an error; '' if there is no error.
    subroutine apply_setting(records, used, path_text, text, message, is_found)
       type(record_t), intent(inout) :: records(:)
       integer, intent(in) :: used
@@ -83,7 +83,7 @@ contains
       if (message /= '') message = '--set '//setting//': '//message
    end subroutine apply_setting
 
-   !> Returns the message if a path leads to no record.
+   !> Returns a message if a path leads to no record.
    subroutine check_target(records, path, is_found, message)
       type(record_t), intent(in) :: records(:)
       type(path_t), intent(in) :: path
@@ -106,7 +106,7 @@ contains
          message = 'there is no '//trim(group_names(path%group))//' '//quoted(path%name)//did_you_mean(path%name, names)
    end subroutine check_target
 
-   !> Reads '*1.1' or '+2'; any other text is not relative.
+   !> Reads a relative value, '*1.1' or '+2'. Any other string is not relative.
    subroutine read_change(text, change)
       character(*), intent(in) :: text
       type(change_t), intent(out) :: change
@@ -124,7 +124,7 @@ contains
       change%term = merge(0.0_wp, value, text(:1) == '*')
    end subroutine read_change
 
-   !> Changes the numbers of a record that the path means and the deck gives.
+   !> Changes the numbers of a record to which the path leads and which the deck gives.
    subroutine change_numbers(record, path, change, setting, is_changed)
       type(record_t), intent(inout) :: record
       type(path_t), intent(in) :: path
@@ -149,7 +149,7 @@ contains
       end do
    end subroutine change_numbers
 
-   !> Reads the values of a setting; `message` if they do not fit the key.
+   !> Reads the values of a setting. `message` describes values that do not fit the key.
    subroutine read_values(text, path, given, message)
       character(*), intent(in) :: text
       type(path_t), intent(in) :: path
@@ -191,7 +191,7 @@ contains
 
    contains
 
-      !> Reads texts without quotes, as passed by a shell, split at commas.
+      !> Reads strings without quotes, as passed by a shell, separated by commas.
       subroutine take_bare_words()
          integer :: begin, comma
 

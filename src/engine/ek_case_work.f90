@@ -31,7 +31,7 @@ module ek_case_work
 
 contains
 
-   !> Renews the numbers of a case at a design: the numbers of the deck, or of the standard test.
+   !> Renews the numbers of a case at a design. The numbers come from the deck, or from the standard test.
    subroutine renew_case(suspension, design, this)
       type(suspension_t), intent(in) :: suspension
       type(design_t), intent(in) :: design                 !! with the cases of these numbers
@@ -52,7 +52,7 @@ contains
    end subroutine make_room
 
    !> Renews the numbers of a case and examines the design on its rig. is_sound is .false. if the case cannot be put on the rig, or
-   !> if the design may have a defect: the reason is found with texts, by examine_case.
+   !> if the design may have a defect. examine_case then finds the reason and creates strings.
    subroutine examine_again(suspension, design, this, is_sound)
       type(suspension_t), intent(in) :: suspension         !! realised, not balanced
       type(design_t), intent(in) :: design                 !! with the cases of these numbers

@@ -6,9 +6,9 @@
 !>     workspace:  numbers_given → realised → balanced        put_numbers, take_numbers, balance_once
 !>     a case:     not_examined → examined → on_rig           prove_case or examine_again, put_on_rig
 !>
-!> solve_numbers and settle_numbers compute numbers and return a code. They make no text, nor do ready_cases and balance_once.
+!> solve_numbers and settle_numbers compute numbers and return a code. They create no strings, nor do ready_cases and balance_once.
 !> solve_or_explain and settle_or_explain examine the cases in full, call solve_numbers or settle_numbers, and explain a failure.
-!> balance_or_explain calls balance_once and explains a failure. These three make texts. gfortran stores the length of a text that a
+!> balance_or_explain calls balance_once and explains a failure. These three create strings. gfortran stores the length of a text that a
 !> function returns in one location for all threads: the caller allows one thread at a time to call them.
 module ek_workspace
    use ek_kinds, only: wp
@@ -38,7 +38,7 @@ module ek_workspace
 
    ! outcomes of solve_numbers and settle_numbers
    integer, parameter :: succeeded = 0
-   integer, parameter :: out_of_range = 1   !! of the blueprint: the design must be read from the text
+   integer, parameter :: out_of_range = 1   !! of the blueprint: the design must be read from the deck's strings
    integer, parameter :: in_doubt = 2       !! the design may have a defect: prove_case finds it
    integer, parameter :: not_balanced = 3   !! fail_balance explains it
 
@@ -67,8 +67,8 @@ contains
       workspace%cases%stage = not_examined
    end subroutine put_numbers
 
-   !> Realises the suspension and the cases with the present numbers, unless this was done. is_done is .false. if they are outside
-   !> the range of the blueprint: then the design must be read from the text.
+   !> Realises the suspension and the cases with the present numbers, unless this was done. is_done is .false. if the numbers are
+   !> outside the range of the blueprint; the design must then be read from the deck's strings.
    subroutine take_numbers(workspace, is_done)
       type(workspace_t), intent(inout) :: workspace
       logical, intent(out) :: is_done
@@ -81,7 +81,7 @@ contains
       if (is_done) workspace%stage = realised
    end subroutine take_numbers
 
-   !> Balances the suspension, once for all cases of one tolerance; workspace%failure is the outcome. No text is made.
+   !> Balances the suspension once for all cases with the same tolerance. workspace%failure is the outcome. No string is created.
    subroutine balance_once(tolerance, workspace)
       real(wp), intent(in) :: tolerance                    !! m
       type(workspace_t), intent(inout) :: workspace        !! realised
@@ -97,7 +97,7 @@ contains
       workspace%tolerance = tolerance
    end subroutine balance_once
 
-   !> Balances the suspension, once for all cases with the same tolerance. Returns a message if no preloads hold the suspension.
+   !> Balances the suspension as balance_once does. Returns a message if no preloads hold the suspension.
    subroutine balance_or_explain(tolerance, workspace, error)
       real(wp), intent(in) :: tolerance                    !! m
       type(workspace_t), intent(inout) :: workspace        !! realised
@@ -107,7 +107,7 @@ contains
       call fail_balance(workspace%suspension, workspace%failure, error)
    end subroutine balance_or_explain
 
-   !> Examines a case in full. The case is then examined, or `defects` lists its defects.
+   !> Examines a case in full. The case is examined afterwards, or `defects` lists its defects.
    subroutine prove_case(k, workspace, defects)
       integer, intent(in) :: k
       type(workspace_t), intent(inout) :: workspace        !! realised
@@ -123,8 +123,8 @@ contains
    end subroutine prove_case
 
    !> Prepares the current numbers up to the mounted rigs of all cases, balanced with the tolerance of the first case. Creates no
-   !> strings. is_done is .false. if the design must be read from the text: a number is outside its range, or the design may have
-   !> a defect.
+   !> strings. is_done is .false. if a number is outside its range, or if the design may have a defect; the design must then be read
+   !> from the deck's strings.
    subroutine ready_cases(workspace, is_done)
       type(workspace_t), intent(inout) :: workspace
       logical, intent(out) :: is_done
@@ -142,9 +142,9 @@ contains
       end do
    end subroutine ready_cases
 
-   !> Puts a case on the rig with the present numbers, balanced, and solves nothing. No text is made, and the numbers are not
-   !> examined: they are close to the numbers of an examined design. is_done is .false. if the numbers are outside the range of
-   !> the blueprint.
+   !> Puts a case on the rig with the present numbers, balanced, and solves nothing. No string is created. The numbers are not
+   !> examined, because they are close to the numbers of an examined design. is_done is .false. if the numbers are outside the range
+   !> of the blueprint.
    subroutine mount_numbers(k, tolerance, workspace, is_done)
       integer, intent(in) :: k
       real(wp), intent(in) :: tolerance                    !! of balance [m]
@@ -188,7 +188,7 @@ contains
    end subroutine solve_numbers
 
    !> Solves a case at the present numbers, with full examination and messages. is_done is .false. if these numbers are outside the
-   !> range of the blueprint: then the design must be read from the text.
+   !> range of the blueprint; the design must then be read from the deck's strings.
    subroutine solve_or_explain(k, options, workspace, is_done, error)
       integer, intent(in) :: k
       type(solve_options_t), intent(in) :: options
@@ -220,8 +220,8 @@ contains
       if (outcome == not_balanced) call fail_balance(workspace%suspension, workspace%failure, error)
    end subroutine solve_or_explain
 
-   !> Examines the needed cases of the report at the present numbers, and balances the suspension as the report does. No text is
-   !> made if these cases were examined before.
+   !> Examines the needed cases of the report at the present numbers, and balances the suspension as the report does. No string is
+   !> created if these cases were examined before.
    subroutine settle_numbers(is_needed, workspace, outcome)
       logical, intent(in) :: is_needed(:)                  !! in the order of the report
       type(workspace_t), intent(inout) :: workspace
@@ -246,8 +246,8 @@ contains
       outcome = merge(succeeded, not_balanced, workspace%stage == balanced)
    end subroutine settle_numbers
 
-   !> Settles as settle_numbers does, with full examination of the needed cases and with messages. is_done is .false. if the design
-   !> must be read from the text.
+   !> Examines and balances as settle_numbers does, but examines the needed cases in full and creates messages. is_done is .false.
+   !> if the design must be read from the deck's strings.
    subroutine settle_or_explain(is_needed, workspace, is_solvable, defects, is_done, error)
       logical, intent(in) :: is_needed(:)                  !! in the order of the report
       type(workspace_t), intent(inout) :: workspace
@@ -283,18 +283,18 @@ contains
       if (outcome == not_balanced) call fail_balance(workspace%suspension, workspace%failure, error)
    end subroutine settle_or_explain
 
-   !> Reports the defects of the model as one error.
+   !> Reports all defects of the model as one error.
    pure subroutine fail_unsolvable(defects, error)
       type(message_list_t), intent(in) :: defects
       type(error_t), allocatable, intent(out) :: error
       call fail(error, exit_model, 'the model cannot be solved'//new_line('a')//defects%text())
    end subroutine fail_unsolvable
 
-   !> Balances the model at the present numbers as the report does, if a case can be solved; with messages.
+   !> Balances the model at the present numbers as the report does, if a case can be solved. Creates messages.
    subroutine settle_model(workspace, is_balanced, is_done, error)
       type(workspace_t), intent(inout) :: workspace
       logical, intent(out) :: is_balanced
-      logical, intent(out) :: is_done                      !! .false.: the design must be read from the text
+      logical, intent(out) :: is_done                      !! .false.: the design must be read from the deck's strings
       type(error_t), allocatable, intent(out) :: error     !! exit_model, exit_convergence: why no case can be solved
       type(message_list_t) :: defects
       character(:), allocatable :: words

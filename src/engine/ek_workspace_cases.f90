@@ -1,4 +1,4 @@
-!> Opens a workspace: from a deck to its numbers and the cases that it solves.
+!> Opens a workspace: reads the numbers of a deck and the cases to be solved.
 module ek_workspace_cases
    use ek_error, only: error_t, fail, exit_deck, exit_model, exit_file
    use ek_text, only: quoted, did_you_mean
@@ -21,7 +21,7 @@ module ek_workspace_cases
 
 contains
 
-   !> Reads a deck, and lists no case of it: the numbers and the model of a command that chooses its cases itself.
+   !> Reads a deck without listing its cases, for a command that chooses its cases itself.
    subroutine open_model(deck, workspace, error, needs_tables)
       type(deck_t), intent(in) :: deck
       type(workspace_t), intent(inout) :: workspace          !! its former content is deleted
@@ -91,7 +91,7 @@ contains
 
    contains
 
-      !> Whether a test is not a case of the deck.
+      !> Whether a test is a standard test that is not a case of the deck.
       pure logical function is_standard(test)
          type(case_t), intent(in) :: test
          integer :: j
@@ -100,8 +100,8 @@ contains
 
    end subroutine open_workspace
 
-   !> Reads a deck for some cases alone ('': the first of the deck), examines it on the rig of each, and balances it with the
-   !> tolerance of the first. Errors in other cases do not matter.
+   !> Reads a deck for selected cases ('': the first case of the deck). Examines the deck on the rig of each case, and balances it
+   !> with the tolerance of the first. Errors in other cases are ignored.
    subroutine open_cases(deck, names, workspace, error, increments)
       type(deck_t), intent(in) :: deck
       character(*), intent(in) :: names(:)
@@ -143,7 +143,7 @@ contains
       call balance_or_explain(workspace%cases(1)%case%tolerance, workspace, error)
    end subroutine open_cases
 
-   !> Empties a workspace: one procedure where gfortran writes out how all of it is given back.
+   !> Empties a workspace. This is one procedure because gfortran writes out the deallocation of a workspace at each call.
    subroutine empty_workspace(workspace)
       type(workspace_t), intent(out) :: workspace
       workspace%stage = numbers_given
@@ -204,7 +204,7 @@ contains
       end do
    end subroutine report_cases
 
-   !> Restricts the report to these of its cases, with their method and their increments.
+   !> Restricts the report to the chosen cases, with their method and number of increments.
    subroutine restrict_cases(chosen, workspace)
       type(case_t), intent(in) :: chosen(:)
       type(workspace_t), intent(inout) :: workspace
@@ -240,7 +240,7 @@ contains
       end associate
    end subroutine heads_of_case
 
-   !> The number of a case; '' is the first. 0: no such name.
+   !> Index of the case with a name; 1 for ''; 0 if no case has the name.
    pure integer function case_number(name, workspace) result(k)
       character(*), intent(in) :: name
       type(workspace_t), intent(in) :: workspace

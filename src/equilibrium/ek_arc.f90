@@ -96,7 +96,7 @@ contains
       self%is_symmetric = has_symmetric_loads(suspension)
    end function new_arc
 
-   !> Starts at an equilibrium on the path, in either direction.
+   !> Starts at an equilibrium on the path, in the direction of rising or falling swept value.
    subroutine begin(self, suspension, packed, place, upward, kkt, is_found)
       type(arc_t), intent(inout) :: self
       type(suspension_t), intent(in) :: suspension
@@ -161,7 +161,7 @@ contains
 
    contains
 
-      !> The error of the trapezoidal rule as a share of the step.
+      !> The error of the trapezoidal rule, as a share of the step [-].
       real(wp) function rest()
          real(wp) :: largest
          call find_motion(self, kkt, self%packed_a, self%place_a, largest)
@@ -171,7 +171,7 @@ contains
 
    end subroutine advance
 
-   !> Finds the equilibrium at a length beyond state a; returns it in self%state and self%place.
+   !> Finds the equilibrium at a length beyond state a, and returns it in self%state and self%place.
    !> Equation (K.18) of docs/theory/kkt.md.
    subroutine probe(self, suspension, width, kkt, is_found)
       type(arc_t), intent(inout) :: self
@@ -324,7 +324,7 @@ contains
       place = place + step(size(self%rhs, 1))
    end subroutine move_all
 
-   !> a·b of two steps [twists; reactions; swept value].
+   !> The scalar product a·b of two steps [twists; reactions; swept value].
    !> Equation (K.18) of docs/theory/kkt.md.
    pure real(wp) function inner(self, kkt, a, b)
       type(arc_t), intent(in) :: self

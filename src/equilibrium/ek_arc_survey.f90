@@ -28,7 +28,7 @@ module ek_arc_survey
    real(wp), parameter :: same = 1.0e-14_wp         !! of the range
    real(wp), parameter :: flat = 1.0e-10_wp         !! of the range: error of a limit point before the correction by its parabola
 
-   !> The result of `survey`.
+   !> The findings of `survey` about a path.
    type :: survey_t
       integer :: ending = stuck
       real(wp) :: near_length = 0.0_wp, far_length = 0.0_wp      !! lengths of the path from design to either end of the states
@@ -91,7 +91,7 @@ contains
 
    contains
 
-      !> Whether the path has left the useful range; the last probe is b. `arrived`: it has not.
+      !> How the path has left the useful range; `arrived` if it has not left this range. The last probe is b.
       integer function ending()
          real(wp) :: moved, behind
 
@@ -125,7 +125,7 @@ contains
 
    end subroutine survey
 
-   !> The length from design to state k, between states `first` and `last`.
+   !> The length from design to state k, which is between states `first` and `last`.
    pure real(wp) function length_at(found, k, first, last) result(length)
       type(survey_t), intent(in) :: found
       integer, intent(in) :: k, first, last
@@ -222,7 +222,7 @@ contains
       place = 0.5_wp*(place_low + place_high)
    end subroutine find_crossing
 
-   !> Finds a swept value on a part of the current segment.
+   !> Finds the length at which a part of the current segment has a given swept value.
    subroutine find_place(arc, suspension, kkt, goal, from, place_from, to, place_to, width)
       type(arc_t), intent(inout) :: arc
       type(suspension_t), intent(in) :: suspension
@@ -254,7 +254,7 @@ contains
       end do
    end subroutine find_place
 
-   !> Computes one step of root finding between two values of different sign, by false position. The value at an unchanged end is
+   !> Computes one step of root finding between two values of different sign, by false position. The value at an end that stays is
    !> halved (Illinois method).
    pure subroutine narrow(x, f, low, f_low, high, f_high, side)
       real(wp), intent(in) :: x, f
@@ -274,9 +274,9 @@ contains
       end if
    end subroutine narrow
 
-   !> Moves to the state at a length from design, in arc%state and arc%place; its factors are in kkt.
+   !> Moves to the state at a length from design, in arc%state and arc%place. Its factors are in kkt.
    !>
-   !> Call `begin` first; lengths must increase from call to call.
+   !> `begin` must be called first; lengths must increase from call to call.
    subroutine go_to(arc, suspension, length, kkt, is_found)
       type(arc_t), intent(inout) :: arc
       type(suspension_t), intent(in) :: suspension

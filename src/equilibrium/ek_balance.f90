@@ -45,7 +45,7 @@ module ek_balance
 
 contains
 
-   !> Sets the preloads according to suspension%balance ('none': no change), with a message if there is no solution.
+   !> Sets the preloads according to suspension%balance ('none': no change). Returns a message if there is no solution.
    subroutine balance(suspension, tolerance, error)
       type(suspension_t), intent(inout) :: suspension
       real(wp), intent(in) :: tolerance                    !! m
@@ -57,7 +57,7 @@ contains
       call fail_balance(suspension, failure, error)
    end subroutine balance
 
-   !> Sets the preloads according to suspension%balance ('none': no change). No text is made.
+   !> Sets the preloads according to suspension%balance ('none': no change). No string is created.
    subroutine set_preloads(suspension, tolerance, space, failure)
       type(suspension_t), intent(inout) :: suspension
       real(wp), intent(in) :: tolerance                    !! m
@@ -98,7 +98,7 @@ contains
       end select
    end subroutine fail_balance
 
-   !> Lists remarks about a balance: excluded drivers, preloads that are not unique.
+   !> Lists remarks on a balance: excluded drivers, and preloads that are not unique.
    subroutine balance_remarks(suspension, words)
       type(suspension_t), intent(in) :: suspension
       type(message_list_t), intent(inout) :: words
@@ -122,7 +122,7 @@ contains
       end select
    end subroutine balance_remarks
 
-   !> '; driver … is excluded', for an error message.
+   !> Phrase about excluded drivers for an error message: '; driver … is excluded'; '' if there are none.
    function kept_out(suspension) result(text)
       type(suspension_t), intent(in) :: suspension
       character(:), allocatable :: text
@@ -187,7 +187,7 @@ contains
       failure = balance_failure_t(misses_height, maxval(abs(height)))
    end subroutine balance_springs
 
-   !> Changes the spring preloads so that, according to the tangent at a state, the wheels move down by `height`.
+   !> Changes the spring preloads such that the wheels move down by `height` according to the tangent at a state.
    subroutine lower_by(height, suspension, state, kkt, failure)
       real(wp), intent(in) :: height(:)                    !! per wheel [m]
       type(suspension_t), intent(inout) :: suspension
@@ -226,7 +226,7 @@ contains
       end associate
    end subroutine lower_by
 
-   !> The upward motion of a wheel centre in a step of all bodies [m].
+   !> The upward displacement of a wheel centre in a step of all bodies [m].
    pure real(wp) function rise(suspension, state, wheel, step)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
@@ -240,7 +240,7 @@ contains
       rise = step(at + 3) + dot_product([0.0_wp, 0.0_wp, 1.0_wp], cross(step(at + 4:at + 6), arm))
    end function rise
 
-   !> Solves one linear problem: min Σ f²/2k, subject to equilibrium of preloads, Φqᵀλ and loads at design.
+   !> Solves the linear problem min Σ f²/2k, subject to equilibrium of preloads, Φqᵀλ and loads at design.
    subroutine balance_all(suspension, problem, failure)
       type(suspension_t), intent(inout) :: suspension
       type(preload_problem_t), intent(inout) :: problem    !! work space

@@ -114,8 +114,7 @@ contains
       self%shifted = self%before
    end function new_branch
 
-   !> Renews a branch in place, for other numbers of the same model. An empty branch, or a branch of another size, is created
-   !> again.
+   !> Renews a branch in place for other numbers of the same model. An empty branch, or a branch of another size, is created again.
    subroutine renew_branch(suspension, self)
       type(suspension_t), intent(in) :: suspension
       type(branch_t), intent(inout) :: self
@@ -143,7 +142,7 @@ contains
       self%chord_b(:) = 0.0_wp
    end subroutine renew_branch
 
-   !> Continues from another state, of which only the inertia may be known.
+   !> Continues from another state, of which the tangent and the factors are unknown. Its inertia may be known.
    pure subroutine leave(self, place, packed, negative)
       type(branch_t), intent(inout) :: self
       real(wp), intent(in) :: place                 !! of that state
@@ -225,7 +224,8 @@ contains
       self%knows_end = self%missed <= fresh*largest_motion(self%motion, kkt%length)
    end subroutine compare
 
-   !> Evaluates a step with the parts that the first evaluation lacks: tangent at a, chords of laws that bend, new factors at b.
+   !> Evaluates a step in full, with the parts that the first evaluation omits: the tangent at a, the chords of bent laws, and new
+   !> factors at b.
    subroutine evaluate_closer(self, step, suspension, state_b, kkt)
       type(branch_t), intent(inout) :: self
       type(step_t), intent(inout) :: step
@@ -265,7 +265,7 @@ contains
       call decide(self, step, kkt%length)
    end subroutine evaluate_closer
 
-   !> Evaluates the tangent at a. If this tangent does not explain the step, also evaluates the tangent with the chords of bent
+   !> Evaluates the tangent at a. If this tangent does not explain the step, also evaluates the tangent along the chords of bent
    !> laws.
    subroutine evaluate_beginning(self, step, suspension, is_anew, kkt)
       type(branch_t), intent(inout) :: self
@@ -289,8 +289,8 @@ contains
          self%before, step%inputs_a, step%rate, kkt, self%chord_a, step%is_regular(at_a))
    end subroutine evaluate_beginning
 
-   !> Decides whether the tangents agree with the motion, or whether the tangents along the chords of bent laws agree and N stays
-   !> regular.
+   !> Decides whether the tangents agree with the motion. If they do not, decides whether the tangents along the chords of bent laws
+   !> agree and N stays regular.
    pure subroutine decide(self, step, length)
       type(branch_t), intent(in) :: self
       type(step_t), intent(inout) :: step
@@ -328,7 +328,7 @@ contains
       is_uneven = self%was_uneven .or. abs(outcome%log_determinant - self%log_determinant) > even
    end function is_uneven
 
-   !> Whether N is singular at b, in comparison with a.
+   !> Whether N at b is nearly singular in comparison with N at a.
    pure logical function is_near_zero(self, outcome)
       type(branch_t), intent(in) :: self
       type(outcome_t), intent(in) :: outcome     !! of the iteration to b
@@ -363,7 +363,8 @@ contains
       self%crossing_place(self%crossings) = place
    end subroutine note_crossing
 
-   !> Whether the assembly of the joints changes, or may, as its end is singular, in a predicted step that was not compared.
+   !> Whether the assembly mode of the joints changes in a predicted step that was not compared, or may change because the end of
+   !> the step is singular.
    logical function is_overturning(self, suspension, state_b, scale)
       type(branch_t), intent(inout) :: self
       type(suspension_t), intent(in) :: suspension

@@ -22,7 +22,7 @@ module ek_break
    real(wp), parameter :: gone = 1.0e-6_wp         !! likewise: below it nothing holds a body (a load maximum leaves more)
    real(wp), parameter :: takes_part = 0.3_wp      !! of the largest part of a left singular vector: joints that are listed
 
-   !> The singular matrix and its null vector.
+   !> The matrix that is singular at the end of a path, and its null vector.
    type :: break_t
       integer :: reason = no_reason
       logical, allocatable :: locks(:)      !! lock: the joints involved
@@ -32,7 +32,7 @@ module ek_break
 
 contains
 
-   !> Examines the last equilibrium of a path. Cost: a few dense decompositions.
+   !> Examines the last equilibrium of a path. The cost is a few dense decompositions.
    subroutine why_it_ends(suspension, state, inputs, kkt, found)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state            !! the last equilibrium

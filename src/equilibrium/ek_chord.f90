@@ -32,14 +32,14 @@ module ek_chord
 
    real(wp), parameter :: bent = 1.0e-2_wp      !! of the largest slope: a smaller change is no bend
 
-   !> Position of a law in the model.
+   !> Position of a law in the model: its element and component.
    type :: place_t
       integer :: element = 0, component = 0     !! component of a bushing, 1 to 6; 0: the law of the element
       type(measure_t) :: measure                !! on which it acts
       real(wp) :: offset = 0.0_wp               !! its argument is the measure minus this [m]
    end type place_t
 
-   !> The laws in a step; one column per law.
+   !> The laws in a step, one column per law.
    type :: chord_t
       type(place_t), allocatable :: place(:)
       real(wp), allocatable :: value(:, :), force(:, :)    !! (at_a or at_b, law): argument and force at a or b [m, N; rad, N m]
@@ -67,7 +67,7 @@ contains
       if (laws > 0) self%dyads = new_dyads(suspension%unknowns() + suspension%constraints(), laws)
    end function new_chord
 
-   !> Renews the chords in place, for other numbers of the model.
+   !> Renews the chords in place for other numbers of the model.
    subroutine renew_chord(suspension, self)
       type(suspension_t), intent(in) :: suspension
       type(chord_t), intent(inout) :: self        !! of new_chord, for the same model
@@ -80,7 +80,7 @@ contains
       self%bends = 0
    end subroutine renew_chord
 
-   !> The number of laws that bend.
+   !> The number of laws that can bend.
    pure integer function count_laws(suspension) result(laws)
       type(suspension_t), intent(in) :: suspension
       integer :: k, component
@@ -100,8 +100,8 @@ contains
       end do
    end function count_laws
 
-   !> Lists the laws of elements of one measure and of components of bushings; a component of a bushing acts along an axis of its
-   !> marker, or about it.
+   !> Lists the laws of elements with one measure and of components of bushings. A component of a bushing acts along or about an
+   !> axis of the bushing's marker.
    pure subroutine find_places(suspension, place)
       type(suspension_t), intent(in) :: suspension
       type(place_t), intent(out) :: place(:)     !! of each that count_laws counts

@@ -23,7 +23,7 @@ module ek_confirm
 
 contains
 
-   !> Checks the states from first to last, outward from design, and rejects those that are not on the path.
+   !> Checks the states from `first` to `last`, outward from design, and marks states that are not on the path as not reached.
    subroutine confirm(suspension, schedule, place, packed, first, last, least, kkt, is_reached, failure)
       type(suspension_t), intent(in) :: suspension
       type(schedule_t), intent(in) :: schedule

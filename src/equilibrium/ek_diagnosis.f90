@@ -58,7 +58,7 @@ module ek_diagnosis
 
 contains
 
-   !> No mechanism and no redundant constraint; false as well if the diagnosis failed.
+   !> Whether the diagnosis found no mechanism and no redundant constraint. It is also .false. if the diagnosis failed.
    pure logical function is_solvable(self)
       class(diagnosis_t), intent(in) :: self
       is_solvable = self%mechanisms%count() + self%redundancies%count() + self%failures%count() == 0
@@ -76,9 +76,9 @@ contains
       text = text//self%failures%text()
    end function words
 
-   !> Examines a model at a state (design, or where a solution failed).
+   !> Examines a model at a state: design, or the state at which a solution failed.
    !>
-   !> Driven rows count as constraints. Cost: a few dense decompositions; suitable for a check, not for an increment.
+   !> Driven rows count as constraints. The cost is a few dense decompositions: suitable for a check, but not for an increment.
    subroutine diagnose(suspension, state, kkt, diagnosis, wants_preload_held)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
@@ -112,7 +112,7 @@ contains
       call name_preload_held(suspension, state, tangent, material, parts%right(:, parts%rank + 1:), kkt, diagnosis)
    end subroutine diagnose
 
-   !> Finds the rigid rows (without compliance), their scaled Φq, and the full scaled stiffness, of the last assembled system.
+   !> Finds the rigid rows (without compliance) of the last assembled system, their scaled Φq, and the full scaled stiffness.
    subroutine scaled_parts(suspension, kkt, rows, jacobian, stiffness)
       type(suspension_t), intent(in) :: suspension
       type(kkt_t), intent(in) :: kkt
@@ -139,7 +139,7 @@ contains
       end do
    end subroutine scaled_parts
 
-   !> Names the joints of each left null vector of Φq.
+   !> Records the names of the joints in each left null vector of Φq.
    subroutine name_redundancies(suspension, basis, rows, diagnosis)
       type(suspension_t), intent(in) :: suspension
       real(wp), intent(in) :: basis(:, :)
@@ -208,7 +208,7 @@ contains
       end associate
    end function remedy
 
-   !> Lists the motions without stiffness, and warns of soft and unstable ones.
+   !> Lists the motions without stiffness, and warns of soft and unstable motions.
    subroutine name_mechanisms(suspension, state, tangent, basis, kkt, diagnosis)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
@@ -275,8 +275,8 @@ contains
       end do
    end subroutine name_preload_held
 
-   !> Finds eigenvectors of a stiffness within a space of motions, softest first, and for each the limit below which its stiffness
-   !> counts as zero.
+   !> Finds the eigenvectors of a stiffness within a space of motions, softest first. Also finds for each the limit below which its
+   !> stiffness counts as zero.
    subroutine modes(stiffness, basis, least, motions, eigenvalue, noise, is_found)
       real(wp), intent(in) :: stiffness(:, :), basis(:, :)
       real(wp), intent(in) :: least              !! rate of the softest element, scaled
@@ -330,7 +330,7 @@ contains
       least = least/kkt%stiffness
    end function softest_rate
 
-   !> The columns of a matrix where a mask is true.
+   !> The columns of a matrix for which a mask is true.
    pure function pick(matrix, mask) result(columns)
       real(wp), intent(in) :: matrix(:, :)
       logical, intent(in) :: mask(:)
@@ -339,7 +339,8 @@ contains
       columns = matrix(:, pack([(k, k=1, size(mask))], mask))
    end function pick
 
-   !> ", 3E+10 times softer than bushing 'x'"; empty if no bushing is much stiffer.
+   !> Phrase that compares a stiffness with the stiffest bushing: ", 3E+10 times softer than bushing 'x'"; '' if no bushing is much
+   !> stiffer.
    function softer_than(suspension, stiffness) result(text)
       type(suspension_t), intent(in) :: suspension
       real(wp), intent(in) :: stiffness           !! N/m
@@ -360,8 +361,8 @@ contains
       end associate
    end function softer_than
 
-   !> Eliminates by Gauss–Jordan with column pivoting: the same space, spanned by vectors with few nonzero parts, so
-   !> that two independent defects are reported separately.
+   !> Transforms vectors by Gauss–Jordan elimination with column pivoting. The new vectors span the same space and have few nonzero
+   !> entries, so that two independent defects are reported separately.
    pure subroutine make_sparse(vectors)
       real(wp), intent(inout) :: vectors(:, :)
       integer :: k, l, r

@@ -116,7 +116,7 @@ contains
       end do
    end subroutine correct
 
-   !> Subtracts the contribution of the dyads to N x: Σ s g gᵀ x.
+   !> Subtracts the contribution of the dyads to N' x from a right-hand side: Σ s g gᵀ x.
    pure subroutine resist(self, x, rhs)
       type(dyads_t), intent(in) :: self
       real(wp), intent(in) :: x(:)
@@ -128,7 +128,7 @@ contains
       end do
    end subroutine resist
 
-   !> The product gᵀ x of dyad `number`.
+   !> The product gᵀ x for the dyad with index `number`.
    pure real(wp) function along(self, number, x)
       type(dyads_t), intent(in) :: self
       integer, intent(in) :: number

@@ -41,7 +41,8 @@ module ek_elimination_order
 
 contains
 
-   !> Finds the order for a pattern of n unknowns, whose entries (row ≥ column or not, each once) have these values in the samples.
+   !> Finds the order for a pattern of n unknowns. Each entry of the pattern is given once, with its values in the samples; rows
+   !> need not be below columns.
    subroutine find_order(n, row, column, values, order)
       integer, intent(in) :: n
       integer, intent(in) :: row(:), column(:)   !! of each entry
@@ -89,7 +90,7 @@ contains
       order%first = order%first(:order%blocks + 1)
    end subroutine find_order
 
-   !> Lists the unknowns one by one from first to last, with the fill of that order: for a matrix that is positive definite.
+   !> Lists the unknowns one by one from first to last, with the fill of this order. The matrix must be positive definite.
    subroutine natural_order(n, row, column, order)
       integer, intent(in) :: n
       integer, intent(in) :: row(:), column(:)   !! of each entry, as in find_order
@@ -159,8 +160,8 @@ contains
 
    end subroutine natural_order
 
-   !> Whether pivot a is better than b: stable before unstable; of stable pivots the cheaper one, of unstable pivots the more
-   !> stable one.
+   !> Whether pivot a is better than pivot b. Stable pivots come before unstable pivots. Of two stable pivots the cheaper is better;
+   !> of two unstable pivots, the more stable.
    pure logical function is_better(a, b)
       type(candidate_t), intent(in) :: a, b
 
@@ -202,7 +203,7 @@ contains
       end do
    end subroutine new_graph
 
-   !> Adds a neighbour of an unknown.
+   !> Adds a neighbour to an unknown of the graph.
    pure subroutine append(graph, at, other, values)
       type(graph_t), intent(inout) :: graph
       integer, intent(in) :: at, other
@@ -224,7 +225,7 @@ contains
       graph%value(:, graph%degree(at), at) = values
    end subroutine append
 
-   !> Removes an unknown from the neighbours of another.
+   !> Removes an unknown from the neighbours of another unknown.
    pure subroutine remove(graph, at, other)
       type(graph_t), intent(inout) :: graph
       integer, intent(in) :: at, other
@@ -239,7 +240,7 @@ contains
       end associate
    end subroutine remove
 
-   !> Finds the cheapest stable pivot that contains an unknown; if none is stable, the most stable.
+   !> Finds the cheapest stable pivot that contains an unknown. If no pivot is stable, finds the most stable pivot.
    pure subroutine find_candidate(graph, at, best)
       type(graph_t), intent(inout) :: graph      !! its mark is used and cleared
       integer, intent(in) :: at
@@ -272,7 +273,8 @@ contains
       end associate
    end subroutine find_candidate
 
-   !> The largest |D⁻¹| × (largest entries of its columns) over the samples of a pivot: an unknown, with its neighbour k if k > 0.
+   !> The stability measure of a pivot: the largest |D⁻¹| × (largest entries of its columns) over the samples. The pivot is an
+   !> unknown, together with its neighbour k if k > 0.
    !> Equation (K.24) of docs/theory/kkt.md.
    pure real(wp) function factor_size(graph, at, k) result(largest)
       type(graph_t), intent(in) :: graph
@@ -311,7 +313,7 @@ contains
       end do
    end function factor_size
 
-   !> Eliminates a pivot: the unknowns that it couples become a clique, with the numbers of all samples.
+   !> Eliminates a pivot. The unknowns that it couples become a clique, with the numbers of all samples.
    subroutine eliminate(graph, first, second, coupled, many)
       type(graph_t), intent(inout) :: graph
       integer, intent(in) :: first, second       !! second = 0: a pivot of one
@@ -361,7 +363,7 @@ contains
 
    contains
 
-      !> Collects the neighbours of an unknown of the pivot, and its column.
+      !> Collects the neighbours of an unknown of the pivot, and the column of this unknown.
       subroutine collect(from, part)
          integer, intent(in) :: from, part
          integer :: i, next, place

@@ -27,7 +27,7 @@ contains
       self%serial = -1
    end function new_factors
 
-   !> Marks that the state has changed: its factors have this number, and are still in kkt_t.
+   !> Records that the state has changed. The factors of the new state have the serial number `serial` and are still in kkt_t.
    pure subroutine mark(self, serial)
       type(factors_t), intent(inout) :: self
       integer, intent(in) :: serial         !! kkt%factorisations after them; −1: they are not known
@@ -58,7 +58,7 @@ contains
       self%is_kept = .true.
    end subroutine keep
 
-   !> Exchanges the factors stored here and the factors in kkt_t.
+   !> Exchanges the stored factors and the factors in kkt_t.
    pure subroutine exchange(self, kkt)
       type(factors_t), intent(inout) :: self
       type(kkt_t), intent(inout) :: kkt

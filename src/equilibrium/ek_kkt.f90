@@ -25,7 +25,7 @@ module ek_kkt
 
 contains
 
-   !> Work space for a model, with its scales.
+   !> Creates the work space for a model, with its scales.
    function new_kkt(suspension, wants_plan) result(kkt)
       type(suspension_t), intent(in) :: suspension
       logical, intent(in), optional :: wants_plan    !! factorise by plan; otherwise by LAPACK
@@ -50,9 +50,8 @@ contains
       end if
    end function new_kkt
 
-   !> Renews the work space for the next design of a model: the parts that depend on the connections, including the plans, are
-   !> unchanged, and nothing is allocated.
-   !> A model with other connections, or an empty kkt, gets a new one.
+   !> Renews the work space for the next design of a model. The parts that depend on the connections, including the plans, are
+   !> unchanged, and nothing is allocated. For a model with other connections, or an empty kkt, the work space is created again.
    subroutine renew_kkt(suspension, wants_plan, kkt)
       type(suspension_t), intent(in) :: suspension
       logical, intent(in) :: wants_plan
@@ -79,7 +78,7 @@ contains
       kkt%is_at_design = .false.
    end subroutine renew_kkt
 
-   !> Sets length, stiffness and the scale of every entry.
+   !> Sets the characteristic length and stiffness, and the scale of every entry.
    subroutine set_scales(suspension, kkt)
       type(suspension_t), intent(in) :: suspension
       type(kkt_t), intent(inout) :: kkt
@@ -92,8 +91,8 @@ contains
       end do
    end subroutine set_scales
 
-   !> Finds the reciprocal condition number of the scaled matrix at a state (as LAPACK's dsycon). Factorises, by plan or by LAPACK:
-   !> by plan only if the factors are so small that they give the estimate of the original matrix.
+   !> Estimates the reciprocal condition number of the scaled matrix at a state (as LAPACK's dsycon). The matrix is factorised by
+   !> plan if the factors are small enough to give the estimate for the original matrix; otherwise by LAPACK.
    pure subroutine condition(suspension, state, inputs, kkt, rcond)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state

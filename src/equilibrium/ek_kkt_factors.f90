@@ -33,16 +33,16 @@ contains
       allocate (kkt%pivots(kkt%n), source=0)
    end subroutine allocate_dense
 
-   !> Scales the matrix and factorises it, by plan or by LAPACK; sets the inertia.
+   !> Scales the matrix, factorises it by plan or by LAPACK, and sets the inertia.
    !>
-   !> A zero pivot sets is_singular; the caller obtains its cause from the diagnosis.
+   !> A zero pivot sets is_singular; the caller obtains the cause from the diagnosis.
    !> Equations (K.5), (K.23) of docs/theory/kkt.md.
    pure subroutine factorise(kkt)
       type(kkt_t), intent(inout) :: kkt
       call factorise_within(max_growth, kkt)
    end subroutine factorise
 
-   !> Factorises by plan as long as the factors do not grow beyond a limit, else by LAPACK.
+   !> Factorises by plan if the factors do not grow beyond a limit; otherwise by LAPACK.
    pure subroutine factorise_within(limit, kkt)
       real(wp), intent(in) :: limit
       type(kkt_t), intent(inout) :: kkt
@@ -69,7 +69,7 @@ contains
       kkt%is_singular = .not. kkt%pivot_ratio > 0.0_wp
    end subroutine factorise_within
 
-   !> Scales the matrix and factorises it by LAPACK (Bunch–Kaufman, dsytrf); sets the inertia.
+   !> Scales the matrix, factorises it by LAPACK (Bunch–Kaufman, dsytrf), and sets the inertia.
    pure subroutine factorise_by_lapack(kkt)
       type(kkt_t), intent(inout) :: kkt
       integer :: info
@@ -151,7 +151,7 @@ contains
       if (most > 0.0_wp) ratio = least/most
    end subroutine count_inertia
 
-   !> Solves with the last factors; on return kkt%rhs is [Δq; Δλ].
+   !> Solves with the last factors. On return, kkt%rhs is [Δq; Δλ].
    !> Equation (K.5) of docs/theory/kkt.md.
    pure subroutine solve(kkt)
       type(kkt_t), intent(inout) :: kkt

@@ -12,8 +12,8 @@ module ek_kkt_plans
 
 contains
 
-   !> Finds the plans, from matrices of three states: design, and two in which every body is moved and every reaction acts, so that
-   !> no number is small by chance. The order depends on these numbers, never on a state that is solved.
+   !> Finds the plans from matrices at three states: design, and two states in which every body is moved and every reaction acts, so
+   !> that no entry is small by chance. The order depends on the entries of these matrices, never on a state that is solved.
    subroutine make_plans(suspension, kkt)
       type(suspension_t), intent(in) :: suspension
       type(kkt_t), intent(inout) :: kkt
@@ -40,7 +40,7 @@ contains
       kkt%stage = nothing
    end subroutine make_plans
 
-   !> Moves every body and sets every reaction by numbers between −1 and 1, which are the same in every run.
+   !> Moves every body and sets every reaction by numbers between −1 and 1 that are equal in every run.
    pure subroutine displace(state, number, distance, angle, force)
       type(state_t), intent(inout) :: state
       integer, intent(in) :: number              !! of the sequence

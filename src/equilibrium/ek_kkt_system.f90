@@ -63,9 +63,9 @@ module ek_kkt_system
 
 contains
 
-   !> Assembles matrix (by `mode`) and right-hand side at a state. λ enters T and the residual.
+   !> Assembles the matrix (by `mode`) and the right-hand side at a state. λ enters T and the residual.
    !>
-   !> The residual is complete for material_only too; the recursion replaces it.
+   !> With material_only, the residual is complete as well; the recursion replaces it.
    !> Equation (K.1) of docs/theory/kkt.md.
    pure subroutine assemble(suspension, state, inputs, mode, kkt)
       type(suspension_t), intent(in) :: suspension
@@ -104,7 +104,7 @@ contains
       if (inputs%homotopy > 0.0_wp) call add_multiple(kkt%nq, -inputs%homotopy, kkt%imbalance, kkt%rhs)
    end subroutine assemble
 
-   !> Assembles the rows of Φ alone at a state: their gradients and violations, as `assemble` finds them.
+   !> Assembles only the rows of Φ at a state: their gradients and violations, equal to those of `assemble`.
    pure subroutine assemble_rows(suspension, state, inputs, kkt)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
@@ -150,14 +150,14 @@ contains
       if (abs(rate%homotopy) > 0.0_wp) call add_multiple(kkt%nq, -rate%homotopy, kkt%imbalance, kkt%rhs)
    end subroutine assemble_rate
 
-   !> The scale factor of a case load: 0 if the inputs do not include it.
+   !> The scale factor of a load that a case scales; 0 if the inputs do not include the load.
    pure real(wp) function load_factor(inputs, load)
       type(inputs_t), intent(in) :: inputs
       integer, intent(in) :: load      !! number of the load
       load_factor = sum(inputs%factor(:inputs%loads), mask=inputs%load(:inputs%loads) == load)
    end function load_factor
 
-   !> Removes a row of Φ from an assembled matrix; its diagonal becomes −1 of the scaled matrix.
+   !> Removes a row of Φ from an assembled matrix. The diagonal of the row becomes −1 of the scaled matrix.
    !> Equation (C.5) of docs/theory/compliance.md.
    pure subroutine release(row, kkt)
       integer, intent(in) :: row
@@ -186,8 +186,9 @@ contains
       end associate
    end function whole_matrix
 
-   !> Whether the system is assembled and factorised at a state under these inputs, the state after the proof of soundness
-   !> (is_at_design): at design without inputs. After other numbers of the model are set, the system must be renewed (renew_kkt).
+   !> Whether the system was assembled and factorised at a state under these inputs. This is the condition after the proof of
+   !> soundness at design (is_at_design), without inputs. After other numbers of the model are set, the system must be renewed
+   !> (renew_kkt).
    pure logical function holds(kkt, suspension, state, inputs)
       type(kkt_t), intent(in) :: kkt
       type(suspension_t), intent(in) :: suspension

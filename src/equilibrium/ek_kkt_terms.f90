@@ -107,7 +107,7 @@ contains
       end if
    end subroutine assemble_terms
 
-   !> Sets zeros, at one go: of an array with more dimensions gfortran clears every column by itself.
+   !> Sets an array to zero in one operation. For an array with more dimensions, gfortran clears every column separately.
    pure subroutine clear(length, numbers)
       integer, intent(in) :: length
       real(num), intent(inout) :: numbers(length)

@@ -36,7 +36,7 @@ contains
    end subroutine find_motion
 
 
-   !> The largest |Δr|, or |Δπ| × characteristic length, of any body [m]; huge if one is not a number.
+   !> The largest |Δr|, or |Δπ| × characteristic length, of any body [m]; huge if one of them is NaN.
    !> Equation (K.11) of docs/theory/kkt.md.
    pure function largest_motion(motion, length) result(largest)
       real(num), contiguous, intent(in) :: motion(:)   !! [Δr Δπ] of each body [m, rad]
@@ -98,7 +98,7 @@ contains
       pose%a = rotation_matrix(pose%q)
    end subroutine move_body
 
-   !> Moves the bodies and changes the reactions of the designs for which is_taken is true.
+   !> Moves the bodies and changes the reactions of those designs for which is_taken is true.
    pure subroutine take_step(bodies, rows, step, is_taken, poses, reaction)
       integer, intent(in) :: bodies, rows
       real(num), intent(in) :: step(6*bodies + rows)    !! [Δr Δπ] of each body, then Δλ
@@ -153,8 +153,8 @@ contains
       packed(7*bodies + 1:) = reaction
    end subroutine pack_poses
 
-   !> The largest square of a distance of a body from its pose in a packed state: distance of its reference point, or its rotation ×
-   !> characteristic length [m²].
+   !> The largest squared distance of a body from its pose in a packed state [m²]. The distance is the distance of its reference
+   !> point, or its rotation × characteristic length.
    pure function squared_distance(bodies, poses, packed, length) result(largest)
       integer, intent(in) :: bodies
       type(pose_t), intent(in) :: poses(0:bodies)
@@ -180,7 +180,7 @@ contains
       size = sqrt(max(twist(1)**2 + twist(2)**2 + twist(3)**2, length**2*(twist(4)**2 + twist(5)**2 + twist(6)**2)))
    end function body_motion
 
-   !> The error of the trapezoidal rule as a share of the motion; huge if it is not a number.
+   !> The error of the trapezoidal rule as a share of the motion [-]; huge if the error is NaN.
    !> Equation (K.14) of docs/theory/kkt.md.
    pure function trapezoidal_rest(motion, tangent_a, tangent_b, width, length) result(rest)
       real(num), contiguous, intent(in) :: motion(:), tangent_a(:), tangent_b(:)

@@ -1,4 +1,4 @@
-!> Describes a motion of the bodies as text: the bodies, the line of the motion, and the hardpoints on it.
+!> Describes a motion of the bodies in a message: the bodies, the line of the motion, and the hardpoints on this line.
 module ek_motion_text
    use ek_kinds, only: wp, millimetre
    use ek_text, only: str, quoted, vector_text, plural
@@ -15,7 +15,7 @@ module ek_motion_text
 
 contains
 
-   !> The location ' (file:line)', or '' if it is not known.
+   !> The location as ' (file:line)'; '' if the location is not known.
    pure function place(where) result(text)
       character(*), intent(in) :: where
       character(:), allocatable :: text
@@ -23,14 +23,15 @@ contains
       if (len(where) > 0) text = ' ('//where//')'
    end function place
 
-   !> The share of each body in a motion.
+   !> The share of each body in a motion [-].
    pure function body_parts(motion) result(part)
       real(wp), intent(in) :: motion(:)            !! scaled unknowns
       real(wp) :: part(size(motion)/6)
       part = norm2(reshape(motion, [6, size(part)]), dim=1)
    end function body_parts
 
-   !> The body that moves most. Left and right of a symmetric axle are equal but for rounding: then the first of them.
+   !> Index of the body that moves most. Of bodies whose motions are equal within 1e-4 (left and right of a symmetric axle), the
+   !> first.
    pure integer function main_body(motion)
       real(wp), intent(in) :: motion(:)            !! scaled unknowns
       real(wp), parameter :: equal = 1.0e-4_wp
@@ -40,8 +41,8 @@ contains
       main_body = max(1, findloc(part >= (1.0_wp - equal)*maxval(part), .true., dim=1))      ! 1: not a number
    end function main_body
 
-   !> Text on the body that moves most, its motion, and the bodies that move with it. One or two such bodies are listed with their
-   !> motion, more bodies by name.
+   !> Description of the body that moves most, its motion, and the bodies that move with it. One or two such bodies are listed with
+   !> their motion, more bodies by name.
    function motion_text(suspension, state, kkt, motion) result(text)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
@@ -74,7 +75,7 @@ contains
       if (others > max_described) text = text//'; with it move '//names(3:)
    end function motion_text
 
-   !> 'turns freely about the axis …' or 'slides freely along …'.
+   !> Phrase about the motion of a body: 'turns freely about the axis …' or 'slides freely along …'.
    function one_body_text(suspension, r, kkt, motion, body) result(text)
       type(suspension_t), intent(in) :: suspension
       real(wp), intent(in) :: r(3), motion(6)
@@ -98,7 +99,7 @@ contains
       if (abs(lead) > takes_part*kkt%length) text = text//', sliding '//str(lead/millimetre, 3)//' mm/rad along it'
    end function one_body_text
 
-   !> The axis with rounding errors removed and its largest component positive.
+   !> The axis without rounding errors, and with its largest component positive.
    pure function tidy(axis) result(clean)
       real(wp), intent(in) :: axis(3)
       real(wp) :: clean(3)
@@ -106,7 +107,7 @@ contains
       if (clean(maxloc(abs(clean), dim=1)) < 0.0_wp) clean = -clean
    end function tidy
 
-   !> ' (points a, b)' for the hardpoints on an axis.
+   !> The hardpoints on an axis as ' (points a, b)'; '' if there are none.
    pure function points_on(suspension, axis, through) result(text)
       type(suspension_t), intent(in) :: suspension
       real(wp), intent(in) :: axis(3), through(3)

@@ -89,8 +89,8 @@ contains
       outcome%is_converged = outcome%last <= tolerance
    end subroutine find_equilibrium
 
-   !> Whether the state is found with a full step, as this is within the tolerance, or the error that it leaves is within the error
-   !> allowed to old factors.
+   !> Whether the iteration ends with this full step: the step is within the tolerance, or the remaining error is within the error
+   !> allowed with old factors.
    pure logical function ends_here(step, tolerance, length)
       real(wp), intent(in) :: step, tolerance   !! m
       real(wp), intent(in) :: length            !! characteristic length [m]

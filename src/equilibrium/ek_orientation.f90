@@ -62,7 +62,7 @@ contains
       if (size(self%held) <= usual) call allocate_dense(self)
    end function new_orientation
 
-   !> Renews the orientation for other numbers of the model, in place unless a row has become rigid or elastic.
+   !> Renews the orientation for other numbers of the model. This is done in place unless a row has become rigid or elastic.
    subroutine renew_orientation(suspension, self)
       type(suspension_t), intent(in) :: suspension
       type(orientation_t), intent(inout) :: self      !! of new_orientation, for the same model
@@ -88,7 +88,7 @@ contains
       self%min_b = 0.0_wp
    end subroutine renew_orientation
 
-   !> Finds the slots of the rigid rows: one per body that a row holds.
+   !> Finds the slots of the rigid rows: one slot per row and body of the row.
    subroutine find_slots(self, suspension)
       type(orientation_t), intent(inout) :: self
       type(suspension_t), intent(in) :: suspension
@@ -111,7 +111,7 @@ contains
 
    contains
 
-      !> Finds the slot of a body in row k; 0: the chassis, or a new slot if the row has none yet.
+      !> Finds the slot of a body in row k; 0 for the chassis. A body without a slot in this row gets a new slot.
       subroutine find_slot(this, slot)
          integer, intent(in) :: this             ! body
          integer, intent(out) :: slot
@@ -128,7 +128,7 @@ contains
 
    end subroutine find_slots
 
-   !> Finds the products of rows that share a body, column by column.
+   !> Finds the products of rows that share a body, column by column of the matrix.
    pure subroutine find_products(self, bodies)
       type(orientation_t), intent(inout) :: self
       integer, intent(in) :: bodies
@@ -264,7 +264,7 @@ contains
       end do
    end subroutine multiply_out
 
-   !> Eliminates a symmetric matrix of products, or the sum of two, by Gauss's method.
+   !> Eliminates a symmetric matrix of products, or the sum of two such matrices, by Gauss's method.
    pure subroutine eliminate(self, products, least, others)
       type(orientation_t), intent(inout) :: self
       real(wp), intent(in) :: products(:)
@@ -332,7 +332,7 @@ contains
       end do
    end subroutine find_sign
 
-   !> Gathers scaled Φq of the rigid rows.
+   !> Copies scaled Φq of the rigid rows.
    pure subroutine gather_rows(self, suspension, poses, scale, rows)
       type(orientation_t), intent(in) :: self
       type(suspension_t), intent(in) :: suspension

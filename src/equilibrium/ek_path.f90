@@ -35,8 +35,7 @@ module ek_path
       end subroutine progress_procedure
    end interface
 
-   !> The present state of a walk, and the data for the next increment. Reused from design to design of a model, it is work space
-   !> that need not be allocated again.
+   !> The present state of a walk, and the data for the next increment. The memory is used again from design to design of a model.
    type :: walk_t
       private
       type(state_t) :: state
@@ -83,8 +82,8 @@ contains
       end do
    end subroutine sweep
 
-   !> Follows the complete path of new_path, or a path of equilibria around design only as far as `reach`. Its states have the
-   !> same bits as those of the complete path.
+   !> Follows the complete path of new_path, or a path of equilibria around design only as far as `reach`. States have the same bits
+   !> in both cases.
    subroutine walk(suspension, case, path, kkt, progress, reach, space)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
@@ -138,7 +137,7 @@ contains
 
    contains
 
-      !> Walks from row to row of a table, and from design again after a row that did not converge.
+      !> Walks from row to row of a table. After a row that did not converge, continues from design.
       subroutine walk_rows()
          type(failure_t) :: failure
          integer :: k
@@ -158,8 +157,8 @@ contains
          end do
       end subroutine walk_rows
 
-      !> Walks from state `first` to state `last`, and to the first from design, in increments of the same size, unless `first` is
-      !> the design state.
+      !> Walks from state `first` to state `last` in increments of equal size. Unless `first` is the design state, also walks from
+      !> design to `first`.
       subroutine walk_way(first, last, least, failure)
          integer, intent(in) :: first, last
          integer, intent(in) :: least                 ! states that the way on the other side begins with (seed)
@@ -188,7 +187,7 @@ contains
 
    end subroutine go
 
-   !> Prepares the work space and finds the equilibrium under the constant loads; path%is_settled: the equilibrium was found.
+   !> Prepares the work space and finds the equilibrium under the constant loads. path%is_settled: the equilibrium was found.
    subroutine start(self, suspension, case, path, kkt)
       type(walk_t), intent(inout) :: self
       type(suspension_t), intent(in) :: suspension
@@ -253,7 +252,7 @@ contains
       end if
    end subroutine keep
 
-   !> States `first` to `last` at equal distances along the path; the last state is omitted if the path does not reach it.
+   !> Finds states `first` to `last` at equal distances along the path. The last state is omitted if the path does not reach it.
    subroutine walk_arc(self, suspension, case, first, last, path, kkt, failure, progress)
       type(walk_t), intent(inout) :: self
       type(suspension_t), intent(in) :: suspension
@@ -312,7 +311,7 @@ contains
       call leave(self%branch, self%here, path%settled, self%negative)
    end subroutine restart
 
-   !> Uses the states of the other direction to predict the first states of this direction.
+   !> Uses the states on the other side of design to predict the first states on this side.
    pure subroutine seed(predictor, path, first, direction)
       type(predictor_t), intent(inout) :: predictor
       type(path_t), intent(in) :: path

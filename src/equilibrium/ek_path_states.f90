@@ -34,9 +34,9 @@ module ek_path_states
 
 contains
 
-   !> Sets the swept values of all states and allocates storage for them.
+   !> Sets the swept values of all states and allocates storage for the states.
    !>
-   !> A range around design is swept outward in both directions, its increments divided in proportion.
+   !> A range on both sides of design is swept outward in both directions. Its increments are divided in proportion.
    subroutine new_path(suspension, case, path)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
@@ -73,7 +73,7 @@ contains
       if (path%start == 0) path%value(n + 1) = case%to      ! not just nearly, as from + (to − from) is
    end subroutine new_path
 
-   !> Allocates storage for the states of a path, and leaves the path without any.
+   !> Allocates storage for the states of a path, and marks all states as not reached.
    pure subroutine clear(numbers, path)
       integer, intent(in) :: numbers              !! of a state
       type(path_t), intent(inout) :: path         !! with the number of its states
@@ -106,27 +106,28 @@ contains
       end do
    end subroutine clear
 
-   !> The state nearest to a swept value, reached or not.
+   !> Index of the state whose swept value is nearest to a value, whether reached or not.
    pure integer function nearest_state(path, place) result(nearest)
       type(path_t), intent(in) :: path
       real(wp), intent(in) :: place                        !! SI
       nearest = minloc(abs(path%value - place), dim=1)
    end function nearest_state
 
-   !> The reached state nearest to a swept value; 0 if none is reached.
+   !> Index of the reached state whose swept value is nearest to a value; 0 if no state was reached.
    pure integer function nearest_reached(path, place) result(nearest)
       type(path_t), intent(in) :: path
       real(wp), intent(in) :: place                        !! SI
       nearest = minloc(abs(path%value - place), dim=1, mask=path%is_reached)
    end function nearest_reached
 
-   !> A sweep has two ways if its range contains design, otherwise one.
+   !> Number of directions of a sweep: two if its range contains design, otherwise one.
    pure integer function count_ways(path)
       type(path_t), intent(in) :: path
       count_ways = merge(2, 1, path%start > 0)
    end function count_ways
 
-   !> The ways of a sweep, outward from design: (first or last state, way); 0 where there is none.
+   !> The first and the last state of each direction of a sweep, outward from design: (first or last state, direction); 0 if the
+   !> direction does not exist.
    pure function ways(path) result(ends)
       type(path_t), intent(in) :: path
       integer :: ends(2, 2)
@@ -139,7 +140,7 @@ contains
       end if
    end function ways
 
-   !> The range of a path; for a table, 1 row [swept value].
+   !> The range of a path [swept value]; 1 row for a table.
    pure real(wp) function span(path)
       type(path_t), intent(in) :: path
       span = 1.0_wp

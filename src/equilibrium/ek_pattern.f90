@@ -95,7 +95,7 @@ contains
       call note_connections(suspension, self)
    end function new_pattern
 
-   !> The kind of measure that fills the same blocks of the matrix as an element.
+   !> The kind of measure that fills the blocks of the matrix in the same way as an element.
    pure integer function kind_of_use(element)
       type(element_t), intent(in) :: element
 
@@ -104,7 +104,7 @@ contains
       if (element%measure%kind == axis_axis .or. element%measure%kind == rotation) kind_of_use = rotation
    end function kind_of_use
 
-   !> Stores the input of the pattern for same_pattern.
+   !> Stores the connections of a model, with which same_pattern compares.
    pure subroutine note_connections(suspension, self)
       type(suspension_t), intent(in) :: suspension
       type(pattern_t), intent(inout) :: self
@@ -127,7 +127,7 @@ contains
       end do
    end subroutine note_connections
 
-   !> Finds the blocks of two bodies; a new pair gets the next number.
+   !> Finds the blocks of two bodies. A new pair of bodies gets the next index.
    pure subroutine find_blocks(i, j, bodies, blocks, pair, at)
       integer, intent(in) :: i, j                !! bodies, 0: chassis
       integer, intent(in) :: bodies
@@ -148,7 +148,8 @@ contains
       at(3) = merge(b, -b, j > i)
    end subroutine find_blocks
 
-   !> Marks the parts of blocks that the Hessian of a measure fills (of a spring: with the product of its gradients).
+   !> Marks the parts of blocks that the Hessian of a measure fills; for a spring, also the parts that the product of its gradients
+   !> fills.
    pure subroutine use_parts(kind, at, is_used)
       integer, intent(in) :: kind, at(3)
       logical, intent(inout) :: is_used(:, :, :)
@@ -173,7 +174,7 @@ contains
       end select
    end subroutine use_parts
 
-   !> Finds the number of the gradient of a row at a body; a new body gets the next number.
+   !> Finds the slot of the gradient of a row at a body. A new body gets the next slot.
    pure subroutine find_slot(body, first, slots, body_of_slot, slot)
       integer, intent(in) :: body, first         !! first: of the row
       integer, intent(inout) :: slots            !! so far
@@ -190,7 +191,7 @@ contains
       body_of_slot(slot) = body
    end subroutine find_slot
 
-   !> Lists all positions of the lower triangle, column by column of the blocks, and the whole diagonal.
+   !> Lists all positions of the lower triangle, column by column of the blocks, and all positions of the diagonal.
    subroutine list_entries(self, is_used, has_force)
       type(pattern_t), intent(inout) :: self
       logical, intent(in) :: is_used(:, :, :), has_force(:)
@@ -233,7 +234,7 @@ contains
 
    end subroutine list_entries
 
-   !> Whether a model has the connections from which this pattern was made. Nothing is allocated.
+   !> Whether a model has the connections from which this pattern was created. Nothing is allocated.
    pure logical function same_pattern(self, suspension) result(is_same)
       type(pattern_t), intent(in) :: self        !! of new_pattern
       type(suspension_t), intent(in) :: suspension

@@ -25,7 +25,7 @@ module ek_plan
 
 contains
 
-   !> Creates the plan of a pattern of n unknowns, entries as in find_order.
+   !> Creates the plan for a pattern of n unknowns. The entries are given as in find_order.
    subroutine new_plan(n, row, column, values, plan)
       integer, intent(in) :: n
       integer, intent(in) :: row(:), column(:)   !! of each entry
@@ -48,7 +48,7 @@ contains
       call lay_out(n, row, column, order, plan)
    end subroutine new_natural_plan
 
-   !> Lays out the positions of all numbers and updates for an order.
+   !> Finds the positions of all numbers and updates for an order of elimination.
    pure subroutine lay_out(n, row, column, order, plan)
       integer, intent(in) :: n
       integer, intent(in) :: row(:), column(:)   !! of each entry
@@ -116,7 +116,7 @@ contains
       end do
    end subroutine sort_rows
 
-   !> Finds the number of each unknown among the rows of a block.
+   !> Finds the position of each unknown among the rows of a block.
    pure subroutine find_places(plan, block, place_in)
       type(plan_t), intent(in) :: plan
       integer, intent(in) :: block
@@ -128,7 +128,7 @@ contains
       end do
    end subroutine find_places
 
-   !> The position in x of the entry of two unknowns, of which `earlier` is eliminated first, or with the other.
+   !> The position in x of the entry of two unknowns, of which `earlier` is eliminated before `later` or together with it.
    pure integer function place_of(plan, owner, place_in, earlier, later) result(place)
       type(plan_t), intent(in) :: plan
       integer, intent(in) :: owner(:), place_in(:)      !! place_in: of the block of `earlier`

@@ -22,12 +22,12 @@ module ek_plan_factors
       real(num) :: negative = zero            !! number of negative eigenvalues (Sylvester's law: of D)
       real(num) :: least = zero, most = zero    !! |eigenvalues| of D
       real(num) :: log_determinant = zero    !! ln |det|
-      real(num) :: growth = zero             !! largest |l|; not a number or huge if the matrix is singular or nearly so
+      real(num) :: growth = zero             !! largest |l|; NaN or huge if the matrix is singular or nearly so
    end type soundness_t
 
 contains
 
-   !> Gathers the scaled numbers at their positions, and factorises them; with explicit shapes.
+   !> Copies the scaled numbers to their positions, and factorises them. Explicit shapes let the compiler generate tight code.
    pure subroutine gather_and_factorise(entries, from, plan, store, scaling, x, soundness)
       integer, intent(in) :: entries, from(entries)
       type(plan_t), intent(in) :: plan
@@ -61,8 +61,9 @@ contains
       end do
    end subroutine solve_by
 
-   !> Factorises the matrix in x: D⁻¹ at the positions of D, and L. A pivot that is zero, or too small to divide by, is omitted,
-   !> and growth is huge. Equation (K.23) of docs/theory/kkt.md.
+   !> Factorises the matrix in x: D⁻¹ at the positions of D, and L. A pivot that is zero, or too small to divide by, is skipped, and
+   !> growth is huge.
+   !> Equation (K.23) of docs/theory/kkt.md.
    pure subroutine factorise_by(plan, x, soundness)
       type(plan_t), intent(in) :: plan
       real(num), intent(inout) :: x(plan%length)
@@ -150,7 +151,7 @@ contains
       soundness%growth = merge(growth, unlimited, is_sound)
    end subroutine factorise_by
 
-   !> Subtracts the updates of a column: x(places) ← x(places) − l a. No entry of `places` is one of a.
+   !> Subtracts the updates of a column: x(places) ← x(places) − l a. x(places) and a must not overlap.
    pure subroutine subtract_one(length, places, l, a, x)
       integer, intent(in) :: length, places(length)
       real(num), intent(in) :: l, a(length)
@@ -162,7 +163,7 @@ contains
       end do
    end subroutine subtract_one
 
-   !> Subtracts the updates of a pivot of two: x(places) ← x(places) − (l a + m b).
+   !> Subtracts the updates of a pivot with two columns: x(places) ← x(places) − (l a + m b). x(places) must not overlap a or b.
    pure subroutine subtract_two(length, places, l, m, a, b, x)
       integer, intent(in) :: length, places(length)
       real(num), intent(in) :: l, m, a(length), b(length)
@@ -232,7 +233,8 @@ contains
       end do
    end subroutine substitute_by
 
-   !> Solves for several right-hand sides at a time. Most are loads on one body: a block of zeros is skipped.
+   !> Solves for several right-hand sides at a time. Most right-hand sides are loads on one body, so that blocks of zeros are
+   !> skipped.
    pure subroutine substitute_several_by(plan, x, y)
       type(plan_t), intent(in) :: plan
       real(num), intent(in) :: x(plan%length)

@@ -53,8 +53,8 @@ contains
       self%packed(:, self%newest) = packed
    end subroutine remember
 
-   !> Predicts the state at a value of the path coordinate, in self%guess, from at most `most` earlier ones (with
-   !> one state: no change). At least one must be stored.
+   !> Predicts the state at a value of the path coordinate, in self%guess, from at most `most` earlier states. With one state, the
+   !> prediction is this state. At least one state must be stored.
    !> Equation (K.12) of docs/theory/kkt.md.
    pure subroutine predict(self, abscissa, most)
       type(predictor_t), intent(inout) :: self
@@ -71,8 +71,9 @@ contains
       end do
    end subroutine predict
 
-   !> Adapts to a state that was found, before it is stored: after a good prediction one more state is used, after a poor
-   !> one the best number of states. `used`: the number of packed values that are compared, the poses.
+   !> Adapts to a state that was found, before it is stored. After a good prediction, one more state is used from now on; after a
+   !> poor prediction, the number of states that would have predicted best. `used`: number of packed values that are compared (the
+   !> poses).
    pure subroutine judge(self, abscissa, packed, used, is_good)
       type(predictor_t), intent(inout) :: self
       real(wp), intent(in) :: abscissa
@@ -102,7 +103,7 @@ contains
       if (self%trusted == most) self%trusted = depth
    end subroutine judge
 
-   !> The number of the newest states that are fit for extrapolation: weights of states older than two nearly coincident ones
+   !> Number of the newest states that can be used for extrapolation. Weights of states older than two nearly coincident states
    !> amplify rounding. A range from 80 to -1e-18 has such states.
    pure integer function usable(self, abscissa)
       type(predictor_t), intent(in) :: self
@@ -122,7 +123,7 @@ contains
       end do
    end function usable
 
-   !> Finds the Lagrange weights of the newest n states at a value of the path coordinate, and their storage slots.
+   !> Finds the Lagrange weights of the newest n states at a value of the path coordinate, and the storage slots of these states.
    !> Equation (K.12) of docs/theory/kkt.md.
    pure subroutine find_weights(self, abscissa, n, slot, weight)
       type(predictor_t), intent(in) :: self

@@ -48,8 +48,8 @@ contains
       is_free = element_kinds(element%kind)%is_axial_spring .and. element%is_balanced
    end function is_free
 
-   !> Whether a row may carry a force at design: yes, except for drivers with a stiffness that act on the body of a wheel
-   !> (`balance` of their joint overrides this).
+   !> Whether a row may carry a force at design. Drivers with a stiffness that act on the body of a wheel may not, unless `balance`
+   !> of their joint overrides this.
    pure logical function takes_part(suspension, row)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: row
@@ -68,7 +68,7 @@ contains
       end do
    end function takes_part
 
-   !> Sets the preloads that balance may change to zero.
+   !> Sets all preloads that balance may change to zero.
    pure subroutine clear_preloads(suspension)
       type(suspension_t), intent(inout) :: suspension
       integer :: k
@@ -83,7 +83,7 @@ contains
       end do
    end subroutine clear_preloads
 
-   !> Sets the problem of a suspension at design; memory of the design before is used again.
+   !> Creates the problem of a suspension at design. The memory of the previous design is used again.
    !> Equation (K.21) of docs/theory/kkt.md.
    subroutine set_problem(suspension, problem)
       type(suspension_t), intent(in) :: suspension    !! with zero for the preloads that are sought: `clear_preloads`
@@ -136,7 +136,7 @@ contains
       end associate
    end subroutine set_problem
 
-   !> Allocates the lists of a problem, as long as the suspension requires.
+   !> Allocates the lists of a problem with the sizes that the suspension requires.
    pure subroutine allocate_problem(suspension, used, problem)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: used                     !! columns of F that may carry a force

@@ -66,7 +66,7 @@ contains
       is_sure = norm2(dy) <= last_correction*norm2(part) .and. norm2(c) <= closed*norm2(problem%load)
    end subroutine hold_by_elimination
 
-   !> Whether all numbers are finite, and so small that no product of them overflows.
+   !> Whether all numbers are finite, and so small that no product of two of them overflows.
    pure logical function is_moderate(problem)
       type(preload_problem_t), intent(in) :: problem
 
@@ -83,7 +83,7 @@ contains
       if (are_moderate) are_moderate = all(abs(numbers) < moderate)
    end function are_moderate
 
-   !> Adds W Wᵀ to the lower triangle; above the diagonal nothing is read.
+   !> Adds W Wᵀ to the lower triangle of a matrix. The upper triangle is not used.
    pure subroutine add_stiffness(problem, matrix)
       type(preload_problem_t), intent(in) :: problem
       real(wp), intent(inout) :: matrix(:, :)
@@ -150,7 +150,7 @@ contains
       end do
    end subroutine subtract_bushings
 
-   !> Computes c ← c − F y, y of the columns in `used`.
+   !> Computes c ← c − F y, with y of the columns in `used`.
    pure subroutine subtract_free(problem, y, c)
       type(preload_problem_t), intent(in) :: problem
       real(wp), intent(in) :: y(:)
@@ -162,7 +162,7 @@ contains
       end do
    end subroutine subtract_free
 
-   !> Solves by singular values: the smallest of all x with the least remainder, and the smallest y with this x.
+   !> Solves by singular values. Of all x with the smallest remainder, the smallest x is found, and then the smallest y for this x.
    pure subroutine hold_by_singular_values(problem, x, y, remainder, is_found)
       type(preload_problem_t), intent(in) :: problem
       real(wp), intent(out) :: x(:), y(:)             !! as in hold_by_elimination

@@ -220,8 +220,8 @@ contains
       end associate
    end subroutine judge_end
 
-   !> Steps over a goal that is a bifurcation, where N is singular. The path continues just after the goal, and the state at
-   !> the goal is interpolated; the step is so short that the path is straight.
+   !> Steps over a goal that is a bifurcation, where N is singular. The path continues just after the goal, and the state at the
+   !> goal is interpolated. The step is so short that the path is straight.
    subroutine step_over(suspension, schedule, goal, tolerance, branch, state, kkt, step, is_there)
       type(suspension_t), intent(in) :: suspension
       type(schedule_t), intent(in) :: schedule
@@ -255,7 +255,7 @@ contains
       is_there = .true.
    end subroutine step_over
 
-   !> Whether the prediction from earlier states was close and the inertia is unchanged: the path was smooth.
+   !> Whether the path was smooth: the prediction from earlier states was close, and the inertia is unchanged.
    logical function is_foreseen(predictor, state, negative, negative_before, tolerance, length, is_long)
       type(predictor_t), intent(in) :: predictor     !! with the guess
       type(state_t), intent(in) :: state             !! result of Newton's method from it
@@ -274,13 +274,13 @@ contains
       end if
    end function is_foreseen
 
-   !> The widest step across a bifurcation: where joints lose rank, states are less exact than where N does alone.
+   !> The largest width of a step across a bifurcation. Where joints lose rank, states are less exact than where only N is singular.
    pure real(wp) function across(branch)
       type(branch_t), intent(in) :: branch
       across = branch%width*merge(coarse, 1.0_wp, branch%is_over .or. branch%is_singular)
    end function across
 
-   !> Passes an equilibrium to the predictor, which also learns how good its prediction was.
+   !> Passes an equilibrium to the predictor, together with the quality of its prediction.
    pure subroutine store(predictor, place, state, is_good)
       type(predictor_t), intent(inout) :: predictor
       real(wp), intent(in) :: place
@@ -292,8 +292,8 @@ contains
       call remember(predictor, place, predictor%guess)
    end subroutine store
 
-   !> Determines which body moved most in a failed attempt and which constraint is violated most; `state` is reset
-   !> to the last equilibrium.
+   !> Finds the body that moved most in a failed attempt, and the constraint that is violated most. Resets `state` to the last
+   !> equilibrium.
    subroutine blame(suspension, predictor, lost, step, state, kkt, failure)
       type(suspension_t), intent(in) :: suspension
       type(predictor_t), intent(in) :: predictor

@@ -74,7 +74,7 @@ contains
       call move_as_screw(state, kkt%rhs(:kkt%nq))
    end subroutine corrected_increment
 
-   !> Solves the assembled system for the new λ, and forms Φqᵀλ; nothing changes if the matrix is singular.
+   !> Solves the assembled system for the new λ, and computes Φqᵀλ. Nothing changes if the matrix is singular.
    pure subroutine solve_and_hold(suspension, state, kkt, held)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(inout) :: state
@@ -96,7 +96,7 @@ contains
       end do
    end subroutine solve_and_hold
 
-   !> Checks an increment of the linear methods, which has failed if the matrix was singular or a body moved too far.
+   !> Checks an increment of the linear methods. The increment has failed if the matrix was singular or a body moved too far.
    subroutine check_increment(kkt, state_number, before, value, failure)
       type(kkt_t), intent(in) :: kkt
       integer, intent(in) :: state_number

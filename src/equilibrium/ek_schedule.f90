@@ -11,7 +11,7 @@ module ek_schedule
    private
    public :: schedule_t, new_schedule, make_schedule, inputs_at, same_schedule
 
-   !> An actuation with indices in place of names.
+   !> An actuation with indices instead of names.
    type :: actuator_t
       integer :: law = 0                      !! of ek_case
       real(wp) :: share = 1.0_wp
@@ -37,7 +37,7 @@ contains
       call make_schedule(suspension, case, schedule)
    end function new_schedule
 
-   !> Builds the schedule for one design after the other, in the same memory.
+   !> Creates the schedule of one design after the other in the same memory.
    subroutine make_schedule(suspension, case, schedule)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
@@ -66,7 +66,7 @@ contains
 
    contains
 
-      !> Adds an actuation of a load, a driver row, or both, as found by name.
+      !> Adds an actuation of the load, of the driver row, or of both, whichever have the given names.
       subroutine include(load, drive, law, share, values)
          character(*), intent(in) :: load, drive
          integer, intent(in) :: law
@@ -148,8 +148,8 @@ contains
       end do
    end subroutine inputs_at
 
-   !> share × swept value, share × tan(swept value), or the value of the table: linear between its rows, and from 0 at
-   !> swept value `rest` to the next row (initially from swept value 0 to row 1).
+   !> Value of an actuation: share × swept value, share × tan(swept value), or the value of the table. Table values are linear
+   !> between rows. Before the next row, they are linear from 0 at swept value `rest` (initially from swept value 0 to row 1).
    pure real(wp) function value_at(actuation, place, rest) result(value)
       type(actuator_t), intent(in) :: actuation
       real(wp), intent(in) :: place

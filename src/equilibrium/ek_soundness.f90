@@ -22,9 +22,9 @@ module ek_soundness
 
 contains
 
-   !> Whether a state certainly has neither mechanisms nor redundant constraints, and has the expected inertia.
+   !> Whether a state certainly has no mechanisms and no redundant constraints, and has the expected inertia.
    !>
-   !> Factorises the matrix of the state; kkt%negative and kkt%pivot_ratio are set. False if a number is not finite.
+   !> Factorises the matrix of the state; kkt%negative and kkt%pivot_ratio are set. The result is .false. if a number is not finite.
    logical function is_surely_sound(suspension, state, negative, kkt)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
@@ -39,7 +39,8 @@ contains
       is_surely_sound = rcond*kkt%norm > doubt*max(stiffness, rank_tolerance*kkt%norm)
    end function is_surely_sound
 
-   !> A bound of the 1-norm of the stiffness of drivers with a compliance C: g gᵀ/C of each, scaled. It is not in S, where C is.
+   !> An upper bound of the 1-norm of the stiffness of drivers with a compliance C: g gᵀ/C of each driver, scaled. S contains C
+   !> instead of this stiffness.
    pure real(wp) function driver_stiffness(suspension, kkt) result(total)
       type(suspension_t), intent(in) :: suspension
       type(kkt_t), intent(in) :: kkt             !! with the gradients of the last assembly

@@ -32,7 +32,7 @@ module ek_state
 
 contains
 
-   !> The difference of two sets of inputs of the same loads and rows, per unit of the path coordinate.
+   !> The difference of two sets of inputs per unit of the path coordinate. Both sets have the same loads and rows.
    pure function inputs_rate(a, b, width) result(rate)
       type(inputs_t), intent(in) :: a, b
       real(wp), intent(in) :: width      !! swept value of b minus swept value of a; not 0
@@ -55,7 +55,7 @@ contains
       end do
    end subroutine motion_between
 
-   !> The design position, without reactions.
+   !> The state at design, without reactions.
    function design_state(suspension) result(state)
       type(suspension_t), intent(in) :: suspension
       type(state_t) :: state
@@ -64,7 +64,7 @@ contains
       allocate (state%reaction(suspension%constraints()), source=0.0_wp)
    end function design_state
 
-   !> Resets a state of this model to design, in place.
+   !> Resets a state of this model to the design state, in place.
    pure subroutine return_to_design(suspension, state)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(inout) :: state
@@ -93,7 +93,7 @@ contains
       end do
    end function is_design
 
-   !> Length of a packed state: 7 numbers per body, and the reactions.
+   !> Length of a packed state: 7 numbers per body, and the number of reactions.
    pure integer function coordinates(suspension)
       type(suspension_t), intent(in) :: suspension
       coordinates = 7*size(suspension%bodies) + suspension%constraints()

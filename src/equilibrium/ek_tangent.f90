@@ -43,7 +43,7 @@ contains
       self%is_symmetric = has_symmetric_loads(suspension)
    end subroutine renew_tangent
 
-   !> Whether the motion lies between the tangents at both ends and no body changes direction.
+   !> Whether the motion lies between the tangents at both ends, and no body changes its direction of motion.
    pure logical function is_bend(motion, tangent_a, tangent_b, width, length)
       real(wp), contiguous, intent(in) :: motion(:), tangent_a(:), tangent_b(:)
       real(wp), intent(in) :: width, length
@@ -76,10 +76,10 @@ contains
       is_bend = rest <= bent*largest
    end function is_bend
 
-   !> Computes dz/ds = N⁻¹ dF/ds at a state, with the current factors; the part for the bodies.
+   !> Computes dz/ds = N⁻¹ dF/ds of the bodies at a state, with the current factors.
    !>
-   !> With a constant moment, a load that rotates with its body, or the imbalance at design, the true matrix is not
-   !> symmetric and N is its symmetric part. The derivative of the residual along the tangent then corrects it.
+   !> With a constant moment, a load that rotates with its body, or the imbalance at design, the true matrix is not symmetric and N
+   !> is its symmetric part. The derivative of the residual along the tangent then corrects the tangent.
    !> Equation (K.13) of docs/theory/kkt.md.
    subroutine find_tangent(self, suspension, state, inputs, rate, kkt, tangent, dyads)
       type(tangent_t), intent(inout) :: self

@@ -26,7 +26,7 @@ module ek_carmaker
 
 contains
 
-   !> Writes the file as text.
+   !> Writes the file as a string.
    subroutine carmaker_text(map, is_front, checksum, text, error)
       type(kandc_map_t), intent(in) :: map
       logical, intent(in) :: is_front
@@ -80,8 +80,8 @@ contains
       text = file%text()
    end subroutine carmaker_text
 
-   !> The lines of the file before the first row of the table of a side, for plots. The rows of a side follow each other, with one
-   !> line between blocks.
+   !> Number of lines of the file before the first row of the table of a side, for plots. The rows of a side are consecutive, with
+   !> one line between blocks.
    pure integer function skc_table_lines(text, side) result(lines)
       character(*), intent(in) :: text
       integer, intent(in) :: side
@@ -91,7 +91,7 @@ contains
       lines = line_count(text(:last))
    end function skc_table_lines
 
-   !> Finds the values of the second argument: at least two, also if nothing depends on it.
+   !> Finds the values of the second argument. At least two values are returned, even if no column depends on this argument.
    pure subroutine second_argument(map, second)
       type(kandc_map_t), intent(in) :: map
       real(wp), allocatable, intent(out) :: second(:)
@@ -177,7 +177,7 @@ contains
       end do
    end subroutine add_compliance
 
-   !> Adds a line of numbers, nine digits each.
+   !> Adds a line of numbers with nine digits each.
    subroutine add_numbers(file, key, values)
       type(buffer_t), intent(inout) :: file
       character(*), intent(in) :: key

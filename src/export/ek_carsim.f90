@@ -1,7 +1,7 @@
 !> A map as a parsfile for CarSim (.par): tables of kinematics over jounce, and coefficients of compliance, for both sides.
 !>
-!> Units and signs of jounce, toe, camber, dive, x and y are written above each table. Facts that are not documented in public,
-!> above all the units of the compliance, has the remark "to be confirmed on a screen" in the file.
+!> Units and signs of jounce, toe, camber, dive, x and y are written above each table. Facts that are not publicly documented, above
+!> all the units of the compliance, have the remark "to be confirmed on a screen" in the file.
 module ek_carsim
    use ek_kinds, only: wp, degree, millimetre
    use ek_error, only: error_t
@@ -40,7 +40,7 @@ module ek_carsim
 
 contains
 
-   !> Writes the file as text.
+   !> Writes the file as a string.
    subroutine carsim_text(map, checksum, text, error)
       type(kandc_map_t), intent(in) :: map
       character(*), intent(in) :: checksum                  !! of the deck
@@ -106,7 +106,7 @@ contains
       call file%line('ENDTABLE')
    end subroutine add_table
 
-   !> Adds ratios of the lengths to jounce at design, positive: shortens in bump.
+   !> Adds the ratios of the lengths to jounce at design. A ratio is positive if the element shortens in bump.
    subroutine add_ratios(map, side, file)
       type(kandc_map_t), intent(in) :: map
       integer, intent(in) :: side
@@ -125,7 +125,7 @@ contains
       end do
    end subroutine add_ratios
 
-   !> Adds coefficients of compliance under loads on the wheel itself, ISO directions.
+   !> Adds the coefficients of compliance under loads on the wheel itself, in ISO directions.
    subroutine add_compliance(map, side, file)
       type(kandc_map_t), intent(in) :: map
       integer, intent(in) :: side
@@ -162,7 +162,7 @@ contains
 
    end subroutine add_compliance
 
-   !> The lines of the file before the first row of a table of a side, for plots.
+   !> Number of lines of the file before the first row of a table of a side, for plots.
    pure integer function par_table_lines(text, keyword, side) result(lines)
       character(*), intent(in) :: text, keyword
       integer, intent(in) :: side

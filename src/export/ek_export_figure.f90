@@ -1,4 +1,5 @@
-!> Figures of exported files: gnuplot reads the points from the file itself; the lines are curves that were solved separately.
+!> Figures of exported files. gnuplot reads the points from the exported file itself; the lines are curves that were solved
+!> separately.
 module ek_export_figure
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t
@@ -12,7 +13,7 @@ module ek_export_figure
    private
    public :: panel_t, panel_list_t, add_panel, draw_export
 
-   !> Points of a file over a curve.
+   !> A panel: points of a file over a curve.
    type :: panel_t
       character(:), allocatable :: title, x_label, y_label
       character(:), allocatable :: points        !! plot element of the points: file, lines, columns
@@ -28,7 +29,7 @@ module ek_export_figure
 
 contains
 
-   !> Adds a panel, if there is a curve for it.
+   !> Adds a panel if the curve has values.
    subroutine add_panel(list, title, x_label, y_label, points, x, y)
       type(panel_list_t), intent(inout) :: list
       character(*), intent(in) :: title, x_label, y_label, points
@@ -47,7 +48,7 @@ contains
       end associate
    end subroutine add_panel
 
-   !> Writes the script folder/name.gp and draws name.png and name.svg. Without gnuplot a message reports this.
+   !> Writes the script folder/name.gp and draws name.png and name.svg. Without gnuplot, `message` reports this.
    subroutine draw_export(list, folder, name, title, separator, message, error)
       type(panel_list_t), intent(in) :: list
       character(*), intent(in) :: folder, name, title

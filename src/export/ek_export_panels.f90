@@ -1,4 +1,5 @@
-!> The panels of the figure of each kind of exported file. The numbers of a line or a slope are read from the text that was written.
+!> The panels of the figure of each kind of exported file. The lines and slopes of a panel are positioned by the content of the file
+!> that was written.
 module ek_export_panels
    use ek_kinds, only: wp, degree, millimetre
    use ek_text, only: str
@@ -90,7 +91,7 @@ contains
             sign*source_values(sources, sources%steer, source))
       end subroutine over_steering
 
-      !> The rows of the table of the side.
+      !> The gnuplot expression for the rows of the table of the side.
       function rows_of_table() result(words)
          character(:), allocatable :: words
          integer :: n
@@ -112,14 +113,14 @@ contains
       end do
    end function list_of
 
-   !> The swept values of the solved steering test.
+   !> The swept values of the steering test that was solved separately.
    function source_factor(sources) result(values)
       type(sources_t), intent(in) :: sources
       real(wp), allocatable :: values(:)
       values = sources%steer%values(2, :)       ! state, factor, …
    end function source_factor
 
-   !> The length of an element by its full name.
+   !> The length of an element given by its full name.
    function length_values(sources, name) result(values)
       type(sources_t), intent(in) :: sources
       character(*), intent(in) :: name
@@ -132,7 +133,7 @@ contains
       end do
    end function length_values
 
-   !> The values of one load on the drawn wheel, at the points where the other loads are 0 [N, N m].
+   !> The values of one load on the drawn wheel, at the points where all other loads are 0 [N, N m].
    function load_values(sources, part) result(values)
       type(sources_t), intent(in) :: sources
       integer, intent(in) :: part               !! Fx, Fy, Mx, My, Mz
@@ -143,7 +144,7 @@ contains
       values = sources%loads%load(5*(sources%side - 1) + part, first:first + count - 1)
    end function load_values
 
-   !> The change of a quantity under it, from no load [mm, deg].
+   !> The change of a quantity under this load, relative to no load [mm, deg].
    function load_changes(sources, part, quantity) result(values)
       type(sources_t), intent(in) :: sources
       integer, intent(in) :: part, quantity
@@ -160,7 +161,7 @@ contains
       end if
    end function load_changes
 
-   !> Finds the rows of a load. The loads are stored one after the other, the left wheel first.
+   !> Finds the rows of a load. The loads are stored one after the other, with the left wheel first.
    pure subroutine rows_of_load(sources, part, first, count)
       type(sources_t), intent(in) :: sources
       integer, intent(in) :: part
@@ -173,7 +174,7 @@ contains
       first = (block - 1)*count + 1
    end subroutine rows_of_load
 
-   !> The numbers after a key in a text.
+   !> The numbers that follow a key in a string.
    function numbers_behind(text, key, count) result(values)
       character(*), intent(in) :: text, key
       integer, intent(in) :: count
@@ -185,7 +186,7 @@ contains
       if (at > 0) read (text(at + len(key):), *, iostat=status) values
    end function numbers_behind
 
-   !> Adds panels of the tables over jounce, and of two of the coefficients.
+   !> Adds panels of the tables over jounce, and panels of two of the coefficients.
    subroutine carsim_panels(map, sources, file, text, list)
       type(kandc_map_t), intent(in) :: map
       type(sources_t), intent(in) :: sources

@@ -1,4 +1,4 @@
-!> The curves from which an exported table should not differ: the ordinary tests of the rig, solved again on their own path.
+!> The curves with which an exported table should agree: the ordinary tests of the rig, solved separately on their own paths.
 module ek_export_sources
    use ek_kinds, only: wp
    use ek_error, only: error_t
@@ -27,7 +27,7 @@ module ek_export_sources
 
 contains
 
-   !> Solves travel, steering and loads once more, with other increments than the map.
+   !> Solves travel, steering and loads again, with other increments than the map.
    subroutine solve_sources(suspension, request, map, is_at_patch, sources, error)
       type(suspension_t), intent(in) :: suspension
       type(map_request_t), intent(in) :: request
@@ -83,7 +83,7 @@ contains
 
    end subroutine solve_sources
 
-   !> The values of a column of the drawn wheel, in ISO.
+   !> The values of a column of the drawn wheel, in ISO directions.
    function source_values(sources, table, name) result(values)
       type(sources_t), intent(in) :: sources
       type(table_t), intent(in) :: table            !! of the sources

@@ -29,7 +29,7 @@ module ek_kandc_map
       real(wp) :: driver_sign = 1.0_wp        !! the driver's value is this times steer
       character(:), allocatable :: driver, vertical, held
       real(wp), allocatable :: value(:, :, :, :)   !! (quantity, second, travel, side)
-      !> of each side at design, at the wheel centre, wheels held: own loads, opposite loads
+      !> Compliance of each side at design, at the wheel centre, with wheels held: own loads, then loads on the other wheel
       real(wp) :: compliance(6, 12, 2) = 0.0_wp
       real(wp) :: free(12, 12) = 0.0_wp            !! of both wheels, vertical loads held; ISO; left before right
       real(wp) :: arm(3, 2) = 0.0_wp               !! contact point less wheel centre at design, ISO [m]
@@ -41,7 +41,7 @@ module ek_kandc_map
 
 contains
 
-   !> Solves a map. `suspension` is balanced and on no rig.
+   !> Solves a map. `suspension` must be balanced and not on a rig.
    subroutine solve_map(suspension, request, map, error)
       type(suspension_t), intent(in) :: suspension
       type(map_request_t), intent(in) :: request
@@ -104,7 +104,7 @@ contains
       allocate (map%value(quantities, size(map%second), size(map%travel), 2), source=0.0_wp)
    end subroutine describe
 
-   !> Finds the sign of the driver that turns the wheels to the left.
+   !> Finds the sign of the driver displacement that turns the wheels to the left.
    subroutine find_sign(suspension, request, map, error)
       type(suspension_t), intent(in) :: suspension
       type(map_request_t), intent(in) :: request
@@ -129,8 +129,8 @@ contains
       map%driver_sign = sign(1.0_wp, motion(at_rz, 2) - motion(at_rz, 1))
    end subroutine find_sign
 
-   !> Lists the states to solve, the design state first, then the grid in alternating direction, so that neighbouring rows are
-   !> neighbours of the grid.
+   !> Lists the states to be solved: first the design state, then the grid in alternating direction, so that consecutive rows are
+   !> neighbours in the grid.
    pure subroutine order_rows(map, wheels, heights, steer, at)
       type(kandc_map_t), intent(in) :: map
       integer, intent(in) :: wheels(2)
@@ -158,7 +158,7 @@ contains
       if (wheels(1) == 0) heights(1, :) = 0.0_wp
    end subroutine order_rows
 
-   !> Solves states of given heights of the wheel centres and of the steering driver; all must converge.
+   !> Solves states with given heights of the wheel centres and positions of the steering driver. All states must converge.
    subroutine solve_rows(suspension, request, heights, steer, result, error)
       type(suspension_t), intent(in) :: suspension
       type(map_request_t), intent(in) :: request
@@ -207,7 +207,7 @@ contains
       if (size(suspension%wheels) == 0) map%value = 0.0_wp
    end subroutine take_values
 
-   !> Copies the compliance at design, the first row.
+   !> Copies the compliance at design, which is the first row.
    subroutine take_compliance(result, wheels, map, error)
       type(case_result_t), intent(inout) :: result
       integer, intent(in) :: wheels(2)

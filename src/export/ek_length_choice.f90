@@ -19,7 +19,7 @@ module ek_length_choice
 
 contains
 
-   !> Chooses the four lengths of both sides. Wishes: texts 'spring=NAME', 'damper=LEFT,RIGHT'.
+   !> Chooses the four lengths of both sides. `wishes` are strings such as 'spring=NAME' or 'damper=LEFT,RIGHT'.
    subroutine choose_lengths(suspension, wishes, choices, error)
       type(suspension_t), intent(in) :: suspension
       type(message_list_t), intent(in) :: wishes
@@ -55,7 +55,7 @@ contains
       if (mistakes%count() > 0) call fail(error, exit_usage, mistakes%text())
    end subroutine choose_lengths
 
-   !> Chooses the only element of the kind, or its replacement.
+   !> Chooses the only element of a kind, or its replacement.
    subroutine choose_itself(suspension, wheel, side, j, choice, mistakes)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: wheel, side, j
@@ -98,7 +98,8 @@ contains
       end select
    end subroutine choose_itself
 
-   !> Chooses an element or a measure of this name: left_NAME or right_NAME on an axle; for LEFT,RIGHT the name for this side.
+   !> Chooses an element or a measure by name: NAME stands for left_NAME or right_NAME on an axle; LEFT,RIGHT gives one name per
+   !> side.
    subroutine take_named(suspension, wheel, side, j, name, choice, mistakes)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: wheel, side, j
@@ -141,7 +142,7 @@ contains
       choice%label = label
    end subroutine take
 
-   !> Whether an element on two points may be this length. Of stops only bump stops: a rebound stop pulls.
+   !> Whether an element on two points can be this length. Of the stops, only bump stops can: a rebound stop acts in tension.
    pure logical function is_kind(element, j)
       type(element_t), intent(in) :: element
       integer, intent(in) :: j

@@ -13,8 +13,8 @@ module ek_load_response
    private
    public :: load_table_result_t, solve_loads, load_parts, load_heads
 
-   !> The loads on a wheel that springs do not carry: Fx, Fy, Mx, My, Mz among the six components, and the headings of their
-   !> columns.
+   !> The loads on a wheel that springs do not support: Fx, Fy, Mx, My, Mz as indices among the six components, and the headings of
+   !> their columns.
    integer, parameter :: load_parts(5) = [1, 2, 4, 5, 6]
    character(*), parameter :: load_heads(5) = [character(5) :: 'fx_n', 'fy_n', 'mx_nm', 'my_nm', 'mz_nm']
 

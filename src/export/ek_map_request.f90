@@ -22,7 +22,7 @@ module ek_map_request
 
 contains
 
-   !> Numbers from `from` to `to` with 0 among them, as equally spaced as this allows.
+   !> A list of values from `from` to `to` that contains 0, as equally spaced as this allows.
    pure function grid_values(from, to, count) result(values)
       real(wp), intent(in) :: from, to        !! from ≤ 0 ≤ to
       integer, intent(in) :: count            !! at least 2

@@ -63,7 +63,7 @@ module ek_mathworks
 
 contains
 
-   !> Fills the arrays from the maps of the axles that there are.
+   !> Fills the arrays from the maps of the axles that are given.
    subroutine find_parameters(p)
       type(kandc_parameters_t), intent(inout) :: p      !! with maps, has and checksums
       character(*), parameter :: brake = 'first row braking (Fx < 0 at the patch), second driving (Fx > 0 at the wheel centre)'
@@ -128,7 +128,7 @@ contains
 
    end subroutine find_parameters
 
-   !> The value of a wheel in the unit of its array.
+   !> The value of a wheel in an array, in the unit of the array.
    function of_wheel(map, side, name, is_braking) result(value)
       type(kandc_map_t), intent(in) :: map
       integer, intent(in) :: side
@@ -196,7 +196,7 @@ contains
       end select
    end function of_axle
 
-   !> A quantity of one side at design.
+   !> The value of a quantity of one side at design.
    pure real(wp) function at_design(map, side, quantity)
       type(kandc_map_t), intent(in) :: map
       integer, intent(in) :: side, quantity
@@ -206,7 +206,7 @@ contains
       at_design = curve(zero_of(map%travel))
    end function at_design
 
-   !> The slope of a table at design.
+   !> The slope of a table of one side at design.
    function slope(map, side, table) result(value)
       type(kandc_map_t), intent(in) :: map
       integer, intent(in) :: side
@@ -218,7 +218,7 @@ contains
       value = slope_at_zero(x, y)
    end function slope
 
-   !> Extracts the two columns of a table, in its units; change from design where the block adds the static value.
+   !> Extracts the two columns of a table in its units. A column is a change from design if the block adds the static value.
    subroutine curve_of(map, side, table, x, y)
       type(kandc_map_t), intent(in) :: map
       integer, intent(in) :: side
@@ -307,7 +307,7 @@ contains
       if (ieee_is_finite(value)) text = decimal(value)
    end function matlab_number
 
-   !> The parameters as JSON, unlike the script: schema/export-matlab-kc.schema.json.
+   !> The parameters as JSON (schema/export-matlab-kc.schema.json). The layout differs from the script.
    function mathworks_json(p) result(text)
       type(kandc_parameters_t), intent(in) :: p
       character(:), allocatable :: text

@@ -1,4 +1,5 @@
-!> Whether the columns of a map rise or fall everywhere, as a simulator requires that inverts them or looks up in them.
+!> Checks that the columns of a map rise or fall everywhere. A simulator that inverts columns or uses them as an abscissa requires
+!> this.
 module ek_monotonic
    use ek_kinds, only: wp, millimetre
    use ek_error, only: error_t, message_list_t, fail, exit_model
@@ -13,7 +14,7 @@ module ek_monotonic
 
 contains
 
-   !> Checks tz, and on request the four lengths, of both sides over travel; a column that is not monotonic is reported with the
+   !> Checks tz and, on request, the four lengths of both sides over travel. A column that is not monotonic is reported with the
    !> first position at which it reverses.
    subroutine check_monotonic(map, target, has_lengths, error)
       type(kandc_map_t), intent(in) :: map
@@ -60,7 +61,8 @@ contains
 
    end subroutine check_monotonic
 
-   !> Checks that the steer angle of both wheels rises with the travel of the rack at design height: it is the abscissa of tables.
+   !> Checks that the steer angle of both wheels rises with the travel of the rack at design height, because it is the abscissa of
+   !> tables.
    subroutine check_steer(map, target, error)
       type(kandc_map_t), intent(in) :: map
       character(*), intent(in) :: target                    !! of the export, for the message

@@ -24,7 +24,7 @@ module ek_plain_tables
 
 contains
 
-   !> Sizes of the units of the quantities, with the signs of the frame.
+   !> SI values of the units of the quantities, with the signs of the frame.
    pure function unit_sizes(is_sae) result(sizes)
       logical, intent(in) :: is_sae
       real(wp) :: sizes(quantities)
@@ -39,7 +39,7 @@ contains
       sizes(at_load) = 1.0_wp
    end function unit_sizes
 
-   !> Factors of x, y, z from ISO to the frame of the tables.
+   !> Signs of x, y, z for the conversion from ISO to the frame of the tables.
    pure function signs(is_sae) result(frame)
       logical, intent(in) :: is_sae
       real(wp) :: frame(3)
@@ -47,7 +47,8 @@ contains
       if (is_sae) frame(2:) = -1.0_wp
    end function signs
 
-   !> One row per point of the map: travel, steer or opposite travel, then the quantities of the left and of the right wheel.
+   !> The table of kinematics, one row per point of the map: travel, steer or opposite travel, then the quantities of the left and
+   !> of the right wheel.
    function kinematics_table(map, is_sae, checksum) result(table)
       type(kandc_map_t), intent(in) :: map
       logical, intent(in) :: is_sae
@@ -80,7 +81,7 @@ contains
       end do
    end function kinematics_table
 
-   !> Allocates `before` columns and the columns of both wheels.
+   !> Allocates `before` columns, and the columns of both wheels.
    subroutine wheel_columns(columns, before)
       character(name_length), allocatable, intent(out) :: columns(:)
       integer, intent(in) :: before
@@ -94,8 +95,8 @@ contains
       end do
    end subroutine wheel_columns
 
-   !> One row per state: the loads on the left and on the right wheel, then the quantities of both; for a deck with one wheel,
-   !> only the quantities of this wheel.
+   !> The table of loads, one row per state: the loads on the left and on the right wheel, then the quantities of both wheels. For a
+   !> deck with one wheel, only this wheel has columns.
    function loads_table(map, loads, is_sae, checksum) result(table)
       type(kandc_map_t), intent(in) :: map
       type(load_table_result_t), intent(in) :: loads
@@ -198,7 +199,7 @@ contains
       end do
    end subroutine add_head
 
-   !> The point whose height defines the wheel travel.
+   !> Phrase for the point whose height defines the wheel travel.
    pure function place(map) result(text)
       type(kandc_map_t), intent(in) :: map
       character(13) :: text
@@ -217,7 +218,7 @@ contains
          'caster + top rearward'
    end function frame_text
 
-   !> All tables as one JSON: schema/export-tables.schema.json.
+   !> All tables as one JSON object (schema/export-tables.schema.json).
    function tables_json(names, tables, map, is_sae, checksum) result(text)
       character(*), intent(in) :: names(:)
       type(table_t), intent(in) :: tables(:)

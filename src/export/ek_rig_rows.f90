@@ -35,7 +35,7 @@ contains
       case%method = 'equilibrium'
    end function rig_case
 
-   !> Adds a column to a table: see table_column_t.
+   !> Adds a column to a load table (see table_column_t).
    pure subroutine add_column(table, name, wheel, component, values)
       type(load_table_t), intent(inout) :: table
       character(*), intent(in) :: name
@@ -50,7 +50,7 @@ contains
       table%columns = [table%columns, column]
    end subroutine add_column
 
-   !> Solves the rows of a table; the first that does not converge is the error.
+   !> Solves the rows of a table. The first row that does not converge is returned as the error.
    subroutine solve_table(suspension, table, vertical, result, error)
       type(suspension_t), intent(in) :: suspension
       type(load_table_t), intent(in) :: table

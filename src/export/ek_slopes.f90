@@ -22,13 +22,13 @@ module ek_slopes
 
 contains
 
-   !> Index of 0 in a list that contains 0.
+   !> Index of the value 0 in a list that contains 0.
    pure integer function zero_of(values) result(place)
       real(wp), intent(in) :: values(:)
       place = minloc(abs(values), dim=1)
    end function zero_of
 
-   !> A quantity over the travel, without steer. In a map over the travel of the other wheel, both wheels have the same travel.
+   !> A quantity over wheel travel, without steer. In a map over the travel of the other wheel, both wheels have equal travel.
    pure function travel_curve(map, quantity, side) result(curve)
       type(kandc_map_t), intent(in) :: map
       integer, intent(in) :: quantity, side
@@ -50,7 +50,7 @@ contains
       curve = map%value(quantity, :, zero_of(map%travel), side)
    end function steer_curve
 
-   !> Slope dy/dx where x is nearest 0: of the parabola through that point and its neighbours.
+   !> Slope dy/dx at the point where x is nearest to 0, from the parabola through this point and its neighbours.
    pure real(wp) function slope_at_zero(x, y) result(slope)
       real(wp), intent(in) :: x(:), y(:)        !! at least 2 points
       integer :: k
@@ -97,7 +97,7 @@ contains
    end function wheel_rate
 
    !> Roll stiffness of the axle at design [N m/rad]: with the bar, from equal and opposite vertical forces on the contact points;
-   !> without, from the rates of the wheels in parallel travel, in which a bar carries nothing.
+   !> without the bar, from the wheel rates in parallel travel, in which a bar is not loaded.
    pure function roll_rates(map) result(rates)
       type(kandc_map_t), intent(in) :: map
       real(wp) :: rates(2)

@@ -31,8 +31,8 @@ module ek_wheel_motion
    character(8), parameter :: quantity_names(quantities) = [character(8) :: 'tx', 'ty', 'tz', 'rx', 'ry', 'rz', &
       'lSpring', 'lDamp', 'lBuf', 'lStabi', 'toe', 'camber', 'caster', 'px', 'py', 'pz', 'load']
 
-   !> Factors of x, y, z from the frame of the program to ISO, of the six components of a load or a displacement likewise, and of
-   !> the latter from a wheel to its mirror image.
+   !> Signs of x, y, z from the frame of the program to ISO; signs of the six components of a load or displacement; signs of these
+   !> components from a wheel to its mirror image.
    real(wp), parameter :: iso_frame(3) = [-1.0_wp, -1.0_wp, 1.0_wp]
    real(wp), parameter :: iso_loads(6) = [iso_frame, iso_frame]
    real(wp), parameter :: mirror_signs(6) = [1.0_wp, -1.0_wp, 1.0_wp, -1.0_wp, 1.0_wp, -1.0_wp]
@@ -48,7 +48,7 @@ module ek_wheel_motion
 
 contains
 
-   !> The quantities of wheel k at a state.
+   !> The quantities of wheel k at a state, in the order of quantity_names.
    pure function wheel_motion(suspension, state, inputs, k, choices) result(values)
       type(suspension_t), intent(in) :: suspension           !! on the rig
       type(state_t), intent(in) :: state
@@ -89,7 +89,7 @@ contains
       end do
    end function wheel_motion
 
-   !> The rotation from a wheel upright and straight ahead to its spin axis at design, without spin: Rz Rx, in ISO.
+   !> The rotation from a wheel that is upright and straight ahead to its spin axis at design, without spin: Rz Rx, in ISO.
    pure function static_attitude(spin) result(r)
       real(wp), intent(in) :: spin(3)      !! unit, outboard, frame of the program
       real(wp) :: r(3, 3)
@@ -103,7 +103,7 @@ contains
       r(:, 3) = [-left(3)*left(1)/flat, -left(3)*left(2)/flat, flat]
    end function static_attitude
 
-   !> rx, ry, rz of R = Rz(rz) Rx(rx) Ry(ry).
+   !> The angles rx, ry, rz of a rotation R = Rz(rz) Rx(rx) Ry(ry) [rad].
    pure function cardan_angles(r) result(angles)
       real(wp), intent(in) :: r(3, 3)
       real(wp) :: angles(3)

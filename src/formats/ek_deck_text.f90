@@ -1,4 +1,4 @@
-!> The text of a deck, group by group, as a person would write it.
+!> Writes a deck as a string, group by group, as a person would write it.
 module ek_deck_text
    use ek_kinds, only: wp
    use ek_buffer, only: buffer_t
@@ -10,7 +10,7 @@ module ek_deck_text
 
    integer, parameter :: widest = 118      !! characters of a line before it is broken
 
-   !> A group is begun, gets its keys, and ends.
+   !> The deck being written. A group is begun, gets its keys, and is ended.
    type :: deck_text_t
       private
       type(buffer_t) :: buffer
@@ -24,7 +24,7 @@ module ek_deck_text
 
 contains
 
-   !> Writes a line of comment; characters that could end it are shown as their numbers.
+   !> Writes a comment line. Characters that could end the line are shown as their numbers.
    subroutine text_comment(self, words)
       class(deck_text_t), intent(inout) :: self
       character(*), intent(in) :: words
@@ -34,7 +34,7 @@ contains
       call self%buffer%line('')
    end subroutine text_comment
 
-   !> Writes a comment above a section.
+   !> Writes a comment line as the heading of a section.
    subroutine text_heading(self, words)
       class(deck_text_t), intent(inout) :: self
       character(*), intent(in) :: words
@@ -58,7 +58,7 @@ contains
       self%is_first = .true.
    end subroutine text_begin
 
-   !> Writes key = 'word'.
+   !> Writes a key with a string: key = 'word'.
    subroutine text_word(self, key, word)
       class(deck_text_t), intent(inout) :: self
       character(*), intent(in) :: key, word
@@ -67,7 +67,7 @@ contains
       call put_quoted(self, word)
    end subroutine text_word
 
-   !> Writes key = 'first', 'second'.
+   !> Writes a key with two strings: key = 'first', 'second'.
    subroutine text_words(self, key, first, second)
       class(deck_text_t), intent(inout) :: self
       character(*), intent(in) :: key, first, second
@@ -78,7 +78,7 @@ contains
       call put_quoted(self, second)
    end subroutine text_words
 
-   !> Writes one string of a list, whose key is written with the first.
+   !> Writes one string of a list. The key is written with the first string.
    subroutine text_add_word(self, key, word, is_first)
       class(deck_text_t), intent(inout) :: self
       character(*), intent(in) :: key, word
@@ -102,7 +102,7 @@ contains
       call put_number(self, value)
    end subroutine text_number
 
-   !> Writes key = 1, 2.5, 3.
+   !> Writes a key with numbers: key = 1, 2.5, 3.
    subroutine text_numbers(self, key, values)
       class(deck_text_t), intent(inout) :: self
       character(*), intent(in) :: key
@@ -122,7 +122,7 @@ contains
       call self%buffer%line(' /')
    end subroutine text_end
 
-   !> The text of the deck written so far.
+   !> The deck written so far as a string.
    function text_text(self) result(text)
       class(deck_text_t), intent(in) :: self
       character(:), allocatable :: text
@@ -175,8 +175,8 @@ contains
       self%column = self%column + self%buffer%length() - before
    end subroutine put_quoted
 
-   !> Adds text without line ends and other invisible characters; an apostrophe becomes the typographic apostrophe (’), as a
-   !> string of a deck cannot contain the ASCII apostrophe.
+   !> Adds a string without line ends and other invisible characters. An apostrophe becomes the typographic apostrophe (’), because
+   !> a string in a deck cannot contain the ASCII apostrophe.
    subroutine add_safe(self, text)
       class(deck_text_t), intent(inout) :: self
       character(*), intent(in) :: text

@@ -1,4 +1,4 @@
-!> Lines of a text, and the fields of a line: entries separated by blanks, tabs or commas, and texts in quotes.
+!> Lines of a file, and the fields of a line: entries separated by blanks, tabs or commas, and strings in quotes.
 module ek_fields
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
@@ -13,7 +13,7 @@ module ek_fields
    real(wp), parameter :: most = 1.0e25_wp          !! larger numbers are errors; smaller numbers are legal in a deck in any unit
    integer, parameter :: max_fields = 64            !! of a line; no format has more
 
-   !> A text with its lines.
+   !> The content of a file with the positions of its lines.
    type :: lines_t
       character(:), allocatable :: text
       integer :: count = 0
@@ -22,7 +22,7 @@ module ek_fields
       procedure :: line => lines_line
    end type lines_t
 
-   !> A word of a line, or a text without its quotes.
+   !> A word of a line, or a string without its quotes.
    type :: field_t
       character(:), allocatable :: text
       logical :: is_quoted = .false.
@@ -30,7 +30,7 @@ module ek_fields
 
 contains
 
-   !> Splits a file into lines, with the line ends of any system. Reports a file that is not text.
+   !> Splits a file into lines, with the line ends of any system. Reports a file that is not a text file.
    subroutine split_lines(text, lines, flaws)
       character(*), intent(in) :: text
       type(lines_t), intent(out) :: lines
@@ -64,7 +64,7 @@ contains
       end do
    end subroutine split_lines
 
-   !> Line number k.
+   !> Line k.
    pure function lines_line(self, k) result(text)
       class(lines_t), intent(in) :: self
       integer, intent(in) :: k
@@ -72,7 +72,7 @@ contains
       text = self%text(self%first(k):self%last(k))
    end function lines_line
 
-   !> Splits a line into fields. A quote that is not closed is reported, and its text ends with the line.
+   !> Splits a line into fields. A quote that is not closed is reported, and its string ends with the line.
    subroutine split_fields(text, line, fields, used, flaws, commas_separate)
       character(*), intent(in) :: text
       integer, intent(in) :: line
@@ -117,7 +117,7 @@ contains
       end do
    end subroutine split_fields
 
-   !> Reads the number in a text; reports a text that is not a number, and a number that is not finite or too large.
+   !> Reads the number in a string. Reports a string that is not a number, and a number that is not finite or is too large.
    subroutine take_number(text, line, what, value, flaws, is_good)
       character(*), intent(in) :: text, what      !! what: 'x of hardpoint', for the message
       integer, intent(in) :: line
@@ -139,7 +139,7 @@ contains
       end if
    end subroutine take_number
 
-   !> A name of the file as a name of a deck: letters, digits and _, at most 50 characters, a letter first.
+   !> A name of the file converted to a legal name of a deck: letters, digits and _, at most 50 characters, with a letter first.
    pure function legal_name(text) result(name)
       character(*), intent(in) :: text
       character(:), allocatable :: name

@@ -21,13 +21,13 @@ module ek_flaws
 
 contains
 
-   !> An empty list of errors of a file.
+   !> An empty list for the errors of a file.
    pure type(flaws_t) function new_flaws(file) result(flaws)
       character(*), intent(in) :: file
       flaws%file = file
    end function new_flaws
 
-   !> Adds an error; of very many the first are stored.
+   !> Adds an error. Only the first errors are stored if there are very many.
    pure subroutine flaws_add(self, line, what)
       class(flaws_t), intent(inout) :: self
       integer, intent(in) :: line              !! 0: the file as a whole
@@ -41,7 +41,7 @@ contains
       self%lines(self%words%count()) = line
    end subroutine flaws_add
 
-   !> The number of errors that are stored.
+   !> The number of stored errors.
    pure integer function flaws_count(self)
       class(flaws_t), intent(in) :: self
       flaws_count = self%words%count()
@@ -53,7 +53,7 @@ contains
       flaws_line = self%lines(k)
    end function flaws_line
 
-   !> Error number k without its file and line.
+   !> The message of error k without its file and line.
    pure function flaws_what(self, k) result(text)
       class(flaws_t), intent(in) :: self
       integer, intent(in) :: k
@@ -79,7 +79,7 @@ contains
       end do
    end function flaws_text
 
-   !> A text of the file for a message: quoted, and cut where it is long.
+   !> A string of the file for a message: in quotes, and truncated if it is long.
    pure function shown(text) result(words)
       character(*), intent(in) :: text
       character(:), allocatable :: words

@@ -1,4 +1,5 @@
-!> Files of other programs as text of a deck, which `elastokin import` writes. The kind of a file follows from its content.
+!> Converts files of other programs to groups of a deck, which `elastokin import` writes. The format of a file follows from its
+!> content.
 module ek_foreign_deck
    use ek_kinds, only: wp, millimetre
    use ek_error, only: error_t, fail, exit_deck
@@ -27,7 +28,7 @@ module ek_foreign_deck
 
 contains
 
-   !> The format of a text. A file in no known format is read as a table of hardpoints.
+   !> The format of a file content. A file in no known format is read as a table of hardpoints.
    pure integer function kind_of_text(text) result(kind)
       character(*), intent(in) :: text
       character(:), allocatable :: folded
@@ -49,7 +50,7 @@ contains
       end if
    end function kind_of_text
 
-   !> Reads a file; `text` is its part of a deck, or of loads_kind a table of loads.
+   !> Reads a file and converts it to a part of a deck, or for loads_kind to a table of loads.
    subroutine import_file(path, text, kind, error)
       character(*), intent(in) :: path
       character(:), allocatable, intent(out) :: text
@@ -66,7 +67,7 @@ contains
       if (flaws%count() > 0) call fail(error, exit_deck, flaws%text())
    end subroutine import_file
 
-   !> Converts a text, as import_file converts a file. Errors are in `flaws`; `text` is '' if there are errors.
+   !> Converts the content of a file as import_file converts a file. Errors are in `flaws`; `text` is '' if there are errors.
    subroutine import_text(content, path, text, kind, flaws)
       character(*), intent(in) :: content, path
       character(:), allocatable, intent(out) :: text
@@ -90,7 +91,7 @@ contains
       if (flaws%count() > 0) text = ''
    end subroutine import_text
 
-   !> &model of a deck in mm, N, deg with x rearward, as the files of Adams/Car have it.
+   !> The group &model of a deck in mm, N, deg with x rearward, which are the units and axes of Adams/Car files.
    function put_model(name) result(text)
       character(*), intent(in) :: name
       character(:), allocatable :: text
@@ -151,7 +152,7 @@ contains
 
    end subroutine import_points
 
-   !> Writes &curve for each law, and in comments the element that uses them.
+   !> Writes a &curve for each law. Comments contain the element that uses the curves.
    subroutine import_law(content, path, text, flaws)
       character(*), intent(in) :: content, path
       character(:), allocatable, intent(inout) :: text
@@ -187,7 +188,7 @@ contains
       text = deck%text()//commented(element%text())
    end subroutine import_law
 
-   !> A text with every line as a comment of a deck.
+   !> A string in which every line is a comment of a deck.
    function commented(text) result(lines)
       character(*), intent(in) :: text
       character(:), allocatable :: lines
@@ -200,7 +201,7 @@ contains
       end do
    end function commented
 
-   !> Writes an axle with its bushings, which are in files of their own.
+   !> Writes an axle with its bushings, whose laws are in separate files.
    subroutine import_axle(content, path, text, flaws)
       character(*), intent(in) :: content, path
       character(:), allocatable, intent(inout) :: text
@@ -219,8 +220,8 @@ contains
       call kin_deck(kin, mounts, path, text, flaws)
    end subroutine import_axle
 
-   !> Finds the law of a bushing: from its file, in the folder of the axle or below it as the axle names it. IPGKinematics has files
-   !> lin01000.gum for 1000 N/mm in all directions and so on: these files need not exist.
+   !> Finds the law of a bushing in its file. The file is in the folder of the axle, or below this folder at the path that the axle
+   !> gives. IPGKinematics has files such as lin01000.gum for 1000 N/mm in all directions; these files need not exist.
    subroutine find_mount(path, named, line, mount, flaws)
       character(*), intent(in) :: path, named
       integer, intent(in) :: line
@@ -278,7 +279,7 @@ contains
       call flaws%add(line, 'cannot find the bushing '//shown(named)//'; put '//shown(name)//' in the folder of '//shown(path))
    end subroutine find_mount
 
-   !> Whether the name of a bushing gives its rate: lin01000.gum.
+   !> Whether the name of a bushing file gives the rate of the bushing, as lin01000.gum does.
    pure logical function is_linear(name)
       character(*), intent(in) :: name
 

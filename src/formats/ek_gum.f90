@@ -1,6 +1,6 @@
-!> A bushing of IPGKinematics (.gum): lines of a quoted label and numbers. For each axis (x is the axis of the bushing):
-!> displacements in mm, forces in N, damping, and a rotational stiffness in N m/rad; at the end, whether the negative side has
-!> numbers of its own (1) or is the image of the positive side (0).
+!> A bushing of IPGKinematics (.gum): lines with a quoted label and numbers. Each axis (x is the axis of the bushing) has
+!> displacements in mm, forces in N, damping, and a rotational stiffness in N m/rad. The last line gives whether the negative side
+!> has separate numbers (1) or is the image of the positive side (0).
 module ek_gum
    use ek_kinds, only: wp, millimetre
    use ek_text, only: str, lower
@@ -25,7 +25,7 @@ module ek_gum
 
 contains
 
-   !> Whether a file is a bushing: some line has a label with `displacement`.
+   !> Whether a file is a bushing: a line has a label that contains `displacement`.
    pure logical function is_gum(lines)
       type(lines_t), intent(in) :: lines
       integer :: k
@@ -38,7 +38,7 @@ contains
       end do
    end function is_gum
 
-   !> Reads the laws of a bushing, [m, N] and [rad, N m].
+   !> Reads the laws of a bushing in [m, N] and [rad, N m].
    subroutine parse_gum(lines, laws, flaws)
       type(lines_t), intent(in) :: lines
       type(law_points_t), intent(inout) :: laws(6)
@@ -77,7 +77,7 @@ contains
       end do
    end subroutine parse_gum
 
-   !> Reads a list of displacements: one side of an axis.
+   !> Reads a list of displacements for one side of an axis.
    subroutine take_displacements(gum, label, line, fields, flaws)
       type(gum_t), intent(inout) :: gum
       character(*), intent(in) :: label
@@ -133,7 +133,7 @@ contains
       end associate
    end subroutine take_forces
 
-   !> Reads the rotational stiffness of the axis whose lists came last.
+   !> Reads the rotational stiffness of the axis whose lists were read last.
    subroutine take_stiffness(gum, label, line, fields, flaws)
       type(gum_t), intent(inout) :: gum
       character(*), intent(in) :: label
@@ -222,7 +222,7 @@ contains
       call finish_law(law, 'the list of '//axes(axis:axis), flaws)
    end subroutine join_halves
 
-   !> Checks that the points of one side are on this side and lead away from 0. A point at 0 is dropped.
+   !> Checks that the points of one side are on this side, and that their distance from 0 increases. A point at 0 is dropped.
    subroutine finish_half(half, side, flaws)
       type(law_points_t), intent(inout) :: half
       integer, intent(in) :: side

@@ -1,4 +1,4 @@
-!> Hardpoints as data, and the rules for them in any file: legal names, each once, a symmetry.
+!> Hardpoints as data, and the rules that hold for them in any file: a name is legal and unique, and a symmetry is known.
 module ek_hardpoint
    use ek_kinds, only: wp
    use ek_text, only: str, lower
@@ -61,7 +61,7 @@ contains
       sheet%points(sheet%used) = point
    end subroutine add_hardpoint
 
-   !> The symmetry named by a string; -1 if the string is not the name of a symmetry.
+   !> The symmetry that a string names; -1 if the string is not the name of a symmetry.
    pure integer function symmetry_of(text)
       character(*), intent(in) :: text
 

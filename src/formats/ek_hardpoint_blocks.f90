@@ -40,7 +40,7 @@ contains
       end do
    end subroutine take_blocks
 
-   !> An assembly names its subsystems, whose files have the hardpoints.
+   !> Advice for a file without hardpoints. An assembly names its subsystems, whose files contain the hardpoints.
    function advice(file) result(words)
       type(teimorbit_t), intent(in) :: file
       character(:), allocatable :: words

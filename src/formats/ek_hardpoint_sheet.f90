@@ -1,5 +1,5 @@
-!> Hardpoints in a file: a table as CSV, or the [HARDPOINT] blocks of a subsystem or an assembly of Adams/Car (.sub, .asy).
-!> 'left/right' is a pair with the coordinates of its left point.
+!> Hardpoints in a file: a table as CSV, or the [HARDPOINT] blocks of a subsystem or an assembly of Adams/Car (.sub, .asy). A row
+!> with the symmetry 'left/right' is a pair of points and gives the coordinates of the left point.
 module ek_hardpoint_sheet
    use ek_kinds, only: wp
    use ek_error, only: error_t
@@ -31,7 +31,7 @@ contains
       if (.not. allocated(error)) call parse_hardpoints(text, length, sheet, flaws)
    end subroutine read_hardpoints
 
-   !> Reads hardpoints from the text of a file.
+   !> Reads hardpoints from the content of a file.
    subroutine parse_hardpoints(text, length, sheet, flaws)
       character(*), intent(in) :: text
       real(wp), intent(in) :: length

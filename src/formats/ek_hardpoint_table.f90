@@ -97,7 +97,7 @@ contains
       if (separator /= ',' .and. comma > 0 .and. index(number, '.') == 0) number(comma:comma) = '.'
    end function with_point
 
-   !> Whether a line without headings is a row already: a word, then three numbers.
+   !> Whether a line in a file without headings is already a row: a word, then three numbers.
    logical function is_row(cells, separator)
       type(message_list_t), intent(in) :: cells
       character, intent(in) :: separator
@@ -112,7 +112,7 @@ contains
       end do
    end function is_row
 
-   !> Finds the columns of name, symmetry, x, y, z (0: none), and the units of the last three.
+   !> Finds the columns of name, symmetry, x, y, z (0 if there is none), and the units of x, y and z.
    subroutine find_columns(cells, length, columns, units)
       type(message_list_t), intent(in) :: cells
       real(wp), intent(in) :: length
@@ -149,7 +149,8 @@ contains
       end do
    end subroutine find_columns
 
-   !> Splits a column heading into the letters that give its meaning, and its unit: 'x', 1e-3 for 'X-Coordinate [mm]', 'loc_x_mm'.
+   !> Splits a column heading into the letters that give its meaning, and its unit: 'x' and 1e-3 for 'X-Coordinate [mm]' and for
+   !> 'loc_x_mm'.
    subroutine split_head(text, length, head, unit)
       character(*), intent(in) :: text
       real(wp), intent(in) :: length

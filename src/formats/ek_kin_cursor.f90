@@ -55,7 +55,7 @@ contains
          'or further down, found none')
    end subroutine go_to
 
-   !> Reads the string on the next line with a label of this form; `text` is unchanged if there is no such line.
+   !> Reads the string on the next line with a label of this form. `text` is unchanged if there is no such line.
    subroutine take_text(cursor, pattern, text, flaws)
       type(kin_cursor_t), intent(inout) :: cursor
       character(*), intent(in) :: pattern
@@ -83,7 +83,7 @@ contains
       if (used > 1) call take_number(fields(2)%text, cursor%line, plain(pattern), value, flaws, is_good)
    end subroutine take_real
 
-   !> Reads a number as take_real; a negative mass is an error.
+   !> Reads a number as take_real does; a negative mass is an error.
    subroutine take_mass(cursor, pattern, value, flaws)
       type(kin_cursor_t), intent(inout) :: cursor
       character(*), intent(in) :: pattern
@@ -157,7 +157,7 @@ contains
       end do
    end subroutine take_point
 
-   !> Whether the label of a line has a form; blanks count once.
+   !> Whether the label of a line has a form. Several blanks count as one.
    pure logical function has_label(line, pattern)
       character(*), intent(in) :: line, pattern
       integer, parameter :: longest = 200
@@ -180,7 +180,7 @@ contains
       if (pattern(len(pattern) - 1:) == ' *' .and. .not. has_label) has_label = label == pattern(:len(pattern) - 2)
    end function has_label
 
-   !> A form as text for a message.
+   !> A form of label as shown in a message.
    pure function plain(pattern) result(words)
       character(*), intent(in) :: pattern
       character(:), allocatable :: words

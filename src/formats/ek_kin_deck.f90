@@ -1,8 +1,8 @@
-!> An axle of IPGKinematics as a deck: double wishbones, their bushings, the tie rods on a rack, coil springs directly or by push
-!> or pull rods and rockers, a U-shaped anti-roll bar, masses and wheel loads.
+!> Converts an axle of IPGKinematics to a deck: double wishbones, their bushings, the tie rods on a rack, coil springs directly or
+!> by push or pull rods and rockers, a U-shaped anti-roll bar, masses and wheel loads.
 !>
-!> As in IPGKinematics, the design position is an equilibrium under the weights and the wheel loads: the springs get the preloads
-!> for it.
+!> As in IPGKinematics, the design position is an equilibrium under the weights and the wheel loads. The springs get the preloads
+!> that this requires.
 module ek_kin_deck
    use ek_kinds, only: wp
    use ek_flaws, only: flaws_t

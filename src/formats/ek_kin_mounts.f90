@@ -17,7 +17,7 @@ module ek_kin_mounts
 
 contains
 
-   !> Writes the bushings of the axle into the deck, x along the axis of each bushing.
+   !> Writes the bushings of the axle into the deck. x of the markers is along the axis of each bushing.
    subroutine put_mounts(deck, kin, mounts)
       type(deck_text_t), intent(inout) :: deck
       type(kin_t), intent(in) :: kin
@@ -37,8 +37,8 @@ contains
       end if
    end subroutine put_mounts
 
-   !> Writes a bushing of the file, at a point of the axle: the position that the file gives in the list of bushings sets the
-   !> axis only.
+   !> Writes a bushing of the file at a point of the axle. The position that the file gives in its list of bushings sets only the
+   !> axis.
    subroutine put_mount(deck, kin, mounts, name, k, first, second, at)
       type(deck_text_t), intent(inout) :: deck
       type(kin_t), intent(in) :: kin
@@ -70,7 +70,7 @@ contains
       end do
    end function turns_freely
 
-   !> The body that carries an arm or the rack.
+   !> Name of the body that carries an arm or the rack.
    pure function frame_of(is_subframe) result(name)
       logical, intent(in) :: is_subframe
       character(:), allocatable :: name

@@ -16,7 +16,7 @@ module ek_kin_points
 
 contains
 
-   !> Writes the hardpoints of the axle into the deck, with the numbers of the file.
+   !> Writes the hardpoints of the axle into the deck, with their numbers in the file.
    subroutine put_points(deck, kin)
       type(deck_text_t), intent(inout) :: deck
       type(kin_t), intent(in) :: kin
@@ -60,7 +60,7 @@ contains
       call put_point(deck, 'carrier_mass', middle(kin, [wheel_centre, wheel_centre, lower_ball, upper_ball]))
    end subroutine put_points
 
-   !> Writes a point with its number in the .kin file as note.
+   !> Writes a point, with its number in the .kin file as a note.
    subroutine put_numbered(deck, kin, name, k)
       type(deck_text_t), intent(inout) :: deck
       type(kin_t), intent(in) :: kin
@@ -84,7 +84,7 @@ contains
       call deck%end()
    end subroutine put_point
 
-   !> The mean of several points.
+   !> The mean position of several points.
    pure function middle(kin, numbers) result(at)
       type(kin_t), intent(in) :: kin
       integer, intent(in) :: numbers(:)

@@ -13,7 +13,7 @@ module ek_kin_reader
 
 contains
 
-   !> Whether a text is such a file: its first lines name the program.
+   !> Whether a string is the content of such a file, whose first lines name the program.
    pure logical function is_kin(text)
       character(*), intent(in) :: text
       character(:), allocatable :: head
@@ -26,7 +26,7 @@ contains
       is_kin = head(first:first) == ''''
    end function is_kin
 
-   !> Reads an axle from the text of a .kin file.
+   !> Reads an axle from the content of a .kin file.
    subroutine parse_kin(text, kin, flaws)
       character(*), intent(in) :: text
       type(kin_t), intent(out) :: kin
@@ -101,7 +101,7 @@ contains
 
    end subroutine parse_kin
 
-   !> Reads a choice of rate or points, the rate, and the points with their factor.
+   !> Reads a law: the choice between rate and points, the rate, and the points with their factor.
    subroutine take_law(cursor, rate_pattern, pair_pattern, law, flaws)
       type(kin_cursor_t), intent(inout) :: cursor
       character(*), intent(in) :: rate_pattern, pair_pattern

@@ -1,4 +1,4 @@
-!> The points of a law as a file of another program gives them, ordered as a curve of a deck has them.
+!> The points of a law as a file of another program gives them, converted to the order that a curve of a deck requires.
 module ek_law_points
    use ek_kinds, only: wp
    use ek_text, only: str
@@ -38,8 +38,8 @@ contains
       law%lines(law%used) = line
    end subroutine add_point
 
-   !> Puts the points into the order of increasing x: a falling list is turned, a point given twice is dropped. Reports too few
-   !> points, too many, a list that neither rises nor falls, and two values at one x.
+   !> Sorts the points by increasing x: a falling list is reversed, and a point given twice is dropped. Reports too few or too many
+   !> points, a list that neither rises nor falls, and two values at one x.
    subroutine finish_law(law, name, flaws)
       type(law_points_t), intent(inout) :: law
       character(*), intent(in) :: name           !! of the block, for messages

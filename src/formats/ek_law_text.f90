@@ -10,7 +10,7 @@ module ek_law_text
 
 contains
 
-   !> Returns the units of a law in SI: displacement and force of a component of a bushing.
+   !> Returns the SI values of the units of a law: the units of displacement and force of a component of a bushing.
    pure subroutine units_of_law(component, length, force, angle, x_unit, y_unit)
       integer, intent(in) :: component
       real(wp), intent(in) :: length, force, angle      !! of the deck
@@ -37,7 +37,7 @@ contains
       call deck%end()
    end subroutine put_curve
 
-   !> Writes &curve of each component that is not a rate, named <name>_fx ….
+   !> Writes a &curve for each component that is not a rate. The curves are named <name>_fx ….
    subroutine put_curves(deck, name, laws, kind)
       type(deck_text_t), intent(inout) :: deck
       character(*), intent(in) :: name, kind
@@ -53,7 +53,7 @@ contains
       end do
    end subroutine put_curves
 
-   !> Writes keys kt, kr and curve of a bushing; `put_curves` writes its curves.
+   !> Writes the keys kt, kr and curve of a bushing. `put_curves` writes the curves.
    subroutine put_bushing_law(deck, name, laws)
       type(deck_text_t), intent(inout) :: deck
       character(*), intent(in) :: name

@@ -39,7 +39,7 @@ module ek_lcf
 
 contains
 
-   !> Reads a load case from the text of a .lcf file.
+   !> Reads a load case from the content of a .lcf file.
    subroutine parse_lcf(text, lcf, flaws)
       character(*), intent(in) :: text
       type(lcf_t), intent(out) :: lcf
@@ -97,7 +97,7 @@ contains
 
    contains
 
-      !> Reads one of two choices of [MODE]; without the entry the first.
+      !> Reads an entry of [MODE] with two choices. Without the entry, the first choice is used.
       subroutine take_mode(key, usual, other, is_other)
          character(*), intent(in) :: key, usual, other
          logical, intent(out) :: is_other

@@ -57,7 +57,7 @@ contains
       if (.not. allocated(error)) call parse_property(text, property, flaws)
    end subroutine read_property
 
-   !> Reads a property file from its text.
+   !> Reads a property file from its content.
    subroutine parse_property(text, property, flaws)
       character(*), intent(in) :: text
       type(property_t), intent(out) :: property
@@ -91,7 +91,7 @@ contains
       end if
    end subroutine parse_property
 
-   !> The kind of a file, from its header if this gives a kind, else from its blocks; 0 if neither gives a kind.
+   !> The kind of a file, from its header if the header gives a kind, otherwise from its blocks; 0 if neither gives a kind.
    pure integer function kind_of(file) result(kind)
       type(teimorbit_t), intent(in) :: file
       character(*), parameter :: endings(5) = ['bus', 'spr', 'bum', 'reb', 'dpr']
@@ -116,7 +116,7 @@ contains
       end if
    end function kind_of
 
-   !> Whether a string equals a lower-case word, apart from case and blanks.
+   !> Whether two strings are equal apart from letter case and blanks; the second is in lower case.
    pure logical function is_same(a, b)
       character(*), intent(in) :: a, b
       is_same = lower(trim(adjustl(a))) == b
@@ -182,7 +182,7 @@ contains
          shown(file%items(item)%fields(1)%text))
    end subroutine take_curve
 
-   !> Reads the points of a curve: rows of two numbers in all parts of the blocks of this name.
+   !> Reads the points of a curve: rows of two numbers, from all blocks with a name and from their parts.
    subroutine take_points(file, block, x_unit, y_unit, law, flaws)
       type(teimorbit_t), intent(in) :: file
       integer, intent(in) :: block                  !! the first of its name
@@ -216,7 +216,7 @@ contains
       call finish_law(law, upper(trim(file%names(block))), flaws)
    end subroutine take_points
 
-   !> Changes the signs of a stop whose penetration and force are negative.
+   !> Changes the signs of a stop law with negative penetration and force.
    pure subroutine turn_rebound(law)
       type(law_points_t), intent(inout) :: law
 

@@ -1,11 +1,11 @@
 !> A file in the TeimOrbit format of Adams/Car: blocks, each with entries and rows of a table.
 !>
 !>     [BLOCK]                         a block, whose name may occur again
-!>     KEY = value                     an entry; a text is in quotes
+!>     KEY = value                     an entry; a string is in quotes
 !>     (PART)                          a part of the block, with entries and rows of its own
 !>     {first second third}            the column headings of the rows that follow
 !>     value value value               a row
-!>     $ text                          a comment, also after values; ! at the begin of a line as well
+!>     $ text                          a comment, also after values; also ! at the beginning of a line
 !>
 !> Case does not matter in names of blocks, keys and headings.
 module ek_teimorbit
@@ -45,7 +45,7 @@ module ek_teimorbit
 
 contains
 
-   !> Whether a text probably has this format: its first line that is not a comment or empty begins a block.
+   !> Whether a string probably has this format: its first line that is neither a comment nor empty begins a block.
    pure logical function is_teimorbit(text)
       character(*), intent(in) :: text
       integer :: at, next
@@ -65,7 +65,7 @@ contains
       end do
    end function is_teimorbit
 
-   !> Splits a text into blocks. The reader of the file checks the content of the lines.
+   !> Splits the content of a file into blocks. The reader of the file checks the content of the lines.
    subroutine parse_teimorbit(lines, file, flaws)
       type(lines_t), intent(in) :: lines
       type(teimorbit_t), intent(out) :: file
@@ -121,7 +121,7 @@ contains
       if (file%blocks == 0 .and. .not. is_lost) call flaws%add(0, 'expected blocks as [UNITS], found none')
    end subroutine parse_teimorbit
 
-   !> A line without comment and blanks around it.
+   !> A line without its comment and surrounding blanks.
    pure function without_comment(line) result(text)
       character(*), intent(in) :: line
       character(:), allocatable :: text
@@ -186,7 +186,7 @@ contains
       end associate
    end subroutine add_item
 
-   !> The first block of a name after block `after`; 0 if there is none.
+   !> Index of the first block with a name after block `after`; 0 if there is none.
    pure integer function find_block(file, name, after)
       type(teimorbit_t), intent(in) :: file
       character(*), intent(in) :: name                !! lower case
@@ -201,7 +201,7 @@ contains
       find_block = 0
    end function find_block
 
-   !> The item of an entry of a block; 0 if the block has no such key.
+   !> Index of the item of an entry in a block; 0 if the block has no entry with this key.
    pure integer function entry_of(file, block, key)
       type(teimorbit_t), intent(in) :: file
       integer, intent(in) :: block
@@ -214,7 +214,7 @@ contains
       entry_of = 0
    end function entry_of
 
-   !> Reads the units of the file in SI, in the order of ek_unit_word; 0 for a unit that the file does not name.
+   !> Reads the SI values of the units of the file, in the order of ek_unit_word; 0 for a unit that the file does not name.
    subroutine units_in(file, units, flaws)
       type(teimorbit_t), intent(in) :: file
       real(wp), intent(out) :: units(size(quantity_names))
@@ -259,7 +259,7 @@ contains
 
    end subroutine units_in
 
-   !> Reports the units that a reader needs and the file does not name.
+   !> Reports the units that a reader needs but the file does not name.
    subroutine check_units(file, units, needed, flaws)
       type(teimorbit_t), intent(in) :: file
       real(wp), intent(inout) :: units(:)         !! a missing one becomes 1

@@ -44,7 +44,7 @@ module ek_unit_word
 
 contains
 
-   !> The value of a unit in SI; 0 if the unit is not known. Letter case and a plural s are ignored.
+   !> The SI value of a unit; 0 if the unit is not known. Letter case and a plural s are ignored.
    pure real(wp) function unit_of(quantity, text) result(value)
       integer, intent(in) :: quantity
       character(*), intent(in) :: text

@@ -9,7 +9,7 @@
 !>     camber = asin(−w_z):                   δcamber = (θ_y w_x − θ_x w_y)/h
 !>     caster = atan2(k_x, k_z):              δcaster = θ_y − k_y (θ_x k_x + θ_z k_z)/(k_x² + k_z²)
 !>
-!> A vertical spin axis has no toe, a steering axis along y no caster: the quotients are then infinite or not a number.
+!> A vertical spin axis has no toe, and a steering axis along y has no caster: the quotients are then infinite or NaN.
 module ek_attitude
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
@@ -68,7 +68,7 @@ contains
    !>     caster = atan2(k_x, k_z)          kingpin = atan2(−side·k_y, k_z)    k: steering axis, upward
    !>
    !> The ground is the horizontal plane through the contact point. A horizontal steering axis (k_z = 0)
-   !> does not intersect it: scrub radius and trail are then not a number.
+   !> does not intersect it: scrub radius and trail are then NaN.
    !> Equation (C.9) of docs/theory/compliance.md.
    pure function attitude_of(wheel, origin, now) result(attitude)
       type(wheel_t), intent(in) :: wheel
@@ -79,7 +79,7 @@ contains
       call find_attitude(wheel, origin, now, attitude)
    end function attitude_of
 
-   !> Finds the attitude of a wheel in place; attitude_of returns it as a function value.
+   !> Finds the attitude of a wheel into an existing variable; attitude_of returns the attitude as a function value.
    pure subroutine find_attitude(wheel, origin, now, attitude)
       type(wheel_t), intent(in) :: wheel
       real(wp), intent(in) :: origin(3)
@@ -136,7 +136,7 @@ contains
       axis%spindle_offset = centre(1) - abeam(1)
    end function steer_axis_of
 
-   !> The values of the six columns of a steering axis [rad, m]; not numbers if it is unknown.
+   !> The values of the six columns of a steering axis [rad, m]; NaN if the axis is unknown.
    pure function axis_values(axis) result(values)
       type(steer_axis_t), intent(in) :: axis
       real(wp) :: values(size(axis_section))
@@ -157,7 +157,7 @@ contains
       end associate
    end function wheel_attitude
 
-   !> The axes of a wheel whose carrier is at a pose.
+   !> The directions of the axes of a wheel whose carrier has a given pose, global axes.
    pure type(axes_t) function axes_of(wheel, pose) result(axes)
       type(wheel_t), intent(in) :: wheel
       type(pose_t), intent(in) :: pose
@@ -207,9 +207,9 @@ contains
       gradient(3) = -lean*axis(3)
    end function caster_gradient
 
-   !> Vertical force on wheel `wheel` [N], upward: the constant and the scaled loads on its carrier, and the force of a rig
-   !> that holds its height. Weights of bodies are not included. If one body carries both wheels, a load counts for the
-   !> nearer wheel, and half for each in the middle.
+   !> Vertical force on wheel `wheel` [N], upward: the constant and the scaled loads on its carrier, and the force of a rig that
+   !> holds its height. Weights of bodies are not included. If one body carries both wheels, a load counts for the nearer wheel; a
+   !> load in the middle counts half for each wheel.
    pure real(wp) function vertical_force(suspension, state, inputs, wheel) result(force)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
@@ -241,7 +241,7 @@ contains
 
    contains
 
-      !> Share of a load at a point of a body that counts for the wheel: 1, 0 or ½.
+      !> Share of a load at a point of a body that counts for the wheel [-]: 1, 0 or ½.
       pure real(wp) function share_of(body, arm)
          integer, intent(in) :: body
          real(wp), intent(in) :: arm(3)      !! from the reference point, body axes [m]

@@ -80,7 +80,8 @@ contains
       end associate
    end function jacking_forces
 
-   !> CP33 − CP39 − CP93 + CP99: difference in height of the contact points per force up on the left, down on the right.
+   !> Difference in height of the contact points per force, upward on the left and downward on the right, CP33 − CP39 − CP93 + CP99
+   !> [m/N].
    pure real(wp) function roll_compliance(patch)
       real(wp), intent(in) :: patch(2:3, 2, 2:3, 2)
       roll_compliance = patch(3, 1, 3, 1) - patch(3, 1, 3, 2) - patch(3, 2, 3, 1) + patch(3, 2, 3, 2)

@@ -1,4 +1,5 @@
-!> Remarks on the results of a case: settling, drift, large travel, the rack, open joints, curves used beyond their points.
+!> Remarks on the results of a case: displacement under constant loads, drift, large travel, the rack, open joints, curves used
+!> beyond their points.
 module ek_case_remarks
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp, degree, millimetre
@@ -57,7 +58,7 @@ contains
       end do
    end subroutine settling_remarks
 
-   !> Warns of a steering test that exceeds the travel of the rack.
+   !> Warns of a steering test whose range exceeds the travel of the rack.
    subroutine rack_remarks(suspension, case, remarks)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
@@ -73,8 +74,8 @@ contains
          ' mm, beyond its travel of '//str(suspension%steering%travel/millimetre, 4)//' mm in &steering', furthest)
    end subroutine rack_remarks
 
-   !> Compares the linear methods at the first wheel with one equilibrium solution at each end of the sweep, found from the
-   !> state at this end. An end without an equilibrium nearby is a failure: the states before it are unreliable.
+   !> Compares the linear methods with equilibria at the first wheel: one equilibrium at each end of the sweep, solved from the
+   !> state at this end. An end without an equilibrium nearby is a failure, because the states before it are unreliable.
    subroutine drift_remarks(suspension, case, path, kkt, remarks)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
@@ -120,14 +121,14 @@ contains
       end do
    end subroutine drift_remarks
 
-   !> A length or angle; 0 if it is only rounding, such as the travel of a wheel whose height is held.
+   !> A length or angle; 0 if its magnitude is only rounding, such as the travel of a wheel whose height is held.
    pure real(wp) function without_rounding(value)
       real(wp), intent(in) :: value                !! m or rad
       real(wp), parameter :: rounding = 1.0e-12_wp
       without_rounding = merge(0.0_wp, value, abs(value) < rounding)
    end function without_rounding
 
-   !> States of a linear method that are marked converged = 0 because they violate the joint constraints.
+   !> Adds a remark on states of a linear method that are marked converged = 0 because they violate the joint constraints.
    subroutine closure_remarks(case, table, remarks)
       type(case_t), intent(in) :: case
       type(table_t), intent(in) :: table         !! of sweep_table
@@ -145,7 +146,8 @@ contains
          table%values(2, findloc(is_open, .true., dim=1))*case%unit, is_of_method=.true.)
    end subroutine closure_remarks
 
-   !> Warns of a load that moves a wheel further than any suspension travels: a rate is missing or has the wrong unit.
+   !> Warns of a load that moves a wheel further than any suspension travels. The likely cause is a missing rate, or a rate in the
+   !> wrong unit.
    subroutine travel_remarks(suspension, case, path, remarks)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
@@ -236,7 +238,7 @@ contains
       end do
    end subroutine curve_reach_remarks
 
-   !> Includes the deflection of a state; a stop without contact has no deflection.
+   !> Includes the deflection of a law at a state in its range. A stop without contact has no deflection.
    subroutine extend(reach, law, value, state)
       type(reach_t), intent(inout) :: reach
       type(law_t), intent(in) :: law
@@ -256,8 +258,8 @@ contains
       end if
    end subroutine extend
 
-   !> Whether another curve of the same line of the deck has a larger excess, below and above. If two excesses are equal, the
-   !> first is reported.
+   !> Whether another curve of the same line of the deck has a larger excess, below and above. If two excesses are equal, the first
+   !> is reported.
    pure function further(other, own, is_before) result(is_further)
       type(reach_t), intent(in) :: other, own
       logical, intent(in) :: is_before

@@ -1,7 +1,7 @@
 !> Solves one case of a deck: its path of states, their table, and how it ended.
 !>
 !> Every command and every study solves its cases here; they choose options and print or write the result. A solution is numbers
-!> and a code, its outcome. add_remarks describes both as text, on request.
+!> and a code, its outcome. add_remarks describes both in messages, on request.
 module ek_case_result
    use ek_kinds, only: wp, i8, millimetre
    use ek_error, only: error_t, fail, exit_model, exit_convergence, exit_file
@@ -34,7 +34,7 @@ module ek_case_result
    !> The requested results of a solution.
    type :: solve_options_t
       character(:), allocatable :: fault           !! defect of the model in this case, which is then not solved; '' for none
-      logical :: has_violation = .true.            !! otherwise constraint_error of equilibria is not a number
+      logical :: has_violation = .true.            !! otherwise constraint_error of equilibria is NaN
       logical :: is_compared = .true.              !! a linear method is compared with equilibrium at the ends of the path
       real(wp) :: min_settling = 1.0e-8_wp       !! displacement of a wheel under the constant loads that is noted [m]
       character(name_length), allocatable :: columns(:)   !! quantities that are computed; not allocated: all
@@ -43,7 +43,7 @@ module ek_case_result
       character(:), allocatable :: checksum        !! of the deck, for the header of the table; not allocated: no header
    end type solve_options_t
 
-   !> The solution of a case; its work space serves for further solutions at its states.
+   !> The solution of a case. Its work space is used again for further solutions at its states.
    type, extends(mounted_case_t) :: case_result_t
       integer :: outcome = solved                  !! one of the constants above
       integer(i8) :: bytes = 0                     !! that its states need
@@ -61,7 +61,7 @@ contains
       is_run = self%outcome == solved .or. self%outcome == partly_solved
    end function is_run
 
-   !> Puts a suspension on the rig for a case, solves its path and tabulates it.
+   !> Puts a suspension on the rig for a case, solves the path of the case, and creates its table.
    subroutine solve_case(base, case, options, result, progress, observer)
       type(suspension_t), intent(in) :: base           !! balanced; it is not changed
       type(case_t), intent(in) :: case                 !! of the deck; it is not changed
@@ -82,7 +82,7 @@ contains
       call solve_mounted(options, result, progress, observer)
    end subroutine solve_case
 
-   !> Solves the path of a case that was put on the rig (mount_case) and tabulates it.
+   !> Solves the path of a case that was put on the rig (mount_case), and creates its table.
    subroutine solve_mounted(options, result, progress, observer, is_walked)
       type(solve_options_t), intent(in) :: options     !! without a fault
       type(case_result_t), intent(inout) :: result     !! everything except the case on the rig is replaced
@@ -116,7 +116,7 @@ contains
       if (allocated(options%checksum)) call add_header(result%table, result%suspension, result%case, options%checksum)
    end subroutine solve_mounted
 
-   !> The case of a result as a test of the report.
+   !> The description of a result's case as a test of the report.
    function test_of(result) result(test)
       type(case_result_t), intent(in) :: result
       type(test_result_t) :: test
@@ -130,8 +130,8 @@ contains
       if (size(result%suspension%wheels) > 0) call find_wheels(test, result%suspension%wheels(1)%side)
    end function test_of
 
-   !> Adds the remarks (notes, warnings, failures) on a solution, also on a case that was not run. They contain strings, so that only
-   !> one thread at a time may call it.
+   !> Adds the remarks (notes, warnings, failures) on a solution, including the remark on a case that was not run. Creates strings,
+   !> so that only one thread at a time may call it.
    subroutine add_remarks(options, result)
       type(solve_options_t), intent(in) :: options     !! of the solution
       type(case_result_t), intent(inout) :: result     !! its remarks are replaced
@@ -187,7 +187,7 @@ contains
       end associate
    end subroutine remark_on_path
 
-   !> Returns the failures of a result as an error; none if all states converged.
+   !> Returns the failures of a result as an error; no error if all states converged.
    subroutine failure_of(result, error)
       type(case_result_t), intent(in) :: result             !! with its remarks
       type(error_t), allocatable, intent(out) :: error      !! exit_convergence, exit_model or exit_file

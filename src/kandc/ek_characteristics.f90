@@ -9,7 +9,7 @@
 !> Two conditions in the vertical direction: vertical force held (the unchanged matrix), or heights of the wheel centres held
 !> (ek_port_response).
 !>
-!> Everything is SI and radians. A quotient with a vanishing denominator is not a number (ek_loaded_wheels). A swing arm longer than
+!> Everything is SI and radians. A quotient with a vanishing denominator is NaN (ek_loaded_wheels). A swing arm longer than
 !> one kilometre is equivalent to parallel guidance.
 module ek_characteristics
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
@@ -72,7 +72,7 @@ module ek_characteristics
 
 contains
 
-   !> Data for reading the rotations of a carrier, common to all loads.
+   !> Data that all loads need to read the rotations of a carrier.
    pure type(reader_t) function reader_of(stand, place) result(reader)
       type(stand_t), intent(in) :: stand
       integer, intent(in) :: place
@@ -101,7 +101,7 @@ contains
       is%caster = reader%caster(1)*twist(4) + reader%caster(2)*twist(5) + reader%caster(3)*twist(6)
    end subroutine respond
 
-   !> Computes the response per unit of a quotient's denominator; not a number where it vanishes.
+   !> Computes the response per unit of the denominator `divisor`; NaN where the denominator vanishes.
    pure subroutine respond_per(reader, twist, divisor, least, is)
       type(reader_t), intent(in) :: reader
       real(wp), intent(in) :: twist(6), divisor, least
@@ -187,7 +187,7 @@ contains
       call respond(reader, twist, is%traction(held))
    end subroutine under_forces
 
-   !> Computes the stiffness of one wheel, with the load held at the other wheel, and with its height held.
+   !> Computes the stiffness of one wheel under two conditions: load at the other wheel held, and height of the other wheel held.
    pure subroutine single_rates(c, at, rate)
       real(wp), intent(in) :: c(12, 12)
       integer, intent(in) :: at              !! number of rows before the rows of the wheel
@@ -239,7 +239,7 @@ contains
       is(anti_phase) = lift(place)*merge(1.0_wp, -1.0_wp, place == 1)      ! per force on the wheel itself
    end subroutine jacking
 
-   !> Computes length √(dh² + dz²)/|dθ| and angle atan(−dh/dz) of the arm about whose end a wheel centre swings.
+   !> Computes the swing arm of a wheel centre: length √(dh² + dz²)/|dθ| and angle atan(−dh/dz).
    !> Equation (S.2) of docs/theory/suspension.md.
    pure subroutine swing_arm(dh, dz, turn, length, angle)
       real(wp), intent(in) :: dh, dz       !! horizontal and vertical displacement [m/N]
@@ -302,9 +302,9 @@ contains
       is%drive_travel = axle%mass*gravity*(-transfer*upward(3) - 0.5_wp*axle%drive_share*lever)
    end subroutine anti_features
 
-   !> d(length)/d(wheel travel) with equal travel of all wheels: the loads f that lift each by one follow
-   !> from C_zz f = 1, and the change of length is the response of the spring to them. Wheels that can only move together
-   !> (C_zz singular) carry equal loads.
+   !> Motion ratio d(length)/d(wheel travel) with equal travel of all wheels. The loads f that lift each wheel by one follow from
+   !> C_zz f = 1; the change of length is the response of the spring to these loads. Wheels that can only move together (C_zz
+   !> singular) carry equal loads.
    !> Equation (C.13) of docs/theory/compliance.md.
    pure real(wp) function motion_ratio(c, length) result(ratio)
       real(wp), intent(in) :: c(:, :)        !! 6×6 or 12×12

@@ -31,7 +31,7 @@ module ek_column_list
 
 contains
 
-   !> Begins an empty list with room for n columns at first.
+   !> Begins an empty list. Memory for n columns is allocated.
    pure subroutine begin_list(list, n)
       class(column_list_t), intent(inout) :: list
       integer, intent(in) :: n
@@ -101,7 +101,7 @@ contains
       list%offered = 0
    end subroutine end_block
 
-   !> Sets the wanted values of a block from its vector; those from an unknown matrix are not numbers.
+   !> Copies the requested values of a block from its vector. Values are NaN if they need a matrix that is unknown.
    pure subroutine fill_block(list, block, vector, is_known, values)
       class(column_list_t), intent(in) :: list
       integer, intent(in) :: block
@@ -126,8 +126,8 @@ contains
       end if
    end subroutine fill_block
 
-   !> Chooses the columns that are filled. Blocks without a wanted column are skipped, and the matrix is solved only for a
-   !> column that needs it.
+   !> Chooses the columns that are filled. A block without a requested column is skipped. The matrix is solved only if a requested
+   !> column needs it.
    pure subroutine choose(list, is_wanted)
       class(column_list_t), intent(inout) :: list
       logical, intent(in) :: is_wanted(:)              !! of each column
@@ -145,7 +145,7 @@ contains
       list%blocks = pack([(k, k=1, size(list%last))], has_columns)
    end subroutine choose
 
-   !> Finds the conditions of ek_quantity that a model meets.
+   !> Finds which of the conditions of ek_quantity a model satisfies.
    subroutine conditions_of(suspension, order, has_rack, has)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: order(:)      !! of the wheels in the compliance matrix

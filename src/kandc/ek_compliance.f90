@@ -40,9 +40,9 @@ module ek_compliance
       integer :: wheels = 0, springs = 0
       integer, allocatable :: order(:)          !! wheel of the suspension at each index of C: left before right
       integer, allocatable :: spring(:)         !! axial spring of the suspension at each index
-      logical :: is_known = .false.             !! false: the matrix was singular, `response` is not a number
+      logical :: is_known = .false.             !! false: the matrix was singular, `response` is NaN
       logical :: has_drive = .false.            !! the last load is a unit displacement of the steering driver
-      real(wp), allocatable :: response(:, :)   !! (port, load), see above; not a number if it was not requested
+      real(wp), allocatable :: response(:, :)   !! (port, load), see above; NaN if it was not requested
       ! the loads that are solved, and the ports that are read
       integer, private :: solved = 0
       integer, allocatable, private :: load(:)          !! of each solved column
@@ -60,7 +60,7 @@ module ek_compliance
 
 contains
 
-   !> Work space for a model, for all loads; `drives`: a steering driver is moved.
+   !> Creates the work space of a model for all loads. `drives`: the steering driver is moved.
    function new_compliance(suspension, drives) result(self)
       type(suspension_t), intent(in) :: suspension
       logical, intent(in) :: drives
@@ -94,7 +94,7 @@ contains
       call ask(self, is_asked, .true.)
    end function new_compliance
 
-   !> Restricts the responses to some loads, and to the ports of the wheels.
+   !> Restricts the computation to the requested loads, and to the ports of the wheels if springs are not read.
    subroutine ask(self, is_asked, reads_springs)
       type(compliance_t), intent(inout) :: self
       logical, intent(in) :: is_asked(:)          !! of each load
@@ -113,7 +113,7 @@ contains
       self%response = ieee_value(1.0_wp, ieee_quiet_nan)
    end subroutine ask
 
-   !> Fills `self%response` at an equilibrium under given inputs. Costs one factorisation and the solutions.
+   !> Computes `self%response` at an equilibrium under given inputs. The cost is one factorisation and the solutions.
    !> Equations (C.1), (C.3) of docs/theory/compliance.md.
    subroutine wheel_compliance(suspension, state, inputs, steer_row, kkt, self)
       type(suspension_t), intent(in) :: suspension
@@ -128,7 +128,7 @@ contains
       call respond(suspension, state, inputs, steer_row, kkt, self)
    end subroutine wheel_compliance
 
-   !> Stores, for wheel_compliance_nearby, the motions of all bodies under the loads at the wheel centres at the last state.
+   !> Stores the motions of all bodies under the loads at the wheel centres at the last state, for wheel_compliance_nearby.
    pure subroutine keep_responses(self, kept)
       type(compliance_t), intent(in) :: self
       real(wp), intent(out) :: kept(:, :)         !! (load, unknown)
@@ -136,8 +136,9 @@ contains
       if (self%is_known) kept(:, :) = transpose(self%columns(:, :size(kept, 1)))
    end subroutine keep_responses
 
-   !> Computes the compliance of the wheels alone, without factorising, close to the state and design of the stored responses X:
-   !> C ≈ PᵀX + XᵀP − XᵀKX, with K and P of this state. The error is even, of second order in the distance. Symmetric matrices.
+   !> Computes the compliance of the wheels alone, without factorising, close to the state and design of stored responses X: C ≈ PᵀX
+   !> + XᵀP − XᵀKX, with K and P of this state. The error is even, and of second order in the distance. The matrix K must be
+   !> symmetric.
    !> Equation (E.8) of docs/theory/derivatives.md.
    subroutine wheel_compliance_nearby(suspension, state, inputs, kept, kkt, self)
       type(suspension_t), intent(in) :: suspension
@@ -164,7 +165,7 @@ contains
       self%is_known = .true.
    end subroutine wheel_compliance_nearby
 
-   !> Computes the responses where the whole tangent of this state is assembled already.
+   !> Computes the responses at a state whose complete tangent is already assembled.
    !> Equations (C.1), (C.3) of docs/theory/compliance.md.
    subroutine respond(suspension, state, inputs, steer_row, kkt, self)
       type(suspension_t), intent(in) :: suspension
@@ -198,7 +199,7 @@ contains
       end do
    end subroutine respond
 
-   !> Factorises the assembled matrix and solves for the columns, without scales on input and output.
+   !> Factorises the assembled matrix and solves for the columns. Input and output are not scaled.
    !> Equation (C.3) of docs/theory/compliance.md.
    subroutine solve_symmetric(kkt, self)
       type(kkt_t), intent(inout) :: kkt
@@ -212,8 +213,9 @@ contains
       if (kkt%stage == lapack_factors) call gather(self)
    end subroutine solve_symmetric
 
-   !> Moves every load to the column with its index, with zeros between. On some processors, the last digits of LAPACK's columns
-   !> depend on their index and number. A quantity does not depend on the other requested quantities.
+   !> Moves every requested load to the column with the load's index, with zeros between. On some processors, the last digits of
+   !> LAPACK's columns depend on their index and number. With fixed columns, a quantity does not depend on the other requested
+   !> quantities.
    pure subroutine spread(self)
       type(compliance_t), intent(inout) :: self
       integer :: j, k
@@ -227,7 +229,7 @@ contains
       end do
    end subroutine spread
 
-   !> Moves the solved loads to the first columns again.
+   !> Moves the solved loads back to the first columns.
    pure subroutine gather(self)
       type(compliance_t), intent(inout) :: self
       integer :: j
@@ -237,7 +239,7 @@ contains
       end do
    end subroutine gather
 
-   !> Sets the ports at a state: arms of the wheel centres, gradients of the lengths of springs.
+   !> Sets the ports at a state: the arms of the wheel centres, and the gradients of the lengths of springs.
    !> Equation (C.2) of docs/theory/compliance.md.
    pure subroutine set_ports(suspension, state, self)
       type(suspension_t), intent(in) :: suspension
@@ -321,7 +323,7 @@ contains
       end associate
    end subroutine read_ports
 
-   !> Change of a measure of two bodies under a load that was requested and solved.
+   !> Change of a measure of two bodies under a load that was requested and solved, in the unit of the measure.
    pure real(wp) function move_of(self, load, gradient, body_i, body_j) result(change)
       type(compliance_t), intent(in) :: self
       integer, intent(in) :: load
@@ -332,7 +334,7 @@ contains
       change = along(gradient, 6*(body_i - 1), 6*(body_j - 1), self%columns(:, self%column(load)))
    end function move_of
 
-   !> A gradient times the displacements of its two bodies; a negative number: the chassis.
+   !> The product of a gradient and the displacements of its two bodies. A negative index is the chassis.
    pure real(wp) function along(gradient, at_i, at_j, moves) result(change)
       real(wp), intent(in) :: gradient(12)
       integer, intent(in) :: at_i, at_j           !! unknowns before the unknowns of the body
@@ -343,9 +345,9 @@ contains
       if (at_j >= 0) change = change + dot_product(gradient(7:12), moves(at_j + 1:at_j + 6))
    end function along
 
-   !> Returns the motions of all bodies and the changes of all reactions [u; μ] under the unit loads at the wheel centres,
-   !> all of which must be requested, and the motions and changes for the transpose (equal if the matrix is symmetric). After
-   !> `respond`, whose responses to these loads are refined.
+   !> Returns the motions of all bodies and the changes of all reactions [u; μ] under the unit loads at the wheel centres; also
+   !> returns both for the transpose (equal if the matrix is symmetric). Must be called after `respond`, with all these loads
+   !> requested. The responses to these loads are refined.
    !> Equation (C.14) of docs/theory/compliance.md.
    subroutine unit_responses(kkt, self, right, left)
       type(kkt_t), intent(inout) :: kkt                     !! with the factors of `respond`
@@ -383,7 +385,8 @@ contains
       left = left + rest
    end subroutine unit_responses
 
-   !> Solves for further columns of generalised forces [N, N m; m] with the matrix of the last state; on return [u; μ].
+   !> Solves for further columns of generalised forces [N, N m; m] with the matrix of the last state. On return, the columns contain
+   !> [u; μ].
    subroutine solve_further(kkt, self, many, columns)
       type(kkt_t), intent(inout) :: kkt                     !! with the factors of `respond`
       type(compliance_t), intent(in) :: self

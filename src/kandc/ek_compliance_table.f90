@@ -1,4 +1,4 @@
-!> The compliance matrix at the states of a sweep, as a table, and at one of them.
+!> The compliance matrix as a table over the states of a sweep, and at a single state.
 module ek_compliance_table
    use ek_kinds, only: wp, degree
    use ek_suspension, only: suspension_t
@@ -59,8 +59,8 @@ contains
       end do
    end subroutine compliance_table
 
-   !> Computes the compliance matrix at one converged state of a sweep, at the wheel centres: x rearward, y right, z up
-   !> [m/N, rad/N, m/(N m), rad/(N m)]; not a number where the matrix is singular.
+   !> Computes the compliance matrix at one converged state of a sweep, at the wheel centres: x rearward, y right, z up [m/N, rad/N,
+   !> m/(N m), rad/(N m)]. All entries are NaN if the matrix is singular.
    subroutine state_compliance(suspension, schedule, path, k, kkt, compliance, c, arm)
       type(suspension_t), intent(in) :: suspension      !! on the rig
       type(schedule_t), intent(in) :: schedule          !! of the case
@@ -80,7 +80,8 @@ contains
       call read_compliance(suspension, state, compliance, c, arm)
    end subroutine state_compliance
 
-   !> Computes the values of compliance_columns at an equilibrium; or, with responses stored at an equilibrium, at a state near it.
+   !> Computes the values of compliance_columns at an equilibrium. With responses stored at an equilibrium, computes the values at a
+   !> state near this equilibrium.
    subroutine observe_compliance(suspension, state, inputs, kkt, compliance, values, kept)
       type(suspension_t), intent(in) :: suspension      !! on the rig
       type(state_t), intent(in) :: state
@@ -104,7 +105,7 @@ contains
       call put_compliance(read_at_patch(load_at_patch(c, arm), arm), scale, values(n*n + 1:2*n*n))
    end subroutine observe_compliance
 
-   !> Reads the compliance matrix at the wheel centres, and the arms to the contact points.
+   !> Reads the compliance matrix at the wheel centres, and the arms from the wheel centres to the contact points.
    pure subroutine read_compliance(suspension, state, compliance, c, arm)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
@@ -137,7 +138,7 @@ contains
       end do
    end subroutine put_compliance
 
-   !> Lists the names of every entry of both matrices, row by row.
+   !> Lists the column names of all entries of both matrices, row by row.
    subroutine compliance_columns(suspension, names)
       type(suspension_t), intent(in) :: suspension
       character(name_length), allocatable, intent(out) :: names(:)

@@ -30,7 +30,7 @@ module ek_contribution
    ! its part: 1 to 6 the laws of an element, and
    integer, parameter, public :: geometric = 0, of_stiffness = 7
 
-   !> The part of the model to which a share belongs.
+   !> The part of the model to which a contribution belongs.
    type :: share_t
       integer :: kind = of_element      !! of_element … of_state
       integer :: item = 0               !! number of the element, joint or load
@@ -51,7 +51,7 @@ module ek_contribution
 
 contains
 
-   !> The list of shares of a model on the rig, and room for them.
+   !> A list of the contributions of a model on the rig, with memory for their values.
    function new_contribution(suspension, wheels) result(self)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: wheels                !! of the compliance matrix
@@ -82,7 +82,7 @@ contains
 
    contains
 
-      !> Appends a share of an element, joint or load.
+      !> Appends the contribution of an element, joint or load to the list.
       subroutine add(kind, item, part)
          integer, intent(in) :: kind, item, part
          type(share_t) :: new
@@ -166,7 +166,7 @@ contains
       end associate
    end subroutine add_laws
 
-   !> Adds the share of the force × Hessian of an element.
+   !> Adds the share of an element's force × Hessian.
    subroutine add_element(suspension, state, element, left, right, matrix)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
@@ -261,14 +261,14 @@ contains
       end do
    end subroutine add_unbalanced
 
-   !> Indices of the blocks of two bodies by themselves, see ek_block.
+   !> Positions of the blocks of two bodies in a store of their own (see ek_block).
    pure function local_places(body_i, body_j) result(at)
       integer, intent(in) :: body_i, body_j
       integer :: at(3)
       at = [merge(1, 0, body_i > 0), merge(2, 0, body_j > 0), merge(3, 0, body_i > 0 .and. body_j > 0)]
    end function local_places
 
-   !> Computes matrix ← matrix + vᵀ T u, T in the blocks of two bodies (see `local_places`).
+   !> Computes matrix ← matrix + vᵀ T u, with T in the blocks of two bodies (see local_places).
    subroutine contract(blocks, body_i, body_j, left, right, matrix)
       real(wp), intent(in) :: blocks(6, 6, 3)
       integer, intent(in) :: body_i, body_j
@@ -286,7 +286,8 @@ contains
       end do
    end subroutine contract
 
-   !> T u at the unknowns of two bodies, T in the blocks of `local_places`; those on the diagonal count with their lower triangles.
+   !> The product T u at the unknowns of two bodies, with T in the blocks of local_places. Blocks on the diagonal are given by their
+   !> lower triangles.
    pure function block_product(blocks, body_i, body_j, u) result(y)
       real(wp), intent(in) :: blocks(6, 6, 3)
       integer, intent(in) :: body_i, body_j

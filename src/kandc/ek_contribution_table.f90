@@ -24,7 +24,8 @@ module ek_contribution_table
 
    integer, parameter, public :: share_length = 64      !! of a name in a deck
 
-   !> The columns that are shown if none are named: force steer, force camber, deflection, vertical compliance of each wheel.
+   !> The columns that are shown if none are named: lateral force steer and camber, deflection, and vertical compliance of each
+   !> wheel.
    character(*), parameter, public :: key_compliances(*) = [character(48) :: '*lateral_in_load_held_deflection_mm_per_kn', &
       '*lateral_in_load_held_steer_deg_per_kn', '*lateral_in_load_held_camber_deg_per_kn', &
       '*aligning_in_load_held_steer_deg_per_100nm', '*braking_load_held_deflection_mm_per_kn', &
@@ -53,7 +54,7 @@ module ek_contribution_table
 
 contains
 
-   !> Lists columns and rows; all columns are requested.
+   !> Lists the columns and rows. All columns are requested.
    subroutine start_contributions(suspension, self)
       type(suspension_t), intent(in) :: suspension          !! on the rig
       type(contribution_table_t), intent(out) :: self
@@ -149,8 +150,8 @@ contains
       end associate
    end subroutine find_contributions
 
-   !> Finds shares of the strain energy under unit forces at the contact points: the shares of the diagonal of C. Not a number
-   !> where a joint holds the point against that force.
+   !> Finds the shares of the strain energy under unit forces at the contact points, from the diagonal of C. A share is NaN if a
+   !> joint holds the contact point against the force.
    subroutine find_energy(c, arm, self)
       real(wp), intent(in) :: c(:, :), arm(:, :)
       type(contribution_table_t), intent(inout) :: self

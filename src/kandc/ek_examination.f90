@@ -20,7 +20,7 @@ module ek_examination
    private
    public :: examination_t, examine_cases, examine_case, recognise_case, known_case_t, add_distinct, check_inputs
 
-   !> Data of a case from a design that was examined before; one value for all designs of a case.
+   !> Data from a design of a case that was examined before. One variable serves all designs of a case.
    type :: known_case_t
       logical :: is_known = .false.          !! a design of the case had no defect
       integer :: unknowns = 0, constraints = 0   !! of the examined design
@@ -37,7 +37,7 @@ module ek_examination
 
 contains
 
-   !> Examines all cases. A defect of several cases is described in the first of them only.
+   !> Examines all cases. A defect that several cases share is described only in the first of these cases.
    subroutine examine_cases(base, cases, found)
       type(suspension_t), intent(in) :: base       !! not balanced
       type(case_t), intent(in) :: cases(:)
@@ -64,8 +64,8 @@ contains
       end do
    end subroutine examine_cases
 
-   !> Adds the lines of a text that are not in the list yet; the message on one defect may differ in the last digit between two
-   !> drives.
+   !> Adds the lines of a string that are not yet in the list. Numbers are ignored in the comparison, because the message on one
+   !> defect may differ in the last digit between two drivers.
    subroutine add_distinct(distinct, words, is_new)
       type(message_list_t), intent(inout) :: distinct
       character(*), intent(in) :: words
@@ -123,8 +123,8 @@ contains
       known%negative = diagnosis%negative
    end subroutine examine_case
 
-   !> Puts a later design of a case on the rig and finds whether it is certainly sound, as an earlier design was. Otherwise
-   !> examine_case diagnoses it. No text is made.
+   !> Puts a later design of a case on the rig, and finds whether the design is certainly sound, as an earlier design was. Otherwise
+   !> examine_case must diagnose the design. No string is created.
    subroutine recognise_case(base, case, known, mounted, is_sound)
       type(suspension_t), intent(in) :: base       !! not balanced
       type(case_t), intent(in) :: case             !! is_mountable
@@ -149,7 +149,7 @@ contains
       if (is_sound) kkt%is_at_design = kkt%fallbacks == 0      ! for the first state of its path
    end subroutine recognise
 
-   !> A text without its digits, signs and points.
+   !> A string without its digits, signs and decimal points.
    pure function without_numbers(text) result(rest)
       character(*), intent(in) :: text
       character(:), allocatable :: rest
@@ -187,7 +187,8 @@ contains
       if (mistakes%count() > 0) call fail(error, merge(exit_file, exit_deck, mistakes%count() == unread), mistakes%text())
    end subroutine check_inputs
 
-   !> Collects the errors in the table of case k, with all cases that name it, unless an earlier case names the same table.
+   !> Collects the errors in the table of case k, and names all cases that use this table. Does nothing if an earlier case uses the
+   !> same table.
    subroutine collect_table(cases, k, mistakes, unread)
       type(case_t), intent(in) :: cases(:)
       integer, intent(in) :: k
@@ -210,7 +211,7 @@ contains
       if (allocated(cases(k)%table%fault)) unread = unread + 1
    end subroutine collect_table
 
-   !> Checks that the results of a case have the column of its target.
+   !> Checks that the results of a case contain the column of its target.
    subroutine look_up_target(suspension, case, mistakes)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
@@ -236,7 +237,7 @@ contains
       if (allocated(error)) call mistakes%add(case%where//': case '//quoted(case%name)//': target: '//error%message)
    end subroutine look_up_target
 
-   !> Rejects two result columns with the same heading, as the names of different elements with their suffixes may coincide.
+   !> Rejects two result columns with the same heading. The names of different elements with their suffixes may coincide.
    subroutine compare_heads(suspension, cases, mistakes)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: cases(:)
@@ -270,7 +271,7 @@ contains
 
    contains
 
-      !> Adds an element whose name is the beginning of the column name.
+      !> Adds an element if a column name begins with the element's name.
       subroutine add_owner(name, where)
          character(*), intent(in) :: name, where
 

@@ -29,7 +29,7 @@ module ek_failure_text
 
 contains
 
-   !> Where a path ends and why: joints that lock, a load at its maximum, a mechanism; stops in contact.
+   !> Message about where a path ends and why: joints that lock, a load at its maximum, or a mechanism; with the stops in contact.
    function failure_text(suspension, case, path, failure, kkt) result(text)
       type(suspension_t), intent(in) :: suspension     !! on the rig
       type(case_t), intent(in) :: case                 !! on the rig
@@ -58,7 +58,7 @@ contains
       text = text//reason_text(suspension, case, path, failure, kkt)
    end function failure_text
 
-   !> A path followed by its arc length that does not reach its end, with the reason.
+   !> Message about a path followed by arc length that does not reach its end, with the reason.
    function arc_text(case, path, failure) result(text)
       type(case_t), intent(in) :: case
       type(path_t), intent(in) :: path
@@ -80,8 +80,8 @@ contains
       end select
    end function arc_text
 
-   !> The singularity at the last equilibrium; if none is found, the body that the last attempt moved most and the joint
-   !> with the largest constraint residual.
+   !> Phrase about the singularity at the last equilibrium. If no singularity is found, it names the body that the last attempt
+   !> moved most, and the joint with the largest constraint residual.
    function reason_text(suspension, case, path, failure, kkt) result(text)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
@@ -129,7 +129,7 @@ contains
       end if
    end function reason_text
 
-   !> The names of joints as a list: 'a', 'b' and 'c'.
+   !> The names of joints as a phrase: 'a', 'b' and 'c'.
    function joint_list(suspension, is_named) result(text)
       type(suspension_t), intent(in) :: suspension
       logical, intent(in) :: is_named(:)
@@ -144,7 +144,7 @@ contains
       end do
    end function joint_list
 
-   !> Stops in contact and their forces.
+   !> Phrase about the stops in contact and their forces.
    function stop_text(suspension, state) result(text)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
@@ -165,7 +165,8 @@ contains
       end do
    end function stop_text
 
-   !> 'row 3 of the table did not converge; …', or 'rows 3, 4, 7 … of the table, 12 in all, did …'.
+   !> Phrase about the rows of a load table that did not converge: 'row 3 of the table did not converge; …', or 'rows 3, 4, 7 … of
+   !> the table, 12 in all, did …'.
    function row_text(path, failure) result(text)
       type(path_t), intent(in) :: path
       type(failure_t), intent(in) :: failure
@@ -187,7 +188,7 @@ contains
       text = text//' to row '//str(row)//' is at '//str(100.0_wp*(failure%reached - row + 1), 4)//' %'
    end function row_text
 
-   !> The states of a grid that did not converge, by travel and driver.
+   !> Phrase about the states of a grid that did not converge, by travel and driver value.
    function grid_text(suspension, case, path) result(text)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case             !! on the rig
@@ -210,8 +211,8 @@ contains
       text = text//'; the others are there. Use a shorter range, or more increments'
    end function grid_text
 
-   !> Adds one warning each on: states with a negative stiffness, limit points and bifurcations on the path, nearly singular
-   !> matrices.
+   !> Adds at most one warning each on states with a negative stiffness, limit points and bifurcations on the path, and nearly
+   !> singular matrices.
    subroutine stability_remarks(case, path, remarks)
       type(case_t), intent(in) :: case
       type(path_t), intent(in) :: path

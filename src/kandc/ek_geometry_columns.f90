@@ -32,7 +32,7 @@ module ek_geometry_columns
 
 contains
 
-   !> Computes the values of wheel_axis: side view, distances from the steering axis of the deck, spin axis.
+   !> Computes the values of wheel_axis: side view, distances from the deck's steering axis, and spin axis.
    pure subroutine axis_geometry(now, frame, values)
       type(attitude_t), intent(in) :: now
       real(wp), intent(in) :: frame(3)              !! from the program's frame to the deck's frame
@@ -44,7 +44,7 @@ contains
       values(6:8) = frame*now%axes%spin
    end subroutine axis_geometry
 
-   !> Computes the values of instant_distances, from the twist of the carrier while it steers with its springs locked.
+   !> Computes the values of instant_distances, from the twist of the carrier during steering with locked springs.
    pure subroutine instant_geometry(twist, now, values)
       real(wp), intent(in) :: twist(6)
       type(attitude_t), intent(in) :: now
@@ -73,7 +73,7 @@ contains
       if (mass > 0.0_wp) values(3) = ride_frequency(1.0_wp/(lift(3) + 1.0_wp/tyre_rate), mass)
    end subroutine slope_values
 
-   !> Computes the values of axle_geometry: track, and with &axle and &steering the quantities of a turn.
+   !> Computes the values of axle_geometry: track; with &axle and &steering also the quantities of a turn.
    pure subroutine axle_geometry_values(axle, tyre_width, has_turn, static, left, right, values)
       type(axle_t), intent(in) :: axle
       real(wp), intent(in) :: tyre_width(2)        !! m
@@ -99,8 +99,8 @@ contains
       values(6) = wall_to_wall(outer, axle%wheelbase, track, axle%front_overhang, axle%front_width)
    end subroutine axle_geometry_values
 
-   !> Of a stop the remaining wheel travel to its contact [m], with equal travel of all wheels: its clearance over the change of
-   !> the clearance per travel.
+   !> Remaining wheel travel to the contact of a stop [m], with equal travel of all wheels: the clearance of the stop divided by the
+   !> change of clearance per travel.
    pure real(wp) function travel_left(suspension, compliance, state, k) result(travel)
       type(suspension_t), intent(in) :: suspension
       type(compliance_t), intent(in) :: compliance
@@ -115,7 +115,7 @@ contains
       end associate
    end function travel_left
 
-   !> clearance/|ratio|; not a number for a stop that is independent of the wheels, or wheels that do not move.
+   !> The quotient clearance/|ratio| [m]; NaN for a stop that does not depend on the wheels, or for wheels that do not move.
    pure real(wp) function gap_over(gap, ratio)
       real(wp), intent(in) :: gap, ratio      !! m, -
       gap_over = ieee_value(1.0_wp, ieee_quiet_nan)
@@ -123,8 +123,8 @@ contains
       gap_over = quotient(gap, abs(ratio), min_ratio)
    end function gap_over
 
-   !> Change of the length of an element per wheel travel, with equal travel of all wheels: the motion ratio of an element that
-   !> is not a port of the compliance matrix. Not a number if the matrix is unknown.
+   !> Change of the length of an element per wheel travel, with equal travel of all wheels. It is the motion ratio of an element
+   !> that is not a port of the compliance matrix. NaN if the matrix is unknown.
    pure real(wp) function length_ratio(suspension, compliance, state, k) result(ratio)
       type(suspension_t), intent(in) :: suspension
       type(compliance_t), intent(in) :: compliance
@@ -147,7 +147,7 @@ contains
       ratio = motion_ratio(compliance%response(:n, :n), length)
    end function length_ratio
 
-   !> The sprung mass of a wheel [kg]: from the deck, otherwise from the wheel load at design; 0 if there is neither.
+   !> The sprung mass of a wheel [kg]: from the deck, otherwise from the wheel load at design; 0 if neither is given.
    real(wp) function mass_on(suspension, wheel) result(mass)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: wheel
@@ -210,7 +210,7 @@ contains
    !>
    !>     centre = |d×k|     patch = |(patch − point)×k|     across = d·n     along = side (d×k)·n/|w×k|
    !>
-   !> which solves d = along w + μ k + across n. `along` and `across` are not numbers if w and k are parallel.
+   !> which solves d = along w + μ k + across n. `along` and `across` are NaN if w and k are parallel.
    !> Equation (S.10) of docs/theory/suspension.md.
    pure function axis_distances(side, point, direction, centre, patch, spin) result(is)
       integer, intent(in) :: side
@@ -235,7 +235,8 @@ contains
       is(3) = side*dot_product(moment, n)/turn
    end function axis_distances
 
-   !> |v|, of numbers that neither overflow nor underflow when squared: norm2 guards against that at several times the cost.
+   !> The length |v| of a vector whose squares neither overflow nor underflow. norm2 guards against overflow at several times the
+   !> cost.
    pure real(wp) function length_of(v)
       real(wp), intent(in) :: v(3)
       length_of = sqrt(v(1)**2 + v(2)**2 + v(3)**2)

@@ -41,7 +41,7 @@ module ek_gradient
       character(:), allocatable :: column, over   !! the columns of the table
       character(:), allocatable :: window      !! '±15 mm'
       real(wp) :: window_half = 0.0_wp         !! mm, deg, N or N m
-      real(wp) :: value = 0.0_wp               !! in `unit`; not a number if there is a note
+      real(wp) :: value = 0.0_wp               !! in `unit`; NaN if there is a note
       real(wp) :: turn = 1.0_wp                !! s_y/s_x
       real(wp) :: size = 1.0_wp                !! unit of the value per unit of the slope
       integer :: points = 0                    !! states in the window
@@ -90,7 +90,7 @@ contains
 
    end subroutine test_gradients
 
-   !> One gradient with its description.
+   !> One gradient of a test, with its description.
    function one_gradient(test, windows, definition, wheel, place, is_of_axle) result(gradient)
       type(test_result_t), intent(in) :: test
       type(windows_t), intent(in) :: windows
@@ -133,7 +133,8 @@ contains
       gradient%value = slope*(gradient%size*gradient%turn)
    end function one_gradient
 
-   !> Fits the slope of one column over another, in the units of both; 0 if it is within the noise. Creates no strings.
+   !> Fits the slope of one column over another column, in the units of both; 0 if the slope is within the noise. Creates no
+   !> strings.
    subroutine fit_slope(table, place, over, factor_size, half, slope, points, undefined)
       type(table_t), intent(in) :: table
       integer, intent(in) :: place, over           !! of the columns
@@ -156,8 +157,8 @@ contains
       if (abs(slope)*half <= noise_of(table%columns(place))) slope = 0.0_wp
    end subroutine fit_slope
 
-   !> Numerical noise in the unit of a column, by its suffix: travel is driven to 1e-7 mm, which corresponds to 1e-8 deg at a
-   !> lever of 500 mm and 1e-3 N at 10 kN/mm; ten times that.
+   !> Numerical noise of a column in its unit, by the suffix of its name. Travel is driven to 1e-7 mm, which corresponds to 1e-8 deg
+   !> at a lever of 500 mm and to 1e-3 N at 10 kN/mm. The noise is ten times this value.
    pure real(wp) function noise_of(column) result(noise)
       character(*), intent(in) :: column
       character(4), parameter :: endings(4) = [character(4) :: '_mm', '_deg', '_n', '_nm']
@@ -184,8 +185,8 @@ contains
       if (test%is_anti .and. side > 0) turn = -turn                  ! the load on the right wheel is −factor
    end function turn_of
 
-   !> Fits the least-squares slope of y over x for |x| ≤ half; not a number with fewer than three different x, or if y is not a
-   !> number at a state in the window: the other states would give another slope.
+   !> Fits the least-squares slope of y over x for |x| ≤ half. The slope is NaN with fewer than three different x, or if y is NaN at
+   !> a state in the window, because the other states would give another slope.
    pure subroutine slope_over_window(x, y, half, slope, points, undefined)
       real(wp), intent(in) :: x(:), y(:)   !! one value per state; a state that was not found has no x and is skipped
       real(wp), intent(in) :: half
@@ -208,7 +209,7 @@ contains
       slope = sum((x - mean(1))*(y - mean(2)), mask=is_inside)/spread
    end subroutine slope_over_window
 
-   !> Writes gradients.csv and gradients.json: each value with its window, unit and sign convention.
+   !> Writes gradients.csv and gradients.json. Each value has its window, unit and sign convention.
    subroutine write_gradients(gradients, model, checksum, csv_path, json_path, error)
       type(gradient_t), intent(in) :: gradients(:)
       character(*), intent(in) :: model, checksum, csv_path, json_path
@@ -219,7 +220,7 @@ contains
       call write_whole(json_path, gradients_json(gradients, model, checksum), error)
    end subroutine write_gradients
 
-   !> One line per gradient; `nan` for a missing value.
+   !> The gradients as CSV, one line per gradient; `nan` for a missing value.
    pure function gradients_csv(gradients) result(text)
       type(gradient_t), intent(in) :: gradients(:)
       character(:), allocatable :: text
@@ -244,7 +245,7 @@ contains
       text = text_table_csv(table)
    end function gradients_csv
 
-   !> { "model", "checksum", "gradients": [ { … } ] }
+   !> The gradients as JSON: { "model", "checksum", "gradients": [ { … } ] }.
    pure function gradients_json(gradients, model, checksum) result(text)
       type(gradient_t), intent(in) :: gradients(:)
       character(*), intent(in) :: model, checksum

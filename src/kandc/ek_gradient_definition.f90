@@ -9,8 +9,8 @@ module ek_gradient_definition
    private
    public :: definition_t, definitions_of, fitted, windows_t, set_window, window_of
 
-   !> Ends the name of every gradient, because a least-squares slope over a window differs from the slope at a state in a
-   !> column of the compliance matrix.
+   !> Suffix of the name of every gradient: a least-squares slope over a window differs from the slope at a state, which a column of
+   !> the compliance matrix gives.
    character(*), parameter :: fitted = ' (fitted)'
 
    !> Definition of a gradient, for the equation at the top of ek_gradient.
@@ -80,14 +80,15 @@ module ek_gradient_definition
    character(*), parameter :: names(6) = [character(6) :: 'travel', 'roll', 'force', 'torque', 'rack', 'wheel']
    character(*), parameter :: units(6) = [character(3) :: 'mm', 'deg', 'N', 'N m', 'mm', 'deg']
 
-   !> Half widths of the windows in these units, each centred on 0; rack: of steering input, wheel: of the steering wheel.
+   !> Half widths of the windows, in the units of `units`; each window is centred on 0. `rack` is the window of the steering input,
+   !> `wheel` of the steering-wheel angle.
    type :: windows_t
       real(wp) :: half(6) = [15.0_wp, 1.0_wp, 1000.0_wp, 100.0_wp, 10.0_wp, 20.0_wp]
    end type windows_t
 
 contains
 
-   !> The gradients of a test; empty for a test without any.
+   !> The gradients of a test; empty for a test without gradients.
    pure function definitions_of(kind) result(list)
       character(*), intent(in) :: kind
       type(definition_t), allocatable :: list(:)
@@ -102,7 +103,7 @@ contains
       end do
    end function definitions_of
 
-   !> Sets the half width of one window by its name.
+   !> Sets the half width of the window with a given name.
    pure subroutine set_window(windows, word, half, is_known)
       type(windows_t), intent(inout) :: windows
       character(*), intent(in) :: word
@@ -113,7 +114,7 @@ contains
       where (names == word) windows%half = half
    end subroutine set_window
 
-   !> Finds the window of a gradient; over `factor` it is the window of the quantity scaled by the test.
+   !> Finds the window of a gradient. Over `factor`, it is the window of the quantity that the test scales.
    pure subroutine window_of(kind, over, windows, half, unit)
       character(*), intent(in) :: kind, over    !! kind of the test; column, without the wheel's name
       type(windows_t), intent(in) :: windows

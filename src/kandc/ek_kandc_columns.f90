@@ -2,7 +2,7 @@
 !>
 !> The sections of ek_quantity give names, units and conditions; the values of each section are computed in SI, in the same order,
 !> if one of its columns is requested: here, in ek_wheel_columns and in ek_geometry_columns. A quantity
-!> without a value at a state is not a number.
+!> without a value at a state is NaN.
 !>
 !> The suffix of a column names the quantity whose slope the column is: `…_steer`, `…_toe`, `…_camber`, `…_caster` are the
 !> derivatives of the columns steer_deg, toe_deg, camber_deg and caster_deg; `…_rotation_x`, `…_y`, `…_z` are the
@@ -38,7 +38,7 @@ module ek_kandc_columns
 
 contains
 
-   !> Fills self%values at an equilibrium: all values, or the values chosen by `choose_kandc`.
+   !> Computes self%values at an equilibrium: all values, or the values chosen by choose_kandc.
    subroutine observe_kandc(suspension, state, inputs, kkt, self)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
@@ -56,7 +56,7 @@ contains
       call fill_kandc(suspension, state, inputs, wheels, kkt, self)
    end subroutine observe_kandc
 
-   !> Fills the columns. The attitudes of the wheels must be given, and the complete tangent must be assembled if
+   !> Fills the requested columns. The attitudes of the wheels must be given, and the complete tangent must be assembled if
    !> self%is_matrix_wanted.
    subroutine fill_kandc(suspension, state, inputs, wheels, kkt, self)
       type(suspension_t), intent(in) :: suspension
@@ -112,7 +112,7 @@ contains
       stand%arm(:, k) = now%at_contact - now%at_centre
    end subroutine stand_wheel
 
-   !> Computes the quantities that several sections need of a known compliance matrix.
+   !> Computes the quantities that several sections need, from a known compliance matrix.
    subroutine characterise(suspension, wheels, self)
       type(suspension_t), intent(in) :: suspension
       type(attitude_t), intent(in) :: wheels(:)
@@ -154,7 +154,7 @@ contains
       end associate
    end subroutine characterise
 
-   !> Computes the values of a section that is not one of a wheel's characteristics, SI.
+   !> Computes the values of a section that is not a section of a wheel's characteristics, in SI.
    subroutine section_values(suspension, state, wheels, section, item, self, values)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
@@ -231,7 +231,7 @@ contains
 
    contains
 
-      !> Mean height of the contact points.
+      !> Mean height of the contact points [m].
       pure real(wp) function ground()
          ground = 0.5_wp*sum(self%stand%centre(3, :) + self%stand%arm(3, :))
       end function ground
@@ -278,7 +278,8 @@ contains
       values(2) = sign(per_rack, rate)*row_change(suspension, state, self%steer_row)
    end subroutine steering_values
 
-   !> Prescribed value of a driver's row at a state, from design [m, rad]: its measure less the deflection of its compliance.
+   !> Change of the prescribed value of a driver's row from design to a state [m, rad]: the value of its measure minus the
+   !> deflection of its compliance.
    pure real(wp) function row_change(suspension, state, row) result(change)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state

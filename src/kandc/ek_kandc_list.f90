@@ -30,7 +30,7 @@ module ek_kandc_list
       at_spring = at_now + 15
    integer, parameter :: sections = at_spring
 
-   !> The columns of a model and the work space to fill them.
+   !> The columns of a model and the work space for their values.
    type, extends(column_list_t) :: kandc_t
       integer :: steer_row = 0                 !! row of Φ of the steering driver, 0: none
       integer, allocatable :: has(:)           !! conditions of ek_quantity: of each wheel, and without a wheel
@@ -70,9 +70,9 @@ contains
       call begin_design(suspension, self)
    end subroutine start_kandc
 
-   !> Lists the names of all columns that a model defines: self%names(:self%used). In the order of the table: each wheel, the axle
-   !> with its steering, the geometry of each wheel, the geometry of the axle, elements, springs. Before the columns are filled,
-   !> choose_kandc marks the requested columns.
+   !> Lists the names of all columns that a model defines: self%names(:self%used). The order is the order of the table: each wheel,
+   !> the axle with its steering, the geometry of each wheel, the geometry of the axle, elements, springs. choose_kandc then marks
+   !> the requested columns, before any column is filled.
    subroutine list_kandc(suspension, self)
       type(suspension_t), intent(in) :: suspension
       type(kandc_t), intent(out) :: self
@@ -115,7 +115,7 @@ contains
 
    contains
 
-      !> Adds the columns of a section, with the prefix of its wheel, as one block.
+      !> Adds the columns of a section as one block, with the prefix of the wheel.
       subroutine add_section(section, number, wheel)
          type(quantity_t), intent(in) :: section(:)
          integer, intent(in) :: number
@@ -130,7 +130,7 @@ contains
 
    end subroutine list_kandc
 
-   !> Adds the first sections of a wheel.
+   !> Adds the sections of a wheel that come before the columns of the axle.
    subroutine add_wheel(suspension, place, self)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: place
@@ -153,7 +153,7 @@ contains
 
    contains
 
-      !> Adds the columns of a section of this wheel as one block.
+      !> Adds the columns of a section of this wheel as one block, if a condition is met.
       subroutine add(section, number, condition)
          type(quantity_t), intent(in) :: section(:)
          integer, intent(in) :: number
@@ -181,7 +181,7 @@ contains
       end associate
    end subroutine add_element
 
-   !> Restricts the columns that are filled, the sections that are computed for them, and the loads that are solved.
+   !> Restricts the columns that are filled, and with them the sections that are computed and the loads that are solved.
    subroutine choose_kandc(self, is_wanted)
       type(kandc_t), intent(inout) :: self
       logical, intent(in) :: is_wanted(:)        !! of each column
@@ -245,7 +245,7 @@ contains
       if (self%is_pair) self%stand%track = design_track(suspension)
    end subroutine begin_design
 
-   !> Whether another design of the same parts has the columns of `self`.
+   !> Whether another design with the same parts has the columns of `self`.
    logical function same_columns(suspension, self)
       type(suspension_t), intent(in) :: suspension
       type(kandc_t), intent(in) :: self

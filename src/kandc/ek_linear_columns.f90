@@ -44,7 +44,7 @@ module ek_linear_columns
 
 contains
 
-   !> Lists the names of all columns that are linear in the compliance matrix; all are requested.
+   !> Lists the names of all columns that are linear in the compliance matrix. All columns are requested.
    subroutine start_linear_columns(suspension, self)
       type(suspension_t), intent(in) :: suspension          !! on the rig
       type(linear_columns_t), intent(out) :: self
@@ -107,7 +107,7 @@ contains
       call fill_linear_columns(suspension, self%kandc%compliance%response(:6*size(self%wheels), :6*size(self%wheels)), self, values)
    end subroutine find_linear_columns
 
-   !> Fills the requested columns for a share of the compliance matrix of this state.
+   !> Fills the requested columns for one contribution to the compliance matrix of this state.
    !> Equation (C.15) of docs/theory/compliance.md.
    subroutine fill_linear_columns(suspension, share, self, values)
       type(suspension_t), intent(in) :: suspension
@@ -148,7 +148,7 @@ contains
       values = all(self%asked)
    end subroutine fill_linear_columns
 
-   !> Fills the requested columns for another compliance matrix at this state, heights held by that matrix.
+   !> Fills the requested columns for another compliance matrix at this state. Heights are held according to that matrix.
    subroutine fill_changed_columns(suspension, c, self, values)
       type(suspension_t), intent(in) :: suspension
       real(wp), intent(in) :: c(:, :)                       !! at the wheel centres, SI, global axes

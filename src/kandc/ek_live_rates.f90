@@ -37,7 +37,8 @@ module ek_live_rates
 
 contains
 
-   !> Chooses the rates with the largest shares of a key compliance at a state, the largest first; none if its matrix is singular.
+   !> Chooses the rates with the largest contributions to a key compliance at a state, the largest first. The list is empty if the
+   !> matrix of the state is singular.
    subroutine choose_rates(result, k, many, rates)
       type(case_result_t), intent(inout) :: result         !! is_run
       integer, intent(in) :: k                             !! the state: reached
@@ -69,7 +70,7 @@ contains
       end do
    end subroutine choose_rates
 
-   !> Lists all rates with their largest shares; 0: rounding.
+   !> Lists all rates with their largest contributions; 0 for a contribution that is only rounding.
    subroutine list_rates(suspension, table, all, score)
       type(suspension_t), intent(in) :: suspension
       type(contribution_table_t), intent(in) :: table       !! at the state
@@ -106,7 +107,7 @@ contains
       end do
    end subroutine list_rates
 
-   !> The index of the corresponding rate on the left side; 0: there is no such rate.
+   !> Index of the corresponding rate on the left side; 0 if there is no such rate.
    pure integer function other_side(all, new) result(at)
       type(live_rate_t), intent(in) :: all(:), new
 
@@ -118,7 +119,7 @@ contains
       at = 0
    end function other_side
 
-   !> Finds the numbers of the laws of the rates among the shares of a test, in the order of `of_law`.
+   !> Finds the indices of the laws with live rates among the contributions of a test, in the order of `of_law`.
    subroutine find_laws(suspension, shares, rates, laws)
       type(suspension_t), intent(in) :: suspension          !! on the rig of the test
       type(contribution_t), intent(in) :: shares            !! of the test

@@ -34,8 +34,8 @@ module ek_live_state
    private
    public :: live_state_t, live_columns_t, start_live, find_live_state
 
-   !> Stiffnesses that are 1/displacement of a wheel centre under the load along the same axis, on all wheels: the axis. The ride
-   !> rate has the tyre in series, which adds a constant to the inverse.
+   !> Stiffnesses equal to 1/(displacement of a wheel centre under the load along the same axis), on all wheels, with that axis. The
+   !> ride rate has the tyre in series, which adds a constant to the inverse.
    type :: inverse_t
       character(32) :: name
       integer :: axis
@@ -56,7 +56,7 @@ module ek_live_state
       integer, allocatable, private :: laws(:)
    end type live_columns_t
 
-   !> The numbers of a state.
+   !> The numbers of a state from which the page computes its columns.
    type :: live_state_t
       logical :: is_known = .false.                   !! the matrix is not singular
       real(wp), allocatable :: self(:, :), held_self(:, :)   !! A: (law, law); with heights held
@@ -129,7 +129,7 @@ contains
       end do
    end function is_named
 
-   !> Finds the numbers of one reached state of a path.
+   !> Finds the numbers of one converged state of a path.
    !> Equation (C.19) of docs/theory/compliance.md.
    subroutine find_live_state(suspension, schedule, path, k, kkt, columns, self)
       type(suspension_t), intent(in) :: suspension          !! on the rig
@@ -229,7 +229,7 @@ contains
       self%held_move = transpose(response(:n, n + 1:))
    end subroutine hold_heights
 
-   !> Finds the deflections that the rates multiply: the addition of their change to the forces of the state.
+   !> Finds the deflections by which changes of the rates are multiplied. The products are the changes of the forces at the state.
    subroutine find_forces(suspension, state, root, columns, self)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state

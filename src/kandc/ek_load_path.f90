@@ -24,7 +24,7 @@ module ek_load_path
    private
    public :: load_path_t, find_load_paths
 
-   !> The elements, then the joints of a model.
+   !> The load paths of the elements, then of the joints of a model.
    type :: load_path_t
       real(wp), allocatable :: force(:, :, :)       !! (axis, load, item): global axes [N/N]
       real(wp), allocatable :: moment(:, :, :)      !! at the point of the second body [N m/N]
@@ -152,7 +152,7 @@ contains
       end associate
    end subroutine change_joint
 
-   !> Computes force and moment on the second body, at its point.
+   !> Computes the change of force and moment on the second body, at the point of this body.
    subroutine place(state, body_i, body_j, arm_j, u, change, force, moment)
       type(state_t), intent(in) :: state
       integer, intent(in) :: body_i, body_j
@@ -185,7 +185,7 @@ contains
       end if
    end subroutine place
 
-   !> Adds the stiffness of loads and the unbalanced force, times u.
+   !> Adds the products of u with the stiffness of loads and with the unbalanced force.
    subroutine add_loads(suspension, state, inputs, rhs, u, sum_of)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
@@ -233,7 +233,7 @@ contains
       end associate
    end subroutine take_load
 
-   !> Adds a generalised force of two bodies.
+   !> Adds a generalised force on two bodies to the sum.
    pure subroutine add(body_i, body_j, y, sum_of)
       integer, intent(in) :: body_i, body_j
       real(wp), intent(in) :: y(12)
@@ -243,7 +243,7 @@ contains
       if (body_j > 0) sum_of(6*body_j - 5:6*body_j) = sum_of(6*body_j - 5:6*body_j) + y(7:12)
    end subroutine add
 
-   !> The unknowns of two bodies, 0 for the chassis.
+   !> The unknowns of two bodies; 0 for the chassis.
    pure function of_bodies(body_i, body_j, u) result(both)
       integer, intent(in) :: body_i, body_j
       real(wp), intent(in) :: u(:)

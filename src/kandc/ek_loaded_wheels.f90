@@ -13,7 +13,7 @@ module ek_loaded_wheels
 
    real(wp), parameter, public :: min_compliance = 1.0e-12_wp   !! m/N
 
-   !> Positions of the wheels at a state, in the order of C.
+   !> Positions of the wheels at a state, in the order of the compliance matrix C.
    type :: stand_t
       type(axes_t) :: axes(2)
       real(wp) :: centre(3, 2) = 0.0_wp      !! wheel centres [m]
@@ -36,7 +36,7 @@ module ek_loaded_wheels
 
 contains
 
-   !> a/b, not a number where |b| is at most `least`.
+   !> The quotient a/b; NaN where |b| is at most `least`.
    pure real(wp) function quotient(a, b, least)
       real(wp), intent(in) :: a, b, least
       if (abs(b) > least) then
@@ -46,7 +46,7 @@ contains
       end if
    end function quotient
 
-   !> Sets the responses at one state.
+   !> Computes the requested responses at one state.
    pure subroutine load_wheels(c, arm, has_patch, has_held, lock, loaded)
       real(wp), intent(in) :: c(:, :)             !! six rows and columns per wheel
       real(wp), intent(in) :: arm(:, :)           !! contact point less wheel centre of each wheel [m]
@@ -96,7 +96,7 @@ contains
       end do
    end subroutine load_patch
 
-   !> Computes lateral and vertical displacement of a contact point: δ + θ×a.
+   !> Computes the lateral and vertical displacement of a contact point: δ + θ×a.
    !> Equation (C.7) of docs/theory/compliance.md.
    pure subroutine read_patch(twist, arm, moves)
       real(wp), intent(in) :: twist(6)
@@ -107,8 +107,8 @@ contains
       moves(3) = twist(3) + (twist(4)*arm(2) - twist(5)*arm(1))
    end subroutine read_patch
 
-   !> Response of a wheel if the other wheel carries the same load (with = 1) or the opposite load (with = −1); for a single
-   !> wheel, its own.
+   !> Response of a wheel if the other wheel carries an equal load (with = 1) or the opposite load (with = −1). A single wheel
+   !> responds to its own load only.
    !> Equation (C.8) of docs/theory/compliance.md.
    pure function phase(wheels, c, place, load, with) result(own)
       integer, intent(in) :: wheels

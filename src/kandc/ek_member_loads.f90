@@ -36,7 +36,7 @@ module ek_member_loads
       real(wp) :: arm(3) = 0.0_wp        !! from the reference point of the body, body axes [m]
    end type member_end_t
 
-   !> The loads of several cases: the long form as text, and the peaks.
+   !> The loads of several cases: a table with one row per load as a string, and the peaks.
    type :: load_record_t
       type(member_end_t), allocatable :: ends(:)
       type(buffer_t) :: text                       !! loads.csv
@@ -50,7 +50,7 @@ module ek_member_loads
    ! what is larger by less is the same: the first state stays, on both sides of an axle
    real(wp), parameter :: rounding = 1.0e-9_wp, tiny_load = 1.0e-9_wp      !! of the value; N, N m
 
-   !> The last three: the force of a bushing in its own axes x, y, z, which move with its first body.
+   !> Components of a load. The last three are the force of a bushing in its own axes x, y, z, which move with its first body.
    character(*), parameter :: components(11) = [character(6) :: 'fx', 'fy', 'fz', 'f', 'mx', 'my', 'mz', 'm', 'own_fx', 'own_fy', &
       'own_fz']
    integer, parameter :: of_all = 8           !! components that every member has
@@ -59,7 +59,7 @@ module ek_member_loads
 
 contains
 
-   !> Lists the ends of all members, in the order elements, joints. The members of the rig are the last.
+   !> Lists the ends of all members: first the elements, then the joints. The members of the rig are the last.
    subroutine member_ends(suspension, has_rig, ends)
       type(suspension_t), intent(in) :: suspension
       logical, intent(in) :: has_rig                !! .false.: without joints of the rig
@@ -97,7 +97,7 @@ contains
 
    contains
 
-      !> Adds both ends of a member.
+      !> Adds both ends of a member to the list.
       subroutine add_pair(name, measure)
          character(*), intent(in) :: name
          type(measure_t), intent(in) :: measure
@@ -106,7 +106,7 @@ contains
          call add_end(name, 2, measure%body_j, measure%arm_j)
       end subroutine add_pair
 
-      !> Adds the end of a member on one body.
+      !> Adds the end of a member on one body to the list.
       subroutine add_end(name, side, number, arm)
          character(*), intent(in) :: name
          integer, intent(in) :: side, number
@@ -233,7 +233,7 @@ contains
 
    contains
 
-      !> Stores the load at end e if it exceeds the peak so far.
+      !> Stores the load at end e if its magnitude exceeds the peak so far.
       subroutine keep(e, number, factor, values)
          integer, intent(in) :: e, number
          real(wp), intent(in) :: factor, values(size(components))
@@ -281,7 +281,7 @@ contains
       end associate
    end function own_force
 
-   !> Writes the largest value of every component of every end, with its test and state, as comma-separated values.
+   !> Writes the peak of every component at every end, with its test and state, as comma-separated values.
    subroutine peak_loads(record, buffer)
       type(load_record_t), intent(in) :: record
       type(buffer_t), intent(out) :: buffer

@@ -1,6 +1,6 @@
 !> Plausibility of a deck as a road vehicle: wrong units, swapped points, wrong bodies, a coil in tension, a motion that only
-!> preload resists, a response at design that no vehicle has. Findings are remarks, never errors; none with
-!> `plausible = .false.` in &model.
+!> preload resists, or a response at design that no vehicle has. Findings are remarks, never errors. `plausible = .false.` in &model
+!> suppresses them.
 module ek_plausibility
    use ek_kinds, only: wp, degree
    use ek_error, only: message_list_t
@@ -182,7 +182,7 @@ contains
          str(nint(acos(min(1.0_wp, abs(m%v(3))))/degree))//' deg from the vertical; check the signs of its coordinates')
    end subroutine doubt_slider
 
-   !> Checks that the lower end of an upright spring is on the wheel's body and the upper one on the chassis.
+   !> Checks that an upright spring has its lower end on the wheel's body and its upper end on the chassis.
    subroutine doubt_upright(suspension, spring, doubts)
       type(suspension_t), intent(in) :: suspension
       type(element_t), intent(in) :: spring
@@ -204,7 +204,7 @@ contains
 
    contains
 
-      !> Rank of a body: above is the chassis, below a wheel's body.
+      !> Rank of a body for comparing upper and lower ends: 1 for the chassis, −1 for the body of a wheel, 0 for other bodies.
       pure integer function rank_of(body)
          integer, intent(in) :: body
          rank_of = 0
@@ -214,7 +214,7 @@ contains
 
    end subroutine doubt_upright
 
-   !> The body moved by the driver of &steering; 0 if there is none.
+   !> Index of the body moved by the driver of &steering; 0 if there is none.
    pure integer function rack_body(suspension)
       type(suspension_t), intent(in) :: suspension
       integer :: row

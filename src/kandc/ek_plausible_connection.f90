@@ -1,5 +1,5 @@
 !> Plausibility of the connections of a deck: a spring that no part connects to a wheel, a torsion bar whose hinges turn about
-!> another axis, a bushing on the axis of another arm. Nothing is solved.
+!> another axis, a bushing on the axis of another arm. No equilibrium is solved.
 module ek_plausible_connection
    use ek_kinds, only: wp, degree, millimetre
    use ek_text, only: str, quoted
@@ -28,7 +28,7 @@ contains
       call doubt_bushing_axes(suspension, doubts)
    end subroutine doubt_connections
 
-   !> Examines springs against the chassis whose body is connected to no wheel, not even through other bodies.
+   !> Examines springs against the chassis whose body is not connected to a wheel, either directly or through other bodies.
    subroutine doubt_bearing(suspension, doubts, carries)
       type(suspension_t), intent(in) :: suspension
       type(doubts_t), intent(inout) :: doubts
@@ -51,7 +51,7 @@ contains
       end do
    end subroutine doubt_bearing
 
-   !> Finds the bodies that rods, joints, bushings and springs connect to a wheel other than through the chassis.
+   !> Marks the bodies that rods, joints, bushings and springs connect to a wheel without passing through the chassis.
    subroutine reach_wheels(suspension, is_reached)
       type(suspension_t), intent(in) :: suspension
       logical, intent(out) :: is_reached(0:)
@@ -87,7 +87,8 @@ contains
 
    end subroutine reach_wheels
 
-   !> Examines torsion springs between two bodies, each on a hinge on the chassis that does not turn about the axis of the torsion.
+   !> Examines torsion springs between two bodies that are both hinged on the chassis. Each hinge should turn about the axis of the
+   !> torsion spring.
    subroutine doubt_bar_axes(suspension, doubts)
       type(suspension_t), intent(in) :: suspension
       type(doubts_t), intent(inout) :: doubts
@@ -125,7 +126,7 @@ contains
       end associate
    end function is_hinge_of
 
-   !> Axis of a revolute joint at design: the direction that both rows on its directions leave free.
+   !> Axis of a revolute joint at design: the direction that its two rows on directions leave free.
    pure function hinge_axis(suspension, j) result(axis)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: j
@@ -133,7 +134,8 @@ contains
       axis = suspension%terms(suspension%rows(suspension%joints(j)%first_row + 3)%first)%measure%v
    end function hinge_axis
 
-   !> Examines bushings on the axis of the only bushing of another body, and off the axis of the other bushings of their own body.
+   !> Examines bushings that are on the axis of the only bushing of another body, and off the axis of the other bushings of their
+   !> own body.
    subroutine doubt_bushing_axes(suspension, doubts)
       type(suspension_t), intent(in) :: suspension
       type(doubts_t), intent(inout) :: doubts
@@ -156,7 +158,7 @@ contains
       end do
    end subroutine doubt_bushing_axes
 
-   !> The body that an element connects to the chassis; 0: none.
+   !> Index of the body that an element connects to the chassis; 0 if there is none.
    pure integer function on_chassis(suspension, k) result(body)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: k
@@ -214,7 +216,7 @@ contains
       end associate
    end function off_axis
 
-   !> The point of an element on its first body.
+   !> The position of an element's point on its first body [m].
    pure function centre_of(suspension, k) result(at)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: k

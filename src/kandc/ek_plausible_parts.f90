@@ -134,7 +134,8 @@ contains
       end associate
    end subroutine doubt_bushing
 
-   !> Examines a curve over a deflection: its span and force are in the usual range, and it rises, as a restoring force must.
+   !> Examines a curve over a deflection. Its span and force should be in the usual range, and it should rise, as a restoring force
+   !> must.
    subroutine doubt_curve(curve, element, is_angular, doubts)
       type(curve_t), intent(in) :: curve
       type(element_t), intent(in) :: element
@@ -237,7 +238,7 @@ contains
       end associate
    end subroutine doubt_vehicle
 
-   !> Examines the range of the cases.
+   !> Examines the ranges of the cases.
    subroutine doubt_cases(suspension, cases, doubts)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: cases(:)

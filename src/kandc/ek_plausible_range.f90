@@ -2,7 +2,7 @@
 !> value outside its range.
 !>
 !> A value outside its range is converted with the other units of its dimension: if one of them brings it into the range,
-!> this unit is named. Otherwise the remark gives the text of the table row. No finding is an error.
+!> this unit is named. Otherwise the remark gives the cause in the table row. No finding is an error.
 module ek_plausible_range
    use ek_kinds, only: wp, units_t, degree
    use ek_error, only: message_list_t
@@ -117,7 +117,7 @@ module ek_plausible_range
    ! toe: 30 mm of travel, about the least that a Formula Student car must have, would use the range of the static toe. Compliances
    ! have no range: no source covers both trucks and race cars.
 
-   !> The remarks without repetition: both sides of a mirrored deck have the same line and give one remark.
+   !> The remarks without repetition. Both sides of a mirrored deck have the same line and give one remark.
    type :: doubts_t
       type(message_list_t) :: remarks
       type(units_t) :: units = units_t()               !! of the deck
@@ -132,17 +132,17 @@ module ek_plausible_range
 
 contains
 
-   !> Sets the item that the next remarks are on.
+   !> Sets the item to which the next remarks refer.
    pure subroutine examine(self, where, thing)
       class(doubts_t), intent(inout) :: self
       character(*), intent(in) :: where        !! file:line
-      character(*), intent(in) :: thing        !! "spring 'coil'", '' for a text without a heading
+      character(*), intent(in) :: thing        !! "spring 'coil'", '' for a remark without a heading
 
       self%where = where
       self%thing = thing
    end subroutine examine
 
-   !> Adds a remark of a rule, once per rule and line of the deck.
+   !> Adds a remark of a rule, at most once per rule and line of the deck.
    pure subroutine add(self, rule, text)
       class(doubts_t), intent(inout) :: self
       character(*), intent(in) :: rule, text
@@ -165,7 +165,7 @@ contains
 
    end subroutine add
 
-   !> Compares a value with the range of its quantity, and adds a remark if the value is outside the range.
+   !> Compares a value with the usual range of its quantity, and adds a remark if the value is outside this range.
    pure subroutine judge(self, quantity, value, detail)
       class(doubts_t), intent(inout) :: self
       character(*), intent(in) :: quantity     !! of a row of `ranges`
@@ -214,7 +214,8 @@ contains
       if (is_usual) is_usual = is_within(ranges(k), value)
    end function is_usual
 
-   !> Gives the usual range of a quantity in the unit of the table (N/mm, Hz, deg/m, …); of its magnitude if `low` is not negative.
+   !> Returns the usual range of a quantity in the unit of the table (N/mm, Hz, deg/m, …). The range applies to the magnitude if
+   !> `low` is not negative.
    pure subroutine usual_range(quantity, low, high, is_known)
       character(*), intent(in) :: quantity     !! of a row of `ranges`
       real(wp), intent(out) :: low, high
@@ -230,7 +231,7 @@ contains
       high = ranges(k)%high
    end subroutine usual_range
 
-   !> Whether a value (SI) is within the range of a row.
+   !> Whether a value (SI) is within the range of a table row.
    pure logical function is_within(row, value)
       type(range_t), intent(in) :: row
       real(wp), intent(in) :: value
@@ -242,7 +243,7 @@ contains
       is_within = x >= row%low - widening .and. x <= row%high + widening
    end function is_within
 
-   !> A value with the deck's unit: '29.77 N/mm'.
+   !> A value with the unit of the deck: '29.77 N/mm'.
    pure function speak(self, dimension, value) result(text)
       class(doubts_t), intent(in) :: self
       integer, intent(in) :: dimension
@@ -253,14 +254,14 @@ contains
       if (dimension /= share) text = text//' '//deck_name(dimension, self%units)
    end function speak
 
-   !> A number with five digits, or all digits from 1e5 to 1e9.
+   !> A number with five digits; from 1e5 to 1e9 with all digits.
    pure function short(x) result(text)
       real(wp), intent(in) :: x
       character(:), allocatable :: text
       text = str(x, merge(9, 5, abs(x) >= 1.0e5_wp .and. abs(x) < 1.0e9_wp))
    end function short
 
-   !> SI value of a deck's unit.
+   !> SI value of the deck's unit of a dimension.
    pure real(wp) function deck_unit(dimension, units) result(unit)
       integer, intent(in) :: dimension
       type(units_t), intent(in) :: units
@@ -272,7 +273,7 @@ contains
       unit = sizes(dimension)
    end function deck_unit
 
-   !> Name of a deck's unit.
+   !> Name of the deck's unit of a dimension.
    pure function deck_name(dimension, units) result(name)
       integer, intent(in) :: dimension
       type(units_t), intent(in) :: units

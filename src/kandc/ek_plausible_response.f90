@@ -1,7 +1,7 @@
 !> Plausibility of the response of a model at design: wheel rate, ride frequency, motion ratio of each spring, bump steer and bump
-!> camber, the share of an anti-roll bar in the roll rate; and springs that carry nothing although the wheels are loaded.
+!> camber, the share of an anti-roll bar in the roll rate, and springs without force although the wheels are loaded.
 !>
-!> Costs one factorisation of the tangent at design, of a model with an anti-roll bar two; no equilibrium is solved.
+!> The cost is one factorisation of the tangent at design, or two for a model with an anti-roll bar. No equilibrium is solved.
 module ek_plausible_response
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp, pi, degree
@@ -28,7 +28,7 @@ module ek_plausible_response
 
 contains
 
-   !> Adds remarks on a model that can be solved.
+   !> Adds the remarks on the response of a model that can be solved.
    subroutine doubt_response(suspension, kkt, doubts)
       type(suspension_t), intent(in) :: suspension     !! balanced if possible; not on a rig
       type(kkt_t), intent(inout) :: kkt                !! work space
@@ -71,7 +71,7 @@ contains
       call observe_kandc(suspension, design_state(suspension), inputs_t(), kkt, kandc)
    end subroutine respond_at_design
 
-   !> The value of a column; not finite if the model does not define it.
+   !> The value of a column; NaN if the model does not define the column.
    pure real(wp) function value_of(kandc, name) result(value)
       type(kandc_t), intent(in) :: kandc
       character(*), intent(in) :: name
@@ -82,7 +82,7 @@ contains
       if (k > 0) value = kandc%values(k)
    end function value_of
 
-   !> Examines the motion ratio of a spring: its size, and whether the spring gets shorter in bump.
+   !> Examines the motion ratio of a spring: its size, and whether the spring shortens in bump.
    subroutine doubt_motion(suspension, k, kandc, doubts)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: k
@@ -150,7 +150,7 @@ contains
       end do
    end function road_load
 
-   !> Examines whether the preloads of balance leave all springs without force although the road loads the wheels.
+   !> Examines whether the preloads found by balance leave all springs without force although the road loads the wheels.
    subroutine doubt_load(suspension, doubts)
       type(suspension_t), intent(in) :: suspension
       type(doubts_t), intent(inout) :: doubts
@@ -184,7 +184,7 @@ contains
       end associate
    end subroutine doubt_load
 
-   !> Whether there is a preload at all; otherwise the model was not balanced.
+   !> Whether any element has a preload; otherwise the model was not balanced.
    pure logical function has_preload(suspension)
       type(suspension_t), intent(in) :: suspension
       integer :: k
@@ -197,7 +197,8 @@ contains
       end do
    end function has_preload
 
-   !> Examines whether an anti-roll bar, a torsion spring between a body on the left and one on the right, adds to the roll rate.
+   !> Examines whether an anti-roll bar contributes to the roll rate. A bar is a torsion spring between a body on the left and a
+   !> body on the right.
    subroutine doubt_bar(suspension, kandc, kkt, doubts)
       type(suspension_t), intent(in) :: suspension
       type(kandc_t), intent(in) :: kandc

@@ -87,7 +87,7 @@ contains
       call doubts%judge('caster trail', wheel%contact(1) - ground(1))
    end subroutine doubt_steer_axis
 
-   !> Checks that a wheel is on its carrier: no other body has its joints much nearer to the wheel's centre.
+   !> Checks that a wheel is on the right carrier: no other body has its joints much nearer to the wheel centre.
    subroutine doubt_carrier(suspension, w, doubts)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: w
@@ -110,7 +110,7 @@ contains
       end associate
    end subroutine doubt_carrier
 
-   !> Computes the mean of the attachment points of a body, and their number.
+   !> Computes the mean position of the attachment points of a body, and their number.
    subroutine middle_of_joints(suspension, mean, joints)
       type(suspension_t), intent(in) :: suspension
       real(wp), intent(out) :: mean(:, 0:)
@@ -139,7 +139,7 @@ contains
 
    contains
 
-      !> Adds a joint to the mean of a body.
+      !> Adds a joint to the mean position of a body.
       subroutine include(body, arm)
          integer, intent(in) :: body
          real(wp), intent(in) :: arm(3)
@@ -149,7 +149,7 @@ contains
 
    end subroutine middle_of_joints
 
-   !> Examines hardpoints outside the space of a suspension.
+   !> Examines hardpoints that are outside the usual space of a suspension.
    subroutine doubt_points(suspension, doubts)
       type(suspension_t), intent(in) :: suspension
       type(doubts_t), intent(inout) :: doubts
@@ -189,7 +189,7 @@ contains
       end do
    end subroutine doubt_points
 
-   !> A point of a body at design [m].
+   !> Position of a point of a body at design [m].
    pure function point_of(suspension, body, arm) result(at)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: body

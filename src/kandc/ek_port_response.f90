@@ -9,7 +9,8 @@ module ek_port_response
 
    real(wp), parameter :: rounding = 1.0e-9_wp    !! share of the port's compliance: a port with less left is already held
 
-   !> Ports that are held, one after the other. The variable is reused from state to state, so that its memory is allocated once.
+   !> Ports that are held, one after the other. The variable is used again from state to state, so that its memory is allocated
+   !> once.
    type :: lock_t
       integer :: held = 0                            !! number of ports that had to be held
       integer, allocatable :: port(:)                !! they, in this order
@@ -21,7 +22,7 @@ module ek_port_response
 
 contains
 
-   !> M = C B: loads at the contact points, displacements at the wheel centres.
+   !> The displacements M = C B of the wheel centres under loads at the contact points.
    !> Equation (C.7) of docs/theory/compliance.md.
    pure function load_at_patch(c, arm) result(m)
       real(wp), intent(in) :: c(:, :)
@@ -38,7 +39,7 @@ contains
       end do
    end function load_at_patch
 
-   !> Bᵀ M: displacements of the contact points.
+   !> The displacements Bᵀ M of the contact points.
    !> Equation (C.7) of docs/theory/compliance.md.
    pure function read_at_patch(m, arm) result(cp)
       real(wp), intent(in) :: m(:, :)
@@ -55,7 +56,7 @@ contains
       end do
    end function read_at_patch
 
-   !> The displacements M while the heights of all wheel centres are held: M − C(:,z) C_zz⁻¹ M(z,:), z one row per wheel.
+   !> The displacements M − C(:,z) C_zz⁻¹ M(z,:) with the heights of all wheel centres held; z has one row per wheel.
    !> Equation (C.6) of docs/theory/compliance.md.
    pure function hold(c, m) result(held)
       real(wp), intent(in) :: c(:, :)        !! at the wheel centres
@@ -126,7 +127,7 @@ contains
       end do
    end subroutine find_lock
 
-   !> Subtracts the displacements under the loads that hold the ports from the displacements under a load.
+   !> Subtracts the displacements caused by the loads that hold the ports from the displacements under a load.
    !> Equation (C.6) of docs/theory/compliance.md.
    pure subroutine keep_locked(lock, moves)
       type(lock_t), intent(in) :: lock                      !! of find_lock

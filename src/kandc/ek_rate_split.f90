@@ -25,7 +25,8 @@ module ek_rate_split
 
 contains
 
-   !> Shares of the classes in the wheel rate of a wheel, both wheels moved alike; they add up to 1.
+   !> Computes the contributions of the classes to the wheel rate of a wheel, as shares that add up to 1. Both wheels are moved
+   !> alike.
    subroutine split_wheel_rate(suspension, table, place, shares, is_known)
       type(suspension_t), intent(in) :: suspension              !! on the rig
       type(contribution_table_t), intent(in) :: table           !! of a state
@@ -44,7 +45,8 @@ contains
       call add_up(suspension, table, parts, shares, is_known)
    end subroutine split_wheel_rate
 
-   !> Shares of the classes in the suspension roll rate, both wheels moved in opposite directions; they add up to 1.
+   !> Computes the contributions of the classes to the suspension roll rate, as shares that add up to 1. Both wheels are moved in
+   !> opposite directions.
    subroutine split_roll_rate(suspension, table, shares, is_known)
       type(suspension_t), intent(in) :: suspension              !! on the rig
       type(contribution_table_t), intent(in) :: table           !! of a state
@@ -63,7 +65,7 @@ contains
       call add_up(suspension, table, parts, shares, is_known)
    end subroutine split_roll_rate
 
-   !> Adds up the parts of a compliance by class, as shares of it.
+   !> Sums the parts of a compliance by class, as shares of the compliance.
    subroutine add_up(suspension, table, parts, shares, is_known)
       type(suspension_t), intent(in) :: suspension
       type(contribution_table_t), intent(in) :: table
@@ -81,7 +83,7 @@ contains
       end do
    end subroutine add_up
 
-   !> The class of a share: bushings, springs, bars, stops, joints or preloads.
+   !> Index of the class of a part: bushings, springs, bars, stops, joints or preloads.
    pure integer function class_of(suspension, share) result(group)
       type(suspension_t), intent(in) :: suspension
       type(share_t), intent(in) :: share

@@ -1,5 +1,5 @@
-!> Remarks on the solution of a case as data: notes, warnings and errors, in the order in which they were found; and the messages on
-!> a model before it is solved: contact points, springs, preloads found by balance.
+!> Remarks on the solution of a case as data: notes, warnings and failures, in the order in which they were found. Also the messages
+!> on a model before it is solved: contact points, springs, preloads found by balance.
 module ek_remark
    use ek_kinds, only: wp, millimetre
    use ek_text, only: str, quoted
@@ -32,7 +32,7 @@ module ek_remark
       logical :: has_place = .false.
       real(wp) :: place = 0.0_wp             !! swept value to which it applies, SI
    contains
-      procedure :: whole                     !! text of the remark with its heading
+      procedure :: whole                     !! string of the remark with its heading
    end type remark_t
 
    !> The remarks on a case.
@@ -45,7 +45,7 @@ module ek_remark
 
 contains
 
-   !> A swept value of a case on the rig: 'wheel travel = 12.5 mm'.
+   !> A swept value of a case on the rig with its name and unit: 'wheel travel = 12.5 mm'.
    pure function swept_text(case, value, digits) result(text)
       type(case_t), intent(in) :: case
       real(wp), intent(in) :: value      !! SI
@@ -56,7 +56,7 @@ contains
       if (case%unit_name /= '-') text = text//' '//case%unit_name
    end function swept_text
 
-   !> The text of a remark with its case: "case 'x': text".
+   !> The string of a remark with its case: "case 'x': text".
    pure function whole(self) result(text)
       class(remark_t), intent(in) :: self
       character(:), allocatable :: text
@@ -65,7 +65,7 @@ contains
       if (len(self%head) > 0) text = self%head//': '//text
    end function whole
 
-   !> Adds a remark; an empty text adds nothing.
+   !> Adds a remark; adds nothing for an empty string.
    pure subroutine list_add(self, severity, topic, case, text, place, is_of_method)
       class(remark_list_t), intent(inout) :: self
       integer, intent(in) :: severity, topic
@@ -108,7 +108,7 @@ contains
       if (allocated(self%remarks)) list_has_failed = any(self%remarks%severity == failure)
    end function list_has_failed
 
-   !> All failures, one after the other; '' if there are none.
+   !> All failures as one string, one after the other; '' if there are none.
    pure function list_failures(self) result(text)
       class(remark_list_t), intent(in) :: self
       character(:), allocatable :: text
@@ -122,8 +122,8 @@ contains
       end do
    end function list_failures
 
-   !> Warns of a contact point that is not where a wheel of this radius touches the ground. Tests and compliance matrix both
-   !> use the contact point of the deck, so that an error in it affects both.
+   !> Warns of a contact point at which a wheel of this radius would not touch the ground. Tests and compliance matrix both use the
+   !> contact point of the deck, so that an error in it affects both.
    subroutine patch_remarks(suspension, words)
       type(suspension_t), intent(in) :: suspension
       type(message_list_t), intent(inout) :: words
@@ -145,7 +145,7 @@ contains
       end do
    end subroutine patch_remarks
 
-   !> Whether the deck has a spring that carries the car: a spring, or a torsion spring against the chassis.
+   !> Whether the deck has a spring that carries the car: a spring, or a torsion spring that acts against the chassis.
    pure logical function has_spring(suspension)
       type(suspension_t), intent(in) :: suspension
 
@@ -155,8 +155,8 @@ contains
       end associate
    end function has_spring
 
-   !> Warns of a deck without a spring: its equilibrium rests on bushings and stops. Cases that only prescribe a wheel
-   !> travel or a driver (kinematics) need no spring.
+   !> Warns of a deck without a spring, whose equilibrium rests on bushings and stops. Cases that only prescribe a wheel travel or a
+   !> driver (kinematics) need no spring.
    subroutine spring_remarks(suspension, cases, words)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: cases(:)
@@ -169,7 +169,7 @@ contains
          'and the reported rates are those of these elements')
    end subroutine spring_remarks
 
-   !> Adds the preloads found by balance.
+   !> Adds notes on the preloads found by balance.
    subroutine preload_remarks(suspension, words)
       type(suspension_t), intent(in) :: suspension
       type(message_list_t), intent(inout) :: words

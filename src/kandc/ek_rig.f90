@@ -57,7 +57,7 @@ contains
       call mount_on(base, given, rig, suspension, this)
    end subroutine mount
 
-   !> Puts a completed suspension on the rig of a case, and returns the rig.
+   !> Puts a completed suspension on the rig of a case as mount does, and also returns the rig.
    pure subroutine mount_on(base, given, rig, suspension, this)
       type(suspension_t), intent(in) :: base
       type(case_t), intent(in) :: given
@@ -79,7 +79,7 @@ contains
       this%place_name = rig%place_name
    end subroutine mount_on
 
-   !> Puts a completed suspension on the rig of a case, with the work space of its solution.
+   !> Puts a completed suspension on the rig of a case, together with the work space for its solution.
    subroutine mount_case(base, given, mounted)
       type(suspension_t), intent(in) :: base
       type(case_t), intent(in) :: given                !! is_mountable
@@ -91,9 +91,9 @@ contains
       mounted%is_mounted = .true.
    end subroutine mount_case
 
-   !> Mounts the next design of a blueprint, like mount_case. Since `mounted` was put on the rig, only numbers of the suspension
-   !> and of the case may have changed. Numbers are renewed in place: no name is copied, and no memory is allocated after the
-   !> first design.
+   !> Puts the next design of a blueprint on the rig, like mount_case. Since `mounted` was put on the rig, only numbers of the
+   !> suspension and of the case may have changed. Numbers are replaced in the existing variables: no name is copied, and no memory
+   !> is allocated after the first design.
    subroutine mount_again(base, given, mounted)
       type(suspension_t), intent(in) :: base
       type(case_t), intent(in) :: given                !! is_mountable
@@ -136,13 +136,13 @@ contains
       end associate
    end function stands_there
 
-   !> Forgets that a case is on the rig: it may be mounted again with another model.
+   !> Marks a case as not on the rig. It may then be put on the rig again with another model.
    pure subroutine take_off(mounted)
       type(mounted_case_t), intent(inout) :: mounted
       mounted%is_mounted = .false.
    end subroutine take_off
 
-   !> Joins a suspension and a rig to one flat model.
+   !> Joins a suspension and a rig to one model without nesting.
    pure subroutine put_on(rig, base, suspension)
       type(rig_t), intent(in) :: rig                  !! made for this suspension
       type(suspension_t), intent(in) :: base
@@ -163,7 +163,7 @@ contains
       rig%place_name = ''
    end function new_rig
 
-   !> The rig of a case. A case without a test uses the drive or load that it names.
+   !> The rig of a case. A case without a test uses the driver or load that it names.
    pure type(rig_t) function rig_of(suspension, case) result(rig)
       type(suspension_t), intent(in) :: suspension    !! completed, on no rig
       type(case_t), intent(in) :: case                !! a table that was not read has no rows: the rig then moves nothing
@@ -224,7 +224,7 @@ contains
       end select
    end subroutine add_parts
 
-   !> Adds the drive or the loads that a case without a test names.
+   !> Adds the driver or the loads that a case without a test names.
    pure subroutine follow_deck(suspension, case, rig)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
@@ -244,7 +244,7 @@ contains
       rig%unit = trim(driver_unit(suspension, case%drive))
    end subroutine follow_deck
 
-   !> Adds heights that follow the swept value; with vertical = 'force', vertical forces instead.
+   !> Adds heights that follow the swept value; with vertical = 'force', adds vertical forces instead.
    pure subroutine move_heights(test, suspension, case, wheels, control, rig)
       type(rig_test_t), intent(in) :: test
       type(suspension_t), intent(in) :: suspension

@@ -17,7 +17,7 @@ module ek_rig_numbers
 
    real(wp), parameter :: up(3) = [0.0_wp, 0.0_wp, 1.0_wp]
 
-   !> The sum that a driver holds: Σ sign × height of wheels, in the order of the terms of its row.
+   !> The sum that a driver prescribes: Σ sign × height of wheels, in the order of the terms of its row.
    type :: height_t
       integer :: wheels(2) = 0                           !! 0: none
       real(wp) :: signs(2) = 0.0_wp
@@ -50,7 +50,8 @@ module ek_rig_numbers
 
 contains
 
-   !> Sets the numbers of a rig for a design of the suspension and of the case. Only the first values of a grid are allocated.
+   !> Sets the numbers of a rig for a design of the suspension and of the case. Memory is allocated only for the first values of a
+   !> grid.
    pure subroutine set_rig_numbers(suspension, case, rig)
       type(suspension_t), intent(in) :: suspension       !! completed, on no rig
       type(case_t), intent(in) :: case

@@ -42,7 +42,7 @@ contains
       if (suspension%loads(k)%is_case) factor = load_factor(inputs, k)
    end function factor_of
 
-   !> Whether an active load has no potential.
+   !> Whether any active load has no potential.
    pure logical function has_skew_part(suspension, inputs)
       type(suspension_t), intent(in) :: suspension
       type(inputs_t), intent(in) :: inputs
@@ -55,7 +55,7 @@ contains
       end do
    end function has_skew_part
 
-   !> N of a load, at the unknowns [Δr Δπ] of its body.
+   !> The matrix N of a load, at the unknowns [Δr Δπ] of its body.
    !> Equation (C.4) of docs/theory/compliance.md.
    pure function skew_part(load, pose, factor) result(part)
       type(load_t), intent(in) :: load
@@ -74,7 +74,7 @@ contains
       end if
    end function skew_part
 
-   !> Factorises T + N, scaled like T.
+   !> Factorises T + N, with the scaling of T.
    !> Equation (C.4) of docs/theory/compliance.md.
    subroutine factorise_skew(suspension, state, inputs, least, kkt, self)
       type(suspension_t), intent(in) :: suspension
@@ -106,7 +106,7 @@ contains
       self%is_singular = .not. (info == 0 .and. minval(pivots) > least*maxval(pivots))
    end subroutine factorise_skew
 
-   !> Solves for some columns [N, m], without scales on input and output; or with the transpose.
+   !> Solves for columns [N, m] with the matrix or its transpose. Input and output are not scaled.
    subroutine solve_skew(self, kkt, is_transposed, many, columns)
       type(skew_system_t), intent(in) :: self
       type(kkt_t), intent(in) :: kkt

@@ -51,7 +51,7 @@ contains
 
    contains
 
-      !> Includes the deck's own case of this test, or the standard one.
+      !> Includes a test: the deck's own case if the deck has one, otherwise the standard test.
       subroutine include(test, is_anti, offset)
          type(rig_test_t), intent(in) :: test
          logical, intent(in) :: is_anti
@@ -103,7 +103,7 @@ contains
 
    end subroutine standard_tests
 
-   !> Sets the range of a standard test of steering, or of a grid, to the whole rack travel; the range of other tests is unchanged.
+   !> Sets the range of a standard test of steering, or of a grid, to the whole rack travel. The range of other tests is unchanged.
    pure subroutine cover_rack_travel(suspension, this)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(inout) :: this
@@ -117,7 +117,7 @@ contains
       this%from = -this%to
    end subroutine cover_rack_travel
 
-   !> A heading for a case: 'Lateral force, anti-phase, 30 mm aft of the contact point'.
+   !> The title of a test: 'Lateral force, anti-phase, 30 mm aft of the contact point'.
    pure function test_title(this, wheels) result(title)
       type(case_t), intent(in) :: this
       integer, intent(in) :: wheels              !! number of wheels of the model; a single wheel has no phase
@@ -138,7 +138,7 @@ contains
       if (this%vertical == 'road') title = title//', on the road'
    end function test_title
 
-   !> The condition of the wheels in a test, for its results: 'vertical force held'; '' for a case that is not a test.
+   !> The condition of the wheels in a test: 'vertical force held'; '' for a case that is not a test.
    pure function held_text(this) result(held)
       type(case_t), intent(in) :: this
       character(48) :: held

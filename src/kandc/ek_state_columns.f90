@@ -44,7 +44,8 @@ contains
       call choose(list, is_wanted)
    end subroutine state_columns
 
-   !> Lists the names of the columns of a model: list%names(:list%used). Before they are filled, `choose` sets which are requested.
+   !> Lists the names of the columns of a model: list%names(:list%used). `choose` must mark the requested columns before any column
+   !> is filled.
    subroutine list_state(suspension, list)
       type(suspension_t), intent(in) :: suspension
       type(column_list_t), intent(out) :: list
@@ -105,19 +106,19 @@ contains
 
    end subroutine list_state
 
-   !> Whether a column of a wheel is requested.
+   !> Whether any column of a wheel is requested.
    pure logical function has_wheels(list)
       type(column_list_t), intent(in) :: list
       has_wheels = any(list%section(list%blocks) <= of_axis)
    end function has_wheels
 
-   !> Whether columns of wheels alone are requested, which follow from their attitudes.
+   !> Whether only columns of wheels are requested. They follow from the attitudes of the wheels.
    pure logical function has_only_wheels(list)
       type(column_list_t), intent(in) :: list
       has_only_wheels = all(list%section(list%blocks) <= of_axis)
    end function has_only_wheels
 
-   !> Whether a column of a joint is requested.
+   !> Whether any column of a joint is requested.
    pure logical function has_joints(list)
       type(column_list_t), intent(in) :: list
       has_joints = any(list%section(list%blocks) == of_joint)
@@ -157,7 +158,7 @@ contains
       end do
    end subroutine state_values
 
-   !> Computes the values of wheel_position, SI.
+   !> Computes the values of wheel_position, in SI.
    pure subroutine position_values(now, frame, values)
       type(attitude_t), intent(in) :: now
       real(wp), intent(in) :: frame(3)
@@ -172,7 +173,7 @@ contains
       values(9:11) = frame*now%contact
    end subroutine position_values
 
-   !> Computes length or clearance, and force, of an element of one measure, in the units of their columns.
+   !> Computes the length or clearance, and the force, of an element with one measure, in the units of the columns.
    pure subroutine element_values(suspension, state, k, values)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
@@ -189,7 +190,7 @@ contains
       end associate
    end subroutine element_values
 
-   !> Computes deflection, rotation, force and moment of a bushing, marker axes, in the units of their columns.
+   !> Computes deflection, rotation, force and moment of a bushing in its marker axes, in the units of the columns.
    pure subroutine bushing_values(suspension, state, k, values)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
@@ -208,7 +209,8 @@ contains
       end associate
    end subroutine bushing_values
 
-   !> Computes force and moment of a joint on its second body, at its point, frame of the deck; the reaction of one of measures.
+   !> Computes force and moment of a joint on its second body, at its point, in the frame of the deck. For a joint of measures,
+   !> computes the reaction of its first row.
    pure subroutine joint_values(suspension, state, gradients, frame, k, values)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
@@ -238,7 +240,7 @@ contains
       end associate
    end subroutine joint_values
 
-   !> Row of the table above of a kind of measure.
+   !> Index of the row of the table above for a kind of measure.
    pure integer function which(kind)
       integer, intent(in) :: kind
       which = 3
@@ -246,7 +248,7 @@ contains
       if (kind == axis_axis) which = 2
    end function which
 
-   !> Whether rows have a moment: those between directions.
+   !> Whether any of a joint's rows has a moment. Rows between directions have moments.
    pure logical function has_moment(suspension, first, rows)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: first, rows

@@ -16,7 +16,7 @@ module ek_steer_angle
 
 contains
 
-   !> Steer angle: left −toe, right +toe.
+   !> Steer angle [rad, positive to the left]: −toe on the left, toe on the right.
    pure real(wp) function steer_of(toe, side)
       real(wp), intent(in) :: toe
       integer, intent(in) :: side     !! −1 left, +1 right
@@ -53,7 +53,7 @@ contains
       roll = atan2(left(3) - right(3), track)
    end function axle_roll
 
-   !> Camber relative to the road: the road rolls with the wheels, by θ_x = −roll, and camber is −side·θ_x.
+   !> Camber relative to the road [rad]. The road rolls with the wheels by θ_x = −roll, which changes camber by −side·θ_x.
    pure real(wp) function inclination_of(camber, side, roll) result(inclination)
       real(wp), intent(in) :: camber, roll
       integer, intent(in) :: side
@@ -97,7 +97,7 @@ contains
       if (abs(wanted) > 0.0_wp) percent = 100.0_wp*(inner - outer)/wanted
    end function ackermann_percent
 
-   !> δi − δA: positive if the inner wheel steers more than for pure rolling.
+   !> The Ackermann error δi − δA [rad]: positive if the inner wheel steers more than for pure rolling.
    pure real(wp) function ackermann_error(left, right, wheelbase, track) result(error)
       real(wp), intent(in) :: left, right, wheelbase, track
       real(wp) :: inner, outer
@@ -120,8 +120,8 @@ contains
       diameter = 2.0_wp*wheelbase/sin(outer)
    end function turning_circle
 
-   !> Steer of the outer wheel at which both roll about one point on the line of the rear axle, from the steer of the inner wheel:
-   !> atan(L/(L/tan δi + t)), written without a division.
+   !> Steer angle of the outer wheel [rad] at which both wheels roll about one point on the line of the rear axle, from the steer
+   !> angle of the inner wheel: atan(L/(L/tan δi + t)), written without a division.
    pure real(wp) function ideal_outer_steer(inner, wheelbase, track) result(outer)
       real(wp), intent(in) :: inner, wheelbase, track
       outer = atan2(wheelbase*tan(inner), wheelbase + track*tan(inner))

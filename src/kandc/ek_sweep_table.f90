@@ -40,15 +40,15 @@ module ek_sweep_table
 
 contains
 
-   !> Prepares the table of a case. Nothing is done if the table is already prepared for this model, case and these columns; so in
-   !> designs after the first no text is made: gfortran stores the length of the text that a function returns in one
-   !> location for all threads.
+   !> Prepares the table of a case. Does nothing if the table is already prepared for this model, case and these columns. Designs
+   !> after the first therefore create no strings: gfortran stores the length of a string that a function returns in one location
+   !> for all threads.
    subroutine make_observer(suspension, case, self, wanted, has_violation)
       type(suspension_t), intent(in) :: suspension          !! on the rig
       type(case_t), intent(in) :: case
       type(observer_t), intent(inout) :: self
       character(*), intent(in), optional :: wanted(:)   !! columns; a name that the model does not define has no effect
-      logical, intent(in), optional :: has_violation    !! .false.: constraint_error of equilibria is not a number
+      logical, intent(in), optional :: has_violation    !! .false.: constraint_error of equilibria is NaN
       character(name_length), allocatable :: columns(:), asked(:)
       logical, allocatable :: is_kept(:)
       integer :: k
@@ -74,7 +74,7 @@ contains
       if (case%has_all) call choose_kandc(self%kandc, is_kept(self%shown + 1:self%reported))
    end subroutine make_observer
 
-   !> Whether an observer was prepared for these columns of such a model.
+   !> Whether an observer was prepared for these columns of a model with the same parts.
    logical function is_for(self, suspension, case, asked, has_asked)
       type(observer_t), intent(in) :: self
       type(suspension_t), intent(in) :: suspension
@@ -150,8 +150,8 @@ contains
       end associate
    end subroutine observe
 
-   !> Fills the K&C quantities of a table of observe with defers_kandc, at the states where they are read; at all other states
-   !> they remain values that are not numbers.
+   !> Fills the K&C quantities of a table created by `observe` with defers_kandc, at the states where they are read. At all other
+   !> states the K&C quantities remain NaN.
    subroutine observe_kandc_at(is_read, suspension, case, path, kkt, observer, table)
       logical, intent(in) :: is_read(:)          !! of each row of the table
       type(suspension_t), intent(in) :: suspension
@@ -186,7 +186,8 @@ contains
       end do
    end subroutine observe_kandc_at
 
-   !> Computes the values of quantity_columns at one state, an equilibrium or close to one, as observe has them in its table.
+   !> Computes the values of quantity_columns at one state, which is an equilibrium or close to one. The values equal the values in
+   !> the table of `observe`.
    subroutine observe_state(suspension, state, inputs, kkt, observer, wheels, all_values, values)
       type(suspension_t), intent(in) :: suspension          !! on the rig
       type(state_t), intent(in) :: state
@@ -206,27 +207,27 @@ contains
       end do
    end subroutine observe_state
 
-   !> The quantities among the columns of the table: without state and factor in front, and converged … at the end.
+   !> The names of the quantities in the table: all columns except state and factor in front, and converged … at the end.
    pure function quantity_columns(observer) result(names)
       type(observer_t), intent(in) :: observer              !! of make_observer
       character(name_length), allocatable :: names(:)
       names = observer%columns(3:count(observer%kept <= observer%reported))
    end function quantity_columns
 
-   !> Whether a column needs the compliance matrix, or belongs to a section that is computed with it.
+   !> Whether any column needs the compliance matrix, or belongs to a section that is computed with the matrix.
    pure logical function reads_matrix(observer)
       type(observer_t), intent(in) :: observer              !! of make_observer
       reads_matrix = has_kandc(observer)
    end function reads_matrix
 
-   !> Whether a column of the table is a K&C quantity, which comes with the compliance matrix.
+   !> Whether a column of the table is a K&C quantity, which is computed with the compliance matrix.
    pure logical function is_kandc_column(observer, column)
       type(observer_t), intent(in) :: observer              !! of make_observer
       integer, intent(in) :: column                         !! of its table
       is_kandc_column = observer%kept(column) > observer%shown .and. observer%kept(column) <= observer%reported
    end function is_kandc_column
 
-   !> Whether all columns follow from the poses of the wheels and the numbers of the wheels.
+   !> Whether all columns follow from the poses and the data of the wheels.
    pure logical function reads_poses_of_wheels(observer)
       type(observer_t), intent(in) :: observer              !! of make_observer
       reads_poses_of_wheels = .not. has_kandc(observer) .and. has_only_wheels(observer%list)
@@ -239,7 +240,7 @@ contains
       if (has_kandc) has_kandc = size(observer%kandc%blocks) > 0
    end function has_kandc
 
-   !> Fills the requested quantities of a state. begin_design was called.
+   !> Fills the requested quantities of a state. begin_design must have been called.
    subroutine fill_quantities(suspension, state, inputs, kkt, observer, needs_violation, needs_kandc, wheels, values)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
@@ -310,7 +311,7 @@ contains
       call list_columns(suspension, case, columns, list, kandc)
    end subroutine sweep_columns
 
-   !> Lists the headings, and prepares the K&C columns if the case requests them. Which are requested is set afterwards.
+   !> Lists the headings, and prepares the K&C columns if the case requests them. The requested columns are marked afterwards.
    subroutine list_columns(suspension, case, columns, list, kandc)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
@@ -333,13 +334,13 @@ contains
       columns(size(columns) - 2:) = [character(name_length) :: 'near_singular', 'iterations', 'constraint_error']
    end subroutine list_columns
 
-   !> Whether stability is known: the matrix of the recursive method has no geometric stiffness.
+   !> Whether stability is known. It is not for the recursive method, whose matrix has no geometric stiffness.
    pure logical function knows_stability(case)
       type(case_t), intent(in) :: case
       knows_stability = case%method /= 'recursive'
    end function knows_stability
 
-   !> Columns after the quantities: converged, stable, near_singular, iterations, constraint_error.
+   !> Number of columns after the quantities: converged, stable, near_singular, iterations, constraint_error.
    pure integer function ends_of(case)
       type(case_t), intent(in) :: case
       ends_of = merge(5, 4, knows_stability(case))
@@ -357,7 +358,8 @@ contains
       bytes = margin + 8*int(case%increments + 2, i8)*(coordinates(suspension) + of_a_path + 2*size(observer%columns))
    end function sweep_bytes
 
-   !> Finds the states in the table: all reached states, and one more on a side that failed; for a load table, every row.
+   !> Finds the first and last state in the table: all converged states, and one more on a side that failed. For a load table, every
+   !> row is included.
    pure subroutine reached_rows(path, first, last)
       type(path_t), intent(in) :: path
       integer, intent(out) :: first, last

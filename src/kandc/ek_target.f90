@@ -1,4 +1,4 @@
-!> The swept value at which a result has a target value: for instance the travel that gives a spring length of 250 mm.
+!> The swept value at which a result has a target value, for instance the travel at which a spring length is 250 mm.
 module ek_target
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
@@ -73,8 +73,8 @@ contains
          str(found%wanted)//words)
    end subroutine find_target
 
-   !> Marks the rows that have the value, or whose interval to the next row crosses it, and estimates the swept value at the
-   !> crossing.
+   !> Marks the rows that have the target value, or between which and the next row the target value is crossed. Estimates the swept
+   !> value at each crossing.
    subroutine find_crossings(path, table, c, wanted, is_crossing, place)
       type(path_t), intent(in) :: path
       type(table_t), intent(in) :: table
@@ -101,15 +101,15 @@ contains
       end do
    end subroutine find_crossings
 
-   !> The state of the path in a row of its table.
+   !> Index of the state of the path in a row of its table.
    pure integer function state_of(table, row)
       type(table_t), intent(in) :: table
       integer, intent(in) :: row
       state_of = nint(table%values(1, row)) + 1     ! the table counts from 0
    end function state_of
 
-   !> Solves for the swept value between a row and the next: regula falsi with the Illinois rule, which halves the weight
-   !> of an unchanged end.
+   !> Solves for the swept value between a row and the next row: regula falsi with the Illinois rule, which halves the weight of an
+   !> end that stays.
    subroutine close_in(suspension, case, path, table, c, row, kkt, found, is_jump, error)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
@@ -173,7 +173,8 @@ contains
 
    contains
 
-      !> Solves the equilibrium at a swept value, from the nearer state of the sweep, and its difference to the target value.
+      !> Solves the equilibrium at a swept value, from the nearer state of the sweep, and computes the difference to the target
+      !> value.
       subroutine look_at(place)
          real(wp), intent(in) :: place
          type(state_t) :: state
@@ -222,7 +223,7 @@ contains
       here%settled = path%settled
    end subroutine one_state
 
-   !> Finds the column of this name, or the only column whose name consists of this name and a unit.
+   !> Finds the column with this name, or the only column whose name is this name with a unit.
    subroutine find_column(columns, name, place, error)
       character(*), intent(in) :: columns(:)
       character(*), intent(in) :: name
@@ -251,7 +252,7 @@ contains
       call fail(error, exit_deck, 'the results have no column '//quoted(name)//hint)
    end subroutine find_column
 
-   !> Names with a separator between them.
+   !> A list of names with a separator between them, as a string.
    pure function listed(names, between) result(text)
       character(*), intent(in) :: names(:), between
       character(:), allocatable :: text

@@ -21,7 +21,7 @@ module ek_what_if
 
 contains
 
-   !> Computes A: deflections of some laws per unit load on each of them. Costs as many solutions.
+   !> Computes A: the deflections of some laws per unit load on each of them. The cost is one solution per law.
    !> Equation (C.16) of docs/theory/compliance.md.
    subroutine find_self_moves(laws, kkt, compliance, shares, self_move)
       integer, intent(in) :: laws(:)                      !! numbers of laws in `shares`
@@ -62,7 +62,8 @@ contains
       changed = c - matmul(left_move, forces)
    end subroutine changed_compliance
 
-   !> C' with some laws rigid: their deflections are locked one after the other; a deflection that is locked already has no effect.
+   !> The compliance matrix C' with some laws rigid. Their deflections are locked one after the other; a deflection that is already
+   !> locked has no effect.
    !> Equation (C.17) of docs/theory/compliance.md.
    pure function rigid_compliance(c, left_move, move, self_move) result(changed)
       real(wp), intent(in) :: c(:, :)

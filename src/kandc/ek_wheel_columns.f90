@@ -59,7 +59,7 @@ contains
       end select
    end subroutine wheel_values
 
-   !> Computes responses to roll: steer, camber, caster, steer in percent, rotations.
+   !> Computes the responses to roll: steer, camber, caster, steer in percent, and rotations.
    pure subroutine roll_values(roll, frame, values)
       type(response_t), intent(in) :: roll
       real(wp), intent(in) :: frame(3)
@@ -96,7 +96,7 @@ contains
       end associate
    end subroutine force_values
 
-   !> Computes deflections of contact point and centre, steer, camber under a lateral force.
+   !> Computes deflections of contact point and wheel centre, steer, and camber under a lateral force.
    pure subroutine lateral_values(response, values)
       type(response_t), intent(in) :: response
       real(wp), intent(inout) :: values(4)

@@ -56,7 +56,7 @@ module ek_lane_conditions
 
 contains
 
-   !> a < b
+   !> The condition a < b, lane by lane.
    elemental type(mask_t) function less(a, b) result(y)
       type(lanes_t), intent(in) :: a, b
       integer :: l
@@ -66,7 +66,7 @@ contains
       end do
    end function less
 
-   !> a < b
+   !> The condition a < b, lane by lane.
    elemental type(mask_t) function less_real(a, b) result(y)
       type(lanes_t), intent(in) :: a
       real(wp), intent(in) :: b
@@ -77,7 +77,7 @@ contains
       end do
    end function less_real
 
-   !> a ≤ b
+   !> The condition a ≤ b, lane by lane.
    elemental type(mask_t) function less_or_equal(a, b) result(y)
       type(lanes_t), intent(in) :: a, b
       integer :: l
@@ -87,7 +87,7 @@ contains
       end do
    end function less_or_equal
 
-   !> a ≤ b
+   !> The condition a ≤ b, lane by lane.
    elemental type(mask_t) function less_or_equal_real(a, b) result(y)
       type(lanes_t), intent(in) :: a
       real(wp), intent(in) :: b
@@ -98,7 +98,7 @@ contains
       end do
    end function less_or_equal_real
 
-   !> a > b
+   !> The condition a > b, lane by lane.
    elemental type(mask_t) function greater(a, b) result(y)
       type(lanes_t), intent(in) :: a, b
       integer :: l
@@ -108,7 +108,7 @@ contains
       end do
    end function greater
 
-   !> a > b
+   !> The condition a > b, lane by lane.
    elemental type(mask_t) function greater_real(a, b) result(y)
       type(lanes_t), intent(in) :: a
       real(wp), intent(in) :: b
@@ -119,7 +119,7 @@ contains
       end do
    end function greater_real
 
-   !> a ≥ b
+   !> The condition a ≥ b, lane by lane.
    elemental type(mask_t) function greater_or_equal(a, b) result(y)
       type(lanes_t), intent(in) :: a, b
       integer :: l
@@ -129,7 +129,7 @@ contains
       end do
    end function greater_or_equal
 
-   !> a ≥ b
+   !> The condition a ≥ b, lane by lane.
    elemental type(mask_t) function greater_or_equal_real(a, b) result(y)
       type(lanes_t), intent(in) :: a
       real(wp), intent(in) :: b
@@ -140,7 +140,7 @@ contains
       end do
    end function greater_or_equal_real
 
-   !> a .and. b
+   !> The condition a .and. b, lane by lane.
    elemental type(mask_t) function both(a, b) result(y)
       type(mask_t), intent(in) :: a, b
       integer :: l
@@ -150,7 +150,7 @@ contains
       end do
    end function both
 
-   !> a .or. b
+   !> The condition a .or. b, lane by lane.
    elemental type(mask_t) function either(a, b) result(y)
       type(mask_t), intent(in) :: a, b
       integer :: l
@@ -160,7 +160,7 @@ contains
       end do
    end function either
 
-   !> .not. a
+   !> The condition .not. a, lane by lane.
    elemental type(mask_t) function opposite(a) result(y)
       type(mask_t), intent(in) :: a
       integer :: l
@@ -182,8 +182,8 @@ contains
       every = (condition%v(1) + condition%v(2)) + (condition%v(3) + condition%v(4)) > 3.5_wp
    end function every
 
-   !> a where the condition holds, else b. Both are read first: where a read depends on a condition, gfortran branches lane by
-   !> lane.
+   !> The value a where the condition holds, otherwise b, lane by lane. Both are read first, because gfortran branches lane by lane
+   !> where a read depends on a condition.
    elemental type(lanes_t) function merge_lanes(a, b, condition) result(y)
       type(lanes_t), intent(in) :: a, b
       type(mask_t), intent(in) :: condition
@@ -197,7 +197,7 @@ contains
       end do
    end function merge_lanes
 
-   !> The smaller number.
+   !> The smaller of two numbers, lane by lane.
    elemental type(lanes_t) function min_lanes(a, b) result(y)
       type(lanes_t), intent(in) :: a, b
       integer :: l
@@ -207,7 +207,7 @@ contains
       end do
    end function min_lanes
 
-   !> The larger number.
+   !> The larger of two numbers, lane by lane.
    elemental type(lanes_t) function max_lanes(a, b) result(y)
       type(lanes_t), intent(in) :: a, b
       integer :: l
@@ -227,7 +227,7 @@ contains
       end do
    end function abs_lanes
 
-   !> The number of breaks that are not above x, lane by lane.
+   !> The number of breaks that are less than or equal to x, lane by lane.
    pure type(piece_t) function pieces_below(breaks, x) result(k)
       type(lanes_t), intent(in) :: breaks(:), x
       integer :: l, n
@@ -241,7 +241,7 @@ contains
       end do
    end function pieces_below
 
-   !> The entry k of a table, lane by lane.
+   !> Entry k of a table, lane by lane.
    pure type(lanes_t) function entry(table, k) result(y)
       type(lanes_t), intent(in) :: table(:)
       type(piece_t), intent(in) :: k

@@ -76,7 +76,7 @@ contains
       end do
    end function cos_lanes
 
-   !> The angle of the point (x, y).
+   !> The angle of the point (x, y) from the x axis [rad], lane by lane.
    elemental type(lanes_t) function atan2_lanes(y, x) result(angle)
       type(lanes_t), intent(in) :: y, x
       integer :: l
@@ -86,7 +86,7 @@ contains
       end do
    end function atan2_lanes
 
-   !> a·b, summed from the first component on as the intrinsic function does.
+   !> The scalar product a·b, summed from the first component on, as by the intrinsic function.
    pure type(lanes_t) function dot_product_lanes(a, b) result(y)
       type(lanes_t), intent(in) :: a(:), b(:)
       integer :: k
@@ -96,7 +96,7 @@ contains
       end do
    end function dot_product_lanes
 
-   !> a·b, where a is the same for all designs.
+   !> The scalar product a·b, with a equal for all designs.
    pure type(lanes_t) function dot_product_real(a, b) result(y)
       real(wp), intent(in) :: a(:)
       type(lanes_t), intent(in) :: b(:)

@@ -14,8 +14,8 @@ module ek_lane_instructions
 
 contains
 
-   !> Returns the name in the option -march, the last if there are several: 'x86-64-v3'; '' if the compiler does not report its
-   !> options.
+   !> Returns the name in the option -march, such as 'x86-64-v3'; the last name if there are several. It is '' if the compiler does
+   !> not report its options.
    pure subroutine get_instruction_set(name)
       character(*), intent(out) :: name
       integer :: first, last

@@ -39,7 +39,7 @@ module ek_lane_numbers
 
 contains
 
-   !> Sets the same number in all lanes.
+   !> Sets all lanes to one number.
    elemental subroutine assign_real(x, number)
       type(lanes_t), intent(out) :: x
       real(wp), intent(in) :: number

@@ -31,7 +31,7 @@ module ek_bounded_search
    integer, parameter :: no_step_helps = 3        !! no step that was tried reduced r: rounding, or a corner of r
    integer, parameter :: no_value = 4             !! r has no value at the start
 
-   !> A search. x and the bounds are in the units of the caller; the scale of each x is a change of it that counts as large.
+   !> A search. x and the bounds are in the units of the caller. The scale of each x is a change that counts as large.
    type :: bounded_search_t
       logical :: is_finished = .false.
       integer :: ended = 0                           !! one of the constants above
@@ -53,7 +53,7 @@ module ek_bounded_search
 
 contains
 
-   !> Begins a search; the first point to be evaluated is the start, moved between the bounds.
+   !> Begins a search. The first point to be evaluated is the start, moved between the bounds.
    subroutine begin_search(start, lower, upper, scale, search)
       real(wp), intent(in) :: start(:), lower(:), upper(:), scale(:)
       type(bounded_search_t), intent(out) :: search
@@ -111,7 +111,7 @@ contains
          search%ended = why
       end subroutine finish
 
-      !> Computes the next bounded step from the best x.
+      !> Computes the next step within the bounds from the best x.
       subroutine next_step()
          real(wp) :: d(size(search%x)), low(size(d)), high(size(d)), scaled(size(r), size(d)), before
          integer :: j

@@ -29,7 +29,7 @@ module ek_curve
 
 contains
 
-   !> Copies the numbers of a curve to another curve, in its memory if the number of points is the same.
+   !> Copies the numbers of a curve to another curve. The memory of the latter is used again if the number of points is equal.
    pure subroutine copy_curve(from, to)
       type(curve_t), intent(in) :: from
       type(curve_t), intent(inout) :: to          !! its name is then unchanged
@@ -47,7 +47,7 @@ contains
       to%end_slope = from%end_slope
    end subroutine copy_curve
 
-   !> Finds value and slope at x; at a corner of a linear curve, the slope to the right.
+   !> Finds the value and the slope at x. At a corner of a linear curve, the slope is the slope to the right.
    pure subroutine look_up_curve(curve, x, value, slope)
       type(curve_t), intent(in) :: curve
       real(num), intent(in) :: x
@@ -85,7 +85,7 @@ contains
       slope = merge(slope, s, is_outside)
    end subroutine look_up_curve
 
-   !> Finds the least and the largest slope between two abscissae.
+   !> Finds the smallest and the largest slope between two abscissae.
    pure subroutine slopes_between(curve, from, to, least, most)
       type(curve_t), intent(in) :: curve
       real(num), intent(in) :: from, to

@@ -8,7 +8,8 @@ module ek_lapack_routines
    public :: dsytrf, dsytrs, dsytrs2, dlacn2, dsysv, dsyev, dgesv, dgetrf, dgetrs, dgesvd, dgelsd, dpotrf
 
    interface
-      !> Factorises a symmetric positive definite matrix by Cholesky; info = order of the first minor that is not positive.
+      !> Factorises a symmetric positive definite matrix by Cholesky's method. info is the order of the first minor that is not
+      !> positive.
       pure subroutine dpotrf(uplo, n, a, lda, info)
          import :: wp
          implicit none(type, external)
@@ -42,7 +43,8 @@ module ek_lapack_routines
          integer, intent(out) :: info
       end subroutine dsytrs
 
-      !> Solves as dsytrs does, but in matrix products: quicker for several right-hand sides. The factors are as before on return.
+      !> Solves as dsytrs does, but with matrix products, which is faster for several right-hand sides. On return, the factors are
+      !> unchanged.
       pure subroutine dsytrs2(uplo, n, nrhs, a, lda, ipiv, b, ldb, work, info)
          import :: wp
          implicit none(type, external)
@@ -68,7 +70,7 @@ module ek_lapack_routines
          integer, intent(inout) :: isave(3)
       end subroutine dlacn2
 
-      !> Factorises and solves in one call: the unit of the benchmark.
+      !> Factorises and solves in one call. Its time is the unit of the benchmark.
       pure subroutine dsysv(uplo, n, nrhs, a, lda, ipiv, b, ldb, work, lwork, info)
          import :: wp
          implicit none(type, external)
@@ -92,7 +94,7 @@ module ek_lapack_routines
          integer, intent(out) :: info
       end subroutine dgesv
 
-      !> Factorises by LU with partial pivoting; info > 0: a pivot is zero.
+      !> Factorises by LU with partial pivoting. info > 0 if a pivot is zero.
       pure subroutine dgetrf(m, n, a, lda, ipiv, info)
          import :: wp
          implicit none(type, external)
@@ -102,7 +104,7 @@ module ek_lapack_routines
          integer, intent(out) :: info
       end subroutine dgetrf
 
-      !> Solves with the factors of dgetrf; trans = 'T': with the transpose of the matrix.
+      !> Solves with the factors of dgetrf. With trans = 'T', solves with the transpose of the matrix.
       pure subroutine dgetrs(trans, n, nrhs, a, lda, ipiv, b, ldb, info)
          import :: wp
          implicit none(type, external)
@@ -114,7 +116,7 @@ module ek_lapack_routines
          integer, intent(out) :: info
       end subroutine dgetrs
 
-      !> Finds eigenvalues and eigenvectors of a symmetric matrix, ascending.
+      !> Finds the eigenvalues of a symmetric matrix in ascending order, and the eigenvectors.
       pure subroutine dsyev(jobz, uplo, n, a, lda, w, work, lwork, info)
          import :: wp
          implicit none(type, external)
@@ -126,7 +128,7 @@ module ek_lapack_routines
          integer, intent(out) :: info
       end subroutine dsyev
 
-      !> Decomposes a matrix by singular values.
+      !> Computes the singular value decomposition of a matrix.
       pure subroutine dgesvd(jobu, jobvt, m, n, a, lda, s, u, ldu, vt, ldvt, work, lwork, info)
          import :: wp
          implicit none(type, external)
@@ -138,7 +140,8 @@ module ek_lapack_routines
          integer, intent(out) :: info
       end subroutine dgesvd
 
-      !> Solves least squares of minimum norm, by singular values; those below rcond times the largest count as zero.
+      !> Solves a least-squares problem for the solution of minimum norm, by singular values. Singular values below rcond times the
+      !> largest count as zero.
       pure subroutine dgelsd(m, n, nrhs, a, lda, b, ldb, s, rcond, rank, work, lwork, iwork, info)
          import :: wp
          implicit none(type, external)

@@ -12,7 +12,7 @@ module ek_new_curve
 
 contains
 
-   !> The curve through points; x must increase strictly, at least two (checked by the reader).
+   !> The curve through points. x must increase strictly, and there must be at least two points (both checked by the reader).
    pure function new_curve(x, y, kind, x_unit, y_unit) result(curve)
       real(wp), intent(in) :: x(:), y(:)
       character(*), intent(in) :: kind         !! one of curve_kinds
@@ -51,7 +51,7 @@ contains
       curve%end_slope = right(n - 1)*(y_unit/x_unit)
    end function new_curve
 
-   !> Whether a curve was made from these points and units by `new_curve`.
+   !> Whether a curve was created from these points and units by new_curve.
    pure logical function has_points(curve, x, y, x_unit, y_unit)
       type(curve_t), intent(in) :: curve
       real(wp), intent(in) :: x(:), y(:)

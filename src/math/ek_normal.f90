@@ -7,7 +7,7 @@ module ek_normal
 
 contains
 
-   !> φ(z) = exp(−z²/2)/√(2π)
+   !> The density φ(z) = exp(−z²/2)/√(2π).
    elemental real(wp) function normal_density(z) result(density)
       real(wp), intent(in) :: z
       real(wp), parameter :: factor = 0.39894228040143267794_wp    ! 1/√(2π)
@@ -15,7 +15,7 @@ contains
       density = factor*exp(-0.5_wp*min(abs(z), 40.0_wp)**2)    ! beyond 40 it underflows
    end function normal_density
 
-   !> Φ(z), the probability of values below z: erfc(−z/√2)/2.
+   !> The probability Φ(z) of values below z: erfc(−z/√2)/2.
    elemental real(wp) function normal_probability(z) result(p)
       real(wp), intent(in) :: z
       real(wp), parameter :: half_root = 0.70710678118654752440_wp   ! 1/√2
@@ -23,7 +23,7 @@ contains
       p = 0.5_wp*erfc(-half_root*z)
    end function normal_probability
 
-   !> Φ(b) − Φ(a), a ≤ b, without the loss of digits in the upper tail.
+   !> The probability Φ(b) − Φ(a) for a ≤ b, without loss of digits in the upper tail.
    elemental real(wp) function normal_between(a, b) result(p)
       real(wp), intent(in) :: a, b
 
@@ -74,7 +74,7 @@ contains
       end if
    end function normal_quantile
 
-   !> c₀ + c₁x + … + c₇x⁷ by Horner's scheme.
+   !> The polynomial c₀ + c₁x + … + c₇x⁷, by Horner's scheme.
    pure real(wp) function polynomial(c, x) result(value)
       real(wp), intent(in) :: c(0:7), x
       integer :: k

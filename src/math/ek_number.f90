@@ -17,25 +17,25 @@ module ek_number
 
 contains
 
-   !> Whether the condition holds for any of the designs.
+   !> Whether a condition holds for any of the designs.
    elemental logical function some(condition)
       logical(mask), intent(in) :: condition
       some = condition
    end function some
 
-   !> Whether the condition holds for all of the designs.
+   !> Whether a condition holds for all designs.
    elemental logical function every(condition)
       logical(mask), intent(in) :: condition
       every = condition
    end function every
 
-   !> The number of breaks that are not above x.
+   !> The number of breaks that are less than or equal to x.
    pure integer(piece) function pieces_below(breaks, x)
       real(num), intent(in) :: breaks(:), x
       pieces_below = count(breaks <= x)
    end function pieces_below
 
-   !> table(k)
+   !> Entry k of a table.
    pure real(num) function entry(table, k)
       real(num), intent(in) :: table(:)
       integer(piece), intent(in) :: k

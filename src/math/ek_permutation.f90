@@ -22,7 +22,7 @@ module ek_permutation
 
 contains
 
-   !> The permutation of n numbers that belongs to a seed, a stream and a number.
+   !> The permutation of n numbers that is defined by a seed, a stream and an index.
    pure function new_permutation(n, seed, stream, number) result(permutation)
       integer(i8), intent(in) :: n             !! 1 … largest_permutation
       integer(i8), intent(in) :: seed, number

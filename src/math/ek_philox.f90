@@ -73,7 +73,8 @@ contains
       call philox(key, counter, words)
    end subroutine words_of
 
-   !> A multiple of 2⁻⁵³ in (0, 1) from two random integers; 2⁻⁵⁴ replaces 0. Exact, thus the same on every machine.
+   !> A multiple of 2⁻⁵³ in (0, 1) from two random integers; 2⁻⁵⁴ replaces 0. The conversion is exact, and thus equal on every
+   !> machine.
    !>
    !> Equation (D.1) of docs/theory/sampling.md.
    pure real(wp) function fraction_of(first, second) result(u)
@@ -99,7 +100,7 @@ contains
       end if
    end function uniform
 
-   !> Computes u(j) = uniform(seed, stream, design, j) for all factors of a design, in half the time.
+   !> Computes u(j) = uniform(seed, stream, design, j) for all factors of a design, in half the time of single calls.
    pure subroutine fill_uniforms(seed, stream, design, u)
       integer(i8), intent(in) :: seed, design
       integer, intent(in) :: stream

@@ -16,7 +16,7 @@ module ek_rotation
 
 contains
 
-   !> a × b
+   !> The vector product a × b.
    pure function cross(a, b) result(c)
       real(num), intent(in) :: a(3), b(3)
       real(num) :: c(3)
@@ -25,7 +25,7 @@ contains
       c(3) = a(1)*b(2) - a(2)*b(1)
    end function cross
 
-   !> p̃, the matrix with p̃ x = p × x.
+   !> The skew matrix p̃, for which p̃ x = p × x.
    pure function skew(p) result(matrix)
       real(num), intent(in) :: p(3)
       real(num) :: matrix(3, 3)
@@ -34,7 +34,7 @@ contains
       matrix(3, 1) = -p(2); matrix(3, 2) = p(1); matrix(3, 3) = 0.0_wp
    end function skew
 
-   !> v/|v|; v must not be zero (checked by the reader).
+   !> The unit vector v/|v|. v must not be zero (checked by the reader).
    pure function unit_vector(v) result(u)
       real(num), intent(in) :: v(3)
       real(num) :: u(3)
@@ -58,13 +58,13 @@ contains
       x = unit_vector(x - dot_product(x, z)*z)
    end function perpendicular
 
-   !> Angle between two unit vectors [deg], accurate near 0 and 180 deg too.
+   !> Angle between two unit vectors [deg], also accurate near 0 and 180 deg.
    pure real(num) function angle_between(u, v) result(angle)
       real(num), intent(in) :: u(3), v(3)
       angle = 2.0_wp*atan2(norm2(u - v), norm2(u + v))/degree
    end function angle_between
 
-   !> p ⊗ q
+   !> The quaternion product p ⊗ q.
    !> Equation (R.3) of docs/theory/rotations.md.
    pure function quaternion_product(p, q) result(r)
       real(num), intent(in) :: p(4), q(4)
@@ -75,7 +75,7 @@ contains
       r(4) = p(1)*q(4) + p(2)*q(3) - p(3)*q(2) + p(4)*q(1)
    end function quaternion_product
 
-   !> Quaternion of the rotation vector v [rad]; exact for any length.
+   !> Quaternion of the rotation vector v [rad], exact for any length of v.
    !> Equations (R.1), (R.2) of docs/theory/rotations.md.
    pure function quaternion_of_vector(v) result(q)
       real(num), intent(in) :: v(3)
@@ -113,7 +113,7 @@ contains
       turned = turned/sqrt(square)
    end function rotate_quaternion
 
-   !> A(q), body axes to global axes; q must be of unit length.
+   !> The rotation matrix A(q), from body axes to global axes. q must have unit length.
    !> Equation (R.4) of docs/theory/rotations.md.
    pure function rotation_matrix(q) result(a)
       real(num), intent(in) :: q(4)

@@ -47,7 +47,7 @@ contains
       allocate (saddle%swapped(m), source=0)
    end subroutine new_saddle
 
-   !> Factorises the matrix in place and sets is_regular. All elements must be finite, and their products too.
+   !> Factorises the matrix in place and sets is_regular. All elements and all products of two elements must be finite.
    pure subroutine eliminate(saddle)
       type(saddle_t), intent(inout) :: saddle
 
@@ -124,7 +124,8 @@ contains
       is_regular = .true.
    end subroutine eliminate_arrays
 
-   !> Exchanges rows c < p of F, and rows and columns c and p of K, of which columns before c are not needed any more.
+   !> Exchanges rows c < p of F, and rows and columns c and p of K. Columns of K before c are not needed any more and are not
+   !> exchanged.
    pure subroutine exchange(n, m, c, p, k, f)
       integer, intent(in) :: n, m, c, p
       real(wp), intent(inout) :: k(n, n), f(n, m)
@@ -151,7 +152,8 @@ contains
       end do
    end subroutine exchange
 
-   !> Computes b ← L⁻¹ P b: first the part that y must hold, then from m + 1 on the part that only v can.
+   !> Computes b ← L⁻¹ P b. The first m entries are the part that y must balance; the entries from m + 1 on are the part that only v
+   !> can balance.
    pure subroutine reduce(saddle, b)
       type(saddle_t), intent(in) :: saddle        !! is_regular
       real(wp), intent(inout) :: b(:)             !! n
@@ -179,7 +181,7 @@ contains
       end do
    end subroutine apply
 
-   !> Computes v from a reduced b, in place.
+   !> Computes v in place from a reduced b.
    pure subroutine spread_motion(saddle, b)
       type(saddle_t), intent(in) :: saddle        !! is_regular
       real(wp), intent(inout) :: b(:)             !! n: from `reduce`; then v
@@ -215,7 +217,7 @@ contains
       end do
    end subroutine substitute_back
 
-   !> Finds y with F y = b, from a reduced b; b(m+1:) is ignored, because it contains only rounding errors.
+   !> Finds y with F y = b from a reduced b. b(m+1:) is ignored, because it contains only rounding errors.
    pure subroutine solve_forces(saddle, b, y)
       type(saddle_t), intent(in) :: saddle        !! is_regular
       real(wp), intent(in) :: b(:)                !! n: from `reduce`

@@ -23,7 +23,7 @@ module ek_singular_values
 
 contains
 
-   !> Decomposes a matrix. If it fails, U and V are unit matrices and the rank is 0, so that an index is within its bounds.
+   !> Decomposes a matrix. If this fails, U and V are unit matrices and the rank is 0, so that indices are within their bounds.
    pure subroutine decompose(a, share, parts, whole, wants_null_space)
       real(wp), intent(in) :: a(:, :)
       real(wp), intent(in) :: share          !! singular values up to this share of the largest count as zero
@@ -74,7 +74,7 @@ contains
       end do
    end subroutine min_norm
 
-   !> Sets a matrix with ones on its diagonal.
+   !> Sets a matrix to zero with ones on its diagonal.
    pure subroutine set_unit(rows, columns, matrix)
       integer, intent(in) :: rows, columns
       real(wp), allocatable, intent(out) :: matrix(:, :)

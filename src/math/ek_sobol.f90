@@ -30,7 +30,7 @@ module ek_sobol
 
 contains
 
-   !> Creates a sequence of some dimensions, 1 … largest_dimension. With a seed it is scrambled.
+   !> Creates a sequence with 1 … largest_dimension dimensions. If a seed is given, the sequence is scrambled.
    pure subroutine new_sobol(dimensions, sobol, seed, stream)
       integer, intent(in) :: dimensions
       type(sobol_t), intent(out) :: sobol
@@ -130,7 +130,7 @@ contains
       x = (real(sum, wp) + 0.5_wp)*step
    end function sobol_coordinate
 
-   !> Computes the first coordinates of a point.
+   !> Computes all coordinates of a point that x can hold.
    pure subroutine sobol_point(sobol, index, x)
       type(sobol_t), intent(in) :: sobol
       integer(i8), intent(in) :: index               !! 0 … largest_index

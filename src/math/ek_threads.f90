@@ -36,7 +36,7 @@ module ek_threads
 
 contains
 
-   !> The processors that this process may use; 1 in a build without OpenMP.
+   !> The number of processors that this process may use; 1 in a build without OpenMP.
    integer function processor_count()
       !$ use omp_lib, only: omp_get_num_procs
 
@@ -59,7 +59,8 @@ contains
       threads = 1 + blocks_in_memory(wanted - 1, further)
    end function threads_in_memory
 
-   !> Sets one thread in OpenBLAS, if it is the loaded library; other libraries have neither this function nor the work space.
+   !> Sets the number of threads of OpenBLAS to one if OpenBLAS is loaded. Other libraries have neither this function nor the work
+   !> space.
    subroutine use_one_thread(error)
       type(error_t), allocatable, intent(out) :: error        !! exit_file: too little memory for it
       type(c_funptr) :: address

@@ -9,7 +9,7 @@ module ek_assembly
 
 contains
 
-   !> Appends a joint with its terms; terms_of_row gives the number of terms in each row.
+   !> Appends a joint with its terms. terms_of_row gives the number of terms of each row.
    pure subroutine append_joint(self, name, where, kind, terms, terms_of_row)
       type(suspension_t), intent(inout) :: self
       character(*), intent(in) :: name, where, kind

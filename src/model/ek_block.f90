@@ -19,8 +19,8 @@ module ek_block
 
 contains
 
-   !> Adds factor × the gradient of a measure of two bodies to y, at the unknowns of the bodies; at_i, at_j: the number of
-   !> unknowns before the unknowns of body i, j; negative: the chassis.
+   !> Adds factor × the gradient of a measure of two bodies to y, at the unknowns of the bodies. at_i and at_j are the numbers of
+   !> unknowns before the unknowns of bodies i and j; a negative number is the chassis.
    pure subroutine add_gradient(factor, gradient, at_i, at_j, y)
       real(num), intent(in) :: factor, gradient(12)
       integer, intent(in) :: at_i, at_j
@@ -39,7 +39,7 @@ contains
       w(3) = a(3, 1)*v(1) + a(3, 2)*v(2) + a(3, 3)*v(3)
    end function rotated
 
-   !> A K Aᵀ; the chassis (body 0) never rotates.
+   !> The product A K Aᵀ; K for the chassis (body 0), which never rotates.
    pure function in_world(a, k, body) result(world)
       real(num), intent(in) :: a(3, 3), k(3, 3)
       integer, intent(in) :: body
@@ -154,7 +154,7 @@ contains
       call add_block(block, pi_i, pi_j, at, blocks)
    end subroutine add_gap_hessian
 
-   !> Adds a 3×3 part; no action if one of its bodies is the chassis. The part is transposed where its transpose is stored.
+   !> Adds a 3×3 part; does nothing if one of its bodies is the chassis. The part is transposed where its transpose is stored.
    pure subroutine add_block(part, rows, columns, at, blocks)
       real(num), intent(in) :: part(3, 3)
       integer, intent(in) :: rows, columns      !! of the unknowns: r_i … pi_j
@@ -217,7 +217,7 @@ contains
       m(:, 3) = x*y(3)
    end function dyad
 
-   !> (x·y) I − x yᵀ
+   !> The matrix (x·y) I − x yᵀ.
    !> Equation (M.3) of docs/theory/measures.md.
    pure function dyad_rest(x, y) result(m)
       real(num), intent(in) :: x(3), y(3)

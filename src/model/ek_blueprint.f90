@@ -44,7 +44,7 @@ module ek_blueprint
       integer :: mass = 0                   !! parameter
    end type body_plan_t
 
-   !> A further mass of a body.
+   !> An additional mass of a body.
    type :: mass_plan_t
       integer :: body = 0
       integer :: kg = 0                     !! parameter
@@ -97,7 +97,7 @@ module ek_blueprint
       character(:), allocatable :: kind, name
    end type curve_plan_t
 
-   !> The numbers of a case: parameters.
+   !> The numbers of a case, as indices of parameters.
    type :: case_plan_t
       integer :: from = 0, to = 0, offset = 0
       integer :: steer_from = 0, steer_to = 0      !! 0 in a grid: to the ends of the travel of &steering
@@ -137,7 +137,7 @@ contains
       call add_vector(self, vector_t(value=[0.0_wp, 0.0_wp, 1.0_wp]), number)
    end subroutine new_blueprint
 
-   !> Adds a vector; its number is the size of the list.
+   !> Adds a vector. Its index is the new size of the list.
    pure subroutine add_vector(self, vector, number)
       type(blueprint_t), intent(inout) :: self
       type(vector_t), intent(in) :: vector
@@ -147,7 +147,7 @@ contains
       number = size(self%vectors)
    end subroutine add_vector
 
-   !> A vector in the axes of the deck → x rearward, y right, z up.
+   !> A vector converted from the axes of the deck to x rearward, y right, z up.
    pure function inward(self, vector) result(turned)
       type(blueprint_t), intent(in) :: self
       real(wp), intent(in) :: vector(3)
@@ -156,7 +156,7 @@ contains
       if (self%is_iso) turned(1:2) = -vector(1:2)
    end function inward
 
-   !> Parameter k; if the deck does not give it, the default, usually 0.
+   !> Value of parameter k; the default (usually 0) if the deck does not give the parameter.
    pure real(wp) function number_at(x, k, default) result(value)
       real(wp), intent(in) :: x(:)
       integer, intent(in) :: k             !! 0: not given
@@ -166,7 +166,7 @@ contains
       if (k > 0) value = x(k)
    end function number_at
 
-   !> Three numbers from parameter k; 0 if the deck does not give them.
+   !> Values of three parameters from index k on; 0 if the deck does not give them.
    pure function triple_at(x, k) result(values)
       real(wp), intent(in) :: x(:)
       integer, intent(in) :: k             !! 0: not given

@@ -20,7 +20,7 @@ module ek_case
    integer, parameter :: follows_tangent = 2   !! share × tan(swept value): heights of a rolling axle
    integer, parameter :: follows_table = 3     !! the value in a row of a table, the row number being the swept value
 
-   !> The schedule of one load or one driver over the swept value. One of `load` and `drive` is empty.
+   !> The actuation of one load or one driver over the swept value. One of `load` and `drive` is empty.
    type :: actuation_t
       character(:), allocatable :: load       !! name of the load that is scaled
       character(:), allocatable :: drive      !! name of the driver joint
@@ -37,7 +37,7 @@ module ek_case
       real(wp), allocatable :: values(:)      !! N, N m, m or rad
    end type table_column_t
 
-   !> A load table as read with the deck. It has no rows if it has errors or if its file cannot be read.
+   !> A load table as read with the deck. The table has no rows if it has errors or if its file cannot be read.
    type :: load_table_t
       integer :: rows = 0
       type(table_column_t), allocatable :: columns(:)
@@ -45,7 +45,7 @@ module ek_case
       character(:), allocatable :: fault      !! why its file cannot be read, for the message when the case is run
    end type load_table_t
 
-   !> A case as given in the deck, SI. Without a `test` either `load` or `drive` is not empty.
+   !> A case as given in the deck, in SI. Without a `test`, either `load` or `drive` is not empty.
    type :: case_t
       character(:), allocatable :: name, where
       character(:), allocatable :: load     !! name of the load scaled by the case
@@ -78,7 +78,7 @@ module ek_case
 
 contains
 
-   !> Whether a case can be put on the rig: the table that it names has been read.
+   !> Whether a case can be put on the rig, which requires that the table named by the case was read.
    pure logical function is_mountable(case)
       type(case_t), intent(in) :: case
 
@@ -92,7 +92,8 @@ contains
       if (.not. case%says_solver) case%uses_plan = .true.
    end subroutine prefer_plan
 
-   !> Copies the numbers of a case of a deck for another design, without allocation. An empty copy receives the complete case.
+   !> Copies the numbers of a case to the case of another design, without allocation. If this case is empty, the complete case is
+   !> copied.
    pure subroutine copy_case_numbers(from, to)
       type(case_t), intent(in) :: from
       type(case_t), intent(inout) :: to
@@ -119,7 +120,7 @@ contains
       scales_loads = any([(len(case%actuations(k)%load) > 0, k=1, size(case%actuations))])
    end function scales_loads
 
-   !> Adds an actuation to a case: a load or a driver joint; the other name is empty.
+   !> Adds an actuation to a case. It acts on a load or on a driver joint; the other name is empty.
    pure subroutine append_actuation(actuations, load, drive, share, law, values)
       type(actuation_t), allocatable, intent(inout) :: actuations(:)
       character(*), intent(in) :: load, drive

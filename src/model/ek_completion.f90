@@ -13,8 +13,8 @@ module ek_completion
 
 contains
 
-   !> Sets the reference points, converts design points to arms, and computes design values: the targets of the rows and
-   !> the design values of readouts and elements. Cannot fail; allocates nothing.
+   !> Sets the reference points, converts design points to arms, and computes design values: the targets of the rows, and the design
+   !> values of readouts and elements. Cannot fail and allocates nothing.
    pure subroutine settle_design(self)
       type(suspension_t), intent(inout) :: self
       integer :: k, t
@@ -74,7 +74,7 @@ contains
       end do
    end subroutine settle_design
 
-   !> The value of a measure with arms, at design.
+   !> The value of a measure with arms at design, in the unit of the measure.
    pure real(wp) function design_value(self, measure) result(value)
       type(suspension_t), intent(in) :: self
       type(measure_t), intent(in) :: measure
@@ -85,7 +85,7 @@ contains
       value = measure_value(measure, pose_i, pose_j)
    end function design_value
 
-   !> Sets the reference point of each body without one: the mean of its attachment points.
+   !> Sets the reference point of each body that has none to the mean of its attachment points.
    pure subroutine settle_origins(self)
       type(suspension_t), intent(inout) :: self
       integer :: k, first, last
@@ -111,7 +111,7 @@ contains
       end do
    end subroutine settle_origins
 
-   !> Adds both design points of a measure to the sums, still held in `origin`, of the attachment points of its bodies.
+   !> Adds both design points of a measure to the sums of the attachment points of its bodies, which `origin` still contains.
    pure subroutine include_points(self, m)
       type(suspension_t), intent(inout) :: self
       type(measure_t), intent(in) :: m

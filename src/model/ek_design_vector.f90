@@ -48,7 +48,7 @@ contains
       end do
    end subroutine find_vectors
 
-   !> Computes a unit vector; zero, and is_good = .false., if it has no direction.
+   !> Computes a unit vector. If the vector has no direction, it is zero and is_good is .false..
    pure subroutine find_direction(plan, x, this, vectors, direction, is_good)
       type(blueprint_t), intent(in) :: plan
       real(wp), intent(in) :: x(:)
@@ -80,7 +80,8 @@ contains
       if (norm2(direction) > 0.0_wp) direction = unit_vector(direction)
    end subroutine find_direction
 
-   !> Computes the marker axes: z is unchanged, x is made perpendicular to z, y = z × x. Default: the deck's global axes.
+   !> Computes the marker axes. z is unchanged, x is made perpendicular to z, and y = z × x. The default is the global axes of the
+   !> deck.
    pure subroutine marker_axes(plan, z, x, axes, is_good)
       type(blueprint_t), intent(in) :: plan
       real(wp), intent(in) :: z(3), x(3)          !! unit vectors, or both zero

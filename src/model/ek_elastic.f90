@@ -50,8 +50,8 @@ module ek_elastic
 
 contains
 
-   !> Transforms rates and preloads from marker axes to the axes of body i (A_i = I at design):
-   !> K = E diag(k) Eᵀ. Call it after any change of axes, rates or preload.
+   !> Transforms rates and preloads from marker axes to the axes of body i (A_i = I at design): K = E diag(k) Eᵀ. Must be called
+   !> after any change of axes, rates or preload.
    !> Equation (M.15) of docs/theory/measures.md.
    pure subroutine set_bushing_axes(bushing)
       type(bushing_t), intent(inout) :: bushing
@@ -62,7 +62,7 @@ contains
       bushing%moment0 = rotated(bushing%axes, bushing%preload_moment)
    end subroutine set_bushing_axes
 
-   !> The stiffness matrix E diag(k) Eᵀ, from the axes of a marker to the axes of its body.
+   !> The stiffness matrix E diag(k) Eᵀ, transformed from the axes of a marker to the axes of its body.
    pure function in_body(axes, k) result(matrix)
       real(num), intent(in) :: axes(3, 3), k(3)
       real(num) :: matrix(3, 3)
@@ -75,7 +75,7 @@ contains
       end do
    end function in_body
 
-   !> Computes displacement, rotation, force and moment of the law, and its slopes.
+   !> Computes displacement, rotation, force and moment of the law, and the slopes of the law.
    !> Equation (M.15) of docs/theory/measures.md.
    pure subroutine evaluate_bushing(bushing, measure, pose_i, pose_j, evaluation)
       type(bushing_t), intent(in) :: bushing
@@ -110,7 +110,7 @@ contains
       evaluation%force = rotated(pose_i%a, force)
    end subroutine evaluate_bushing
 
-   !> Computes dV/d(component) minus the preload, along and about the marker axes [N, N m], and the slopes [N/m, N m/rad].
+   !> Computes dV/d(component) without the preload, along and about the marker axes [N, N m], and the slopes [N/m, N m/rad].
    pure subroutine evaluate_components(bushing, gap, theta, load, slope)
       type(bushing_t), intent(in) :: bushing
       real(num), intent(in) :: gap(3), theta(3)          !! axes of body i
@@ -148,7 +148,7 @@ contains
       moment = -load(4:6)
    end subroutine bushing_load
 
-   !> The six rates at design, marker axes; for curves, their slopes [N/m, N m/rad].
+   !> The six rates at design in marker axes [N/m, N m/rad]; for curves, the slopes of the curves.
    pure function design_rates(bushing) result(rates)
       type(bushing_t), intent(in) :: bushing
       real(num) :: rates(6), load(6)

@@ -95,7 +95,8 @@ contains
       element%law%rounding = numbers(rounding_number)
    end subroutine set_numbers
 
-   !> Sets kind and measure. The argument of the law is the compression of a length, or the increase of an angle or cosine.
+   !> Sets kind and measure of an element. The argument of the law is the compression for a length, and the increase for an angle or
+   !> cosine.
    pure subroutine set_kind(element, kind, measure)
       type(element_t), intent(inout) :: element
       integer, intent(in) :: kind
@@ -107,9 +108,9 @@ contains
       element%law%is_one_sided = kind == stop_spring
    end subroutine set_kind
 
-   !> Sets the design value of the measure, from which the deflection counts; all other numbers are known.
+   !> Sets the design value of the measure, from which the deflection counts. All other numbers must be set.
    !>
-   !> A free length sets the preload from the design length; with a curve, compression is measured from the free length.
+   !> A free length sets the preload from the design length. With a curve, compression is measured from the free length.
    pure subroutine set_design_value(element, value)
       type(element_t), intent(inout) :: element
       real(num), intent(in) :: value       !! m, rad, -
@@ -168,7 +169,8 @@ contains
       end do
    end subroutine copy_bushing
 
-   !> Finds the force of an element of one measure without its preload (derivative of the energy) at a value, and its slope.
+   !> Finds the force of an element with one measure at a value of the measure, without its preload (derivative of the energy), and
+   !> the slope of the force.
    pure subroutine look_up_element(element, value, force, slope)
       type(element_t), intent(in) :: element
       real(num), intent(in) :: value               !! m, rad, -
@@ -176,7 +178,7 @@ contains
       call look_up_law(element%law, value, force, slope)
    end subroutine look_up_element
 
-   !> Finds the least and the largest slope of that force between two values of the measure.
+   !> Finds the smallest and the largest slope of this force between two values of the measure.
    pure subroutine element_slopes(element, from, to, least, most)
       type(element_t), intent(in) :: element
       real(num), intent(in) :: from, to            !! m, rad, -
@@ -184,7 +186,7 @@ contains
       call find_slopes(element%law, from, to, least, most)
    end subroutine element_slopes
 
-   !> Whether the force of an element is linear in its measure, with the same slope everywhere.
+   !> Whether the force of an element is linear in its measure, with an equal slope everywhere.
    pure logical function is_linear(element)
       type(element_t), intent(in) :: element
       is_linear = .not. (element%law%has_curve .or. element%law%is_one_sided)

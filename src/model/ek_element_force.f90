@@ -26,7 +26,7 @@ module ek_element_force
 
 contains
 
-   !> Computes deflection, force and slope.
+   !> Computes deflection, force and slope of an element.
    pure subroutine evaluate_element(element, pose_i, pose_j, evaluation)
       type(element_t), intent(in) :: element
       type(pose_t), intent(in) :: pose_i, pose_j
@@ -42,7 +42,8 @@ contains
       end if
    end subroutine evaluate_element
 
-   !> Computes the tension at a value of the measure, and its slope; for a torsion spring, the moment at an angle.
+   !> Computes the tension of a spring at a value of its measure, and the slope of the tension; for a torsion spring, the moment at
+   !> an angle.
    !> Equation (M.14) of docs/theory/measures.md.
    pure subroutine spring_tension(spring, value, tension, slope)
       type(element_t), intent(in) :: spring
@@ -54,7 +55,7 @@ contains
       tension = tension - spring%preload
    end subroutine spring_tension
 
-   !> Adds d²V/dz²: the material part, and force × Hessian.
+   !> Adds d²V/dz² of an element: the material part, and force × Hessian.
    pure subroutine add_element_tangent(element, evaluation, is_material, at, blocks)
       type(element_t), intent(in) :: element
       type(element_evaluation_t), intent(in) :: evaluation          !! of evaluate_element
@@ -72,8 +73,8 @@ contains
       end if
    end subroutine add_element_tangent
 
-   !> Adds slope g gᵀ + tension × Hessian of the measure, g its gradient. Of a distance: Jᵀ[slope e eᵀ + tension/L (I − e eᵀ)]J and
-   !> the arm terms, which equal the arm terms of a displacement along e.
+   !> Adds slope g gᵀ + tension × Hessian of the measure, with g its gradient. For a distance this is Jᵀ[slope e eᵀ + tension/L (I −
+   !> e eᵀ)]J and the arm terms, which equal the arm terms of a displacement along e.
    !> Equation (M.13) of docs/theory/measures.md.
    pure subroutine add_spring_tangent(kind, evaluation, tension, slope, at, blocks)
       integer, intent(in) :: kind                       !! of the measure
@@ -98,7 +99,7 @@ contains
       call add_measure_hessian(global_gap, evaluation, tension, at, blocks)
    end subroutine add_spring_tangent
 
-   !> Adds slope g gᵀ alone: the material part.
+   !> Adds only slope g gᵀ, the material part.
    !> Equation (M.13) of docs/theory/measures.md.
    pure subroutine add_spring_material(kind, evaluation, slope, at, blocks)
       integer, intent(in) :: kind                       !! of the measure
@@ -121,8 +122,8 @@ contains
       end do
    end subroutine add_spring_material
 
-   !> The stiffnesses at design: along x, y, z and about x, y, z of the marker of a bushing [N/m, N m/rad]. The slope of an
-   !> element of one measure is the first or, of an angle, the fourth; the others are 0.
+   !> The stiffnesses of an element at design [N/m, N m/rad]: along and about x, y, z of the marker of a bushing. For an element
+   !> with one measure, the slope is the first entry (the fourth for an angle), and the other entries are 0.
    pure function design_stiffness(element) result(rates)
       type(element_t), intent(in) :: element
       real(num) :: rates(6), tension, slope

@@ -1,5 +1,5 @@
-!> The name of an element in messages, and its shape in pictures. It is not in `ek_element`, which is a kernel: kernels create no
-!> strings.
+!> The name of an element in messages, and its shape in pictures. These are not in `ek_element`, which is a kernel: kernels create
+!> no strings.
 module ek_element_label
    use ek_kinds, only: wp
    use ek_text, only: quoted
@@ -24,8 +24,8 @@ contains
    end function is_between_bodies
 
    !> Whether a spring is an elastic rod, as push rods and pull rods are: between two moving bodies, stiffer than a coil, and on a
-   !> body that a softer spring acts on. The coil of a strut with a top mount is between two bodies too, but it is the only spring
-   !> on its bodies.
+   !> body on which a softer spring acts. The coil of a strut with a top mount is also between two bodies, but it is the only spring
+   !> on these bodies.
    pure logical function is_rod(elements, k)
       type(element_t), intent(in) :: elements(:)
       integer, intent(in) :: k

@@ -27,7 +27,7 @@ contains
       count_parts = merge(6, 1, element%kind == bushing_element)
    end function count_parts
 
-   !> Whether a law is of an angle: its deflection is in rad, its force in N m.
+   !> Whether a law acts on an angle: its deflection is in rad, and its force in N m.
    pure logical function is_part_of_angle(element, part) result(is_angle)
       type(element_t), intent(in) :: element
       integer, intent(in) :: part
@@ -49,8 +49,8 @@ contains
       end if
    end function has_rate
 
-   !> Finds the deflection of each law that is a rate: the change of its force per change of the rate. 0 at design, where the
-   !> preload is the force, except for a spring whose preload follows from its rate and its free length.
+   !> Finds the deflection of each law that is a rate, which is the change of its force per change of the rate. The deflection is 0
+   !> at design, where the preload is the force. An exception is a spring whose preload follows from its rate and its free length.
    pure subroutine find_deflections(element, pose_i, pose_j, deflection)
       type(element_t), intent(in) :: element
       type(pose_t), intent(in) :: pose_i, pose_j
@@ -75,7 +75,7 @@ contains
          deflection(1) = whole%measure%value - element%free_length
    end subroutine find_deflections
 
-   !> Lists the laws of an element at a pair of poses, of a bushing in the order along x, y, z, about x, y, z of its marker.
+   !> Lists the laws of an element at a pair of poses. The order for a bushing is along x, y, z, then about x, y, z of its marker.
    !> Equation (C.15) of docs/theory/compliance.md.
    pure subroutine take_apart(element, pose_i, pose_j, parts)
       type(element_t), intent(in) :: element

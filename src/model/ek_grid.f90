@@ -26,7 +26,7 @@ contains
       levels = [case%increments, case%steer_increments] + 1
    end function grid_size
 
-   !> The levels of one direction, SI; both ends are exact.
+   !> The levels of one direction, in SI. Both ends are exact.
    pure function grid_levels(from, to, increments) result(levels)
       real(wp), intent(in) :: from, to
       integer, intent(in) :: increments
@@ -38,14 +38,14 @@ contains
       end do
    end function grid_levels
 
-   !> The value of level k of `increments`.
+   !> The value of level k of a range that is divided into `increments`.
    pure real(wp) function level(from, to, increments, k)
       real(wp), intent(in) :: from, to
       integer, intent(in) :: increments, k
       level = (from*(increments - k) + to*k)/increments
    end function level
 
-   !> The levels of state `row` of the grid, travel and driver, from 1.
+   !> The indices of the levels of travel and of the driver for state `row` of the grid, from 1.
    pure function grid_place(levels, row) result(place)
       integer, intent(in) :: levels(2), row
       integer :: place(2)
@@ -55,7 +55,7 @@ contains
       if (mod(place(2), 2) == 0) place(1) = levels(1) + 1 - place(1)
    end function grid_place
 
-   !> Sets travel or value of the driver in every state of a grid. Memory is used again if it fits.
+   !> Sets the travel or the driver value in every state of a grid. Memory of a suitable size is used again.
    pure subroutine set_grid_values(case, is_of_driver, values)
       type(case_t), intent(in) :: case
       logical, intent(in) :: is_of_driver

@@ -95,7 +95,7 @@ module ek_joint
 
 contains
 
-   !> Whether two axes are at the angle that a joint needs.
+   !> Whether two axes are at the angle that a joint requires.
    pure logical function axes_fit(needed, axis_i, axis_j)
       integer, intent(in) :: needed                     !! angle of joint_table
       real(wp), intent(in) :: axis_i(3), axis_j(3)      !! unit

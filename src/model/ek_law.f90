@@ -27,7 +27,7 @@ module ek_law
 
 contains
 
-   !> Copies the numbers of a law to another one of its kind; nothing is allocated.
+   !> Copies the numbers of a law to another law of its kind; nothing is allocated.
    pure subroutine copy_law(from, to)
       type(law_t), intent(in) :: from
       type(law_t), intent(inout) :: to
@@ -78,14 +78,14 @@ contains
       slope = slope*share
    end subroutine look_up_law
 
-   !> e: compression of a spring, penetration of a stop (negative: its clearance).
+   !> The argument e of a law: compression of a spring, or penetration of a stop (negative: its clearance) [m or rad].
    pure real(num) function deflection(law, value)
       type(law_t), intent(in) :: law
       real(num), intent(in) :: value
       deflection = law%sign*(value - law%reference)
    end function deflection
 
-   !> Finds the least and the largest slope of the force between two values of the measure.
+   !> Finds the smallest and the largest slope of the force between two values of the measure.
    pure subroutine find_slopes(law, from, to, least, most)
       type(law_t), intent(in) :: law
       real(num), intent(in) :: from, to

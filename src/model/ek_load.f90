@@ -23,7 +23,7 @@ module ek_load
 
 contains
 
-   !> Computes force and moment of a load about the body's reference point, global axes; and its arm.
+   !> Computes force and moment of a load about the body's reference point in global axes, and the arm of the load.
    !> Equation (K.1) of docs/theory/kkt.md.
    pure subroutine wrench(load, pose, force, moment, arm)
       type(load_t), intent(in) :: load
@@ -42,8 +42,8 @@ contains
       moment = moment + cross(arm, force)
    end subroutine wrench
 
-   !> Adds the stiffness of a load, −d(force, moment)/dz: −S(arm, force) of a load of constant direction; of a load that rotates
-   !> with its body δf = π×f, so T_rπ = f̃, whose symmetric part is distributed half to rπ and half to πr.
+   !> Adds the stiffness of a load, −d(force, moment)/dz. For a load of constant direction it is −S(arm, force). For a load that
+   !> rotates with its body, δf = π×f gives T_rπ = f̃; half of it is added to the block rπ, half to πr.
    !> Equation (K.4) of docs/theory/kkt.md.
    pure subroutine add_load_tangent(load, force, arm, body, blocks)
       type(load_t), intent(in) :: load

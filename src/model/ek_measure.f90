@@ -133,7 +133,7 @@ contains
       value = evaluation%value
    end function measure_value
 
-   !> Whether the generalised force of a measure is a moment (rotation, cosine); it has no points.
+   !> Whether the generalised force of a kind of measure is a moment (rotation, cosine). Such a measure has no points.
    elemental logical function is_of_angle(kind)
       integer, intent(in) :: kind
       is_of_angle = kind == rotation .or. kind == axis_axis

@@ -38,7 +38,7 @@ contains
       allocate (suspension%vectors(3, 0:size(plan%vectors)), source=0.0_wp)
    end subroutine new_design
 
-   !> Computes all numbers of the suspension for the parameters x. Call `new_design` first, once.
+   !> Computes all numbers of the suspension for the parameters x. `new_design` must have been called once.
    subroutine realise(plan, x, suspension, is_good)
       type(blueprint_t), intent(in) :: plan
       real(wp), intent(in) :: x(:)                        !! SI, axes of the deck
@@ -84,7 +84,7 @@ contains
       if (is_good) call settle_design(suspension)
    end subroutine realise
 
-   !> Computes reference points and masses; the centres of gravity still as points.
+   !> Computes reference points and masses. The centres of gravity are still design points.
    subroutine place_bodies(plan, x, suspension)
       type(blueprint_t), intent(in) :: plan
       real(wp), intent(in) :: x(:)
@@ -215,7 +215,7 @@ contains
       end do
    end subroutine place_bushings
 
-   !> Renews a curve of an element, in SI; if its points are unchanged, so is the curve.
+   !> Computes a curve of an element in SI. If its points are unchanged, the curve is not computed again.
    subroutine renew(plan, number, x, x_unit, y_unit, curve, is_good)
       type(blueprint_t), intent(in) :: plan
       integer, intent(in) :: number

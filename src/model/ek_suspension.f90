@@ -51,7 +51,7 @@ module ek_suspension
       real(wp) :: steer_axis(3, 2) = 0.0_wp             !! two points on the carrier, arms [m]
    end type wheel_t
 
-   !> A named measure: driven, coupled, or only read out.
+   !> A named measure that is driven, coupled, or only read out.
    type :: readout_t
       character(:), allocatable :: name, where
       type(measure_t) :: measure
@@ -74,7 +74,7 @@ module ek_suspension
                                              !! otherwise (independent suspension) at the wheel centre
    end type axle_t
 
-   !> From the steering wheel to the driver that moves the rack.
+   !> The transmission from the steering wheel to the driver that moves the rack.
    type :: steering_t
       logical :: has_steering = .false.   !! the deck has a &steering
       character(:), allocatable :: where
@@ -127,8 +127,8 @@ contains
       self%steering%driver = ''
    end subroutine allocate_lists
 
-   !> Copies the numbers of a suspension to another suspension with the same parts, which may also have rows, terms and loads of a
-   !> rig after them (ek_rig). Copies every number that realise, settle_design or balance sets, without allocation.
+   !> Copies the numbers of a suspension to another suspension with the same parts. The latter may also have rows, terms and loads
+   !> of a rig after these parts (ek_rig). Copies every number that realise, settle_design or balance sets, without allocation.
    pure subroutine copy_numbers(from, to)
       type(suspension_t), intent(in) :: from
       type(suspension_t), intent(inout) :: to
@@ -208,14 +208,14 @@ contains
       constraints = size(self%rows)
    end function constraints
 
-   !> The number of rows of Φ without the rows of the rig, which come last: λ(:own_rows) belongs to the suspension, λ(own_rows+1:)
-   !> to the rig: the forces of the ground that hold heights.
+   !> The number of rows of Φ without the rows of the rig, which are last. λ(:own_rows) belongs to the suspension. λ(own_rows+1:)
+   !> belongs to the rig: these are the forces of the ground that hold heights.
    pure integer function own_rows(self)
       class(suspension_t), intent(in) :: self
       own_rows = self%constraints() - self%rig_rows
    end function own_rows
 
-   !> The design poses of bodies 0 … n, the chassis first.
+   !> The design poses of bodies 0 … n, with the chassis first.
    pure function design_poses(self) result(poses)
       type(suspension_t), intent(in) :: self
       type(pose_t) :: poses(size(self%bodies) + 1)
@@ -226,7 +226,7 @@ contains
       end do
    end function design_poses
 
-   !> The name of a body, 'chassis' for 0.
+   !> The name of a body; 'chassis' for body 0.
    pure function body_name(self, body) result(name)
       type(suspension_t), intent(in) :: self
       integer, intent(in) :: body
@@ -235,7 +235,7 @@ contains
       if (body > 0) name = self%bodies(body)%name
    end function body_name
 
-   !> The row of the driver with this joint name; 0 if there is none.
+   !> Index of the row of the driver with this joint name; 0 if there is no such driver.
    pure integer function driver_row(self, name)
       type(suspension_t), intent(in) :: self
       character(*), intent(in) :: name
@@ -247,7 +247,7 @@ contains
       end do
    end function driver_row
 
-   !> The unit of the value of a driver in results: mm, deg or '-'; mm for drivers of the rig.
+   !> The unit of the value of a driver in results: mm, deg or '-'. For drivers of the rig it is mm.
    pure function driver_unit(self, name) result(unit)
       type(suspension_t), intent(in) :: self
       character(*), intent(in) :: name
@@ -265,7 +265,7 @@ contains
       end select
    end function driver_unit
 
-   !> Number of the load with this name; 0 for an empty name.
+   !> Index of the load with this name; 0 if the name is empty or no load has it.
    pure integer function load_number(self, name)
       type(suspension_t), intent(in) :: self
       character(*), intent(in) :: name

@@ -15,7 +15,7 @@ contains
       name = merge('left ', 'right', side == 1)
    end function side_name
 
-   !> Finds the indices of the left and the right wheel, 0 for a wheel that the model does not have.
+   !> Finds the indices of the left and the right wheel; 0 for a wheel that the model does not have.
    pure subroutine left_and_right(suspension, wheels)
       type(suspension_t), intent(in) :: suspension
       integer, intent(out) :: wheels(2)
@@ -43,7 +43,7 @@ contains
       track = abs(y(2) - y(1))
    end function design_track
 
-   !> The factors of x, y, z from the frame of the program to the frame of the deck.
+   !> Signs of x, y, z from the frame of the program to the frame of the deck.
    pure function deck_frame(suspension) result(frame)
       type(suspension_t), intent(in) :: suspension
       real(wp) :: frame(3)
@@ -58,14 +58,14 @@ contains
       if (size(suspension%wheels) == 2) is_axle = suspension%wheels(1)%side /= suspension%wheels(2)%side
    end function is_axle
 
-   !> Side of the only wheel: −1 left, +1 right; 0 if there is none or more than one.
+   !> Side of the only wheel: −1 left, +1 right; 0 if the model has no wheel or several wheels.
    pure integer function single_side(suspension) result(side)
       type(suspension_t), intent(in) :: suspension
       side = 0
       if (size(suspension%wheels) == 1) side = suspension%wheels(1)%side
    end function single_side
 
-   !> Prefix of the columns of a wheel: 'left_' or 'right_' for two wheels, '' for one.
+   !> Prefix of the column names of a wheel: 'left_' or 'right_' for two wheels, '' for one wheel.
    pure function prefix_of(suspension, wheel) result(prefix)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: wheel

@@ -175,7 +175,7 @@ contains
          call set_cache(entries*designs*bytes, variable)
       end subroutine over_two
 
-      !> Sets room for the two blocks into which a chunk may be written.
+      !> Sets the size of the cache of a variable to the two blocks into which a chunk may be written.
       subroutine set_cache(bytes, variable)
          integer, intent(in) :: bytes             !! of a block
          integer, intent(in) :: variable
@@ -185,7 +185,7 @@ contains
 
    end subroutine define
 
-   !> The meanings of the status flags: 'solved incomplete …'.
+   !> The meanings of the status flags as a string: 'solved incomplete …'.
    pure function flag_meanings() result(text)
       character(:), allocatable :: text
       integer :: k
@@ -197,7 +197,7 @@ contains
       text = text(2:)
    end function flag_meanings
 
-   !> Writes attributes of a byte whose values have meanings.
+   !> Writes the attributes of a byte variable whose values have meanings.
    subroutine put_flags(file, variable, long_name, meanings, last)
       type(file_t), intent(inout) :: file
       integer, intent(in) :: variable
@@ -242,7 +242,7 @@ contains
       end do
    end subroutine put_attributes
 
-   !> Writes the names of the variables of responses and quantities, over dimensions of their own; the numbers of the states.
+   !> Writes the names of the responses and of the quantities, each list over its own dimension. Writes the indices of the states.
    subroutine write_names(store, file)
       type(store_t), intent(in) :: store
       type(file_t), intent(inout) :: file
@@ -283,7 +283,7 @@ contains
 
    end subroutine write_names
 
-   !> Writes the designs of a chunk. Reasons are written only where there are some.
+   !> Writes the designs of a chunk. Reasons are written only for chunks with reasons.
    subroutine write_chunk(store, chunk, file)
       type(store_t), intent(in) :: store
       type(chunk_t), intent(in) :: chunk
@@ -329,7 +329,7 @@ contains
       end do
    end subroutine write_chunk
 
-   !> Finds the designs that satisfy all limits: 1 for these.
+   !> Finds the designs that satisfy all limits. Their flag is 1.
    pure subroutine find_within(store, chunk, flags)
       type(store_t), intent(in) :: store
       type(chunk_t), intent(in) :: chunk
@@ -349,7 +349,7 @@ contains
       end do
    end subroutine find_within
 
-   !> Extracts one column of the curves of a chunk; states that a design lacks are not numbers.
+   !> Extracts one column of the curves of a chunk. The values are NaN at states that a design lacks.
    pure subroutine take_curve(chunk, column, curve)
       type(chunk_t), intent(in) :: chunk
       integer, intent(in) :: column

@@ -72,7 +72,7 @@ contains
       if (file%fault == nf90_noerr) file%fault = status
    end subroutine note
 
-   !> Returns the fault as an error.
+   !> Returns the recorded fault as an error.
    subroutine check(file, error)
       type(store_file_t), intent(in) :: file
       type(error_t), allocatable, intent(inout) :: error
@@ -122,7 +122,7 @@ contains
       has = nf90_inquire_attribute(file%id, variable, name) == nf90_noerr
    end function has
 
-   !> Reads a text attribute; '' after a fault.
+   !> Reads a string attribute; '' after a fault.
    subroutine get_text(file, variable, name, text)
       type(store_file_t), intent(inout) :: file
       integer, intent(in) :: variable
@@ -201,7 +201,7 @@ contains
       end do
    end subroutine write_rows
 
-   !> Writes a row per state of every n-th design; states that a design lacks are omitted.
+   !> Writes one row per state of every n-th design. States that a design lacks are omitted.
    subroutine write_curves(file, every, curves)
       type(store_file_t), intent(inout) :: file
       integer, intent(in) :: every

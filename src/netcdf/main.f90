@@ -36,7 +36,7 @@ program elastokin_netcdf
 
 contains
 
-   !> Reads the fourth argument, a number; 1 without it.
+   !> Reads the fourth argument, an integer; 1 if it is not given.
    subroutine read_every(every, error)
       integer, intent(out) :: every
       type(error_t), allocatable, intent(out) :: error
@@ -50,7 +50,7 @@ contains
       if (status /= 0 .or. every < 1) call fail(error, exit_usage, '--csv: N must be an integer, 1 or more')
    end subroutine read_every
 
-   !> An argument; '' if there is none.
+   !> An argument of the command line; '' if it is not given.
    function argument(number) result(text)
       integer, intent(in) :: number
       character(:), allocatable :: text

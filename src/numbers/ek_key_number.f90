@@ -1,7 +1,7 @@
-!> A key number of a suspension: its definition, the columns and tests that contain it, and the way its value is read from them.
+!> A key number of a suspension: its definition, the columns and tests that contain it, and the way in which its value is read.
 !>
-!> ek_key_numbers lists the numbers that tests can have, from the headings of their tables alone; read_source reads one of them
-!> when the tests are solved. It creates no strings, so that several threads can read at the same time.
+!> ek_key_numbers lists the key numbers that tests can have, from the headings of their tables alone. read_source reads one key
+!> number when the tests are solved. It creates no strings, so that several threads can read at the same time.
 module ek_key_number
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
@@ -13,13 +13,14 @@ module ek_key_number
    public :: key_number_t, key_source_t, nothing, read_source, has_value, needs_path
    public :: at_design, largest, least, slope, in_phase, anti_phase, at_place, to_contact, largest_of_all
 
-   !> The source of a number: a column at design; its maximum and minimum over the test; a gradient, also with the loads in
-   !> phase or anti-phase alone; a column where another one has a given value; the travel from design to the contact of a stop;
-   !> the largest magnitude over all tests.
+   !> The source of a key number: a column at design; its maximum or minimum over the test; a gradient, or a gradient with only
+   !> in-phase or only anti-phase loads; a column where another column has a given value; the travel from design to the contact of a
+   !> stop; the largest magnitude over all tests.
    integer, parameter :: at_design = 0, largest = 1, least = 2, slope = 3, in_phase = 4, anti_phase = 5, at_place = 6, &
       to_contact = 7, largest_of_all = 8
 
-   !> The columns of a number in the table of one test: (left wheel, single wheel or axle; right wheel).
+   !> The columns of a key number in the table of one test: first for the left wheel, the single wheel or the axle, then for the
+   !> right wheel.
    type :: key_source_t
       integer :: test = 0                               !! index in the list of tests
       character(name_length) :: column(2) = ''          !! '': this wheel does not have the number
@@ -30,7 +31,7 @@ module ek_key_number
       real(wp) :: factor_size = 1.0_wp                  !! load or displacement at `factor` = 1
    end type key_source_t
 
-   !> One key number of a report, or of each wheel.
+   !> One key number of a report, with its values for the axle, a single wheel or both wheels.
    type :: key_number_t
       character(:), allocatable :: group, quantity, unit, sign
       character(:), allocatable :: name           !! for programs, without left_ or right_: 'bump_toe', 'toe_deg'
@@ -39,7 +40,7 @@ module ek_key_number
       character(48) :: held = ''                  !! condition of the wheels of a loaded axle: 'vertical force held'
       logical :: has_target = .false.
       real(wp) :: target(2) = 0.0_wp              !! lower and upper limit that the deck gives, in `unit`
-      real(wp) :: left = 0.0_wp, right = 0.0_wp      !! not a number if missing
+      real(wp) :: left = 0.0_wp, right = 0.0_wp      !! NaN if missing
       logical :: is_of_axle = .false.                !! one number, in `left`
       integer :: how = at_design                     !! one of the constants above
       type(key_source_t), allocatable :: sources(:)  !! tests that may have it; the first that has a value counts
@@ -47,18 +48,18 @@ module ek_key_number
 
 contains
 
-   !> The value of a missing number.
+   !> NaN, the value of a missing key number.
    pure real(wp) function nothing()
       nothing = ieee_value(1.0_wp, ieee_quiet_nan)
    end function nothing
 
-   !> Whether a number has a finite value on the left or right side.
+   !> Whether a key number has a finite value on the left or right side.
    pure logical function has_value(number)
       type(key_number_t), intent(in) :: number
       has_value = ieee_is_finite(number%left) .or. ieee_is_finite(number%right)
    end function has_value
 
-   !> Whether a number depends on states far from design.
+   !> Whether a key number depends on states far from design.
    pure logical function needs_path(how)
       integer, intent(in) :: how
       needs_path = .not. (how == at_design .or. is_slope(how))
@@ -69,13 +70,13 @@ contains
       is_slope = how >= slope .and. how <= anti_phase
    end function is_slope
 
-   !> Reads a number from one of its tests. `values` contains the values from earlier tests; the first belongs to the left or
-   !> single wheel or to the axle, the second to the right wheel. `is_final`: no further test is read.
+   !> Reads a key number from one of its tests. `values` contains the values from earlier tests: first for the left wheel, the
+   !> single wheel or the axle, then for the right wheel. `is_final`: no further test needs to be read.
    subroutine read_source(how, source, table, values, is_final)
       integer, intent(in) :: how
       type(key_source_t), intent(in) :: source
       type(table_t), intent(in) :: table                !! of the test
-      real(wp), intent(inout) :: values(2)              !! not a number before the first test
+      real(wp), intent(inout) :: values(2)              !! NaN before the first test
       logical, intent(out) :: is_final
       integer :: wheel, place, over, points
       real(wp) :: value
@@ -105,7 +106,7 @@ contains
       is_final = is_slope(how) .or. (how /= largest_of_all .and. any(ieee_is_finite(values)))
    end subroutine read_source
 
-   !> A column at design; not a number if that state did not converge.
+   !> The value of a column at design; NaN if the state did not converge.
    pure real(wp) function design_value(table, place) result(value)
       type(table_t), intent(in) :: table
       integer, intent(in) :: place
@@ -116,7 +117,7 @@ contains
       if (row > 0) value = table%values(place, row)
    end function design_value
 
-   !> Finds the maximum or minimum of a column over the converged states, or its largest magnitude in this test and those before.
+   !> Finds the maximum or minimum of a column over the converged states. For the largest magnitude, earlier tests are included.
    subroutine take_extreme(how, table, place, value)
       integer, intent(in) :: how
       type(table_t), intent(in) :: table
@@ -137,8 +138,8 @@ contains
       end select
    end subroutine take_extreme
 
-   !> Column y at the point where column x has a given value, interpolated linearly between two neighbouring states; of
-   !> several such points, the nearest to design. Not a number if no such point exists.
+   !> Value of column y at the point where column x has a given value, interpolated linearly between two neighbouring states. Of
+   !> several such points, the point nearest to design is used. NaN if there is no such point.
    real(wp) function value_where(table, x, wanted, y) result(value)
       type(table_t), intent(in) :: table
       integer, intent(in) :: x, y                       !! indices of the columns
@@ -164,7 +165,7 @@ contains
       end do
    end function value_where
 
-   !> The states that converged and have a number in a column.
+   !> Whether each state converged and has a finite value in a column.
    pure function is_good(table, place)
       type(table_t), intent(in) :: table
       integer, intent(in) :: place

@@ -16,7 +16,7 @@ module ek_key_numbers
    private
    public :: key_number_t, key_numbers, list_key_numbers, number_heads, wanted_gradients, without_side, number_name
 
-   !> One number: its group, its column or gradient, and the way it is read.
+   !> One key number: its group, its column or gradient, and the way in which it is read.
    type :: entry_t
       character(32) :: group = ''
       character(44) :: name = ''        !! a column, or a gradient without its suffix
@@ -120,7 +120,7 @@ contains
       end do
    end subroutine key_numbers
 
-   !> Lists all key numbers that the tests may have, by the headings of their tables: nothing needs to be solved.
+   !> Lists all key numbers that the tests may have, from the headings of their tables. Nothing is solved.
    subroutine list_key_numbers(tests, gradients, numbers, wanted)
       type(test_result_t), intent(in) :: tests(:)        !! with the columns of their tables and their wheels
       type(gradient_t), intent(in) :: gradients(:)       !! of these tests
@@ -159,7 +159,7 @@ contains
       call numbers_of(list, numbers)
    end subroutine list_key_numbers
 
-   !> Lists the gradients among wanted numbers that are read from a kind of test: 'bump toe (fitted)'.
+   !> Marks the gradients among the requested key numbers that are read from a kind of test: 'bump toe (fitted)'.
    subroutine wanted_gradients(kind, wanted, quantities, is_gradient)
       character(*), intent(in) :: kind, wanted(:)        !! names without left_ and right_
       character(64), allocatable, intent(out) :: quantities(:)
@@ -177,8 +177,8 @@ contains
       end do
    end subroutine wanted_gradients
 
-   !> The name of the number that is a column at design, or a gradient; '' if no number is. The gradients of loads that are in phase
-   !> or in anti-phase have two numbers of one name, hence none here.
+   !> The name of the key number that is a column at design, or a gradient; '' if there is none. Loads in phase and in anti-phase
+   !> give two key numbers for one gradient; such a gradient has no name here.
    pure character(64) function number_name(source, is_slope) result(name)
       character(*), intent(in) :: source                 !! 'toe_deg', 'bump toe'
       logical, intent(in) :: is_slope                    !! source is a gradient
@@ -190,7 +190,7 @@ contains
       end do
    end function number_name
 
-   !> The name of a number for programs: 'toe_deg', 'bump_toe', 'lateral_deflection_anti', 'largest_steer_deg'.
+   !> The name of a key number for programs: 'toe_deg', 'bump_toe', 'lateral_deflection_anti', 'largest_steer_deg'.
    pure character(64) function name_of(entry) result(name)
       type(entry_t), intent(in) :: entry
       integer :: k, code
@@ -211,8 +211,8 @@ contains
       end select
    end function name_of
 
-   !> Lists the names of a number for programs: one of the axle or of a single wheel, or one per wheel, the left one first; '':
-   !> the number does not exist for this wheel.
+   !> Lists the names of a key number for programs: one name for the axle or a single wheel, otherwise one per wheel, left first. A
+   !> name is '' if the wheel does not have the number.
    subroutine number_heads(number, is_pair, heads)
       type(key_number_t), intent(in) :: number
       logical, intent(in) :: is_pair                     !! the model has two wheels
@@ -230,7 +230,7 @@ contains
       end do
    end subroutine number_heads
 
-   !> Reads a gradient of the tests of the kind and phase; the first that was run counts.
+   !> Reads a gradient of the tests with a kind and phase. Of several tests, the first that was run is used.
    subroutine from_gradients(tests, gradients, entry, number)
       type(test_result_t), intent(in) :: tests(:)
       type(gradient_t), intent(in) :: gradients(:)
@@ -269,7 +269,7 @@ contains
       end do
    end subroutine from_gradients
 
-   !> Reads a column at design, or its maximum or minimum, in the tests that have it.
+   !> Reads a column at design, or its maximum or minimum, in the tests that have the column.
    subroutine from_tables(tests, entry, is_steered, number)
       type(test_result_t), intent(in) :: tests(:)
       type(entry_t), intent(in) :: entry
@@ -315,7 +315,7 @@ contains
       end do
    end subroutine from_tables
 
-   !> '; + top outward' after a definition; nothing without a sign.
+   !> The sign convention after a definition: '; + top outward'; '' if there is none.
    function sign_of(sign) result(text)
       character(*), intent(in) :: sign
       character(:), allocatable :: text
@@ -324,7 +324,7 @@ contains
       if (sign /= '') text = '; '//sign
    end function sign_of
 
-   !> A column without the name of its wheel.
+   !> A column name without the name of its wheel.
    pure function without_side(column) result(name)
       character(*), intent(in) :: column
       character(:), allocatable :: name

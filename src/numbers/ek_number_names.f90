@@ -56,7 +56,7 @@ contains
       where (index(names, 'right_') == 1) stems = stems(:) (7:)
    end function stems_of
 
-   !> Finds a name among the numbers; number 0 if it is unknown.
+   !> Finds a name among the key numbers. `number` is 0 if the name is unknown.
    pure subroutine find_number(name, heads, number, wheel)
       character(*), intent(in) :: name
       character(*), intent(in) :: heads(:, :)           !! (wheel, number)
@@ -70,8 +70,8 @@ contains
       end do
    end subroutine find_number
 
-   !> Lists all names, with units and definitions, in the order of the report. No case is solved, so the value of a listed number
-   !> may be NaN.
+   !> Lists the names of all key numbers, with units and definitions, in the order of the report. No case is solved, so that a
+   !> listed key number may turn out to be NaN.
    subroutine list_numbers(suspension, cases, names, units, definitions)
       type(suspension_t), intent(in) :: suspension      !! on no rig
       type(case_t), intent(in) :: cases(:)
@@ -92,8 +92,8 @@ contains
       end do
    end subroutine list_numbers
 
-   !> Lists the tests with the headings of their tables, and the numbers that they may have. The rig adds no column from which key
-   !> numbers are read from, so that all tests have the headings of the first.
+   !> Lists the tests with the headings of their tables, and the key numbers that they may have. All tests have the headings of the
+   !> first test, because the rig adds no column that a key number needs.
    subroutine list_all(suspension, cases, tests, listed, names, wanted)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: cases(:)

@@ -1,4 +1,4 @@
-!> As far as which states a key number needs the path of a test, and whether a solution lacks one of them.
+!> The range of states that a key number needs from a test, and whether a solution lacks one of these states.
 module ek_number_reach
    use ek_kinds, only: wp, millimetre, degree
    use ek_rig_test, only: rig_test_t, rig_test, moves_heights, rolls, steers, of_one_wheel
@@ -17,8 +17,8 @@ module ek_number_reach
 
 contains
 
-   !> The swept value beyond which a number needs no state of a source: 0 if it is read at design, otherwise the end of its window.
-   !> For a gradient this requires that the test holds the wheels such that the abscissa is the swept value times a factor;
+   !> The swept value beyond which a key number needs no state of a source: 0 if the key number is read at design, otherwise the end
+   !> of its window. For a gradient, the test must hold the wheels such that the abscissa is the swept value times a factor;
    !> otherwise all states are needed.
    pure real(wp) function reach_of(how, suspension, case, source, test) result(reach)
       integer, intent(in) :: how                        !! of ek_key_number
@@ -54,7 +54,7 @@ contains
 
    end function reach_of
 
-   !> Whether a case lacks a state within a reach from design: it was not run, or the states on one side end before.
+   !> Whether a case lacks a state within a reach from design, because the case was not run or its states end earlier on one side.
    pure logical function lacks_state(result, reach)
       type(case_result_t), intent(in) :: result
       real(wp), intent(in) :: reach                      !! swept value

@@ -1,5 +1,5 @@
-!> Key numbers at particular states of a test: ratio and Ackermann with the inner wheel at 20 deg, wheel travel to the contact
-!> of a stop, and the maximum force on the rack over all tests.
+!> Key numbers at particular states of a test: ratio and Ackermann with the inner wheel at 20 deg, wheel travel to the contact of a
+!> stop, and the largest force on the rack over all tests.
 module ek_place_numbers
    use ek_kinds, only: wp
    use ek_text, only: spaced
@@ -18,7 +18,8 @@ module ek_place_numbers
       type(key_number_t), allocatable :: number
    end type slot_t
 
-   !> Numbers in order. In slots, as a number with the columns of all tests takes kilobytes: an insertion copies none.
+   !> Key numbers in order. They are stored in slots: a key number with the columns of all tests takes kilobytes, and an insertion
+   !> copies no key number.
    type :: number_list_t
       private
       type(slot_t), allocatable :: slots(:)
@@ -27,7 +28,7 @@ module ek_place_numbers
 
 contains
 
-   !> Creates a number without values and sources.
+   !> Creates a key number without values and sources.
    subroutine new_number(group, quantity, unit, sign, how, number)
       character(*), intent(in) :: group, quantity, unit, sign
       integer, intent(in) :: how
@@ -46,14 +47,14 @@ contains
       allocate (number%sources(0))
    end subroutine new_number
 
-   !> Appends a source to a number.
+   !> Appends a source to a key number.
    subroutine add_source(source, number)
       type(key_source_t), intent(in) :: source
       type(key_number_t), intent(inout) :: number
       number%sources = [number%sources, source]
    end subroutine add_source
 
-   !> Appends these numbers as far as the tables of the tests have their columns.
+   !> Appends these key numbers, as far as the tables of the tests have their columns.
    subroutine place_numbers(tests, numbers, wanted)
       type(test_result_t), intent(in) :: tests(:)
       type(number_list_t), intent(inout) :: numbers
@@ -74,7 +75,8 @@ contains
       call add_rack_force(tests, numbers)
    end subroutine place_numbers
 
-   !> Adds a column with the inner wheel at 20 deg: `left` is the turn to the left, with the left wheel inside.
+   !> Adds the value of a column with the inner wheel at 20 deg. `left` is the value in a turn to the left, where the left wheel is
+   !> the inner wheel.
    subroutine add_at_steer(test, place, column, quantity, name, unit, numbers)
       type(test_result_t), intent(in) :: test
       integer, intent(in) :: place                 !! of the test
@@ -101,7 +103,7 @@ contains
       call append(number, numbers)
    end subroutine add_at_steer
 
-   !> Adds the wheel travel from design to the contact of a stop on its side, both wheels in parallel.
+   !> Adds the wheel travel from design to the contact of each stop on its side, with both wheels in parallel travel.
    subroutine add_stops(test, place, numbers)
       type(test_result_t), intent(in) :: test
       integer, intent(in) :: place                 !! of the test
@@ -145,7 +147,7 @@ contains
 
    contains
 
-      !> Reads the clearance of a stop, and the travel of its side.
+      !> Adds the clearance of a stop and the travel on its side as the columns to be read.
       subroutine read_at(wheel, element, prefix)
          integer, intent(in) :: wheel
          character(*), intent(in) :: element, prefix       !! prefix: side of the stop, or ''
@@ -157,7 +159,7 @@ contains
 
    end subroutine add_stops
 
-   !> Adds the maximum magnitude of the force on the rack over all states of all tests.
+   !> Adds the largest magnitude of the force on the rack over all states of all tests.
    subroutine add_rack_force(tests, numbers)
       type(test_result_t), intent(in) :: tests(:)
       type(number_list_t), intent(inout) :: numbers
@@ -180,7 +182,7 @@ contains
       call append(number, numbers)
    end subroutine add_rack_force
 
-   !> Inserts a number after the last of its group.
+   !> Inserts a key number after the last key number of its group.
    subroutine append(number, list)
       type(key_number_t), intent(in) :: number
       type(number_list_t), intent(inout) :: list
@@ -206,7 +208,7 @@ contains
       list%used = list%used + 1
    end subroutine append
 
-   !> Returns the numbers of a list as an array.
+   !> Returns the key numbers of a list as an array.
    subroutine numbers_of(list, numbers)
       type(number_list_t), intent(in) :: list
       type(key_number_t), allocatable, intent(out) :: numbers(:)

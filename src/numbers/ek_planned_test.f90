@@ -1,4 +1,4 @@
-!> The tests of a report before they are run: name, kind, title, from their cases.
+!> The tests of a report before they are run: their names, kinds and titles, from their cases.
 module ek_planned_test
    use ek_kinds, only: wp
    use ek_text, only: spaced
@@ -39,7 +39,7 @@ contains
       end do
    end subroutine planned_tests
 
-   !> Finds the kind of test that a case of a deck amounts to, from its drive or load.
+   !> Finds the kind of test to which a case of a deck corresponds, from its driver or load.
    subroutine kind_of_case(suspension, case, kind, factor_size)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
@@ -81,7 +81,7 @@ contains
          norm2(suspension%wheels(k)%centre - suspension%loads(load)%arm) < same, k=1, size(suspension%wheels))])
    end function is_at_centre
 
-   !> The title of a case from its name: 'Wheel travel sweep' of 'wheel_travel_sweep'.
+   !> The title of a case from its name: 'Wheel travel sweep' for 'wheel_travel_sweep'.
    pure function title_of(name) result(title)
       character(*), intent(in) :: name
       character(:), allocatable :: title

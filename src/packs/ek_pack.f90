@@ -86,7 +86,7 @@ contains
       pack%slot = [(k, k=1, depth)]
    end subroutine new_pack
 
-   !> Stores the numbers of a design; .false.: the design is not of this kind.
+   !> Stores the numbers of a design in a lane. Returns .false. if the design does not have the connections of the pack.
    subroutine set_design(suspension, lane, pack)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: lane

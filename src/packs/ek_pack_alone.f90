@@ -1,4 +1,5 @@
-!> Steps of one design of a pack alone: a state that is not found together with the other designs, and checks of a single design.
+!> Steps of one design of a pack without the other designs: for a state that is not found in the pack, and for checks of a single
+!> design.
 module ek_pack_alone
    use ek_kinds, only: wp
    use ek_lanes, only: lanes_t, lanes
@@ -22,8 +23,8 @@ module ek_pack_alone
 
 contains
 
-   !> Solves the next state of one design, by the way of a single design, with the scale of the pack. If the pack found an
-   !> equilibrium, this is judged first, with the factors of the pack.
+   !> Solves the next state of one design as the sweep of a single design does, with the scale of the pack. If the pack has found an
+   !> equilibrium, this equilibrium is judged first, with the factors of the pack.
    subroutine step_alone(self, member, place, outcome, lane, k, direction)
       type(walker_t), intent(inout) :: self
       type(member_t), intent(inout) :: member
@@ -132,7 +133,7 @@ contains
       kkt%factorisations = kkt%factorisations + 1          ! they are not those before
    end subroutine take_factors
 
-   !> Whether the joints of a design are in the same assembly mode at the present state as at state `before`, and not singular.
+   !> Whether the joints of a design have the assembly mode of state `before` at the present state, and are not singular.
    logical function is_same_assembly(self, member, lane, before)
       type(walker_t), intent(inout) :: self
       type(member_t), intent(in) :: member
@@ -162,7 +163,7 @@ contains
       end do
    end subroutine take_state
 
-   !> Learns the number of earlier states that would have predicted the present state of a design best.
+   !> Finds the number of earlier states that would have predicted the present state of a design best.
    subroutine learn(self, member, k, direction, lane, trusted)
       type(walker_t), intent(inout) :: self
       type(member_t), intent(in) :: member
@@ -188,7 +189,7 @@ contains
       self%is_fresh(lane) = .true.
    end subroutine refresh
 
-   !> Recalls the last states of a design before state k, as a predictor has them.
+   !> Copies the last states of a design before state k into a predictor.
    subroutine recall(predictor, path, k, direction, trusted)
       type(predictor_t), intent(inout) :: predictor
       type(path_t), intent(in) :: path

@@ -108,7 +108,8 @@ contains
       end do
    end subroutine assemble
 
-   !> Factorises anew; the factors of designs whose iteration has ended are unchanged, so that they do not depend on the others.
+   !> Factorises the matrices at the present poses. The factors of designs whose iteration has ended are unchanged, so that these
+   !> designs do not depend on the others.
    subroutine factorise(pack, is_going, soundness)
       type(pack_t), intent(inout) :: pack
       logical, intent(in) :: is_going(lanes)

@@ -15,8 +15,8 @@ module ek_pack_tangents
 contains
 
    !> Finds the error of the trapezoidal rule in the step to the present states, as `compare` of ek_branch does from the last
-   !> factors and the state before the last. Where they do not explain the step, the tangent at its beginning replaces
-   !> that state.
+   !> factors and the state before the last. Where these do not explain the step, the tangent at the beginning of the step replaces
+   !> the state before the last.
    subroutine compare_tangents(self, members, places, is_common, is_asked, value, rest)
       type(walker_t), intent(inout) :: self
       type(member_t), intent(in) :: members(lanes)

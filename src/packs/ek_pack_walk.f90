@@ -29,7 +29,7 @@ module ek_pack_walk
 
 contains
 
-   !> Whether a case can be walked in packs: equilibria along the factor, on a path through design.
+   !> Whether a case can be solved in packs: its states are equilibria along the swept value, on a path through design.
    pure logical function can_walk(case, path)
       type(case_t), intent(in) :: case
       type(path_t), intent(in) :: path
@@ -93,8 +93,8 @@ contains
       end do
    end subroutine walk_together
 
-   !> Finds the equilibria under the constant loads; a design that moves under them by more than rounding is not walked. The
-   !> tangents of its first step are stored in the pack.
+   !> Finds the equilibria under the constant loads. A design that these loads move by more than rounding is not solved in the pack.
+   !> The tangents of the first step are stored in the pack.
    subroutine settle_all(self, members, places, is_common)
       type(walker_t), intent(inout) :: self
       type(member_t), intent(inout) :: members(lanes)
@@ -144,7 +144,7 @@ contains
       end associate
    end subroutine settle_all
 
-   !> Loads design and the states on its other side into the history.
+   !> Stores the design state, and the states on the other side of design, in the history.
    subroutine begin_way(self, members, first, direction, places)
       type(walker_t), intent(inout) :: self
       type(member_t), intent(in) :: members(lanes)
@@ -168,7 +168,7 @@ contains
       places%knows_factors = .false.
    end subroutine begin_way
 
-   !> Whether the designs that are walked have reached state k.
+   !> Whether each design that is still solved in the pack has reached state k.
    function has_state(members, k) result(has)
       type(member_t), intent(in) :: members(lanes)
       integer, intent(in) :: k

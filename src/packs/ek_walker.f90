@@ -85,7 +85,8 @@ contains
       end do
    end subroutine set_inputs
 
-   !> Finds weights of the stored states, for each design of as many as it trusts, and where these states are stored.
+   !> Finds the weights of the stored states for each design, for as many states as the design trusts, and the slots of these
+   !> states.
    subroutine find_lane_weights(history, value, trusted, weight, slot, states)
       type(predictor_t), intent(in) :: history
       real(wp), intent(in) :: value
@@ -115,7 +116,7 @@ contains
       end do
    end subroutine find_lane_weights
 
-   !> Stores a swept value; the numbers of its states go to the slot history%newest.
+   !> Stores a swept value. The numbers of its states go to the slot history%newest.
    pure subroutine remember_place(history, value)
       type(predictor_t), intent(inout) :: history
       real(wp), intent(in) :: value

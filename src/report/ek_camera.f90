@@ -23,7 +23,7 @@ module ek_camera
       real(wp) :: scale = 1.0_wp                        !! unit of width and height per m
    end type camera_t
 
-   !> From a point in space to its position in the picture.
+   !> Transformation from a point in space to its position in the picture.
    type :: projection_t
       real(wp) :: matrix(2, 3) = 0.0_wp, centre(3) = 0.0_wp
    end type projection_t
@@ -40,7 +40,7 @@ contains
          sin(camera%tilt*degree)]
    end subroutine directions
 
-   !> The projection of a fitted camera onto its picture, in shares of width and height.
+   !> The projection of a fitted camera onto its picture, as shares of width and height.
    pure type(projection_t) function new_projection(camera) result(self)
       type(camera_t), intent(in) :: camera      !! fitted
       real(wp) :: right(3), up(3)

@@ -16,7 +16,7 @@ module ek_carpet_figure
    character(*), parameter :: nl = new_line('a')
    integer, parameter :: most_lines = 7           !! of either factor; of more levels some are drawn
    real(wp), parameter :: shift = 0.8_wp          !! of the abscissa from the first to the last level of factor 2, per width
-   !> Of lines of equal factor 1 and 2.
+   !> Colours of the lines of equal factor 1 and of equal factor 2.
    character(*), parameter :: colours(2) = ["rgb '#0072B2'", "rgb '#D55E00'"]
 
    !> A grid of two factors, in the order of their levels, and the responses at its points.
@@ -31,7 +31,7 @@ module ek_carpet_figure
 
 contains
 
-   !> A carpet still without labels and values.
+   !> A carpet with its levels, without labels and values.
    pure type(carpet_t) function new_carpet(first, second, responses, is_log) result(carpet)
       real(wp), intent(in) :: first(:), second(:)    !! levels of the factors, ascending
       integer, intent(in) :: responses
@@ -47,7 +47,7 @@ contains
       allocate (carpet%value(size(first), size(second), responses), source=0.0_wp)
    end function new_carpet
 
-   !> Levels from 0 to 1.
+   !> Positions of the levels from 0 to 1.
    pure function places(levels, is_log)
       real(wp), intent(in) :: levels(:)
       logical, intent(in) :: is_log
@@ -58,7 +58,7 @@ contains
       places = (places - places(1))/max(places(size(levels)) - places(1), tiny(1.0_wp))
    end function places
 
-   !> The script of a carpet, a panel for each response.
+   !> The gnuplot script of a carpet, with one panel for each response.
    function carpet_script(carpet, name, title, subtitle) result(text)
       type(carpet_t), intent(in) :: carpet
       character(*), intent(in) :: name, title, subtitle
@@ -95,7 +95,7 @@ contains
 
    contains
 
-      !> The values at the ends of the lines, outside the carpet, that add_ends puts at a side.
+      !> The part of a plot command for the values at the ends of the lines, outside the carpet, on one side (see add_ends).
       function labels(side) result(words)
          integer, intent(in) :: side
          character(:), allocatable :: words
@@ -109,7 +109,7 @@ contains
 
    end function carpet_script
 
-   !> The carpet of a study, a grid of two factors, which has the designs of the last factor first.
+   !> The carpet of a study over a grid of two factors. The designs of the study have the last factor varying fastest.
    type(carpet_t) function study_carpet(study, panels) result(carpet)
       type(study_data_t), intent(in) :: study
       integer, intent(in) :: panels(:)               !! responses
@@ -139,7 +139,7 @@ contains
       end do
    end function study_carpet
 
-   !> The order in which values ascend.
+   !> The indices of values in ascending order.
    pure function ascending(values) result(order)
       real(wp), intent(in) :: values(:)
       integer :: order(size(values))
@@ -153,7 +153,7 @@ contains
       end do
    end function ascending
 
-   !> Whether the line of a level is drawn: the first, the last, and some between them.
+   !> Whether the line of a level is drawn: the first level, the last level, and some levels between them.
    pure logical function is_drawn(level, levels)
       integer, intent(in) :: level, levels
       integer :: step
@@ -165,7 +165,7 @@ contains
       is_drawn = mod(level - 1, step) == 0 .or. level == levels
    end function is_drawn
 
-   !> Abscissa and response at a pair of levels.
+   !> Abscissa and response at one pair of levels.
    pure function point_of(carpet, i, j, r) result(point)
       type(carpet_t), intent(in) :: carpet
       integer, intent(in) :: i, j, r                 !! levels of factors 1 and 2; response
@@ -193,8 +193,8 @@ contains
       call end_data(sheet)
    end subroutine add_lines
 
-   !> Whether the lines of equal factor f carry their values at the smallest value of the other factor. The values are on the edge
-   !> of the carpet along which the response changes most, so that they do not overlap.
+   !> Whether the lines of equal factor f show their values at the smallest value of the other factor. The values are on the edge of
+   !> the carpet along which the response changes most, so that the values do not overlap.
    pure logical function is_at_begin(carpet, f, r)
       type(carpet_t), intent(in) :: carpet
       integer, intent(in) :: f, r
@@ -210,8 +210,8 @@ contains
       is_at_begin = first(2) - first(1) > last(2) - last(1)
    end function is_at_begin
 
-   !> Adds the values of factor f at the ends of its lines, and 1 or −1 for above or below: away from the mean of the line. At the
-   !> corner of the carpet where the values of both factors meet, the values of factor 2 have 2 or −2: further above or below.
+   !> Adds the values of factor f at the ends of its lines, and the side: 1 for above, −1 for below, away from the mean of the line.
+   !> At the corner of the carpet where the values of both factors meet, the side for factor 2 is 2 or −2: further above or below.
    subroutine add_ends(carpet, f, r, sheet)
       type(carpet_t), intent(in) :: carpet
       integer, intent(in) :: f, r
@@ -240,7 +240,7 @@ contains
       call end_data(sheet)
    end subroutine add_ends
 
-   !> A value with four digits, of which the last ones may be zeros: 10080, 0.125.
+   !> A value with four significant digits; trailing zeros may replace digits: 10080, 0.125.
    function short(value) result(text)
       real(wp), intent(in) :: value
       character(:), allocatable :: text

@@ -1,5 +1,5 @@
-!> Whether a result has changed: by more than a share of its value, or of the least span of its chart. A difference that is small
-!> against that span is noise: 1e-16 against 1e-17 deg/m is not a change, and neither is 0 against 1e-7.
+!> Whether a result has changed by more than a share of its value, or of the least span of its chart. A difference that is small
+!> against the least span is noise: 1e-16 against 1e-17 deg/m is not a change, nor is 0 against 1e-7.
 module ek_change
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
@@ -12,7 +12,7 @@ module ek_change
    character(*), parameter :: changed = 'changed', same = 'same', unknown = 'not a number', only_in = 'only in '
    real(wp), parameter :: rounding = 1.0e-6_wp      !! of the scale: two programs, or two computers, differ by less
 
-   !> The window of a slope per unit, where no quantity has the unit of the slope: the usual windows.
+   !> The usual window of a slope, for units of slopes that no quantity has.
    type :: width_t
       character(8) :: unit
       real(wp) :: width
@@ -22,8 +22,8 @@ module ek_change
 
 contains
 
-   !> The least span that a chart has in a unit (ek_quantity); of a slope whose unit no quantity has, the span of its numerator over
-   !> the usual window; 0 for a unit that is not known.
+   !> The least span of a chart in a unit (ek_quantity). For the unit of a slope that no quantity has, it is the span of the
+   !> numerator over the usual window; 0 for an unknown unit.
    pure real(wp) function least_of(unit)
       character(*), intent(in) :: unit          !! 'deg/m'
       integer :: at, k
@@ -35,7 +35,7 @@ contains
       if (k > 0) least_of = least_span(unit(:at - 1))/widths(k)%width
    end function least_of
 
-   !> The smallest of the least spans of all quantities in a unit; 0: no quantity has this unit.
+   !> The smallest of the least spans of all quantities in a unit; 0 if no quantity has this unit.
    pure real(wp) function least_span(unit)
       character(*), intent(in) :: unit
       integer :: k
@@ -48,7 +48,7 @@ contains
       if (least_span >= huge(1.0_wp)) least_span = 0.0_wp
    end function least_span
 
-   !> (b − a) as a share of |a|, or of the least span where this is larger; not a number if one is missing.
+   !> The change (b − a) as a share of |a|, or of the least span if the latter is larger; NaN if a or b is missing.
    elemental real(wp) function change_of(a, b, least)
       real(wp), intent(in) :: a, b, least
       real(wp) :: scale
@@ -69,7 +69,7 @@ contains
       if (ieee_is_finite(change)) has_changed = abs(change) > threshold
    end function has_changed
 
-   !> 'changed', 'same', 'only in A', 'not a number' for a row of the first result and of another one.
+   !> Verdict on a row of the first result and of another result: 'changed', 'same', 'only in A', 'not a number'.
    pure function verdict_of(change, threshold, is_in_first, is_in_other, other) result(words)
       real(wp), intent(in) :: change, threshold
       logical, intent(in) :: is_in_first, is_in_other
@@ -84,7 +84,7 @@ contains
       if (.not. is_in_first .and. .not. is_in_other) words = 'in neither'
    end function verdict_of
 
-   !> The letter of a result: A is the first.
+   !> The letter of a result: A for the first result.
    pure character(1) function letter_of(result)
       integer, intent(in) :: result
       letter_of = achar(iachar('A') + modulo(result - 1, 26))

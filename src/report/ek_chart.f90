@@ -34,7 +34,7 @@ module ek_chart
 
 contains
 
-   !> The file of a chart: its name, reduced to the characters of a file name, as it may come from a foreign table.
+   !> The file name of a chart: the chart's name, which may come from a foreign table, restricted to the characters of file names.
    pure function picture_file(chart) result(name)
       type(chart_t), intent(in) :: chart
       character(:), allocatable :: name
@@ -42,7 +42,7 @@ contains
       name = file_letters(chart%name)//'.svg'
    end function picture_file
 
-   !> One script that draws every chart as <name>.svg in the folder where gnuplot runs.
+   !> One gnuplot script that draws every chart as <name>.svg in the folder where gnuplot runs.
    pure function charts_script(charts) result(text)
       type(chart_t), intent(in) :: charts(:)
       character(:), allocatable :: text
@@ -64,7 +64,7 @@ contains
       text = script%text()
    end function charts_script
 
-   !> Adds data and plot command of one chart.
+   !> Adds the data and the plot command of one chart.
    pure subroutine add_chart(script, chart)
       type(buffer_t), intent(inout) :: script
       type(chart_t), intent(in) :: chart
@@ -128,7 +128,7 @@ contains
       end do
    end subroutine add_chart
 
-   !> Adds grey areas where a stop is in contact along the first curve.
+   !> Adds grey areas where a stop is in contact along the first curve of the chart.
    pure subroutine add_contact(script, chart)
       type(buffer_t), intent(inout) :: script
       type(chart_t), intent(in) :: chart
@@ -145,7 +145,7 @@ contains
       call script%line("set label 3 'grey: stop in contact' at screen 0.965, screen 0.875 right font ',11' textcolor rgb '#606060'")
    end subroutine add_contact
 
-   !> Finds whether a chart is constant to the digits shown: every curve stays within a hundredth of its least span.
+   !> Finds whether a chart is constant to the printed digits: every curve stays within a hundredth of the least span.
    elemental subroutine set_level(chart)
       type(chart_t), intent(inout) :: chart
       integer :: k
@@ -159,7 +159,7 @@ contains
       end do
    end subroutine set_level
 
-   !> Adds x and y with seven digits, more than a picture resolves.
+   !> Adds x and y with seven digits, which is more than a picture resolves.
    pure subroutine add_pair(script, x, y)
       type(buffer_t), intent(inout) :: script
       real(wp), intent(in) :: x, y
@@ -202,7 +202,7 @@ contains
       rounded = anint(value*scale)/scale
    end function rounded
 
-   !> Lists the picture files of these charts. A chart without curves is not drawn; every name is listed once.
+   !> Lists the picture files of these charts. A chart without curves is omitted; every name is listed once.
    subroutine pictures_of(charts, pictures)
       type(chart_t), intent(in) :: charts(:)
       type(message_list_t), intent(inout) :: pictures
@@ -226,7 +226,7 @@ contains
       end do
    end subroutine pictures_of
 
-   !> Removes pictures of these charts from an earlier run, for a page without pictures.
+   !> Removes pictures of these charts that an earlier run has drawn, for a page without pictures.
    subroutine remove_drawn(charts, folder)
       type(chart_t), intent(in) :: charts(:)
       character(*), intent(in) :: folder        !! of the page

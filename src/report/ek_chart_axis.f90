@@ -13,8 +13,8 @@ module ek_chart_axis
 
 contains
 
-   !> The range of y: around the middle if the span is within the noise or the chart is constant; otherwise the range of the
-   !> curves. Poles are cut.
+   !> The range of the y axis. If the span is within the noise or the chart is constant, the range surrounds the mean; otherwise it
+   !> is the range of the curves. Poles are cut off.
    pure function range_of(chart) result(range)
       type(chart_t), intent(in) :: chart
       character(:), allocatable :: range
@@ -37,7 +37,7 @@ contains
          range = '[* < '//str((low + high)/2 - chart%noise, 6)//' : '//str((low + high)/2 + chart%noise, 6)//' < *]'
    end function range_of
 
-   !> Gives the range as two numbers, for a page that draws the chart itself; low > high: the chart has no value.
+   !> Returns the range as two numbers, for a page that draws the chart itself; low > high if the chart has no value.
    pure subroutine view_of(chart, low, high)
       type(chart_t), intent(in) :: chart
       real(wp), intent(out) :: low, high
@@ -61,7 +61,7 @@ contains
       high = middle + half
    end subroutine view_of
 
-   !> Finds the smallest and the largest value of all curves, each moved to within ±cut.
+   !> Finds the smallest and the largest value of all curves, with values beyond ±cut moved to ±cut.
    pure subroutine extremes(chart, cut, low, high)
       type(chart_t), intent(in) :: chart
       real(wp), intent(in) :: cut
@@ -79,8 +79,8 @@ contains
       end do
    end subroutine extremes
 
-   !> The limit of the axis on both sides of 0: the cap of the chart or, of a curve through a pole, a multiple of its
-   !> usual magnitude. A pole: between two states the value changes sign and jumps by more than half of the whole span. 0: no limit.
+   !> The limit of the axis on both sides of 0: the cap of the chart; for a curve through a pole, a multiple of its usual magnitude;
+   !> 0 if there is no limit. At a pole, the value changes sign between two states and jumps by more than half of the whole span.
    pure real(wp) function cut_of(chart) result(cut)
       type(chart_t), intent(in) :: chart
       real(wp), parameter :: usual = 8.0_wp      ! times the mean of the magnitudes on a logarithmic scale
@@ -115,8 +115,8 @@ contains
       if (.not. cut > 0.0_wp .or. high < cut) cut = high
    end function cut_of
 
-   !> Finds the range of the free travel, with a margin, if the states in contact span more than three times as much. Without such
-   !> states, or if the axis is limited anyway, it is not cut.
+   !> Finds the range of the free travel, with a margin, if the states in contact span more than three times as much. is_cut is
+   !> .false. if there are no states in contact, or if the axis is already limited.
    pure subroutine free_range(chart, low, high, is_cut)
       type(chart_t), intent(in) :: chart
       real(wp), intent(out) :: low, high
@@ -147,7 +147,8 @@ contains
       high = min(all(2), high + margin/4)
    end subroutine free_range
 
-   !> The stretches of the abscissa on which a stop is in contact along a curve: (2, stretch), from the last free state to the end.
+   !> The ranges of the abscissa in which a stop is in contact along a curve: (2, range), from the last free state to the end of the
+   !> contact.
    pure function contact_spans(trace) result(spans)
       type(trace_t), intent(in) :: trace
       real(wp), allocatable :: spans(:, :)

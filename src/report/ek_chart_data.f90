@@ -5,7 +5,7 @@ module ek_chart_data
    private
    public :: chart_t, trace_t, new_chart, add_trace, append_chart
 
-   !> One curve.
+   !> One curve of a chart.
    type :: trace_t
       character(:), allocatable :: title
       !> Its columns in the table, or an expression of columns in parentheses: `(abs(column("toe_deg")))`
@@ -48,14 +48,14 @@ contains
       allocate (chart%traces(0))
    end function new_chart
 
-   !> Appends a curve.
+   !> Appends a curve to a chart.
    pure subroutine add_trace(chart, trace)
       type(chart_t), intent(inout) :: chart
       type(trace_t), intent(in) :: trace
       chart%traces = [chart%traces, trace]
    end subroutine add_trace
 
-   !> Appends a chart to the first `used` of a list, whose room doubles when it is exhausted.
+   !> Appends a chart to a list of which the first `used` entries are in use. The storage doubles when it is full.
    pure subroutine append_chart(charts, used, chart)
       type(chart_t), allocatable, intent(inout) :: charts(:)
       integer, intent(inout) :: used

@@ -1,5 +1,5 @@
-!> Shortens a picture that gnuplot has drawn as SVG: it writes thousands of empty groups and of blanks around its polygons,
-!> coordinates to a hundredth of a pixel, and colours as three numbers.
+!> Shortens an SVG picture drawn by gnuplot. gnuplot writes thousands of empty groups, many blanks around polygons, coordinates to a
+!> hundredth of a pixel, and colours as three numbers.
 module ek_compact_svg
    implicit none(type, external)
    private
@@ -9,8 +9,8 @@ module ek_compact_svg
 
 contains
 
-   !> A picture without its empty groups and without meaningless blanks, with short coordinates and colours. The remaining text is
-   !> copied in pieces between two changes: pictures have megabytes.
+   !> A picture without empty groups and meaningless blanks, with short coordinates and colours. The string between two changes is
+   !> copied as one piece, because pictures have megabytes.
    pure function compact_svg(svg) result(short)
       character(*), intent(in) :: svg
       character(:), allocatable :: short
@@ -60,7 +60,7 @@ contains
       short = short(:used)
    end function compact_svg
 
-   !> Whether a word begins at a letter.
+   !> Whether a string begins at a position.
    pure logical function starts(svg, at, word)
       character(*), intent(in) :: svg, word
       integer, intent(in) :: at
@@ -69,7 +69,7 @@ contains
       if (at + len(word) - 1 <= len(svg)) starts = svg(at:at + len(word) - 1) == word
    end function starts
 
-   !> Appends text to the first `used` letters of another one.
+   !> Appends a string to the first `used` characters of another string.
    pure subroutine copy(text, to, used)
       character(*), intent(in) :: text
       character(*), intent(inout) :: to
@@ -79,7 +79,7 @@ contains
       used = used + len(text)
    end subroutine copy
 
-   !> Appends coordinates, up to the quotation mark after them, with one digit after the point: a tenth of a pixel.
+   !> Appends coordinates, up to the next quotation mark, with one digit after the point: a tenth of a pixel.
    pure subroutine copy_coordinates(svg, at, to, used)
       character(*), intent(in) :: svg
       integer, intent(inout) :: at, used
@@ -107,7 +107,7 @@ contains
       end do
    end subroutine copy_coordinates
 
-   !> Appends a colour, rgb(1, 2, 3), as #010203; a colour of another form is unchanged.
+   !> Appends a colour rgb(1, 2, 3) as #010203; leaves a colour of another form unchanged.
    pure subroutine copy_colour(svg, at, to, used)
       character(*), intent(in) :: svg
       integer, intent(inout) :: at, used
@@ -150,7 +150,7 @@ contains
       at = k + 1
    end subroutine copy_colour
 
-   !> Moves `at` after a group that has an id alone and nothing but line ends in it.
+   !> Moves `at` to after a group that has only an id and contains only line ends.
    pure subroutine skip_empty_group(svg, at)
       character(*), intent(in) :: svg
       integer, intent(inout) :: at
@@ -166,7 +166,7 @@ contains
       if (svg(last:min(last + len(tail) - 1, len(svg))) == tail) at = last + len(tail)
    end subroutine skip_empty_group
 
-   !> The next position of a word, at `at` or after it; after the text if there is none.
+   !> The next position of a string, at `at` or after it; the position after the end if the string does not occur.
    pure integer function next_of(text, at, word) result(place)
       character(*), intent(in) :: text, word
       integer, intent(in) :: at

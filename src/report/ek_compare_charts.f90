@@ -1,5 +1,5 @@
-!> The charts of a comparison: one per quantity of a test, with the curves of all results, and the distance of each from the
-!> first.
+!> The charts of a comparison: one per quantity of a test, with the curves of all results and their distance from the curves of the
+!> first result.
 module ek_compare_charts
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
@@ -37,8 +37,8 @@ module ek_compare_charts
 
 contains
 
-   !> Compares the charts of every test of the first result that another one has too. A curve that equals the curve of the
-   !> first result is drawn once, as 'A = B'.
+   !> Compares the charts of every test that the first result shares with another result. A curve that equals the curve of the first
+   !> result is drawn once, as 'A = B'.
    subroutine compare_charts(results, threshold, charts, changes, curves)
       type(results_t), intent(in) :: results(:)
       real(wp), intent(in) :: threshold
@@ -104,7 +104,7 @@ contains
       end do
    end subroutine add_lone
 
-   !> The change of a chart without a counterpart: NaN.
+   !> The change of a chart that the other result lacks: NaN.
    pure type(chart_change_t) function missing_change()
       real(wp) :: nothing
 
@@ -133,7 +133,7 @@ contains
       curves = [curves, curve]
    end subroutine add_curve
 
-   !> Joins one chart of all results.
+   !> Joins the corresponding charts of all results into one chart.
    subroutine join(own, places, design, threshold, test, chart, change, curves)
       type(chart_list_t), intent(in) :: own(:)
       integer, intent(in) :: places(:)             !! index of the chart in each list; 0: not in the list
@@ -204,7 +204,7 @@ contains
       change%is_changed = has_changed(change%change, threshold)
    end subroutine join
 
-   !> Whether two curves are drawn as one.
+   !> Whether the difference of two curves is invisible, so that they are drawn as one curve.
    pure logical function is_invisible(change)
       type(chart_change_t), intent(in) :: change
 
@@ -224,8 +224,8 @@ contains
       largest = one
    end subroutine take
 
-   !> The curves of a chart with which a curve of another result is compared. They have the same name; a curve for both sides is
-   !> compared with each side.
+   !> Indices of the curves of a chart with which a curve of another result is compared. They have the same name; a curve for both
+   !> sides is compared with each side.
    pure function partners(chart, title) result(found)
       type(chart_t), intent(in) :: chart
       character(*), intent(in) :: title
@@ -253,8 +253,8 @@ contains
       if (at > 0) stands_for = single == 'left_'//joint(:at - 1) .or. single == 'right_'//joint(:at - 1)
    end function stands_for
 
-   !> Sets name, colour and dash of a curve: the colour of its result, dashed on the right; of several elements the colour is
-   !> the colour of the element, and the results are distinguished by dashes.
+   !> Sets the name, colour and dash of a curve. The colour shows the result, and the right side is dashed. In a chart of several
+   !> elements the colour shows the element, and dashes distinguish the results.
    pure subroutine dress(trace, letters, r, is_elements)
       type(trace_t), intent(inout) :: trace
       character(*), intent(in) :: letters
@@ -272,8 +272,8 @@ contains
       end if
    end subroutine dress
 
-   !> Sets the names of a curve's numbers in the data of a page, in which every result has separate names. The abscissa of the
-   !> first result is used if the abscissae are equal.
+   !> Sets the names under which the numbers of a curve are stored in the data of a page. Each result has separate names; the
+   !> abscissa of the first result is used if the abscissae are equal.
    pure subroutine name_columns(trace, chart, r)
       type(trace_t), intent(inout) :: trace
       type(chart_t), intent(in) :: chart
@@ -304,8 +304,8 @@ contains
       are_near = all(abs(a - b) <= near)
    end function are_near
 
-   !> The distance of curve b from curve a over their common range: state by state if they have the same abscissa, otherwise
-   !> between the states of a. The scale is the largest magnitude of a, or the least span of the chart.
+   !> The distance of curve b from curve a over their common range. If both have the same abscissa, they are compared state by
+   !> state, otherwise at the states of a. The scale is the largest magnitude of a, or the least span of the chart.
    pure type(chart_change_t) function distance(a, b, chart) result(change)
       type(trace_t), intent(in) :: a, b
       type(chart_t), intent(in) :: chart           !! of a
@@ -339,7 +339,7 @@ contains
       if (change%is_known) change%change = change_of(scale, scale + change%largest, scale)
    end function distance
 
-   !> A curve between two of its states; not a number outside.
+   !> The value of a curve at x, interpolated between two of its states; NaN outside.
    pure real(wp) function value_at(curve, x)
       type(trace_t), intent(in) :: curve
       real(wp), intent(in) :: x

@@ -25,7 +25,7 @@ module ek_compare_page
 
 contains
 
-   !> The text of the page compare.html.
+   !> The content of the page compare.html.
    function page_of(this, why_none) result(text)
       type(comparison_t), intent(in) :: this
       character(*), intent(in) :: why_none          !! why there are no pictures; '' if there is no message
@@ -56,7 +56,7 @@ contains
       text = page_text(page)
    end function page_of
 
-   !> Adds the differences: facts of the runs, values of the decks.
+   !> Adds the differences between the runs (facts) and between the decks (values).
    subroutine add_changes(page, this)
       type(page_t), intent(inout) :: page
       type(comparison_t), intent(in) :: this
@@ -115,7 +115,7 @@ contains
       if (size(list) > most_rows) call add_markup(page, '</details>')
    end subroutine add_values
 
-   !> A note in brackets, as '(both sides)'; '' for an empty note.
+   !> A note in parentheses, such as '(both sides)'; '' for an empty note.
    pure function bracketed(words) result(text)
       character(*), intent(in) :: words
       character(:), allocatable :: text
@@ -124,7 +124,7 @@ contains
       if (words /= '') text = '('//words//')'
    end function bracketed
 
-   !> A number with a minus sign instead of its hyphen.
+   !> A number with a minus sign instead of a hyphen.
    pure function with_minus(number) result(text)
       character(*), intent(in) :: number
       character(:), allocatable :: text
@@ -133,14 +133,14 @@ contains
       if (index(number, '-') == 1) text = '−'//number(2:)
    end function with_minus
 
-   !> Begins a table whose rows the filter of the page finds.
+   !> Begins a table whose rows can be found with the filter of the page.
    subroutine begin_rows(page, heads)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: heads(:)
       call begin_table(page, heads, 'numbers')
    end subroutine begin_rows
 
-   !> Ends a table and begins a folded table with the same headings.
+   !> Ends a table and begins a folded table with the same column headings.
    subroutine fold_rows(page, heads, rows, what)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: heads(:), what
@@ -151,7 +151,7 @@ contains
       call begin_rows(page, heads)
    end subroutine fold_rows
 
-   !> Counts the results that changed: a line each of numbers and of charts.
+   !> Counts the results that changed, and writes one line for numbers and one for charts.
    subroutine verdicts(this, lines)
       type(comparison_t), intent(in) :: this
       type(message_list_t), intent(out) :: lines
@@ -173,7 +173,7 @@ contains
 
    contains
 
-      !> The remark on numbers that cannot be compared; '' if there are none.
+      !> Phrase about the numbers that cannot be compared; '' if there are none.
       function others(number) result(text)
          integer, intent(in) :: number
          character(:), allocatable :: text
@@ -184,7 +184,7 @@ contains
 
    end subroutine verdicts
 
-   !> Adds the verdicts, the numbers sorted by change, and the charts that changed most.
+   !> Adds the verdicts, the key numbers sorted by change, and the charts that changed most.
    subroutine add_results(page, this)
       type(page_t), intent(inout) :: page
       type(comparison_t), intent(in) :: this
@@ -292,8 +292,8 @@ contains
       call add_cell(page, row%test//', '//row%window, 's')
    end subroutine add_number
 
-   !> Adds the charts of a test: the changed ones by the size of the change, the first few open; then, folded, the charts that did
-   !> not change.
+   !> Adds the charts of a test. Changed charts are sorted by the size of the change, and the first few are open. Unchanged charts
+   !> are folded.
    subroutine add_test(page, this, test)
       type(page_t), intent(inout) :: page
       type(comparison_t), intent(in) :: this
@@ -332,7 +332,7 @@ contains
       call add_markup(page, '<details class="more"><summary>'//escape_html(summary)//'</summary>')
    end subroutine begin_fold
 
-   !> Adds charts side by side: areas that the script of the page fills, or the drawings of gnuplot.
+   !> Adds charts side by side: either areas that the script of the page fills, or pictures drawn by gnuplot.
    subroutine add_charts(page, this, numbers)
       type(page_t), intent(inout) :: page
       type(comparison_t), intent(in) :: this
@@ -360,7 +360,7 @@ contains
       call end_charts(page)
    end subroutine add_charts
 
-   !> ' <span…>largest difference −0.31 (4.2 %)</span>'
+   !> HTML of the largest difference of a chart: ' <span…>largest difference −0.31 (4.2 %)</span>'.
    function step_of(is_known, largest, change) result(html)
       logical, intent(in) :: is_known
       real(wp), intent(in) :: largest, change

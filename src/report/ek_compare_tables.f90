@@ -74,8 +74,8 @@ contains
       text = text_table_csv(table)
    end function differences_csv
 
-   !> The table of curves, one row per curve: the largest difference, in the unit of the label, and its position on the abscissa
-   !> of the test.
+   !> The table of curves, one row per curve: the largest difference, in the unit of the label, and the value of the test's abscissa
+   !> at which it occurs.
    function curves_csv(this) result(text)
       type(comparison_t), intent(in) :: this
       character(:), allocatable :: text
@@ -103,7 +103,8 @@ contains
       text = text_table_csv(table)
    end function curves_csv
 
-   !> One row per value or fact that differs: the texts of all results, and of two results the step from A to B of a number.
+   !> The table of decks, one row per value or fact that differs: the strings of all results; for two results, also the step of a
+   !> number from A to B.
    function deck_csv(this) result(text)
       type(comparison_t), intent(in) :: this
       character(:), allocatable :: text

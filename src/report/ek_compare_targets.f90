@@ -1,4 +1,5 @@
-!> The key numbers of compared reports against the bands of their decks (&target_band): inside or outside, each by its own deck.
+!> The key numbers of compared reports against the target bands of their decks (&target_band): each report is judged by the bands of
+!> its own deck.
 module ek_compare_targets
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
@@ -13,7 +14,7 @@ module ek_compare_targets
 
    character(*), parameter :: band = 'target_band.', low = '.low', high = '.high'     !! of the paths in deck.csv
 
-   !> A key number with a band in one or more of the decks.
+   !> A key number for which one or more of the decks have a band.
    type :: target_t
       character(:), allocatable :: title, unit
       type(message_list_t) :: values, verdicts, bands      !! one per result: '−13.83', 'inside', '−30 … −20'
@@ -21,8 +22,8 @@ module ek_compare_targets
 
 contains
 
-   !> Lists the key numbers that have a band, in the order of the decks. A band of a number that no report has is omitted: the
-   !> report has warned of it.
+   !> Lists the key numbers that have a band, in the order of the decks. A band of a number that no report has is omitted, because
+   !> the report has given a warning about it.
    subroutine find_targets(results, targets)
       type(results_t), intent(in) :: results(:)
       type(target_t), allocatable, intent(out) :: targets(:)
@@ -45,7 +46,7 @@ contains
       end do
    end subroutine find_targets
 
-   !> Adds the number of a path 'target_band.bump_camber.low', unless it is listed already.
+   !> Adds the key number of a path such as 'target_band.bump_camber.low', unless it is already listed.
    subroutine add_name(path, names)
       character(*), intent(in) :: path
       type(message_list_t), intent(inout) :: names
@@ -59,7 +60,7 @@ contains
       call names%add(path(len(band) + 1:last))
    end subroutine add_name
 
-   !> Adds value, verdict and band of one result. Both wheels count, as in a report.
+   !> Adds the value, verdict and band of one result. Both wheels count, as in a report.
    subroutine judge(result, name, this)
       type(results_t), intent(in) :: result
       character(*), intent(in) :: name
@@ -93,7 +94,7 @@ contains
       call this%bands%add(band_text(limits, is_given))
    end subroutine judge
 
-   !> Reads a limit from the values of a deck.
+   !> Reads a limit of a band from the values of a deck.
    subroutine read_limit(deck, path, default, limit, is_given)
       type(deck_record_t), intent(in) :: deck
       character(*), intent(in) :: path
@@ -111,7 +112,7 @@ contains
       end do
    end subroutine read_limit
 
-   !> '−30 … −20', '≥ −30', '≤ −20', 'no band'.
+   !> The limits of a band: '−30 … −20', '≥ −30', '≤ −20', or 'no band'.
    pure function band_text(limits, is_given) result(text)
       real(wp), intent(in) :: limits(2)
       logical, intent(in) :: is_given(2)
@@ -127,7 +128,7 @@ contains
       end if
    end function band_text
 
-   !> Adds the table of targets; nothing if there are none.
+   !> Adds the table of targets; adds nothing if there are no targets.
    subroutine add_targets(page, targets, letters)
       type(page_t), intent(inout) :: page
       type(target_t), intent(in) :: targets(:)
@@ -152,7 +153,7 @@ contains
       call end_table(page)
    end subroutine add_targets
 
-   !> The bands of all results: one if they are the same.
+   !> The bands of all results; one band if all bands are equal.
    function bands_text(this, arrow) result(text)
       type(target_t), intent(in) :: this
       character(*), intent(in) :: arrow
@@ -166,7 +167,7 @@ contains
       end do
    end function bands_text
 
-   !> Lists lines for a terminal: 'target bump camber: −13.83 inside → −35.00 outside deg/m (−30 … −20)'.
+   !> Lists one line per target for a terminal: 'target bump camber: −13.83 inside → −35.00 outside deg/m (−30 … −20)'.
    subroutine target_lines(targets, lines)
       type(target_t), intent(in) :: targets(:)
       type(message_list_t), intent(out) :: lines

@@ -17,10 +17,10 @@ module ek_comparison
    public :: comparison_t, difference_t, compare_gradients, compare_numbers, results_shown, difference, percent, largest_change, &
       descending, counted, largest_lines
 
-   !> One gradient or key number of all results. Of a key number `test` is its group and `column` its name for programs.
+   !> One gradient or key number of all results. For a key number, `test` is its group and `column` its name for programs.
    type, extends(gradient_t) :: difference_t
       real(wp) :: least = 0.0_wp              !! reference of a change where the value is smaller
-      real(wp), allocatable :: values(:)      !! one per result; not a number if it lacks the gradient
+      real(wp), allocatable :: values(:)      !! one per result; NaN if it lacks the gradient
       logical, allocatable :: is_there(:)
    end type difference_t
 
@@ -42,8 +42,8 @@ module ek_comparison
 
 contains
 
-   !> Compares all gradients of all results. Gradients with the same test, quantity and side are one row. Rows are in the order of
-   !> the first result, followed by gradients of the others only.
+   !> Compares all gradients of all results. Gradients with the same test, quantity and side share a row. Rows are in the order of
+   !> the first result, followed by gradients that only other results have.
    subroutine compare_gradients(results, rows)
       type(results_t), intent(in) :: results(:)
       type(difference_t), allocatable, intent(out) :: rows(:)
@@ -57,7 +57,7 @@ contains
       rows = rows(:used)
    end subroutine compare_gradients
 
-   !> Compares all key numbers of all results, by their names. A result without key numbers, a lone table, is omitted.
+   !> Compares all key numbers of all results, by name. A single table has no key numbers and is omitted.
    subroutine compare_numbers(results, rows)
       type(results_t), intent(in) :: results(:)
       type(difference_t), allocatable, intent(out) :: rows(:)
@@ -73,7 +73,7 @@ contains
       rows = rows(:used)
    end subroutine compare_numbers
 
-   !> Adds the values of result number s to the rows.
+   !> Adds the values of result s to the rows.
    subroutine take_rows(list, s, results, is_by_name, rows, used)
       type(gradient_t), intent(in) :: list(:)
       integer, intent(in) :: s, results
@@ -106,7 +106,7 @@ contains
       end do
    end subroutine take_rows
 
-   !> b − a; not a number if one is missing.
+   !> The difference b − a; NaN if a or b is missing.
    elemental real(wp) function difference(a, b)
       real(wp), intent(in) :: a, b
 
@@ -114,7 +114,7 @@ contains
       if (ieee_is_finite(a) .and. ieee_is_finite(b)) difference = b - a
    end function difference
 
-   !> 100 (b − a)/|a|; not a number if a is zero to rounding.
+   !> The change 100 (b − a)/|a| [%]; NaN if a is zero to rounding.
    elemental real(wp) function percent(a, b)
       real(wp), intent(in) :: a, b
       real(wp), parameter :: nothing = 1.0e-9_wp     ! in the unit of any gradient: rounding of a zero
@@ -125,7 +125,7 @@ contains
       if (abs(b - a) < huge(1.0_wp)*min(1.0_wp, abs(a))/100) percent = 100*((b - a)/abs(a))
    end function percent
 
-   !> The change of a row that is largest in magnitude over all results; not a number if none has one.
+   !> The change of a row with the largest magnitude over all results; NaN if no result has a change.
    real(wp) function largest_change(row) result(largest)
       type(difference_t), intent(in) :: row
       real(wp) :: change
@@ -140,8 +140,8 @@ contains
       end do
    end function largest_change
 
-   !> The key numbers and gradients for a page, the largest change first, and numbers without a value last. A gradient that is
-   !> also a key number is listed once. Both sides are one row if every result has equal or opposite numbers for them.
+   !> The key numbers and gradients for a page, sorted by the size of the change; numbers without a value are last. A gradient that
+   !> is also a key number is listed once. Both sides share a row if every result has equal or opposite numbers for them.
    function results_shown(numbers, rows) result(shown)
       type(difference_t), intent(in) :: numbers(:), rows(:)
       type(difference_t), allocatable :: shown(:), others(:)
@@ -171,7 +171,7 @@ contains
 
    end function results_shown
 
-   !> Removes the second row of an angle that is listed as toe and as steer with the same magnitudes.
+   !> Removes the second row of an angle that is listed as both toe and steer with equal magnitudes.
    subroutine drop_repeated_angles(list)
       type(difference_t), allocatable, intent(inout) :: list(:)
       logical :: is_repeated(size(list))
@@ -191,7 +191,7 @@ contains
       list = pack(list, .not. is_repeated)
    end subroutine drop_repeated_angles
 
-   !> A title with 'toe' instead of 'steer': 'bump steer (fitted)' gives 'bump toe (fitted)'.
+   !> A title with 'toe' instead of 'steer': 'bump toe (fitted)' for 'bump steer (fitted)'.
    pure function as_toe(title) result(text)
       character(*), intent(in) :: title
       character(:), allocatable :: text
@@ -207,7 +207,7 @@ contains
       is_one_side = side == 'left' .or. side == 'right'
    end function is_one_side
 
-   !> The largest changes beyond the threshold, a line each: 'bump toe left: -2.47 → 2.59 deg/m (+205 %), parallel_travel'.
+   !> The largest changes above the threshold, one per line: 'bump toe left: -2.47 → 2.59 deg/m (+205 %), parallel_travel'.
    function largest_lines(shown, threshold, most) result(lines)
       type(difference_t), intent(in) :: shown(:)       !! sorted by change
       real(wp), intent(in) :: threshold
@@ -230,7 +230,7 @@ contains
       end do
    end function largest_lines
 
-   !> Reduces the rows of both sides of an axle to one row if they show equal or opposite numbers.
+   !> Joins the rows of both sides of an axle if they show equal or opposite numbers.
    subroutine join_sides(list)
       type(difference_t), allocatable, intent(inout) :: list(:)
       logical :: is_twin(size(list))
@@ -256,7 +256,7 @@ contains
       list = pack(list, .not. is_twin)
    end subroutine join_sides
 
-   !> Whether two rows show equal numbers, or with sign = −1 opposite numbers, for every result.
+   !> Whether two rows show equal numbers for every result; with sign = −1, opposite numbers.
    logical function are_same(one, other, sign)
       type(difference_t), intent(in) :: one, other
       real(wp), intent(in) :: sign
@@ -268,7 +268,7 @@ contains
       end do
    end function are_same
 
-   !> The order of values from large to small; equal values are in their original order.
+   !> The indices of values in descending order; equal values are in their original order.
    pure function descending(values) result(order)
       real(wp), intent(in) :: values(:)
       integer :: order(size(values))
@@ -283,7 +283,7 @@ contains
       end do
    end function descending
 
-   !> '12 of 118 key numbers changed by more than 1 %'
+   !> A count for the page: '12 of 118 key numbers changed by more than 1 %'.
    function counted(some, all, what, threshold) result(text)
       integer, intent(in) :: some, all
       character(*), intent(in) :: what           !! in the plural

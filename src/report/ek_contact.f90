@@ -1,4 +1,4 @@
-!> Where in a test stops are in contact, from the columns of their gaps.
+!> The states of a test in which stops are in contact, from the clearance columns of the stops.
 module ek_contact
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
@@ -10,7 +10,7 @@ module ek_contact
 
    character(*), parameter :: ending = '_gap_mm'
 
-   !> A stretch of states in which a stop is in contact.
+   !> A range of consecutive states in which a stop is in contact.
    type :: contact_t
       character(name_length) :: stop = ''        !! without its side if both sides have the same stretch
       integer :: first = 0, last = 0             !! rows of the table
@@ -18,7 +18,7 @@ module ek_contact
 
 contains
 
-   !> Finds the rows in which a stop is in contact. Not allocated if the table has no stop.
+   !> Finds the rows in which any stop is in contact. is_in_contact is not allocated if the table has no stop.
    pure subroutine states_in_contact(table, is_in_contact)
       type(table_t), intent(in) :: table
       logical, allocatable, intent(out) :: is_in_contact(:)
@@ -53,7 +53,7 @@ contains
       end do
    end function contacts_of
 
-   !> Appends a stretch, unless the other side has an equal stretch.
+   !> Appends a range, unless the other side has an equal range.
    pure subroutine add(list, contact)
       type(contact_t), allocatable, intent(inout) :: list(:)
       type(contact_t), intent(in) :: contact
@@ -78,7 +78,7 @@ contains
       if (is_gap) is_gap = column(at + 1:) == ending
    end function is_gap
 
-   !> The rows in which a stop is in contact.
+   !> Whether a stop is in contact in each row.
    pure function is_closed(table, column) result(closed)
       type(table_t), intent(in) :: table
       integer, intent(in) :: column

@@ -46,7 +46,7 @@ contains
       call join_sides(values)
    end subroutine find_differences
 
-   !> Whether every result gives a text.
+   !> Whether every result gives a string for a row.
    logical function is_in_all(row)
       type(deck_difference_t), intent(in) :: row
       integer :: r
@@ -54,7 +54,7 @@ contains
       is_in_all = all([(row%texts%line(r) /= '', r=1, row%texts%count())])
    end function is_in_all
 
-   !> Lists the names whose texts differ.
+   !> Lists the names whose strings differ.
    subroutine differing(names, texts, list)
       type(message_list_t), intent(in) :: names(:), texts(:)     !! of each result
       type(deck_difference_t), allocatable, intent(out) :: list(:)
@@ -84,7 +84,7 @@ contains
 
    contains
 
-      !> Whether a result before s has the name.
+      !> Whether a result before result s has the name with index k.
       logical function is_listed(s, k)
          integer, intent(in) :: s, k
          integer :: r
@@ -97,7 +97,7 @@ contains
 
    end subroutine differing
 
-   !> The index of a name, searched first near the expected index; 0: the list does not contain the name.
+   !> Index of a name, searched first near the expected index; 0 if the list does not contain the name.
    integer function place_of(names, name, near) result(place)
       type(message_list_t), intent(in) :: names
       character(*), intent(in) :: name
@@ -112,7 +112,7 @@ contains
       place = 0
    end function place_of
 
-   !> Whether two values are equal; as numbers if both are numbers.
+   !> Whether two strings are equal; numbers are compared by value.
    logical function is_equal(a, b)
       character(*), intent(in) :: a, b
       real(wp) :: x, y
@@ -122,7 +122,7 @@ contains
       if (are_numbers(a, b, x, y)) is_equal = abs(x - y) <= 1.0e-12_wp*max(abs(x), abs(y))
    end function is_equal
 
-   !> Whether two texts are numbers; x and y return their values.
+   !> Whether two strings are numbers; x and y return their values.
    logical function are_numbers(a, b, x, y)
       character(*), intent(in) :: a, b
       real(wp), intent(out) :: x, y
@@ -135,7 +135,7 @@ contains
       are_numbers = is_number
    end function are_numbers
 
-   !> b − a of two values, as '+5'; '' if they are not numbers.
+   !> The difference b − a of two values, such as '+5'; '' if a value is not a number.
    function step_text(a, b) result(text)
       character(*), intent(in) :: a, b
       character(:), allocatable :: text
@@ -148,7 +148,7 @@ contains
       if (y > x) text = '+'//text
    end function step_text
 
-   !> Joins the rows of the two sides of an axle, where both have equal or opposite values.
+   !> Joins the rows of the two sides of an axle if their values are equal or opposite.
    subroutine join_sides(list)
       type(deck_difference_t), allocatable, intent(inout) :: list(:)
       logical :: is_twin(size(list))

@@ -1,5 +1,5 @@
-!> deck.csv of a report: the values of its deck, from which a comparison lists the changes. Rows of kind `fact` describe how
-!> it was made (deck, settings, checksum), rows of kind `value` are the values of the deck by their paths.
+!> deck.csv of a report: the values of its deck, from which a comparison lists the changes. Rows of kind `fact` describe how the
+!> report was made (deck, settings, checksum). Rows of kind `value` contain the values of the deck by their paths.
 module ek_deck_file
    use ek_error, only: error_t, message_list_t
    use ek_file, only: write_whole, file_exists
@@ -52,7 +52,8 @@ contains
 
    end subroutine write_deck_file
 
-   !> Reads deck.csv; without the file the result is empty, which is not an error: reports of earlier versions do not have it.
+   !> Reads deck.csv. Without the file the result is empty; this is not an error, because reports of earlier versions do not have
+   !> the file.
    subroutine read_deck_file(path, record, error)
       character(*), intent(in) :: path
       type(deck_record_t), intent(out) :: record
@@ -75,7 +76,7 @@ contains
       end do
    end subroutine read_deck_file
 
-   !> Reads the facts in the header of a table about its making; nothing that the record has already.
+   !> Reads the facts about a run from the header of a table. Facts that the record already has are skipped.
    subroutine facts_of_table(table, record)
       type(table_t), intent(in) :: table
       type(deck_record_t), intent(inout) :: record

@@ -22,8 +22,8 @@ module ek_drawing
 
 contains
 
-   !> Runs gnuplot once on existing scripts. The scripts read data from their folder and draw into the working folder. A picture
-   !> of another folder ('../x.svg') is drawn as `to.'x.svg'`, where `to` is '' here.
+   !> Runs gnuplot once on existing scripts. The scripts read data from their folder and draw into the working folder. They draw a
+   !> picture of another folder ('../x.svg') as `to.'x.svg'`, where `to` is '' here.
    subroutine run_gnuplot(scripts, pictures, folder, message, error)
       type(message_list_t), intent(in) :: scripts         !! names in the folder
       type(message_list_t), intent(in) :: pictures        !! paths relative to the folder
@@ -47,8 +47,8 @@ contains
       if (len(trouble) > 0) call fail(error, exit_file, 'gnuplot could not draw the figures in '//folder//': '//trouble)
    end subroutine run_gnuplot
 
-   !> Runs a script of the user. Its variable `out` is the folder of the tables; every complete file that the script writes
-   !> there is moved to `folder`.
+   !> Runs a plot script of the user. The gnuplot variable `out` is the folder of the tables. Every complete file that the script
+   !> writes to the working folder is moved to `folder`.
    subroutine run_plot_script(script, tables, folder, error)
       character(*), intent(in) :: script                  !! path of the script
       type(message_list_t), intent(in) :: tables          !! names in the folder
@@ -83,7 +83,7 @@ contains
       if (len(trouble) > 0) call fail(error, exit_file, 'gnuplot could not run '''//script//''': '//trouble)
    end subroutine run_plot_script
 
-   !> Moves the pictures to their folder, all or none: pictures of two runs are not mixed.
+   !> Moves all pictures to their folder, or none, so that pictures of two runs are not mixed.
    subroutine take_pictures(scratch, pictures, folder, trouble)
       type(scratch_t), intent(inout) :: scratch           !! it ends
       type(message_list_t), intent(in) :: pictures        !! paths relative to the folder
@@ -109,8 +109,8 @@ contains
       call end_scratch(scratch)
    end subroutine take_pictures
 
-   !> Runs gnuplot on scripts in a scratch folder. C.UTF-8: gnuplot rejects the degree sign in C, and other locales may write a
-   !> decimal comma.
+   !> Runs gnuplot on scripts in a scratch folder, in the locale C.UTF-8: gnuplot rejects the degree sign in the locale C, and other
+   !> locales may write a decimal comma.
    subroutine draw_in(scratch, before, scripts, folder, trouble)
       type(scratch_t), intent(in) :: scratch
       character(*), intent(in) :: before                  !! commands before any script
@@ -137,7 +137,7 @@ contains
       if (len(trouble) == 0) trouble = 'it ended with status '//str(status)
    end subroutine draw_in
 
-   !> The time limit: the environment variable EK_GNUPLOT_SECONDS if set, otherwise the default of this module.
+   !> The time limit of gnuplot [s]: the environment variable EK_GNUPLOT_SECONDS if set, otherwise the default of this module.
    integer function seconds_allowed() result(limit)
       character(12) :: text
       integer :: status
@@ -149,8 +149,8 @@ contains
       if (status /= 0 .or. limit < 1) limit = time_limit
    end function seconds_allowed
 
-   !> Whether a picture file is complete: on a full disk its end is missing, and gnuplot reports no error. Other files only
-   !> have to be non-empty.
+   !> Whether a picture file is complete. On a full disk the end of the file is missing, and gnuplot reports no error. A file that
+   !> is not a picture must only be non-empty.
    logical function is_whole(path)
       character(*), intent(in) :: path
       character(:), allocatable :: bytes

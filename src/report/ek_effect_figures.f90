@@ -17,7 +17,7 @@ module ek_effect_figures
 
 contains
 
-   !> Contours of each response over two factors of a grid.
+   !> Script of the contours of each response over two factors of a grid.
    function map_script(study, name, subtitle, panels) result(text)
       type(study_data_t), intent(in) :: study
       integer, intent(in) :: panels(:)               !! responses
@@ -68,7 +68,7 @@ contains
       text = end_panels(sheet)
    end function map_script
 
-   !> Each response over the only factor of a grid.
+   !> Script of each response over the only factor of a grid.
    function line_script(study, name, subtitle, panels) result(text)
       type(study_data_t), intent(in) :: study
       integer, intent(in) :: panels(:)               !! responses
@@ -95,7 +95,7 @@ contains
       text = end_panels(sheet)
    end function line_script
 
-   !> The range of some values for gnuplot: '[low:high]'.
+   !> The range of some values as a gnuplot range: '[low:high]'.
    pure function bounds(values) result(text)
       real(wp), intent(in) :: values(:)
       character(:), allocatable :: text
@@ -106,7 +106,7 @@ contains
       text = '['//str(range(1), 7)//':'//str(range(2), 7)//']'
    end function bounds
 
-   !> Tics at 1, 2 and 5 of every decade for a logarithmic axis.
+   !> Tics at 1, 2 and 5 of every decade, for a logarithmic axis.
    pure function tics_of(values) result(text)
       real(wp), intent(in) :: values(:)
       character(:), allocatable :: text
@@ -129,7 +129,7 @@ contains
       text = text(3:)
    end function tics_of
 
-   !> The factors in descending order of importance, at most so many; those without a value last.
+   !> Indices of the factors in descending order of importance, at most `most`. Factors without a value are last.
    pure function ranked(importance, most) result(order)
       real(wp), intent(in) :: importance(:)
       integer, intent(in) :: most
@@ -144,7 +144,7 @@ contains
       end do
    end function ranked
 
-   !> Room at the left for the names of the factors, pixels.
+   !> Width of the margin at the left for the names of the factors [pixels].
    pure integer function name_room(study, letters) result(room)
       type(study_data_t), intent(in) :: study
       integer, intent(in) :: letters
@@ -168,7 +168,7 @@ contains
       sheet%left = name_room(study, 14)
    end function new_bars
 
-   !> The text after the names of a truncated list.
+   !> Note below a list of factors that was truncated; '' otherwise.
    pure function cut(study) result(words)
       type(study_data_t), intent(in) :: study
       character(:), allocatable :: words
@@ -178,7 +178,7 @@ contains
          str(size(study%factors))//' factors'
    end function cut
 
-   !> The change of each response when one factor changes alone.
+   !> Script of the change of each response when one factor changes alone (tornado).
    function tornado_script(study, name, subtitle, panels) result(text)
       type(study_data_t), intent(in) :: study
       integer, intent(in) :: panels(:)               !! responses
@@ -235,7 +235,7 @@ contains
       text = end_panels(sheet)
    end function tornado_script
 
-   !> Whether the response at an end of a factor is unknown.
+   !> Whether the response at an end of any factor is unknown.
    pure logical function any_gap(effects)
       type(effects_t), intent(in) :: effects(:)
       integer :: r
@@ -246,8 +246,8 @@ contains
       end do
    end function any_gap
 
-   !> The part of a plot command that marks the ends without a value by a sign above (smallest) or below (largest) the middle of the
-   !> bar; '' if there are none.
+   !> The part of a plot command that marks ends without a value. The mark is above the middle of the bar for the smallest value and
+   !> below for the largest; '' if all ends have values.
    pure function gaps_plot(panel, effects) result(part)
       integer, intent(in) :: panel
       type(effects_t), intent(in) :: effects
@@ -257,7 +257,7 @@ contains
       if (any_gap([effects])) part = '     $gaps'//str(panel)//" using 1:2:('–') with labels offset 1.5, 0 notitle, "//nl
    end function gaps_plot
 
-   !> Sobol indices with their 95 % intervals.
+   !> Script of the Sobol indices with their 95 % intervals.
    function sobol_script(study, name, subtitle, panels) result(text)
       type(study_data_t), intent(in) :: study
       integer, intent(in) :: panels(:)               !! responses
@@ -304,7 +304,8 @@ contains
       text = end_panels(sheet)
    end function sobol_script
 
-   !> Morris' μ* and σ: far right matters, high up acts nonlinearly or with others.
+   !> Script of Morris' μ* and σ. A factor far to the right has a large effect; a factor high up acts nonlinearly or together with
+   !> others.
    function morris_script(study, name, subtitle, panels) result(text)
       type(study_data_t), intent(in) :: study
       integer, intent(in) :: panels(:)               !! responses

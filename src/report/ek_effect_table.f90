@@ -1,5 +1,5 @@
-!> The table of the effects of the factors of a study on its responses: strongest factor first; many factors, and those without an
-!> effect, folded.
+!> The table of the effects of the factors of a study on its responses. The strongest factor is first; further factors, and factors
+!> without an effect, are folded.
 module ek_effect_table
    use ek_kinds, only: wp
    use ek_text, only: str, plural
@@ -13,8 +13,8 @@ module ek_effect_table
 
 contains
 
-   !> Adds the table of effects of the factors, for the kinds that yield it: of each response the strongest factors; the others are
-   !> folded.
+   !> Adds the table of effects of the factors, for the kinds of study that yield effects. The strongest factors of each response
+   !> are shown; all others are folded.
    subroutine add_effects(page, study)
       type(page_t), intent(inout) :: page
       type(study_data_t), intent(in) :: study
@@ -88,7 +88,7 @@ contains
       count_of = count([(.not. has_no_effect(sizes, f), f=1, size(sizes))])
    end function count_of
 
-   !> Adds the rows of a response, strongest first, from one rank to another; factors without an effect have no row.
+   !> Adds the rows of a response from rank `first` to rank `last`, strongest first. Factors without an effect have no row.
    subroutine add_rows(page, study, r, first, last)
       type(page_t), intent(inout) :: page
       type(study_data_t), intent(in) :: study
@@ -165,7 +165,7 @@ contains
       call add_markup(page, '</details>')
    end subroutine add_idle
 
-   !> ' (67 of 256)': base points or effects on which the number of a factor rests, where designs failed.
+   !> Number of base points or effects from which an effect was computed, where designs failed: ' (67 of 256)'.
    pure function rests_on(effects, f) result(text)
       type(effects_t), intent(in) :: effects
       integer, intent(in) :: f

@@ -33,8 +33,8 @@ module ek_explanation
 
 contains
 
-   !> Finds the contributions to the key compliances at the state of a case that is nearest to design; for an axle, only for the
-   !> left wheel. The list is empty if there is no such state, or its matrix is singular.
+   !> Finds the contributions to the key compliances at the state of a case that is nearest to design. For an axle, only the left
+   !> wheel is explained. The list is empty if there is no such state, or if its matrix is singular.
    subroutine find_explanations(result, list)
       type(case_result_t), intent(inout) :: result              !! is_run
       type(explanation_t), allocatable, intent(out) :: list(:)
@@ -93,8 +93,8 @@ contains
       end do
    end subroutine find_explanations
 
-   !> Finds the wheel rate of the left or single wheel and the roll rate, with their parts, as far as the table of the case gives
-   !> them at design.
+   !> Finds the wheel rate of the left or single wheel and the roll rate, with their parts. Rates that the table of the case does
+   !> not give at design are omitted.
    subroutine find_rates(result, table, found, used)
       type(case_result_t), intent(in) :: result
       type(contribution_table_t), intent(in) :: table
@@ -123,7 +123,7 @@ contains
       end do
    end subroutine find_rates
 
-   !> A rate with the parts that do not read 0.
+   !> A rate with those parts that are not printed as 0.
    function split_of(column, value, shares) result(rate)
       character(*), intent(in) :: column
       real(wp), intent(in) :: value, shares(:)
@@ -144,7 +144,7 @@ contains
       rate%rest = value - sum(rate%part)
    end function split_of
 
-   !> 'at design: springs 81 %, bushings 15 %, …'; '' if the column has no explanation.
+   !> The largest parts of a column: 'at design: springs 81 %, bushings 15 %, …'; '' if the column has no explanation.
    function parts_of(list, column) result(text)
       type(explanation_t), intent(in) :: list(:)
       character(*), intent(in) :: column
@@ -163,7 +163,7 @@ contains
       end do
    end function parts_of
 
-   !> Adds the section of the page; none for an empty list.
+   !> Adds the section of contributions; adds nothing for an empty list.
    subroutine add_explanations(page, list)
       type(page_t), intent(inout) :: page
       type(explanation_t), intent(in) :: list(:)
@@ -208,7 +208,7 @@ contains
       call add_cell(page, this%unit, 's')
    end subroutine add_row
 
-   !> Whether a number is zero in the digits of the page: a row of it would show rounding.
+   !> Whether a number is printed as zero on the page; its row would show rounding only.
    pure logical function reads_zero(number)
       real(wp), intent(in) :: number
       reads_zero = page_number(number) == '0'

@@ -14,8 +14,8 @@ module ek_factor_order
 
 contains
 
-   !> The sizes of the effects on a response, by the best measure that the study yields: total index or share, μ*, span, or else the
-   !> magnitude of the rank correlation. Not a number without a value.
+   !> The sizes of the effects of all factors on a response, by the best measure that the study yields: total index or share, μ*,
+   !> span, or else the magnitude of the rank correlation. NaN for a factor without a value.
    pure function effect_sizes(study, r) result(sizes)
       type(study_data_t), intent(in) :: study
       integer, intent(in) :: r                    !! response
@@ -34,9 +34,10 @@ contains
       end associate
    end function effect_sizes
 
-   !> The magnitude of a rank correlation that designs drawn at random give by chance to one or more of the factors, in at most one
-   !> study of twenty: P(|z| > t) ≤ exp(−t²/2) for a normal z = r √(n − 1), for k factors together at most k times that. 0 for the
-   !> kinds whose effects have another measure, and for a grid, where every factor is varied independently of the others.
+   !> The magnitude of rank correlation that one or more of the factors reach by chance in at most one study of twenty, for designs
+   !> drawn at random. From P(|z| > t) ≤ exp(−t²/2) for a normal z = r √(n − 1), and at most k times this for k factors together. 0
+   !> for kinds of study whose effects have another measure, and for a grid, where every factor is varied independently of the
+   !> others.
    pure real(wp) function least_correlation(study)
       type(study_data_t), intent(in) :: study
       real(wp), parameter :: chance = 0.05_wp
@@ -47,7 +48,7 @@ contains
       least_correlation = min(1.0_wp, sqrt(2.0_wp*log(size(study%factors)/chance)/max(1, study%designs - 1)))
    end function least_correlation
 
-   !> The order as text: 'by μ*', 'by rank correlation; below 0.69 it may be chance'.
+   !> Phrase about the order of the factors: 'by μ*', or 'by rank correlation; below 0.69 it may be chance'.
    pure function effect_measure(study) result(words)
       type(study_data_t), intent(in) :: study
       character(:), allocatable :: words
@@ -80,8 +81,8 @@ contains
       if (ieee_is_finite(sizes(f))) has_no_effect = abs(sizes(f)) <= rounding*maxval(abs(sizes), mask=ieee_is_finite(sizes))
    end function has_no_effect
 
-   !> All factors by their largest effect on any response, as a share of the largest effect on that response; in the order of the
-   !> study where the effects are equal or not known.
+   !> Indices of all factors, sorted by the largest effect on any response, as a share of the largest effect on that response.
+   !> Factors whose effects are equal or unknown are in the order of the study.
    pure function factor_order(study) result(order)
       type(study_data_t), intent(in) :: study
       integer, allocatable :: order(:)
@@ -101,7 +102,7 @@ contains
       order = ranked(shares, size(shares))
    end function factor_order
 
-   !> 'tie_rod_inner_z, lca_rear_z': the factors with the largest effects on a response, in order; '' if none has an
+   !> Names of the factors with the largest effects on a response, in order: 'tie_rod_inner_z, lca_rear_z'. '' if no factor has an
    !> effect that is more than chance.
    pure function strongest_names(study, r) result(names)
       type(study_data_t), intent(in) :: study

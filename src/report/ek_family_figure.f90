@@ -1,4 +1,4 @@
-!> The curves of the designs of a study, each panel coloured by the factor with the largest effect on its curves.
+!> The curves of the designs of a study. Each panel is coloured by the factor with the largest effect on its curves.
 module ek_family_figure
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
@@ -53,7 +53,7 @@ contains
 
    contains
 
-      !> The factor of a panel with its range, where the panels differ.
+      !> Title above a panel: its factor with the range of the factor, if the panels have different factors.
       function above(panel) result(words)
          integer, intent(in) :: panel
          character(:), allocatable :: words
@@ -67,7 +67,7 @@ contains
 
    end function family_script
 
-   !> Adds the data: swept value, the factor of each panel, the column of each panel.
+   !> Adds the data: swept value, the factor of each panel, and the column of each panel.
    subroutine add_curves(sheet, study, panels, leaders, every)
       type(sheet_t), intent(inout) :: sheet
       type(study_data_t), intent(in) :: study
@@ -85,8 +85,8 @@ contains
       call end_data(sheet)
    end subroutine add_curves
 
-   !> The factor that explains most of the scatter of a column: its squared correlation with the column, over all swept values,
-   !> weighted with the variance of the column at each swept value.
+   !> Index of the factor that explains most of the scatter of a column. The measure is the squared correlation of factor and column
+   !> over all swept values, weighted with the variance of the column at each swept value.
    pure integer function curve_leader(study, column) result(leader)
       type(study_data_t), intent(in) :: study
       integer, intent(in) :: column
@@ -102,7 +102,7 @@ contains
       leader = maxloc(explained, dim=1)
    end function curve_leader
 
-   !> The part of the variance of y, times the number of designs, that a straight line over x explains; designs without values are
+   !> The part of the variance of y that a straight line over x explains, times the number of designs. Designs without values are
    !> omitted.
    pure real(wp) function explained_variance(x, y) result(part)
       real(wp), intent(in) :: x(:), y(:)

@@ -36,8 +36,8 @@ module ek_gnuplot
 
 contains
 
-   !> Writes folder/name.gp of every figure and runs gnuplot once on them. Without gnuplot only the scripts are written; a
-   !> message reports this, and it is not an error.
+   !> Writes folder/name.gp for every figure and runs gnuplot once on all scripts. Without gnuplot, only the scripts are written;
+   !> `message` reports this, and it is not an error.
    subroutine draw_figures(figures, folder, message, error)
       type(figure_t), intent(in) :: figures(:)
       character(*), intent(in) :: folder
@@ -140,7 +140,7 @@ contains
       call script%add(indent//'set '//y//'range '//range_of(panel))
    end subroutine add_axes
 
-   !> The text of a label; its sign, '(+ …)' after a gap, is placed on a separate line in a small panel.
+   !> The string of a label. Its sign convention, '(+ …)' after two blanks, is placed on a separate line in a small panel.
    pure function label(text, is_folded) result(words)
       character(*), intent(in) :: text
       logical, intent(in) :: is_folded
@@ -152,7 +152,7 @@ contains
       if (is_folded .and. gap > 0) words = gnuplot_text(text(:gap - 1))//'."\n".'//gnuplot_text(text(gap + 4:))
    end function label
 
-   !> Adds the plot command: the curves, then a ring on each at the design state.
+   !> Adds the plot command: the curves, then a ring on each curve at the design state.
    pure subroutine add_plot(script, figure, number, has_legend)
       type(message_list_t), intent(inout) :: script
       type(figure_t), intent(in) :: figure
@@ -186,7 +186,7 @@ contains
 
    contains
 
-      !> The data of a curve: the columns that gnuplot calls x and y.
+      !> The gnuplot expression for the data of a curve: its columns x and y.
       pure function data_of(over, column) result(text)
          character(*), intent(in) :: over, column
          character(:), allocatable :: text
@@ -197,7 +197,7 @@ contains
 
    end subroutine add_plot
 
-   !> A column by its name, or an expression unchanged.
+   !> The gnuplot expression for a column name; an expression in parentheses is unchanged.
    pure function field(name) result(text)
       character(*), intent(in) :: name
       character(:), allocatable :: text

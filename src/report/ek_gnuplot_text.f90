@@ -1,6 +1,6 @@
-!> Text from outside in a gnuplot script: the title of a deck, a cell of a foreign table, a path.
+!> Strings from outside in a gnuplot script: the title of a deck, a cell of a foreign table, a path.
 !>
-!> Every text that is not fixed in this program is converted here. A line end in it would begin a command.
+!> Every string that is not fixed in this program is converted here. A line end in such a string would begin a command.
 module ek_gnuplot_text
    implicit none(type, external)
    private
@@ -8,7 +8,7 @@ module ek_gnuplot_text
 
 contains
 
-   !> A text between single quotes, in which gnuplot interprets only a quote and the end of the line.
+   !> A string between single quotes. gnuplot interprets only a quote and a line end in it.
    pure function gnuplot_text(text) result(literal)
       character(*), intent(in) :: text
       character(:), allocatable :: literal
@@ -24,7 +24,7 @@ contains
       literal = literal//one_line(text(first:))//"'"
    end function gnuplot_text
 
-   !> A column name between double quotes; gnuplot accepts no quote and no backslash in it.
+   !> A column name between double quotes. gnuplot accepts no quote and no backslash in the name.
    pure function gnuplot_name(text) result(literal)
       character(*), intent(in) :: text
       character(len(text) + 2) :: literal
@@ -45,8 +45,8 @@ contains
       if (comment(len(comment):) == '\') comment(len(comment):) = '/'
    end function gnuplot_comment
 
-   !> A file name: letters, digits and the other characters of test and column names; any other character becomes '_'. The
-   !> result has no folder, is not hidden, and is not mistaken for an option of a command.
+   !> A string as a file name: letters, digits and the other characters of test and column names; any other character becomes '_'.
+   !> The result has no folder, is not hidden, and cannot be mistaken for a command option.
    pure function file_letters(text) result(name)
       character(*), intent(in) :: text
       character(:), allocatable :: name
@@ -61,7 +61,7 @@ contains
       end do
    end function file_letters
 
-   !> A text with blanks for control characters.
+   !> A string in which blanks replace control characters.
    pure function one_line(text) result(line)
       character(*), intent(in) :: text
       character(len(text)) :: line

@@ -1,5 +1,5 @@
-!> The figures and the table of a test over travel and steering: carpets of toe and camber, and the envelope of the wheels in space,
-!> that is where their centres and spin axes are.
+!> The figures and the table of a test over travel and steering: carpets of toe and camber, and the envelope of the wheels in space.
+!> The envelope contains the positions of the wheel centres and the directions of the spin axes.
 module ek_grid_figures
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan, ieee_is_finite
    use ek_kinds, only: wp, millimetre
@@ -21,7 +21,7 @@ module ek_grid_figures
    public :: find_grid, grid_carpet, carpet_name, envelope_name, envelope_script, envelope_text
 
    character(*), parameter :: carpet_columns(2) = [character(10) :: 'toe_deg', 'camber_deg']
-   !> Of the table, where the wheel centre is a change from design.
+   !> Columns of the envelope. In the table of the test, the wheel centre is a change from design.
    character(*), parameter :: envelope_columns(6) = [character(17) :: 'wheel_centre_x_mm', 'wheel_centre_y_mm', &
       'wheel_centre_z_mm', 'spin_axis_x', 'spin_axis_y', 'spin_axis_z']
    character(*), parameter :: nl = new_line('a')
@@ -61,7 +61,7 @@ contains
       end associate
    end subroutine find_grid
 
-   !> Names of the figures, without extension, and of the table of the envelope.
+   !> Name of the figure of the carpets of a test, without extension.
    pure function carpet_name(test) result(name)
       type(test_result_t), intent(in) :: test
       character(:), allocatable :: name
@@ -75,7 +75,7 @@ contains
       name = test%name//'_envelope'
    end function envelope_name
 
-   !> The script of the carpets of toe and camber of every wheel; of the left one if the right one is its mirror image.
+   !> The script of the carpets of toe and camber for every wheel; for the left wheel only if the right wheel is its mirror image.
    function grid_carpet(test, model) result(text)
       type(test_result_t), intent(in) :: test        !! with a grid
       character(*), intent(in) :: model
@@ -105,7 +105,7 @@ contains
       text = carpet_script(carpet, carpet_name(test), test%title//': carpets of toe and camber', model//side)
    end function grid_carpet
 
-   !> Whether the right wheel has the values of the left one at the opposite value of the driver.
+   !> Whether the right wheel has the values of the left wheel at the opposite value of the driver.
    pure logical function is_symmetric(test)
       type(test_result_t), intent(in) :: test
       real(wp), parameter :: same = 1.0e-6_wp      ! deg, and mm of the driver
@@ -124,7 +124,7 @@ contains
       end do
    end function is_symmetric
 
-   !> The values of a column of a wheel on the grid; NaN where there are none.
+   !> The values of a column of a wheel on the grid; NaN where the test has no value.
    pure function values_of(test, wheel, column) result(values)
       type(test_result_t), intent(in) :: test
       integer, intent(in) :: wheel
@@ -142,7 +142,7 @@ contains
       end do
    end function values_of
 
-   !> The wheel centres at design in the frame of the deck [mm], left before right, from which the table counts.
+   !> The wheel centres at design in the frame of the deck [mm], left before right. The table gives changes from these positions.
    pure function design_centres(suspension) result(centres)
       type(suspension_t), intent(in) :: suspension
       real(wp) :: centres(3, 2)
@@ -161,8 +161,8 @@ contains
       if (suspension%is_iso) centres(:2, :) = -centres(:2, :)
    end function design_centres
 
-   !> The script of the envelope: for each wheel the surface of its centre, as lines of equal travel and of equal steering, and its
-   !> spin axis outboard of the centre as strokes.
+   !> The script of the envelope. For each wheel it draws the surface of the wheel centre as lines of equal travel and of equal
+   !> steering. The spin axis is drawn as a stroke outboard of the centre.
    function envelope_script(test, suspension) result(text)
       type(test_result_t), intent(in) :: test        !! with a grid
       type(suspension_t), intent(in) :: suspension
@@ -238,7 +238,7 @@ contains
       text = end_panels(sheet)
    end function envelope_script
 
-   !> Sets ranges of the axes: a cube, so that gnuplot scales all three alike and draws it within its panel.
+   !> Sets the ranges of the axes to a cube, so that gnuplot scales all three axes alike and draws the cube within its panel.
    subroutine set_cube(low, high, sheet)
       real(wp), intent(in) :: low(3), high(3)        !! mm
       type(sheet_t), intent(inout) :: sheet
@@ -255,8 +255,8 @@ contains
       end do
    end subroutine set_cube
 
-   !> The envelope as CSV: travel, value of the driver, side, wheel centre, spin axis, in the frame of the deck; a row for each
-   !> wheel at each state, travel fastest. A state that did not converge has no row.
+   !> The envelope as CSV: travel, value of the driver, side, wheel centre and spin axis, in the frame of the deck. There is one row
+   !> for each wheel at each state, travel varying fastest. States that did not converge have no row.
    function envelope_text(test, suspension) result(text)
       type(test_result_t), intent(in) :: test        !! with a grid
       type(suspension_t), intent(in) :: suspension

@@ -31,7 +31,7 @@ contains
       call write_whole(json_path, key_numbers_json(numbers, is_pair, model, checksum), error)
    end subroutine write_key_numbers
 
-   !> A line per name; `nan` for a missing value.
+   !> The key numbers as CSV, one line per name; `nan` for a missing value.
    function key_numbers_csv(numbers, is_pair) result(text)
       type(key_number_t), intent(in) :: numbers(:)
       logical, intent(in) :: is_pair
@@ -61,7 +61,7 @@ contains
       text = text_table_csv(table)
    end function key_numbers_csv
 
-   !> { "model", "checksum", "key_numbers": [ { … } ] }
+   !> The key numbers as JSON: { "model", "checksum", "key_numbers": [ { … } ] }.
    function key_numbers_json(numbers, is_pair, model, checksum) result(text)
       type(key_number_t), intent(in) :: numbers(:)
       logical, intent(in) :: is_pair
@@ -104,7 +104,7 @@ contains
       value = merge(number%left, number%right, wheel == 1)
    end function value_of
 
-   !> 'left', 'right', or '' for the axle and for a single wheel.
+   !> Side of a key number: 'left', 'right', or '' for the axle and for a single wheel.
    function side_of(number, is_pair, wheel) result(side)
       type(key_number_t), intent(in) :: number
       logical, intent(in) :: is_pair

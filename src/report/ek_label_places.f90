@@ -5,7 +5,8 @@ module ek_label_places
    private
    public :: label_place_t, place_labels
 
-   !> Where the text of a point begins (or ends, if it is to the left of the point); shares of the panel's width and height.
+   !> The position at which the name of a point begins, or ends if the name is to the left of the point; shares of the panel's width
+   !> and height.
    type :: label_place_t
       real(wp) :: x = 0.0_wp, y = 0.0_wp
       logical :: is_left = .false.
@@ -16,8 +17,8 @@ module ek_label_places
 
 contains
 
-   !> Places the names of points one after the other, the first as near as possible. In the right part of the panel, a name is to
-   !> the left of its point. A name is moved up and down in small steps until it does not overlap another name or a named point.
+   !> Places the names of points one after the other, each as near to its point as possible. In the right part of the panel, a name
+   !> is to the left of its point. A name is moved up and down in small steps until it overlaps no other name and no named point.
    pure subroutine place_labels(x, y, widths, height, places)
       real(wp), intent(in) :: x(:), y(:)          !! shares of the panel
       real(wp), intent(in) :: widths(:), height   !! of the texts, shares of the panel
@@ -42,7 +43,7 @@ contains
 
    contains
 
-      !> Whether a box (left, right, bottom, top) covers no other and no point.
+      !> Whether a box (left, right, bottom, top) overlaps no other box and no point.
       pure logical function is_free(box, others)
          real(wp), intent(in) :: box(4), others(:, :)
          integer :: j

@@ -1,5 +1,5 @@
-!> The part of a report that computes itself for other rates (`report --live`): the rates, and the data that its script
-!> needs for each state.
+!> The part of a report that recomputes itself for other rates (`report --live`): the rates, and the data that the page script needs
+!> for each state.
 module ek_live
    use ek_kinds, only: wp
    use ek_text, only: is_like
@@ -36,8 +36,8 @@ module ek_live
 
 contains
 
-   !> Adds a test that was solved. The first one with a design state provides rates and numbers; earlier tests are without rates
-   !> and numbers.
+   !> Adds a test that was solved. The first test with a design state provides the rates and the key numbers; earlier tests have no
+   !> rates and key numbers.
    subroutine add_live(result, test, live)
       type(case_result_t), intent(inout) :: result           !! is_run
       type(test_result_t), intent(in) :: test                !! its name and kind
@@ -71,7 +71,7 @@ contains
       if (size(new%column) > 0) live%tests = [live%tests, new]
    end subroutine add_live
 
-   !> Finds the columns of a test in a list of names, for a list of rows of its table.
+   !> Finds the columns of a test that are in a list of names, at the given rows of its table.
    subroutine find_test(result, test, rates, names, rows, self)
       type(case_result_t), intent(inout) :: result
       type(test_result_t), intent(in) :: test

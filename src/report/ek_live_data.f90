@@ -22,7 +22,7 @@ module ek_live_data
 
 contains
 
-   !> Adds the object; nothing if there are no rates.
+   !> Adds the object "live"; adds nothing if there are no rates.
    subroutine add_live_data(json, live, numbers)
       type(json_t), intent(inout) :: json
       type(live_t), intent(in) :: live
@@ -96,7 +96,8 @@ contains
       call json%close('}')
    end subroutine add_rate
 
-   !> Finds the columns of the design state from which a key number is read; 0: it is not read at design, or has no value.
+   !> Finds the columns of the design state from which a key number is read. A column is 0 if the key number is not read at design,
+   !> or has no value.
    subroutine find_columns(design, number, columns)
       type(live_test_t), intent(in) :: design
       type(key_number_t), intent(in) :: number
@@ -112,7 +113,7 @@ contains
       end do
    end subroutine find_columns
 
-   !> Adds a key number that follows the rates, and the number of the page next to which it is shown.
+   !> Adds a key number that follows the rates, and the name of the key number on the page next to which it is shown.
    subroutine add_number(json, numbers, k, columns, is_used)
       type(json_t), intent(inout) :: json
       type(key_number_t), intent(in) :: numbers(:)
@@ -133,13 +134,13 @@ contains
       call json%close('}')
    end subroutine add_number
 
-   !> Columns of a test as JSON: laws, columns, and states. `is_exact`: the numbers of a state with all digits, as lists; otherwise
-   !> with 7 digits as base64, in the same order.
+   !> Columns of a test as JSON: laws, columns, and states. With `is_exact`, the numbers of a state are lists with all digits;
+   !> otherwise base64 with 7 digits, in the same order.
    function test_text(test, of_law, is_exact, is_used) result(text)
       type(live_test_t), intent(in) :: test
       integer, intent(in) :: of_law(:)
       logical, intent(in) :: is_exact
-      logical, intent(inout) :: is_used(:)                 !! columns that are to be written; then those that are left
+      logical, intent(inout) :: is_used(:)                 !! columns that are to be written; on return, the columns that are left
       character(:), allocatable :: text, name
       type(small_t) :: small
       type(buffer_t) :: out
@@ -185,7 +186,8 @@ contains
       text = out%text()
    end function test_text
 
-   !> The data for the motion of a state: A row by row, deflections, and displacements of the wheel centres.
+   !> The numbers from which the page computes the motion of a state: matrix A row by row, deflections, and displacements of the
+   !> wheel centres.
    function end_numbers(state, is_held) result(list)
       type(live_state_t), intent(in) :: state
       logical, intent(in) :: is_held                       !! heights are held

@@ -28,8 +28,8 @@ module ek_live_small
 
 contains
 
-   !> Takes columns of a test: the used column with the lowest index, and the columns that need the same laws; marks all of them
-   !> as no longer used. With all digits (`is_exact`): takes all used columns and all laws.
+   !> Takes the used column with the lowest index from a test, together with the columns that need the same laws. Marks all of them
+   !> as no longer used. With all digits (`is_exact`), takes all used columns and all laws.
    subroutine make_small(test, of_law, is_exact, is_used, small)
       type(live_test_t), intent(in) :: test
       integer, intent(in) :: of_law(:)
@@ -74,7 +74,7 @@ contains
       call put_numbers(test, state, small)
    end subroutine make_small
 
-   !> Replaces both laws of a rate by sum and difference; the load of a column gives the sign between the sides.
+   !> Replaces both laws of a rate by their sum and difference. The load of a column gives the relative sign of the two sides.
    subroutine take_sums(of_law, column, state)
       integer, intent(in) :: of_law(:), column
       type(live_state_t), intent(inout) :: state(:)
@@ -167,7 +167,7 @@ contains
 
    contains
 
-      !> Whether A of the other laws with law l is more than rounding of their own A.
+      !> Whether the coupling of law l with each other law in A exceeds rounding of their diagonal entries.
       pure function is_coupled(a, l)
          real(wp), intent(in) :: a(:, :)
          integer, intent(in) :: l
@@ -181,7 +181,7 @@ contains
 
    end subroutine find_left
 
-   !> Extracts some laws and columns of a state.
+   !> Extracts selected laws and columns of a state.
    subroutine take_part(is_left, columns, state)
       logical, intent(in) :: is_left(:)
       integer, intent(in) :: columns(:)
@@ -198,7 +198,7 @@ contains
       state%load = whole%load(laws, columns)
    end subroutine take_part
 
-   !> Finds the vectors of the columns and numbers them: vectors of loads, then vectors of readings, without repetition.
+   !> Finds the vectors of the columns and assigns indices to them: vectors of loads, then vectors of readings, without repetition.
    subroutine find_vectors(state, small)
       type(live_state_t), intent(in) :: state(:)
       type(small_t), intent(inout) :: small
@@ -222,7 +222,7 @@ contains
 
    contains
 
-      !> Gives a vector the next number.
+      !> Gives the next index to a vector.
       subroutine number(vector)
          integer, intent(out) :: vector
          small%vectors = small%vectors + 1
@@ -252,7 +252,7 @@ contains
       is_symmetric = maxval(abs(a - transpose(a))) <= nothing*maxval(abs(a))
    end function is_symmetric
 
-   !> Writes the numbers of all states in the order of `numbers`.
+   !> Writes the numbers of all states, in the order of `numbers`.
    subroutine put_numbers(test, state, small)
       type(live_test_t), intent(in) :: test
       type(live_state_t), intent(in) :: state(:)
@@ -279,7 +279,7 @@ contains
       end do
    end subroutine put_numbers
 
-   !> A row by row, or its lower triangle.
+   !> The entries of A row by row, or of its lower triangle.
    pure function entries(a, is_whole) result(list)
       real(wp), intent(in) :: a(:, :)
       logical, intent(in) :: is_whole

@@ -13,7 +13,7 @@ module ek_moving_states
 
 contains
 
-   !> The test of the first of the wanted kinds with more than one state; 0 if there is none.
+   !> Index of a test of the first wanted kind that has more than one state; 0 if there is no such test.
    pure integer function moving_test(tests, paths, kinds) result(test)
       type(test_result_t), intent(in) :: tests(:)
       type(path_t), intent(in) :: paths(:)          !! of the tests
@@ -29,7 +29,7 @@ contains
       test = 0
    end function moving_test
 
-   !> Reads state k of a path. The reactions of joints that a case adds are last and are omitted.
+   !> Reads state k of a path. The reactions of joints that the case adds come last in λ and are omitted.
    subroutine state_of_path(path, k, suspension, state)
       type(path_t), intent(in) :: path
       integer, intent(in) :: k

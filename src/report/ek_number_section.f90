@@ -1,4 +1,4 @@
-!> The key numbers of a report on its page: the summary, each with its curve, and all others by group.
+!> The key numbers of a report on its page: the summary with the curve of each number, and all other key numbers by group.
 module ek_number_section
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
@@ -17,7 +17,7 @@ module ek_number_section
 
 contains
 
-   !> Adds the numbers that head the report, as cards.
+   !> Adds the key numbers at the top of the report, as cards.
    subroutine add_summary(page, report)
       type(page_t), intent(inout) :: page
       type(report_t), intent(in) :: report
@@ -47,7 +47,7 @@ contains
       call add_markup(page, '</ul>')
    end subroutine add_summary
 
-   !> Adds a line per domain, which gives its numbers and whether they are inside their bands.
+   !> Adds one line per domain with its main key numbers and whether they are inside their bands.
    subroutine add_verdicts(page, report)
       type(page_t), intent(inout) :: page
       type(report_t), intent(in) :: report
@@ -66,7 +66,7 @@ contains
       call add_markup(page, '</dl>')
    end subroutine add_verdicts
 
-   !> The parts of a rate in percent; '' for other numbers.
+   !> The parts of a rate in percent, as HTML; '' for other key numbers.
    function taken_apart(report, name) result(html)
       type(report_t), intent(in) :: report
       character(*), intent(in) :: name
@@ -84,7 +84,7 @@ contains
       if (html /= '') html = '<span class="held">'//escape_html(html)//'</span>'
    end function taken_apart
 
-   !> Adds all other numbers, each once; a repetition is named with the number that is shown.
+   !> Adds all other key numbers, each once. A number that repeats another is named next to the number that is shown.
    subroutine add_other_numbers(page, report)
       type(page_t), intent(inout) :: page
       type(report_t), intent(in) :: report
@@ -120,7 +120,7 @@ contains
       call add_markup(page, '</tbody></table></div>')
    end subroutine add_other_numbers
 
-   !> Formula and condition, folded, and the equivalent numbers.
+   !> Formula and condition of a key number, folded, and the equivalent numbers, as HTML.
    function details_of(numbers, k) result(html)
       type(key_number_t), intent(in) :: numbers(:)
       integer, intent(in) :: k
@@ -136,7 +136,7 @@ contains
       html = html//' Name: <code>'//escape_html(numbers(k)%name)//'</code></p></details>'
    end function details_of
 
-   !> '−3.21 deg/m' and a remark, as 'symmetric'.
+   !> Value and unit of a key number as HTML, with a remark such as 'symmetric': '−3.21 deg/m'.
    function values_of(number) result(html)
       type(key_number_t), intent(in) :: number
       character(:), allocatable :: html
@@ -147,7 +147,8 @@ contains
       if (is_opposite(number)) html = html//' <small>left; right wheel opposite</small>'
    end function values_of
 
-   !> One number if it is a number of the axle or if both wheels are equal to the printed digits; otherwise left and right.
+   !> The value of a key number of the axle, or of both wheels if they are equal to the printed digits; otherwise left and right
+   !> values.
    function pair_of(number) result(html)
       type(key_number_t), intent(in) :: number
       character(:), allocatable :: html, right

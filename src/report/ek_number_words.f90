@@ -10,7 +10,7 @@ module ek_number_words
 
    character(*), parameter :: fitted = ' (fitted)'
 
-   !> Numbers that are positive if the wheels steer to the left in a right turn, away from the bend.
+   !> Key numbers that are positive if the wheels steer to the left in a right turn, out of the bend.
    character(*), parameter :: away(*) = [character(44) :: 'wheel_roll_steer', 'lateral_force_steer', 'aligning_torque_steer', &
       'lateral_in_load_held_steer_deg_per_kn', 'lateral_in_height_held_steer_deg_per_kn', &
       'aligning_in_load_held_steer_deg_per_100nm', 'aligning_in_height_held_steer_deg_per_100nm']
@@ -50,7 +50,7 @@ contains
       if (ieee_is_finite(number%left)) value = (number%left + number%right)/2
    end function mean_value
 
-   !> 'inside' or 'outside' its target; both wheels count. '' without a target or a value.
+   !> Verdict on a key number: 'inside' or 'outside' its target; both wheels count. '' without a target or a value.
    pure function target_verdict(number) result(verdict)
       type(key_number_t), intent(in) :: number
       character(7) :: verdict
@@ -68,7 +68,7 @@ contains
       end do
    end function target_verdict
 
-   !> A number without the mark of a fitted slope, which its formula gives.
+   !> The quantity of a key number without the suffix of a fitted slope, which is shown in the formula.
    function short_name(number) result(name)
       type(key_number_t), intent(in) :: number
       character(:), allocatable :: name
@@ -90,7 +90,7 @@ contains
       is_symmetric = page_number(number%left) == page_number(number%right)
    end function is_symmetric
 
-   !> Left and right differ by their sign alone.
+   !> Whether left and right differ only in sign.
    pure logical function is_opposite(number)
       type(key_number_t), intent(in) :: number
 

@@ -1,7 +1,7 @@
 !> A page of results as one self-contained HTML file: headings, tables and embedded pictures.
 !>
 !> No script, font or picture is fetched: the page itself forbids it (Content-Security-Policy). It is laid out for a screen, in one
-!> column for a phone (tables scroll in their own box), and for paper (A4). Every input text is escaped here. Style sheet and script
+!> column for a phone (tables scroll in their own box), and for paper (A4). Every input string is escaped here. Style sheet and script
 !> are files of their own in page/, put into ek_page_assets by the build.
 module ek_page
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_is_nan
@@ -60,14 +60,14 @@ contains
       if (present(has_turntable)) page%has_turntable = has_turntable
    end subroutine set_data
 
-   !> Adds a line of HTML unchanged; the caller has escaped every string in it by escape_html.
+   !> Adds a line of HTML unchanged. The caller must have escaped every string in it with escape_html.
    pure subroutine add_markup(page, html)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: html
       if (len(html) > 0) call page%body%line(html)
    end subroutine add_markup
 
-   !> Begins a section and ends the previous section. `id` has letters, digits, _ and -.
+   !> Begins a section and ends the previous section. `id` consists of letters, digits, _ and -.
    pure subroutine begin_section(page, id, title, condition, is_printed)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: id, title
@@ -85,7 +85,7 @@ contains
       call page%contents%line('<li><a href="#'//escape_html(id)//'">'//escape_html(title)//'</a></li>')
    end subroutine begin_section
 
-   !> Adds plain text as a paragraph 'p', or as a heading 'h3' within a section; HTML markup in it is escaped.
+   !> Adds a plain string as a paragraph 'p', or as a heading 'h3' within a section; HTML markup in it is escaped.
    pure subroutine add_text(page, tag, text)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: tag, text
@@ -96,7 +96,7 @@ contains
       call page%body%line('<'//open//'>'//escape_html(text)//'</'//tag//'>')
    end subroutine add_text
 
-   !> Adds a box of warnings; no box for an empty list.
+   !> Adds a box of warnings; adds nothing for an empty list.
    pure subroutine add_warnings(page, title, list)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: title
@@ -128,7 +128,7 @@ contains
       end do
    end function lines_html
 
-   !> Adds pairs of name and value, two lists of the same length.
+   !> Adds a list of facts, given as names and values; both lists have the same length.
    pure subroutine add_facts(page, names, values)
       type(page_t), intent(inout) :: page
       type(message_list_t), intent(in) :: names, values
@@ -169,7 +169,8 @@ contains
          escape_html(title)//'</th></tr>')
    end subroutine add_group
 
-   !> Adds the next cell, of text, of a number (kind 'n'), or of small text ('s'); a row has as many as the table has headings.
+   !> Adds the next cell: a string, a number (kind 'n'), or a small string ('s'). A row must have as many cells as the table has
+   !> headings.
    pure subroutine add_cell(page, text, kind, link, verdict)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: text
@@ -191,7 +192,7 @@ contains
       if (page%cells == 0) call page%body%line('</tr>')
    end subroutine add_cell
 
-   !> A verdict by word and colour; '' without one.
+   !> A verdict as HTML, by word and colour; '' without a verdict.
    pure function verdict_html(verdict) result(html)
       character(*), intent(in) :: verdict
       character(:), allocatable :: html
@@ -201,7 +202,7 @@ contains
          escape_html(verdict)//'</span>'
    end function verdict_html
 
-   !> Adds the next cell: a bar from the middle to the right or, of a negative share, to the left.
+   !> Adds the next cell with a bar. The bar begins in the middle and extends to the right; for a negative share, to the left.
    pure subroutine add_bar(page, share)
       type(page_t), intent(inout) :: page
       real(wp), intent(in) :: share              !! of the longest bar, -1 to 1
@@ -222,7 +223,7 @@ contains
       call page%body%line('</tbody></table></div>')
    end subroutine end_table
 
-   !> Begins a block of charts side by side, as many as fit.
+   !> Begins a block of charts. As many charts as fit are side by side.
    pure subroutine begin_charts(page, is_short)
       type(page_t), intent(inout) :: page
       logical, intent(in), optional :: is_short     !! .true.: of a live page only the first three are printed
@@ -239,7 +240,7 @@ contains
       call page%body%line('</div>')
    end subroutine end_charts
 
-   !> Adds a picture from the SVG written by gnuplot: of full width with a caption, or one chart of a block without.
+   !> Adds an SVG picture drawn by gnuplot: at full width if it has a caption, otherwise as one chart of a block.
    pure subroutine add_picture(page, svg, title, caption)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: svg, title     !! content of the file; its description
@@ -267,8 +268,8 @@ contains
       call page%body%line('</figure>')
    end subroutine add_data_picture
 
-   !> Adds a legend of the charts below: names in the order of the palette; from the second on dashed lines (or rings instead of
-   !> points).
+   !> Adds a legend for the charts that follow. The names are in the order of the palette. From the second name on, lines are dashed
+   !> (or points are rings).
    pure subroutine add_legend(page, names, has_design, has_points)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: names(:)
@@ -293,7 +294,7 @@ contains
       call page%body%line('</p>')
    end subroutine add_legend
 
-   !> The complete HTML text of the page.
+   !> The complete HTML of the page.
    pure function page_text(page) result(text)
       type(page_t), intent(in) :: page
       character(:), allocatable :: text
@@ -343,7 +344,7 @@ contains
       call tail%copy(1, text(behind + 1:))
    end function page_text
 
-   !> A number for a table: about four digits, an exponent only from 1e7 on; '–' for a missing value.
+   !> A number for a table: about four digits, with an exponent only from 1e7 on; '–' for a missing value.
    pure function page_number(value) result(text)
       real(wp), intent(in) :: value
       character(:), allocatable :: text

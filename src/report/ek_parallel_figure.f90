@@ -1,4 +1,4 @@
-!> Parallel coordinates of a study: a line per design across factors and responses.
+!> Parallel coordinates of a study: one line per design across factors and responses.
 module ek_parallel_figure
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
@@ -18,7 +18,7 @@ module ek_parallel_figure
 
 contains
 
-   !> Parallel coordinates: a line per design across factors and responses, coloured by the first response.
+   !> The script of the parallel coordinates: one line per design across factors and responses, coloured by the first response.
    function parallel_script(study, name, subtitle) result(text)
       type(study_data_t), intent(in) :: study
       character(*), intent(in) :: name, subtitle

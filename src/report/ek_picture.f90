@@ -71,7 +71,7 @@ contains
       end do
    end subroutine add_ghost
 
-   !> Adds the road under the wheels, and an arrow to the front of the car.
+   !> Adds the road under the wheels, and an arrow that points to the front of the car.
    subroutine add_ground(scene, suspension, state, is_plain)
       type(scene_t), intent(inout) :: scene
       type(suspension_t), intent(in) :: suspension
@@ -107,7 +107,7 @@ contains
       call add_label(scene, at, 'front')
    end subroutine add_ground
 
-   !> Adds bars along the skeleton of a body; an arm attached at two points gets a plate between them.
+   !> Adds bars along the skeleton of a body. An arm attached at two points also gets a plate between them.
    subroutine add_body(scene, suspension, state, body, plain)
       type(scene_t), intent(inout) :: scene
       type(suspension_t), intent(in) :: suspension
@@ -133,7 +133,8 @@ contains
       if (kind == part_arm .and. .not. plain) call add_plate(scene, state, body, skeleton)
    end subroutine add_body
 
-   !> Adds the plate of an arm attached at two points, a wishbone: a thin plate between them and its furthest other point.
+   !> Adds the plate of an arm attached at two points (a wishbone): a thin plate between these points and the point of the arm that
+   !> is furthest from them.
    subroutine add_plate(scene, state, body, skeleton)
       type(scene_t), intent(inout) :: scene
       type(state_t), intent(in) :: state
@@ -203,7 +204,7 @@ contains
 
    contains
 
-      !> Adds a sphere at the end of a rod on a body, a block at its end on the chassis.
+      !> Adds the end of a rod: a sphere on a body, a block on the chassis.
       subroutine add_end(body, at)
          integer, intent(in) :: body
          real(wp), intent(in) :: at(3)
@@ -217,7 +218,7 @@ contains
 
    end subroutine add_joints
 
-   !> Signed distance along an axis from a point to the furthest attachment point of body j.
+   !> Signed distance from a point to the attachment point of a body that is furthest along an axis, in either direction [m].
    real(wp) function reach_along(suspension, body, arm, axis) result(reach)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: body
@@ -234,8 +235,8 @@ contains
       end do
    end function reach_along
 
-   !> Adds a coil, a damper as two tubes, the rubber of a stop, or the sleeve of a bushing; a torsion spring is part of the bars
-   !> that it connects.
+   !> Adds an elastic element: a coil, a damper as two tubes, the rubber of a stop, or the sleeve of a bushing. A torsion spring is
+   !> not drawn, because it is part of the bars that it connects.
    subroutine add_elastic(scene, element, is_a_rod, state, plain)
       type(scene_t), intent(inout) :: scene
       type(element_t), intent(in) :: element

@@ -16,7 +16,7 @@ module ek_picture_names
 
 contains
 
-   !> Adds the axes of the deck at a corner of the road, or at the lowest corner of a model without wheels.
+   !> Adds the axes of the deck at a corner of the road; for a model without wheels, at its lowest corner.
    subroutine add_axes(scene, suspension, state)
       type(scene_t), intent(inout) :: scene      !! with all parts
       type(suspension_t), intent(in) :: suspension
@@ -44,7 +44,7 @@ contains
 
    contains
 
-      !> Height of the contact point of a wheel.
+      !> Height of the contact point of wheel k [m].
       real(wp) function z_of(k)
          integer, intent(in) :: k
          real(wp) :: contact(3)
@@ -54,7 +54,7 @@ contains
 
    end subroutine add_axes
 
-   !> Names of bodies, rods and springs, once for left and right.
+   !> Adds the names of bodies, rods and springs; one name for left and right.
    subroutine add_names(scene, suspension, state)
       type(scene_t), intent(inout) :: scene
       type(suspension_t), intent(in) :: suspension

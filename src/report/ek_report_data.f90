@@ -1,5 +1,5 @@
 !> data.json: the content of the page of a report, without repetition: facts, key numbers, and the curves of every test. The page
-!> carries the same text as a block of data, from which its charts are drawn; schema/data.schema.json describes it.
+!> contains this file as a block of data, from which its charts are drawn; schema/data.schema.json describes it.
 module ek_report_data
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
@@ -26,7 +26,7 @@ module ek_report_data
 
 contains
 
-   !> The data of a report as JSON. The text has no '<', so that it can be inserted into a page unchanged.
+   !> The data of a report as JSON. The string has no '<', so that it can be inserted into a page unchanged.
    function report_data(report) result(text)
       type(report_t), intent(in) :: report
       character(:), allocatable :: text
@@ -110,7 +110,7 @@ contains
       call json%close('}')
    end subroutine add_number
 
-   !> A limit of a target; not a number, written as null, if there is none.
+   !> A limit of a target; NaN, which is written as null, if there is no limit.
    pure real(wp) function limit_of(target)
       real(wp), intent(in) :: target
 
@@ -118,7 +118,7 @@ contains
       if (.not. abs(target) < huge(1.0_wp)) limit_of = ieee_value(1.0_wp, ieee_quiet_nan)
    end function limit_of
 
-   !> Adds a test: its abscissae and columns, each once, and the charts that refer to them by name.
+   !> Adds a test: its abscissae and columns, each once, and the charts, which refer to columns by name.
    subroutine add_test(json, test, charts, number, of)
       type(json_t), intent(inout) :: json
       type(test_result_t), intent(in) :: test
@@ -158,7 +158,7 @@ contains
       call json%close('}')
    end subroutine add_test
 
-   !> Adds the ranges of states in which stops are in contact, if there are any.
+   !> Adds the ranges of states in which stops are in contact; adds nothing if there are none.
    subroutine add_contacts(json, test, of)
       type(json_t), intent(inout) :: json
       type(test_result_t), intent(in) :: test
@@ -235,7 +235,8 @@ contains
       end if
    end function merge_name
 
-   !> A column of the table; of an expression, the magnitude of a force, the element with the suffix _force_magnitude_n.
+   !> The column name of a curve. For an expression, which is the magnitude of a force, it is the element name with the suffix
+   !> _force_magnitude_n.
    function column_of(trace) result(name)
       type(trace_t), intent(in) :: trace
       character(:), allocatable :: name
@@ -274,7 +275,7 @@ contains
       literal = buffer%text()
    end function merge_numbers
 
-   !> Whether a name is not in a list yet; it then is.
+   !> Whether a name is not yet in a list; a new name is appended.
    logical function is_new(name, list)
       character(*), intent(in) :: name
       type(message_list_t), intent(inout) :: list
@@ -287,7 +288,7 @@ contains
       if (is_new) call list%add(name)
    end function is_new
 
-   !> A JSON text with every '<' written as an escape: a page would end its block of data at '</script'.
+   !> A JSON string with every '<' escaped; otherwise '</script' would end the block of data of a page.
    function without_tags(json) result(text)
       character(*), intent(in) :: json
       character(:), allocatable :: text

@@ -33,7 +33,7 @@ module ek_report_files
 
 contains
 
-   !> Gives each test the names of its files: its table, and the envelope of its wheels.
+   !> Sets the file names of each test: its table, and the envelope of its wheels.
    pure subroutine name_files(tests)
       type(test_result_t), intent(inout) :: tests(:)
       integer :: k
@@ -46,7 +46,7 @@ contains
       end do
    end subroutine name_files
 
-   !> The header line of a table that describes the test.
+   !> The header line of a table that describes its test.
    pure function test_line(kind, is_anti, factor_size) result(line)
       character(*), intent(in) :: kind
       logical, intent(in) :: is_anti
@@ -60,7 +60,8 @@ contains
       line = line//size_mark//trim(adjustl(number))
    end function test_line
 
-   !> The file of a test's table, different from the report's other files. No case name contains a hyphen.
+   !> The file name of a test's table. It contains a hyphen, which case names do not, so that it differs from the report's other
+   !> files.
    pure function table_file(name) result(file)
       character(*), intent(in) :: name
       character(:), allocatable :: file
@@ -69,7 +70,7 @@ contains
       if (is_table_of_report(lower(file))) file = name//'-case.csv'
    end function table_file
 
-   !> The file of the wheel envelope of a test, different from the files of the tables.
+   !> The file name of the wheel envelope of a test, different from the names of the tables.
    pure function envelope_file(tests, k) result(file)
       type(test_result_t), intent(in) :: tests(:)      !! with their files
       integer, intent(in) :: k
@@ -102,7 +103,7 @@ contains
       call write_whole(path, text_table_csv(table), error)
    end subroutine write_contents
 
-   !> Reads a report folder, or one CSV file, whose gradients are then computed. The files listed in the contents of the folder
+   !> Reads a report folder, or one CSV file. The gradients of a CSV file are computed. All files listed in the contents of a folder
    !> must be in the folder itself.
    subroutine read_results(path, windows, results, error)
       character(*), intent(in) :: path
@@ -149,7 +150,7 @@ contains
       call facts_of_table(results%tests(1)%table, results%deck)
    end subroutine read_results
 
-   !> Reads key_numbers.csv; none if there is no such file, as in folders of early versions.
+   !> Reads key_numbers.csv. The list is empty if the file does not exist, as in folders of early versions.
    subroutine read_numbers(path, numbers, error)
       character(*), intent(in) :: path
       type(gradient_t), allocatable, intent(out) :: numbers(:)
@@ -181,7 +182,7 @@ contains
       end do
    end subroutine read_numbers
 
-   !> The number of the test of this name in a result; 0 if there is none.
+   !> Index of the test with this name in a result; 0 if there is no such test.
    pure integer function test_number(results, name) result(number)
       type(results_t), intent(in) :: results
       character(*), intent(in) :: name
@@ -191,7 +192,7 @@ contains
       end do
    end function test_number
 
-   !> Whether a name is a plain file name: no folder, not hidden, no control character.
+   !> Whether a name is a plain file name: without a folder, not hidden, and without control characters.
    pure logical function is_file_name(name)
       character(*), intent(in) :: name
       is_file_name = len_trim(name) > 0 .and. scan(name, '/') == 0 .and. index(name, '.') /= 1 .and. index(name, '-') /= 1 &
@@ -232,7 +233,7 @@ contains
       if (test%kind == 'other' .and. test%abscissa /= 'factor') test%kind = 'parallel_travel'
    end subroutine read_test
 
-   !> The last part of a path, without extension, for the legend.
+   !> The label of a result in the legend: the last part of its path, without extension.
    pure function label_of(path) result(label)
       character(*), intent(in) :: path
       character(:), allocatable :: label

@@ -1,5 +1,5 @@
-!> The names of the files of a report, and which of them every report has: one table for the commands that write, read and remove
-!> them.
+!> The file names of a report, and which files every report has. This is one table for the commands that write, read and remove the
+!> files.
 module ek_report_names
    implicit none(type, external)
    private
@@ -22,7 +22,7 @@ module ek_report_names
 
 contains
 
-   !> Whether a name is that of a table that a report has apart from the tables of its tests.
+   !> Whether a name is the name of a report table that is not the table of a test.
    pure logical function is_table_of_report(name)
       character(*), intent(in) :: name
       is_table_of_report = any(files_of_reports == name) .or. any(files_of_loads == name) .or. name == list_file

@@ -31,8 +31,7 @@ module ek_report_page
 
 contains
 
-   !> The text of report.html. Pictures are read from the folder if they belong to this report; missing ones are
-   !> omitted.
+   !> The content of report.html. Pictures are read from the folder if they belong to this report; missing pictures are omitted.
    function report_page(report) result(text)
       type(report_t), intent(in) :: report
       character(:), allocatable :: text
@@ -58,7 +57,7 @@ contains
       text = page_text(page)
    end function report_page
 
-   !> Adds the section in which a reader changes rates; the script fills it.
+   !> Adds the section in which a reader changes rates. The page script fills the section.
    subroutine add_rates(page)
       type(page_t), intent(inout) :: page
 
@@ -105,7 +104,7 @@ contains
       end if
    end subroutine add_scene
 
-   !> Adds the first cells of a row: a quantity and one or two cells of numbers; a value of the axle is in the first.
+   !> Adds the first cells of a row: a quantity and one or two cells with values. A value of the axle is in the first of two cells.
    subroutine add_values(page, quantity, has_sides, is_of_axle, left, right)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: quantity
@@ -155,7 +154,7 @@ contains
       call add_gradients(page, test%name, report%gradients)
    end subroutine add_test
 
-   !> The label of the abscissa over which the states of a test are shown.
+   !> Phrase about the abscissa of a test: 'plotted over ...', or 'on a grid of ...'.
    function over_what(test) result(words)
       type(test_result_t), intent(in) :: test
       character(:), allocatable :: words
@@ -178,8 +177,8 @@ contains
       if (.not. allocated(error)) call add_picture(page, svg, title, caption)
    end subroutine add_figure
 
-   !> Adds the charts of a test that the script of the page draws: the principal ones, and the others folded. Without a script a
-   !> chart is a link to the picture by gnuplot.
+   !> Adds the charts of a test that the page script draws. The principal charts are open, the others folded. Without a script, a
+   !> chart is a link to the picture drawn by gnuplot.
    subroutine add_live_charts(page, charts, test, held)
       type(page_t), intent(inout) :: page
       type(chart_t), intent(in) :: charts(:)
@@ -202,7 +201,7 @@ contains
       call end_more(page, shown, principal)
    end subroutine add_live_charts
 
-   !> Begins the block of charts before a chart, and folds those after the first `most`.
+   !> Begins the block of charts before the first chart, and a folded block after the first `most` charts.
    subroutine begin_more(page, charts, test, shown, most)
       type(page_t), intent(inout) :: page
       type(chart_t), intent(in) :: charts(:)
@@ -225,7 +224,7 @@ contains
       if (shown > most) call add_markup(page, '</details>')
    end subroutine end_more
 
-   !> Adds quantities that do not change over a test, as numbers instead of charts.
+   !> Adds the quantities that do not change over a test as numbers, instead of charts.
    subroutine add_constants(page, charts, test)
       type(page_t), intent(inout) :: page
       type(chart_t), intent(in) :: charts(:)
@@ -250,7 +249,7 @@ contains
       call add_markup(page, '</details>')
    end subroutine add_constants
 
-   !> The middle of a constant; a value that is small against its least span is 0.
+   !> Mean of the smallest and the largest value of a nearly constant curve; 0 if it is below 1e-4 of the least span.
    pure real(wp) function level_of(y, span) result(value)
       real(wp), intent(in) :: y(:), span
 
@@ -258,7 +257,7 @@ contains
       if (abs(value) < 1.0e-4_wp*span) value = 0.0_wp
    end function level_of
 
-   !> Adds the charts of a test drawn by gnuplot; those after the first few are folded.
+   !> Adds the charts of a test as drawn by gnuplot. The charts after the first few are folded.
    subroutine add_charts(page, charts, test, folder)
       type(page_t), intent(inout) :: page
       type(chart_t), intent(in) :: charts(:)
@@ -314,7 +313,7 @@ contains
       if (is_begun) call end_charts(page)
    end subroutine add_pictures
 
-   !> Adds the gradients of a test; left and right in one row.
+   !> Adds the gradients of a test, with left and right in one row.
    subroutine add_gradients(page, test, list)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: test                    !! its name
@@ -349,7 +348,7 @@ contains
       call add_warnings(page, 'Gradients without a value', unknown)
    end subroutine add_gradients
 
-   !> 'right bump toe, bump camber': the gradients of a list, of one side.
+   !> Names of the gradients of a list, for one side: 'right bump toe, bump camber'.
    pure function noted(list) result(text)
       type(gradient_t), intent(in) :: list(:)
       character(:), allocatable :: text

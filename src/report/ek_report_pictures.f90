@@ -1,4 +1,5 @@
-!> The pictures of a report: the charts of its tests, the suspension in space, and its animation; one run of gnuplot.
+!> The pictures of a report: the charts of its tests, the suspension in space, and its animation. All are drawn in one run of
+!> gnuplot.
 module ek_report_pictures
    use ek_kinds, only: wp, millimetre
    use ek_error, only: error_t, message_list_t
@@ -99,7 +100,7 @@ contains
       call run_gnuplot(scripts, pictures, join_path(report%folder, 'figures'), message, error)
    end subroutine draw_pictures
 
-   !> The rest of a text after its first letters.
+   !> The rest of a string after its first `first` characters.
    pure function after(text, first) result(rest)
       character(*), intent(in) :: text, first
       character(:), allocatable :: rest
@@ -118,7 +119,7 @@ contains
       call pictures%add(name//'.png')
    end subroutine add_sheet
 
-   !> Writes the picture: design as solid parts, the ends of the travel as lines.
+   !> Writes the script of the picture: design as solid parts, the ends of the travel as lines.
    subroutine write_picture(report, suspension, camera, error)
       type(report_t), intent(in) :: report
       type(suspension_t), intent(in) :: suspension
@@ -150,7 +151,7 @@ contains
          suspension%name//': design, and the ends of its travel'), error, can_be_redrawn=.true.)
    end subroutine write_picture
 
-   !> Writes the animation: up and down through the travel, then through the steering.
+   !> Writes the script of the animation: up and down through the travel, then through the steering.
    subroutine write_animation(report, suspension, camera, error)
       type(report_t), intent(inout) :: report                !! has_animation: something moves
       type(suspension_t), intent(in) :: suspension
@@ -190,7 +191,7 @@ contains
          animation_script(scenes, captions, fitted, 'animation', suspension%name), error, can_be_redrawn=.true.)
    end subroutine write_animation
 
-   !> Label of an end of the travel: 'bump, +80 mm', from the height of the first wheel's centre over design.
+   !> Label of an end of the travel: 'bump, +80 mm'. The number is the height of the first wheel's centre above its design height.
    function end_name(suspension, state) result(name)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
@@ -208,7 +209,7 @@ contains
       name = name//str(anint(rise/millimetre), 3)//' mm'
    end function end_name
 
-   !> Direction of view: an axle from its front left, one wheel from the middle of the car.
+   !> Camera with the direction of view: an axle from its front left, a single wheel from the middle of the car.
    pure type(camera_t) function view_of(suspension) result(camera)
       type(suspension_t), intent(in) :: suspension
 

@@ -17,7 +17,7 @@ module ek_sample_figures
 
 contains
 
-   !> '; one in 25 of the 5000 designs is drawn' if only every so many is.
+   !> Phrase about the drawn designs: '; one in 25 of the 5000 designs is drawn'; '' if all designs are drawn.
    pure function thinned(every, of) result(words)
       integer, intent(in) :: every, of
       character(:), allocatable :: words
@@ -26,7 +26,7 @@ contains
       if (every > 1) words = '; one in '//str(every)//' of the '//str(of)//' designs is drawn'
    end function thinned
 
-   !> A note on omitted responses for a subtitle: '; 9 of 12 responses'.
+   !> Phrase about omitted responses for a subtitle: '; 9 of 12 responses'; '' if all are drawn.
    pure function cut(drawn, of, what) result(words)
       integer, intent(in) :: drawn, of
       character(*), intent(in) :: what
@@ -49,7 +49,7 @@ contains
          " left font ',13' textcolor rgb '#404040'")
    end subroutine add_scale
 
-   !> The screen coordinate of a point so many pixels below the upper edge.
+   !> The screen coordinate of a point `pixels` below the upper edge, as a gnuplot string.
    pure function above(sheet, pixels) result(text)
       type(sheet_t), intent(in) :: sheet
       integer, intent(in) :: pixels
@@ -105,7 +105,7 @@ contains
 
    contains
 
-      !> Both ends of the band by derivatives.
+      !> The plot commands of both ends of the band computed from derivatives.
       function lines_of(c) result(more)
          integer, intent(in) :: c
          character(:), allocatable :: more
@@ -118,7 +118,7 @@ contains
 
    end function fan_script
 
-   !> Whether the band is too narrow to be distinguished from its curve: then the deviation from the median is drawn.
+   !> Whether the band is too narrow to be distinguished from its curve. The deviation from the median is then drawn.
    pure logical function is_narrow(study, c)
       type(study_data_t), intent(in) :: study
       integer, intent(in) :: c                       !! column
@@ -129,7 +129,7 @@ contains
       is_narrow = width(2) < 0.05_wp*(range(2) - range(1))
    end function is_narrow
 
-   !> Histogram of each response with its percentiles and limits.
+   !> Script of a histogram of each response with its percentiles and limits.
    function histogram_script(study, name, subtitle, panels) result(text)
       type(study_data_t), intent(in) :: study
       integer, intent(in) :: panels(:)               !! responses
@@ -194,7 +194,7 @@ contains
       text = end_panels(sheet)
    end function histogram_script
 
-   !> The height of the highest bar of a histogram, or of the density over it; 1 without designs.
+   !> The height of the highest bar of a histogram, or of the density drawn over it if that is higher; 1 without designs.
    pure real(wp) function highest(study, r)
       type(study_data_t), intent(in) :: study
       integer, intent(in) :: r                       !! response
@@ -223,7 +223,7 @@ contains
          study%summaries(r)%highest > study%summaries(r)%lowest
    end function has_density
 
-   !> The height of the normal density over a histogram at its mean, in designs per bar.
+   !> The height of the normal density at its mean, in designs per bar of the histogram.
    pure real(wp) function density_height(study, r) result(height)
       type(study_data_t), intent(in) :: study
       integer, intent(in) :: r                       !! response
@@ -234,8 +234,8 @@ contains
       end associate
    end function density_height
 
-   !> The plot command of the density computed from derivatives (normal with skewness, Edgeworth), drawn over the histogram; '' if
-   !> there is no such density.
+   !> The plot command of the density that is computed from derivatives and drawn over the histogram (normal with skewness,
+   !> Edgeworth). '' if there is no such density.
    function density_of(study, r) result(more)
       type(study_data_t), intent(in) :: study
       integer, intent(in) :: r                       !! response
@@ -251,7 +251,7 @@ contains
       end associate
    end function density_of
 
-   !> The part of the axis that shows a response without scatter.
+   !> The width that replaces the scatter of a constant response on an axis: |value|, or 1 if the value is 0.
    pure real(wp) function room_of_constant(value)
       real(wp), intent(in) :: value
       room_of_constant = merge(abs(value), 1.0_wp, abs(value) > 1.0e-9_wp)
@@ -268,7 +268,7 @@ contains
          ", graph 1 nohead front linewidth 1.6 linecolor rgb '"//merge('#B02020', '#404040', len(dash) > 0)//"'"//dash)
    end subroutine add_mark
 
-   !> The mean of the first n designs with its 95 % interval, over n.
+   !> Script of the mean of the first n designs with its 95 % interval, over n.
    function convergence_script(study, name, subtitle, panels) result(text)
       type(study_data_t), intent(in) :: study
       integer, intent(in) :: panels(:)               !! responses

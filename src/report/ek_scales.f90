@@ -1,4 +1,4 @@
-!> The axes of another report: reports whose charts have the same scales can be compared side by side.
+!> Takes over the axes of another report. Reports whose charts have the same scales can be compared side by side.
 module ek_scales
    use ek_kinds, only: wp
    use ek_error, only: error_t
@@ -12,7 +12,7 @@ module ek_scales
 
 contains
 
-   !> Reads the charts of a report folder, made again from its tables.
+   !> Reads the tables of a report folder and makes its charts again.
    subroutine read_scales(folder, windows, charts, error)
       character(*), intent(in) :: folder
       type(windows_t), intent(in) :: windows
@@ -29,7 +29,8 @@ contains
       end do
    end subroutine read_scales
 
-   !> Sets the axes of charts to those of the charts with the same name. The axes of other charts are unchanged.
+   !> Sets the axes of charts to the axes of the charts with the same name in the other report. The axes of other charts are
+   !> unchanged.
    subroutine take_scales(from, charts)
       type(chart_t), intent(in) :: from(:)
       type(chart_t), intent(inout) :: charts(:)

@@ -19,7 +19,7 @@ module ek_scatter_figure
 
 contains
 
-   !> The pairs of a response and a factor with the largest rank correlations, in order.
+   !> Script of the pairs of a response and a factor with the largest rank correlations, in order.
    function pairs_script(study, name, subtitle) result(text)
       type(study_data_t), intent(in) :: study
       character(*), intent(in) :: name, subtitle
@@ -59,7 +59,7 @@ contains
       text = end_panels(sheet)
    end function pairs_script
 
-   !> 'r = 0.87', 'r = –' without a value.
+   !> A correlation as a label: 'r = 0.87', or 'r = –' without a value.
    function correlation_text(correlation) result(text)
       real(wp), intent(in) :: correlation
       character(:), allocatable :: text
@@ -68,7 +68,7 @@ contains
       if (ieee_is_finite(correlation)) text = 'r = '//str(real(nint(100*correlation), wp)/100, 2)
    end function correlation_text
 
-   !> Responses over factors; the factors with the largest rank correlations if there are many.
+   !> Script of responses over factors. Of many factors, the factors with the largest rank correlations are shown.
    function matrix_script(study, name, subtitle) result(text)
       type(study_data_t), intent(in) :: study
       character(*), intent(in) :: name, subtitle
@@ -116,7 +116,7 @@ contains
       text = end_panels(sheet)
    end function matrix_script
 
-   !> The factors in their order; of many, those with the largest rank correlation with any response.
+   !> Indices of the factors in the order of the study. Of many factors, the factors with the largest rank correlation with any response.
    pure function leading_factors(study, most) result(factors)
       type(study_data_t), intent(in) :: study
       integer, intent(in) :: most

@@ -34,7 +34,7 @@ module ek_scene
 
 contains
 
-   !> Appends a face, a plane polygon, or a line through points; the storage doubles when it is full.
+   !> Appends a face (a plane polygon) or a line through points. The storage doubles when it is full.
    pure subroutine add_run(list, kind, at)
       type(run_t), intent(inout) :: list      !! the faces or the lines of a scene
       integer, intent(in) :: kind             !! part_* of a face, line_* of a line

@@ -1,5 +1,5 @@
-!> Positions for the names in a picture: without overlap, inside the picture, near their points, and over as little drawing as
-!> possible.
+!> Positions for the names in a picture: without overlap, inside the picture, near their points, and covering as few drawn lines and
+!> faces as possible.
 module ek_scene_labels
    use ek_kinds, only: wp, pi
    use ek_scene, only: scene_t, run_t, part_ground, part_tyre, part_plate
@@ -8,7 +8,7 @@ module ek_scene_labels
    private
    public :: placed_label_t, place_in_scene
 
-   !> Shares of the picture's width, from the left, and height, from below.
+   !> A placed name. Its position is given as shares of the picture's width, from the left, and height, from below.
    type :: placed_label_t
       real(wp) :: middle(2) = 0.0_wp, half(2) = 0.0_wp    !! of the text
       real(wp) :: foot(2) = 0.0_wp                        !! where a line from its point ends
@@ -26,7 +26,7 @@ module ek_scene_labels
 
 contains
 
-   !> Places the names one after the other, each at the lowest cost that the previous names allow.
+   !> Places the names one after the other, each at the position with the lowest cost, given the names already placed.
    subroutine place_in_scene(scene, camera, placed)
       type(scene_t), intent(in) :: scene
       type(camera_t), intent(in) :: camera                !! fitted
@@ -70,14 +70,14 @@ contains
       end do
    end subroutine place_in_scene
 
-   !> The number of characters of a UTF-8 string.
+   !> The number of characters in a UTF-8 string.
    pure integer function letters_in(text)
       character(*), intent(in) :: text
       integer :: k
       letters_in = count([(iand(iachar(text(k:k)), 192) /= 128, k=1, len(text))])
    end function letters_in
 
-   !> Whether a text would overlap a text that is already placed.
+   !> Whether a name would overlap a name that is already placed.
    pure logical function is_taken(placed, middle, half)
       type(placed_label_t), intent(in) :: placed(:)
       real(wp), intent(in) :: middle(2), half(2)
@@ -89,7 +89,7 @@ contains
       end do
    end function is_taken
 
-   !> The mean of the picture below a label.
+   !> The mean weight of the drawn cells that a label would cover.
    pure real(wp) function covered(drawn, middle, half)
       real(wp), intent(in) :: drawn(:, :), middle(2), half(2)
       integer :: low(2), high(2)

@@ -26,7 +26,7 @@ module ek_scene_script
 
 contains
 
-   !> A script that draws one scene as <name>.png and <name>.svg in the folder above its own, unless the variable `to` gives
+   !> A gnuplot script that draws one scene as <name>.png and <name>.svg in the folder above its own, unless the variable `to` gives
    !> another folder.
    function scene_script(scene, camera, name, title) result(text)
       type(scene_t), intent(in) :: scene
@@ -50,7 +50,7 @@ contains
       text = script%text()
    end function scene_script
 
-   !> A script that draws a sequence of scenes as <name>.gif, which repeats endlessly.
+   !> A gnuplot script that draws a sequence of scenes as <name>.gif, which repeats endlessly.
    function animation_script(scenes, captions, camera, name, title) result(text)
       type(scene_t), intent(in) :: scenes(:)
       character(*), intent(in) :: captions(:)
@@ -74,7 +74,7 @@ contains
       text = script%text()
    end function animation_script
 
-   !> Adds equal axes without box, direction of view, shading.
+   !> Adds the style: equal axes without a box, direction of view, shading.
    pure subroutine add_style(script, camera)
       type(buffer_t), intent(inout) :: script
       type(camera_t), intent(in) :: camera
@@ -169,7 +169,8 @@ contains
       call script%line("      1/0 notitle")
    end subroutine add_splot
 
-   !> Adds the names of points at positions that cover little. A name away from its point has a line to the point.
+   !> Adds the names of points at positions that cover few drawn lines and faces. A name away from its point has a line to the
+   !> point.
    subroutine add_labels(script, scene, camera)
       type(buffer_t), intent(inout) :: script
       type(scene_t), intent(in) :: scene
@@ -190,14 +191,15 @@ contains
       end do
    end subroutine add_labels
 
-   !> A position in the picture as gnuplot text: shares of the width and of the height [-].
+   !> A position in the picture as a gnuplot string: shares of the width and of the height [-].
    pure function on_screen(at) result(text)
       real(wp), intent(in) :: at(2)
       character(:), allocatable :: text
       text = 'screen '//str(at(1), 4)//', screen '//str(at(2), 4)
    end function on_screen
 
-   !> Adds swatches and labels below the picture. (gnuplot's own legend loses entries in splot if it has several columns.)
+   !> Adds colour swatches and labels below the picture. gnuplot's own legend is not used: with several columns, splot drops
+   !> entries.
    subroutine add_legend(script, scene)
       type(buffer_t), intent(inout) :: script
       type(scene_t), intent(in) :: scene

@@ -105,7 +105,7 @@ contains
 
    end function skeleton_of
 
-   !> The first measure of a joint: it has the joint's points for every kind.
+   !> The first measure of a joint. For every kind of joint, this measure has the joint's points.
    pure function first_measure(suspension, joint) result(measure)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: joint

@@ -1,4 +1,4 @@
-!> A sparkline: the curve of a key number over its test, as large as a word.
+!> A sparkline: the curve of a key number over its test, the size of a word.
 module ek_sparkline
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
@@ -18,8 +18,8 @@ module ek_sparkline
 
 contains
 
-   !> The curve of the left wheel or of the axle, and of the right wheel where it differs, as an SVG element; a dot at design. ''
-   !> without two states.
+   !> An SVG element with the curve of the left wheel or of the axle, the curve of the right wheel where it differs, and a dot at
+   !> design. '' with fewer than two states.
    function sparkline(number, tests) result(svg)
       type(key_number_t), intent(in) :: number
       type(test_result_t), intent(in) :: tests(:)
@@ -103,7 +103,7 @@ contains
 
    end function sparkline
 
-   !> A coordinate, to a hundredth of a pixel.
+   !> A coordinate as a string, to a hundredth of a pixel.
    pure function pixels(coordinate) result(text)
       real(wp), intent(in) :: coordinate
       character(:), allocatable :: text

@@ -19,7 +19,7 @@ module ek_step_page
 
    character(*), parameter :: figure_ending = '_steps'     !! appended to the name of the study
 
-   !> The errors and their names.
+   !> The number of errors in the table, and their columns and names.
    integer, parameter :: errors = 4
    character(20), parameter :: columns(errors) = [character(20) :: 'constraint_error', 'travel_error_mm', 'toe_error_deg', &
       'camber_error_deg']
@@ -28,7 +28,7 @@ module ek_step_page
 
 contains
 
-   !> The text of the page of a step-size study.
+   !> The content of the page of a step-size study.
    function step_page(title, name, deck, case, table, folder, message) result(text)
       character(*), intent(in) :: title, name, deck, case     !! of the study; the title may be ''
       type(text_table_t), intent(in) :: table                 !! of the study
@@ -104,7 +104,7 @@ contains
       call add_picture(page, svg, 'Errors over the number of increments', 'figures/'//name//figure_ending//'.gp draws this figure.')
    end subroutine add_figure
 
-   !> The script of the figure: magnitudes of the errors over the increments, both on logarithmic axes.
+   !> The script of the figure: magnitudes of the errors over the number of increments, both on logarithmic axes.
    function step_script(name, table) result(text)
       character(*), intent(in) :: name                        !! of the study
       type(text_table_t), intent(in) :: table
@@ -147,7 +147,7 @@ contains
       text = end_panels(sheet)
    end function step_script
 
-   !> A magnitude that a logarithmic axis can show; values that are only rounding are missing.
+   !> A magnitude that a logarithmic axis can show; NaN for a value that is only rounding.
    pure real(wp) function drawn(value)
       real(wp), intent(in) :: value
 
@@ -156,7 +156,7 @@ contains
       if (abs(value) >= 1.0e-12_wp) drawn = abs(value)
    end function drawn
 
-   !> An error with three digits: it may be as small as rounding.
+   !> An error with three digits, because it may be as small as rounding.
    function short(value) result(text)
       real(wp), intent(in) :: value
       character(:), allocatable :: text

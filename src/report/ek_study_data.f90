@@ -22,7 +22,7 @@ module ek_study_data
       logical :: is_target = .false.                   !! the limits are the band of the deck, not of the study
    end type study_axis_t
 
-   !> A response over all designs that have it.
+   !> The statistics of a response over all designs that have a value of it.
    type :: summary_t
       integer :: used = 0                              !! designs with a value
       real(wp) :: mean = 0.0_wp, deviation = 0.0_wp, lowest = 0.0_wp, highest = 0.0_wp
@@ -92,7 +92,7 @@ module ek_study_data
 
 contains
 
-   !> ' (67 of 256 base points)' where designs have failed, otherwise ''.
+   !> Number of base points used, if designs have failed: ' (67 of 256 base points)'; otherwise ''.
    pure function basis_text(effects, what) result(text)
       type(effects_t), intent(in) :: effects
       character(*), intent(in) :: what                 !! 'base points'
@@ -106,7 +106,7 @@ contains
       text = ' ('//text//' of '//str(effects%planned)//' '//what//')'
    end function basis_text
 
-   !> Whether the designs yield Sobol indices: the designs of a saltelli study, or of a list in the order of one.
+   !> Whether the designs yield Sobol indices: the designs of a saltelli study, or of a list in the order of a Saltelli design.
    pure logical function has_indices(study)
       type(study_data_t), intent(in) :: study
 
@@ -122,7 +122,7 @@ contains
       if (has_expected) has_expected = size(study%expected) > 0 .and. size(study%expected, 3) == size(study%sweep)
    end function has_expected
 
-   !> Smallest and largest finite value; 0 and 1 if there is none.
+   !> The smallest and the largest finite value; 0 and 1 if there is no finite value.
    pure function range_of_values(values) result(range)
       real(wp), intent(in) :: values(:)
       real(wp) :: range(2)
@@ -132,7 +132,8 @@ contains
          maxval(values, mask=ieee_is_finite(values))]
    end function range_of_values
 
-   !> Whether positive values span a factor of 4 or more in equal ratios rather than equal steps, judged by their median.
+   !> Whether positive values span a factor of 4 or more and are spaced by equal ratios rather than equal steps, judged by their
+   !> median.
    pure logical function is_geometric(values)
       real(wp), intent(in) :: values(:)
       real(wp) :: low, high
@@ -146,7 +147,7 @@ contains
       is_geometric = 2*count(values < 0.42_wp*(low + high)) >= size(values)
    end function is_geometric
 
-   !> A step that puts about four tics on an axis.
+   !> A step between tics, as a string, that puts about four tics on an axis.
    pure function tic_step(values) result(text)
       real(wp), intent(in) :: values(:)
       character(:), allocatable :: text

@@ -65,7 +65,7 @@ contains
          applies = maxval(study%x(1, :)) > minval(study%x(1, :)) .and. maxval(study%x(2, :)) > minval(study%x(2, :))
    end function applies
 
-   !> The number of panels that a figure would have on one sheet.
+   !> The number of panels that a figure would have if it had only one sheet.
    pure integer function panels_of(rule, study)
       type(figure_rule_t), intent(in) :: rule
       type(study_data_t), intent(in) :: study
@@ -76,14 +76,14 @@ contains
       if (rule%panels == 'pairs') panels_of = size(study%responses)*size(study%factors)
    end function panels_of
 
-   !> Sheets of a figure that applies, 1 or 2: the strongest panels, and the others.
+   !> Number of sheets of a figure that applies, 1 or 2: the strongest panels, and all others.
    pure integer function sheets(rule, study)
       type(figure_rule_t), intent(in) :: rule
       type(study_data_t), intent(in) :: study
       sheets = sheets_of(panels_of(rule, study))
    end function sheets
 
-   !> The content of the second sheet: 'the other responses', 'the matrix'.
+   !> Description of the second sheet: 'the other responses', or 'the matrix'.
    pure function others(rule) result(text)
       type(figure_rule_t), intent(in) :: rule
       character(:), allocatable :: text
@@ -92,7 +92,7 @@ contains
       if (rule%panels == 'pairs') text = 'the matrix'
    end function others
 
-   !> '<study>_<figure>', the name of its files; '<study>_<figure>_more' of the second sheet.
+   !> The base name of a figure's files: '<study>_<figure>'; '<study>_<figure>_more' for the second sheet.
    pure function figure_name(rule, study, sheet) result(name)
       type(figure_rule_t), intent(in) :: rule
       type(study_data_t), intent(in) :: study
@@ -103,7 +103,7 @@ contains
       if (sheet == 2) name = name//'_more'
    end function figure_name
 
-   !> The gnuplot script of a sheet of a figure that applies.
+   !> The gnuplot script of one sheet of a figure that applies.
    function script_of(rule, study, sheet) result(text)
       type(figure_rule_t), intent(in) :: rule
       type(study_data_t), intent(in) :: study

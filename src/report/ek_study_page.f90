@@ -29,8 +29,8 @@ contains
       name = study%name//'.html'
    end function page_name
 
-   !> The page as HTML. The page shows the figures that apply, from the folder of figures. Without a folder ('') it shows no
-   !> pictures.
+   !> The page of a study as HTML. The page shows the figures that apply, from the folder of figures. Without a folder ('') it shows
+   !> no pictures.
    function study_page(study, figures, message) result(text)
       type(study_data_t), intent(in) :: study
       character(*), intent(in) :: figures            !! folder of the pictures
@@ -77,7 +77,7 @@ contains
 
    end function study_page
 
-   !> Whether a response has a limit.
+   !> Whether any response has a limit.
    pure logical function any_limit(study, of_study)
       type(study_data_t), intent(in) :: study
       logical, intent(in) :: of_study                !! .true.: without the bands of the deck
@@ -108,7 +108,7 @@ contains
       end if
    end function limits_text
 
-   !> The limits, with a word for a band of the deck: 'target −30 … −20'.
+   !> The limits of a response. Limits from a band of the deck begin with 'target': 'target −30 … −20'.
    pure function limits_words(axis) result(text)
       type(study_axis_t), intent(in) :: axis
       character(:), allocatable :: text
@@ -117,7 +117,7 @@ contains
       if (axis%is_target) text = 'target '//text
    end function limits_words
 
-   !> Adds a cell with the verdict on the designs by word and colour: all inside, some outside, all outside.
+   !> Adds a cell with the verdict on the designs, by word and colour: all inside, some outside, or all outside.
    subroutine add_verdict(page, text, is_all, is_any)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: text
@@ -169,7 +169,7 @@ contains
 
    contains
 
-      !> Adds the cell of the limits.
+      !> Adds a cell with the limits of a response.
       subroutine add_limits(axis, summary)
          type(study_axis_t), intent(in) :: axis
          type(summary_t), intent(in) :: summary
@@ -186,7 +186,7 @@ contains
 
    end subroutine add_responses
 
-   !> Adds the scatter of each response by derivatives and by the designs.
+   !> Adds the scatter of each response, computed by derivatives and from the designs.
    subroutine add_moments(page, study)
       type(page_t), intent(inout) :: page
       type(study_data_t), intent(in) :: study
@@ -238,8 +238,8 @@ contains
 
    end subroutine add_moments
 
-   !> Adds the strongest factors of each response, then the factors with the ranges that the designs cover, by effect; of many only
-   !> the strongest are not folded.
+   !> Adds the strongest factors of each response, then all factors with the ranges that the designs cover, sorted by effect. Of
+   !> many factors, only the strongest are open.
    subroutine add_factors(page, study)
       type(page_t), intent(inout) :: page
       type(study_data_t), intent(in) :: study
@@ -297,7 +297,7 @@ contains
 
    end subroutine add_factors
 
-   !> Adds the pictures that were drawn; those of the second sheets folded.
+   !> Adds the pictures that were drawn. Pictures of second sheets are folded.
    subroutine add_figures(page, study, folder)
       type(page_t), intent(inout) :: page
       type(study_data_t), intent(in) :: study
@@ -326,7 +326,7 @@ contains
       end do
    end subroutine add_figures
 
-   !> Adds the best and the worst designs as a table, then, folded, the settings that give them.
+   !> Adds the best and the worst designs as a table, then, folded, the settings of these designs.
    subroutine add_extremes(page, study)
       type(page_t), intent(inout) :: page
       type(study_data_t), intent(in) :: study

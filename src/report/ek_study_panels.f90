@@ -1,5 +1,5 @@
-!> The panels of a figure of a study: responses or columns by the size of their scatter, the strongest on the first sheet, the others
-!> on a second one.
+!> The panels of a figure of a study: responses or columns, sorted by the size of their scatter. The first sheet shows the strongest
+!> panels, the second sheet all others.
 module ek_study_panels
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
@@ -16,14 +16,14 @@ module ek_study_panels
 
 contains
 
-   !> Sheets of a figure: 2 if it has more panels than the first sheet.
+   !> Number of sheets of a figure: 2 if the figure has more panels than fit on the first sheet, otherwise 1.
    pure integer function sheets_of(panels)
       integer, intent(in) :: panels
       sheets_of = merge(2, 1, panels > most_panels)
    end function sheets_of
 
-   !> The responses of a sheet: by their standard deviation, as a share of the mean or of the least span that a chart has in their
-   !> unit, where this is larger.
+   !> The responses on a sheet. They are sorted by standard deviation as a share of the mean, or of the least span of a chart in
+   !> their unit if the latter is larger.
    pure function response_panels(study, sheet) result(panels)
       type(study_data_t), intent(in) :: study
       integer, intent(in) :: sheet
@@ -37,8 +37,8 @@ contains
       panels = part_of(ranked(sizes, size(sizes)), sheet)
    end function response_panels
 
-   !> The columns of a sheet: by the widest part of the band of 90 % of the curves, as a share of the range of the median curve or of
-   !> the least span of the column, where this is larger.
+   !> The columns on a sheet. They are sorted by the widest part of the band of 90 % of the curves, as a share of the range of the
+   !> median curve, or of the least span of the column if the latter is larger.
    pure function column_panels(study, sheet) result(panels)
       type(study_data_t), intent(in) :: study
       integer, intent(in) :: sheet
@@ -56,7 +56,7 @@ contains
       panels = part_of(ranked(sizes, size(sizes)), sheet)
    end function column_panels
 
-   !> A scatter as a share of the size of a value, or of the least span of its unit; at most 1.
+   !> Scatter as a share of the size of a value, or of the least span of its unit if the latter is larger; at most 1.
    pure real(wp) function share_of(scatter, value, axis)
       real(wp), intent(in) :: scatter, value
       type(study_axis_t), intent(in) :: axis
@@ -69,7 +69,7 @@ contains
       share_of = scatter/max(scatter, value, least)
    end function share_of
 
-   !> The panels of a sheet, of all in order.
+   !> The panels on a sheet, from all panels in order.
    pure function part_of(order, sheet) result(panels)
       integer, intent(in) :: order(:), sheet
       integer, allocatable :: panels(:)
@@ -78,7 +78,8 @@ contains
       if (sheet == 2) panels = order(most_panels + 1:min(size(order), most_panels + most_others))
    end function part_of
 
-   !> '; 6 of 9 responses, those with the largest scatter', '; responses 7 to 9 of 9 by scatter'; '' if one sheet shows all.
+   !> Phrase about the panels on a sheet: '; 6 of 9 responses, those with the largest scatter', or '; responses 7 to 9 of 9 by
+   !> scatter'. '' if one sheet shows all.
    pure function panels_text(of, sheet, noun) result(text)
       integer, intent(in) :: of, sheet
       character(*), intent(in) :: noun           !! 'responses', 'columns'

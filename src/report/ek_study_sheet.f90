@@ -33,7 +33,7 @@ module ek_study_sheet
 
 contains
 
-   !> A sheet of so many panels: in one column, two or three, as they fit.
+   !> A sheet with a number of panels, in one, two or three columns.
    pure type(sheet_t) function new_sheet(name, title, subtitle, panels, height) result(sheet)
       character(*), intent(in) :: name, title, subtitle
       integer, intent(in) :: panels
@@ -57,14 +57,14 @@ contains
          "set tics out nomirror scale 0.6 textcolor rgb '#404040'"//nl//axes_style//nl//'unset key')
    end function new_sheet
 
-   !> Begins a data block: $name << EOD.
+   !> Begins a data block, '$name << EOD'.
    pure subroutine begin_data(sheet, name)
       type(sheet_t), intent(inout) :: sheet
       character(*), intent(in) :: name
       call sheet%text%line('$'//name//' << EOD')
    end subroutine begin_data
 
-   !> Adds a row of a data block, with seven digits, and a text at its end.
+   !> Adds a row of numbers with seven digits to a data block, with a string at its end.
    pure subroutine add_numbers(sheet, values, label)
       type(sheet_t), intent(inout) :: sheet
       real(wp), intent(in) :: values(:)
@@ -79,7 +79,7 @@ contains
       call sheet%text%line('')
    end subroutine add_numbers
 
-   !> A text as a field of a data block.
+   !> A string as a field of a data block.
    pure function field_of(label) result(field)
       character(*), intent(in) :: label
       character(len(label)) :: field
@@ -97,8 +97,8 @@ contains
       call sheet%text%line('EOD')
    end subroutine end_data
 
-   !> Adds the data of the names of points in a panel: the point, the way to its name, and whether the name ends there. Names
-   !> do not overlap other names or named points.
+   !> Adds the names of points in a panel to the data: the point, the line to its name, and whether the name ends at this position.
+   !> Names do not overlap other names or named points.
    subroutine add_point_names(sheet, panel, names, x, y, x_range, y_range)
       type(sheet_t), intent(inout) :: sheet
       integer, intent(in) :: panel
@@ -127,7 +127,7 @@ contains
       call end_data(sheet)
    end subroutine add_point_names
 
-   !> The gnuplot commands for these names, and lines to them: the last parts of a plot command.
+   !> The gnuplot commands that draw these names and lines to them: the last parts of a plot command.
    pure function names_plot(panel) result(parts)
       integer, intent(in) :: panel
       character(:), allocatable :: parts, data
@@ -157,7 +157,8 @@ contains
       call sheet%text%line('set multiplot')
    end subroutine begin_panels
 
-   !> The subtitle as a gnuplot expression: in two lines if it would run into the scale of colours or out of the picture.
+   !> The subtitle as a gnuplot expression. It is split into two lines if it would reach the scale of colours or the edge of the
+   !> picture.
    pure function subtitle_of(sheet) result(expression)
       type(sheet_t), intent(in) :: sheet
       character(:), allocatable :: expression
@@ -171,7 +172,8 @@ contains
       if (at > 0) expression = gnuplot_text(sheet%subtitle(:at))//'."\n".'//gnuplot_text(sheet%subtitle(at + 2:))
    end function subtitle_of
 
-   !> A label as a gnuplot expression: in two lines, parted at a blank or '_' near the middle, if it has more letters than fit.
+   !> A label as a gnuplot expression. A label with more letters than `most` is split into two lines, at a blank or '_' near the
+   !> middle.
    pure function two_lines(label, most) result(expression)
       character(*), intent(in) :: label
       integer, intent(in) :: most
@@ -195,7 +197,7 @@ contains
       full_height = title_height + sheet%height*((sheet%panels + sheet%columns - 1)/sheet%columns)
    end function full_height
 
-   !> Places the next panel, by rows from the top, and sets its title and axis labels.
+   !> Begins the next panel, row by row from the top, and sets its title and axis labels.
    pure subroutine begin_panel(sheet, number, title, x_label, y_label, most)
       type(sheet_t), intent(inout) :: sheet
       integer, intent(in) :: number
@@ -222,7 +224,7 @@ contains
       call sheet%text%line('set ylabel '//gnuplot_text(y_label)//" offset 0.6, 0 textcolor rgb '#404040'")
    end subroutine begin_panel
 
-   !> Ends the script.
+   !> The end of the script, and the complete script.
    function end_panels(sheet) result(text)
       type(sheet_t), intent(inout) :: sheet
       character(:), allocatable :: text

@@ -8,15 +8,16 @@ module ek_summary
    integer, parameter :: most = 16, most_ratios = 3
    character(*), parameter :: ratio = '*_motion_ratio'
 
-   !> In this order, as far as a suspension has them. Motion ratios: the first three of the deck.
+   !> Key numbers at the top of a report, in this order, as far as a suspension has them. Of motion ratios, the first three of the
+   !> deck.
    character(*), parameter :: heads(*) = [character(44) :: 'bump_toe', 'bump_camber', 'wheel_rate', 'roll_centre_height_mm', &
       'wheel_roll_steer', 'camber_relative_to_road_in_roll', 'suspension_roll_rate_nm_per_deg', 'lateral_force_steer', &
       'lateral_deflection', 'aligning_torque_steer', 'braking_steer', ratio, 'anti_dive_percent', 'anti_lift_brake_percent', &
       'anti_squat_percent', 'anti_lift_drive_percent', 'ride_frequency_hz', 'steering_ratio', 'caster_trail_mm', &
       'scrub_radius_mm', 'wheel_roll_camber', 'lateral_force_camber', 'braking_deflection', 'toe_deg', 'camber_deg']
 
-   !> A number, and the equivalent number: a slope fitted around design and its value at design, a load and its inverse, the
-   !> same angle as toe and as steer angle.
+   !> A key number, and an equivalent number: a slope fitted around design and its value at design; a load and its inverse; an angle
+   !> as toe and as steer angle.
    type :: pair_t
       character(44) :: repeated = '', kept = ''
    end type pair_t
@@ -34,7 +35,7 @@ module ek_summary
 
 contains
 
-   !> The indices of the numbers at the top of the report, at most 16.
+   !> The indices of the key numbers at the top of the report, at most 16.
    pure function summary_numbers(numbers) result(places)
       type(key_number_t), intent(in) :: numbers(:)
       integer, allocatable :: places(:)
@@ -56,7 +57,7 @@ contains
       end do
    end function summary_numbers
 
-   !> The index of the number that is equivalent to number k; 0: there is no such number.
+   !> The index of the key number that is shown instead of key number k; 0 if there is none.
    pure integer function kept_number(numbers, k) result(place)
       type(key_number_t), intent(in) :: numbers(:)
       integer, intent(in) :: k

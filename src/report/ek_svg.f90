@@ -27,8 +27,8 @@ module ek_svg
 
 contains
 
-   !> The <svg> element of a file, with ids `<prefix>_…` and a title; '' if the text does not contain one. One pass over the text:
-   !> the pictures of a page are megabytes.
+   !> The <svg> element of a file, with ids `<prefix>_…` and a title; '' if the string contains no such element. The string is read
+   !> once, because the pictures of a page have megabytes.
    pure function embedded_svg(text, prefix, title) result(svg)
       character(*), intent(in) :: text       !! content of the file
       character(*), intent(in) :: prefix     !! unique in the page: letters and digits
@@ -69,11 +69,11 @@ contains
       svg = compact_svg(svg)
    end function embedded_svg
 
-   !> Adds text up to the next tag, which begins at the new `at`; blank text becomes one line end.
+   !> Adds the string up to the next tag, which begins at the new `at`. A blank string becomes one line end.
    pure subroutine add_words(out, text, at)
       type(buffer_t), intent(inout) :: out
       character(*), intent(in) :: text
-      integer, intent(inout) :: at           !! where the text begins
+      integer, intent(inout) :: at           !! where the string begins
       logical :: is_blank, has_end
       integer :: first
 
@@ -98,8 +98,8 @@ contains
       end if
    end subroutine add_words
 
-   !> Adds a tag with its ids and references to ids renamed, its mouse events and gnuplot's default style dropped; `at` is then
-   !> after. An empty group is omitted with its end: gnuplot writes many.
+   !> Adds a tag, and moves `at` to after the tag. Ids and references to ids are renamed; mouse events and gnuplot's default style
+   !> are dropped. An empty group, of which gnuplot writes many, is omitted with its end.
    pure subroutine add_tag(out, symbols, text, prefix, at)
       type(buffer_t), intent(inout) :: out
       type(symbols_t), intent(inout) :: symbols
@@ -179,7 +179,8 @@ contains
       end if
    end subroutine add_tag
 
-   !> Whether an attribute name="value" can be copied, judged by single letters: most can, and the others are examined in full.
+   !> Whether an attribute name="value" can be copied unchanged. This is judged by single letters: most attributes can, and all
+   !> others are examined in full.
    pure logical function is_plain(attribute, value)
       character(*), intent(in) :: attribute
       integer, intent(in) :: value           !! position of the first quote
@@ -239,7 +240,7 @@ contains
       call out%copy(from, svg(used + 1:))
    end subroutine take_used
 
-   !> Value of an attribute, '' if it is missing.
+   !> Value of an attribute; '' if the attribute is missing.
    pure function attribute(tag, name) result(value)
       character(*), intent(in) :: tag, name
       character(:), allocatable :: value
@@ -253,8 +254,8 @@ contains
       if (last > 0) value = tag(at + 1:at + last - 1)
    end function attribute
 
-   !> A text with &, <, > and quotes escaped, for HTML content and attributes. Bytes that are not UTF-8, as in a file
-   !> name, would make the page invalid and are replaced.
+   !> A string with &, <, > and quotes escaped, for HTML content and attributes. Bytes that are not UTF-8, as in a file name, would
+   !> make the page invalid and are replaced.
    pure function escape_html(words) result(escaped)
       character(*), intent(in) :: words
       character(:), allocatable :: escaped

@@ -23,7 +23,7 @@ module ek_test_charts
 
 contains
 
-   !> Appends all charts of a test, named <test>_<column>.
+   !> Appends all charts of a test. Each is named <test>_<column>.
    subroutine test_charts(test, charts, number)
       type(test_result_t), intent(in) :: test
       type(chart_t), allocatable, intent(inout) :: charts(:)
@@ -67,7 +67,7 @@ contains
 
    end subroutine test_charts
 
-   !> Gives every curve of a chart the states at which a stop is in contact.
+   !> Sets on every curve of a chart the states at which a stop is in contact.
    pure subroutine set_contact(chart, is_in_contact)
       type(chart_t), intent(inout) :: chart
       logical, intent(in) :: is_in_contact(:)
@@ -78,7 +78,7 @@ contains
       end do
    end subroutine set_contact
 
-   !> Joins the curves of the two sides where they are equal: within a thousandth of the least span, over the same abscissa.
+   !> Joins the curves of the two sides if they are equal: within a thousandth of the least span, over the same abscissa.
    pure subroutine join_sides(chart)
       type(chart_t), intent(inout) :: chart
       logical :: is_twin(size(chart%traces))
@@ -165,7 +165,7 @@ contains
       end select
    end function quantities_of
 
-   !> A chart of a test, still without curves. The rows of a load table do not form a path and are drawn as points.
+   !> A chart of a test without curves. The rows of a load table do not form a path and are drawn as points.
    pure type(chart_t) function chart_of(test, name, title, label) result(chart)
       type(test_result_t), intent(in) :: test
       character(*), intent(in) :: name, title, label
@@ -174,7 +174,8 @@ contains
       chart%has_points = is_scattered(test%kind)
    end function chart_of
 
-   !> A quantity of every wheel, or of the axle, over the abscissa of the test; without curves if there is no such column.
+   !> The chart of a quantity of every wheel, or of the axle, over the abscissa of the test. It has no curves if there is no such
+   !> column.
    pure type(chart_t) function quantity_chart(test, quantity) result(chart)
       type(test_result_t), intent(in) :: test
       type(quantity_t), intent(in) :: quantity
@@ -207,7 +208,7 @@ contains
       end do
    end function quantity_chart
 
-   !> All columns with a suffix, labelled by the name before it, except the columns of the wheels and the axle.
+   !> The chart of all columns with a suffix, labelled by the name before the suffix. The columns of wheels and axle are omitted.
    pure type(chart_t) function ending_chart(test, name, ending, title, label, noise) result(chart)
       type(test_result_t), intent(in) :: test
       character(*), intent(in) :: name, ending, title, label
@@ -234,7 +235,7 @@ contains
          str(max_curves)//' of '//str(columns)//')'
    end function ending_chart
 
-   !> The colour of the corresponding left element for a right one, otherwise the next free colour.
+   !> The index of a colour: for a right element the colour of the corresponding left element, otherwise the next free colour.
    pure integer function colour_of(chart, name) result(colour)
       type(chart_t), intent(in) :: chart
       character(*), intent(in) :: name
@@ -247,7 +248,7 @@ contains
       end do
    end function colour_of
 
-   !> Magnitude of the force of every bushing; of many bushings those with the largest force.
+   !> The chart of the force magnitude of every bushing; of many bushings, the bushings with the largest force.
    pure type(chart_t) function bushing_chart(test, elements) result(chart)
       type(test_result_t), intent(in) :: test
       character(*), intent(in), optional :: elements(:)    !! only these; absent: all with _fx_n, _fy_n, _fz_n
@@ -267,13 +268,13 @@ contains
       end do
    end function bushing_chart
 
-   !> Finds the elements with columns _fx_n, _fy_n, _fz_n, in the order of the columns, and the magnitudes of their forces; of more
-   !> elements than fit in a chart those with the largest force.
+   !> Finds the elements with columns _fx_n, _fy_n and _fz_n, in the order of the columns, and the magnitudes of their forces. If
+   !> there are more elements than fit in a chart, the elements with the largest force are returned.
    pure subroutine largest_forces(table, is_good, names, force, carrying, elements)
       type(table_t), intent(in) :: table
       logical, intent(in) :: is_good(:)                    !! rows to consider
       character(name_length), allocatable, intent(out) :: names(:)
-      real(wp), allocatable, intent(out) :: force(:, :)    !! N (row, name); not a number elsewhere
+      real(wp), allocatable, intent(out) :: force(:, :)    !! N (row, name); NaN elsewhere
       integer, intent(out) :: carrying                     !! elements that carry a force
       character(*), intent(in), optional :: elements(:)    !! only these
       character(*), parameter :: ending = '_fx_n'
@@ -321,7 +322,8 @@ contains
       call add_curve(chart, test, wheel, trim(test%table%columns(place)), test%table%values(place, :), title, colour, dash)
    end subroutine add_column
 
-   !> Adds a curve over the abscissa of a wheel, if it has a value in a converged state and the table has the abscissa.
+   !> Adds a curve over the abscissa of a wheel. Nothing is added if the curve has no value in a converged state, or if the table
+   !> lacks the abscissa.
    pure subroutine add_curve(chart, test, wheel, column, y, title, colour, dash)
       type(chart_t), intent(inout) :: chart
       type(test_result_t), intent(in) :: test
@@ -350,7 +352,7 @@ contains
       call add_trace(chart, trace)
    end subroutine add_curve
 
-   !> The wheel on the side of an element, from the name of the element; the first wheel if the name has no side.
+   !> Index of the wheel on the side of an element, from the name of the element; 1 if the name has no side.
    pure integer function side_of(test, name) result(wheel)
       type(test_result_t), intent(in) :: test
       character(*), intent(in) :: name

@@ -31,7 +31,7 @@ module ek_turntable
       real(wp), allocatable :: arm(:, :)         !! from the reference point of its body, body axes (3, points) [m]
    end type fixed_line_t
 
-   !> States of one test.
+   !> States of one test, as poses of the bodies.
    type :: motion_t
       character(:), allocatable :: test, label   !! name of the test; moved quantity with unit
       real(wp), allocatable :: value(:)          !! in that unit
@@ -49,7 +49,7 @@ module ek_turntable
 
 contains
 
-   !> Creates the turntable of a report; not allocated if no body moves.
+   !> Creates the turntable of a report. The turntable is not allocated if no body moves.
    subroutine make_turntable(suspension, tests, paths, table)
       type(suspension_t), intent(in) :: suspension
       type(test_result_t), intent(in) :: tests(:)
@@ -76,7 +76,7 @@ contains
       end do
    end subroutine make_turntable
 
-   !> The first angle of view [deg]: an axle is seen from its front left, one wheel from the middle of the car, ahead of the
+   !> The initial angle of view [deg]: an axle is seen from its front left, a single wheel from the middle of the car, ahead of the
    !> wheel.
    pure real(wp) function first_turn(suspension)
       type(suspension_t), intent(in) :: suspension
@@ -176,7 +176,8 @@ contains
       call move_alloc(more, lines)
    end subroutine add_line
 
-   !> States of a test, the first and the last that were reached and the one nearest to design among them.
+   !> Takes states of a test: the first and the last state that were reached, and states between them; the state nearest to design
+   !> is included.
    subroutine take_motion(suspension, test, path, motion)
       type(suspension_t), intent(in) :: suspension
       type(test_result_t), intent(in) :: test
@@ -218,8 +219,8 @@ contains
       end do
    end subroutine take_motion
 
-   !> Adds the object "turntable": lengths in mm, axes of the deck; numbers of 32 bits as base64. Both frames are right-handed: the
-   !> axis of a rotation turns like any vector.
+   !> Adds the object "turntable": lengths in mm, axes of the deck, numbers of 32 bits as base64. Both frames are right-handed, so
+   !> the axis of a rotation is transformed like any vector.
    subroutine add_turntable(json, table)
       type(json_t), intent(inout) :: json
       type(turntable_t), intent(in) :: table
@@ -265,7 +266,7 @@ contains
       call json%close('}')
    end subroutine add_turntable
 
-   !> Poses with a factor for each of their six numbers, as one list.
+   !> Poses as one list, with a factor for each of their six numbers.
    pure function scaled(pose, factors) result(list)
       real(wp), intent(in) :: pose(:, :, :), factors(6)
       real(wp) :: list(size(pose))

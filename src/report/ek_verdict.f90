@@ -1,6 +1,6 @@
-!> The verdict of a report: a line per domain of an axle, with its main numbers and whether they lie inside their bands. A band is
-!> the target of the deck (&target_band), or else the usual range of road vehicles (ek_plausible_range); without either there is no
-!> verdict.
+!> The verdict of a report: one line per domain of an axle, with its main key numbers and whether they are inside their bands. A
+!> band is the target of the deck (&target_band), or else the usual range of road vehicles (ek_plausible_range). A key number
+!> without either has no verdict.
 module ek_verdict
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
@@ -21,7 +21,7 @@ module ek_verdict
       character(7) :: verdict = ''          !! 'inside': all numbers with a band; 'outside': at least one; '': no band
    end type verdict_t
 
-   !> The numbers of a domain in order; the first `most` that the report has are shown.
+   !> The key numbers of a domain in order. The first `most` key numbers that the report has are shown.
    type :: domain_t
       character(24) :: name
       integer :: most
@@ -38,14 +38,14 @@ module ek_verdict
       domain_t('anti-features', 2, [character(36) :: 'anti_dive_percent', 'anti_lift_brake_percent', 'anti_squat_percent', &
       'anti_lift_drive_percent'])]
 
-   !> Key numbers with a usual range, and the rows of it.
+   !> Key numbers with a usual range, and the quantities of these ranges.
    character(*), parameter :: numbers_with_range(*) = [character(36) :: 'wheel_rate', 'ride_frequency_hz', 'bump_toe', &
       'bump_camber']
    character(*), parameter :: range_rows(*) = [character(28) :: 'wheel rate', 'ride frequency', 'bump toe', 'bump camber']
 
 contains
 
-   !> Lists the lines; domains of which the report has no number are omitted.
+   !> Lists the lines. A domain is omitted if the report has none of its key numbers.
    subroutine verdict_lines(report, lines)
       type(report_t), intent(in) :: report
       type(verdict_t), allocatable, intent(out) :: lines(:)
@@ -80,7 +80,7 @@ contains
       call move_alloc(longer, lines)
    end subroutine append
 
-   !> '3550 N per wheel', 'left 3550 N, right 3400 N', or 'unloaded axle'; '' if it is not known.
+   !> The load at design: '3550 N per wheel', 'left 3550 N, right 3400 N', or 'unloaded axle'; '' if the load is not known.
    function load_state(numbers) result(text)
       type(key_number_t), intent(in) :: numbers(:)
       character(:), allocatable :: text
@@ -105,7 +105,7 @@ contains
       end do
    end function load_state
 
-   !> Creates the line of a domain; its text is '' if the report has no number of this domain.
+   !> Creates the line of a domain. The string of the line is '' if the report has no key number of this domain.
    subroutine judge(report, domain, line)
       type(report_t), intent(in) :: report
       type(domain_t), intent(in) :: domain
@@ -131,8 +131,8 @@ contains
       end do
    end subroutine judge
 
-   !> Creates the text of a number: 'bump camber −13.83 deg/m (inside the target −30 … −20)', 'lateral force steer 0.108 deg/kN:
-   !> understeer'.
+   !> Creates the string of a key number: 'bump camber −13.83 deg/m (inside the target −30 … −20)', or 'lateral force steer 0.108
+   !> deg/kN: understeer'.
    subroutine speak(number, axle, words, verdict)
       type(key_number_t), intent(in) :: number
       integer, intent(in) :: axle
@@ -158,7 +158,7 @@ contains
       if (verdict /= '') words = words//' ('//trim(verdict)//' '//band//')'
    end subroutine speak
 
-   !> Finds the band of a number, 'inside' or 'outside', and '' without a band.
+   !> Finds the band of a key number, and the verdict 'inside' or 'outside'; '' without a band.
    subroutine find_band(number, verdict, band)
       type(key_number_t), intent(in) :: number
       character(7), intent(out) :: verdict
@@ -199,7 +199,8 @@ contains
       if (limit < 0.0_wp) text = '−'//text
    end function short
 
-   !> The largest force on a member, if the loads of the members are wanted; otherwise that on the rack.
+   !> Phrase about the largest force on a member if the loads of the members are requested; otherwise about the largest force on the
+   !> rack.
    function largest_load(report) result(text)
       type(report_t), intent(in) :: report
       character(:), allocatable :: text
@@ -222,7 +223,7 @@ contains
          trim(report%loads%cases(report%loads%case(resultant, e)))
    end function largest_load
 
-   !> The line for a terminal, with the minus signs of programs.
+   !> The line for a terminal, with hyphens as minus signs.
    pure function plain(text) result(ascii)
       character(*), intent(in) :: text
       character(:), allocatable :: ascii

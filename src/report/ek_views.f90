@@ -36,7 +36,7 @@ module ek_views
 
 contains
 
-   !> The script that draws <name>.png and <name>.svg; '' for a model without hardpoints that are used.
+   !> The script that draws <name>.png and <name>.svg; '' for a model that uses no hardpoints.
    function views_script(suspension, name) result(text)
       type(suspension_t), intent(in) :: suspension
       character(*), intent(in) :: name
@@ -107,7 +107,7 @@ contains
       end do
    end subroutine half_of
 
-   !> Adds springs, dampers and stops as lines between their ends.
+   !> Adds springs, dampers and stops, as lines between their ends.
    subroutine add_springs(scene, suspension, state)
       type(scene_t), intent(inout) :: scene
       type(suspension_t), intent(in) :: suspension
@@ -152,7 +152,7 @@ contains
       end do
    end subroutine add_places
 
-   !> Finds the range of a panel, from left to right and from below upward [mm]: all points, in one scale.
+   !> Finds the ranges of a panel, from left to right and upward [mm]. The ranges contain all points, and both axes have one scale.
    subroutine find_ranges(sheet, points, frame, v, x_range, y_range)
       type(sheet_t), intent(in) :: sheet
       type(points_t), intent(in) :: points

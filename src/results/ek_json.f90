@@ -31,7 +31,7 @@ module ek_json
 
 contains
 
-   !> Begins an object '{' or a list '['; `key` if it is part of an object.
+   !> Begins an object '{' or a list '['. `key` is required inside an object.
    pure subroutine json_open(self, bracket, key)
       class(json_t), intent(inout) :: self
       character(1), intent(in) :: bracket
@@ -54,7 +54,7 @@ contains
       self%is_empty = .false.
    end subroutine json_close
 
-   !> Adds an item: `literal` is made by json_string, json_strings, json_number, json_numbers, or str for an integer.
+   !> Adds an item. `literal` is created by json_string, json_strings, json_number, json_numbers, or by str for an integer.
    pure subroutine json_item(self, key, literal)
       class(json_t), intent(inout) :: self
       character(*), intent(in) :: key, literal
@@ -72,7 +72,7 @@ contains
       call self%buffer%add(literal)
    end subroutine json_item_of_list
 
-   !> The complete text, with a line end.
+   !> The complete JSON string, with a line end.
    pure function json_text(self) result(text)
       class(json_t), intent(in) :: self
       character(:), allocatable :: text
@@ -101,7 +101,7 @@ contains
       end if
    end subroutine begin_line
 
-   !> A text between quotes: quote, backslash and control characters escaped, all other characters (UTF-8) unchanged.
+   !> A string between quotes. Quote, backslash and control characters are escaped; all other characters (UTF-8) are unchanged.
    pure function json_string(text) result(literal)
       character(*), intent(in) :: text
       character(:), allocatable :: literal
@@ -130,7 +130,7 @@ contains
       literal = literal//text(first:)//'"'
    end function json_string
 
-   !> A number, or null if it is not finite.
+   !> A number as a literal; null if the number is not finite.
    pure function json_number(value) result(literal)
       real(wp), intent(in) :: value
       character(:), allocatable :: literal
@@ -139,7 +139,7 @@ contains
       if (ieee_is_finite(value)) literal = decimal(value)
    end function json_number
 
-   !> A list of texts on one line, each as UTF-8.
+   !> A list of strings on one line, each as UTF-8.
    pure function json_strings(texts) result(literal)
       type(message_list_t), intent(in) :: texts
       character(:), allocatable :: literal

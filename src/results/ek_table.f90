@@ -1,5 +1,5 @@
-!> A table of results: named columns, one row per state, and header lines on its origin; and its form as comma-separated text:
-!> `# ` lines, a line of column names, one line per row. Numbers have 15 significant digits; `nan` for a missing value.
+!> A table of results: named columns, one row per state, and header lines on its origin. As comma-separated text it has lines that
+!> begin with `# `, a line of column names, and one line per row. Numbers have 15 significant digits; `nan` is a missing value.
 module ek_table
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan, ieee_is_finite, ieee_is_nan
    use ek_kinds, only: wp
@@ -29,7 +29,7 @@ module ek_table
 
 contains
 
-   !> A table of `rows` rows with all values "not a number".
+   !> A table with a number of rows, in which all values are NaN.
    pure type(table_t) function new_table(columns, rows) result(table)
       character(*), intent(in) :: columns(:)    !! without comma, quote or line end
       integer, intent(in) :: rows
@@ -41,8 +41,8 @@ contains
       allocate (table%values(size(columns), rows), source=ieee_value(1.0_wp, ieee_quiet_nan))
    end function new_table
 
-   !> Index of a column, 0 if there is no such name. Names are case-sensitive. (libgfortran's findloc of texts reads beyond
-   !> the array with back = .true.)
+   !> Index of a column; 0 if no column has the name. Names are case-sensitive. (libgfortran's findloc of strings reads beyond the
+   !> array with back = .true.)
    pure integer function column_index(table, name) result(place)
       type(table_t), intent(in) :: table
       character(*), intent(in) :: name
@@ -50,7 +50,7 @@ contains
       place = name_index(table%columns, name)
    end function column_index
 
-   !> The last index of a name in a list of column names; 0 if the name is blank or the list does not contain it.
+   !> The last index of a name in a list of column names; 0 if the name is blank or is not in the list.
    pure integer function name_index(names, name) result(place)
       character(name_length), intent(in) :: names(:)
       character(*), intent(in) :: name
@@ -69,7 +69,7 @@ contains
       end do
    end function name_index
 
-   !> The values of a column from the first row to the last; empty if there is no such column.
+   !> The values of a column from the first to the last row; empty if no column has the name.
    pure function column(table, name) result(values)
       type(table_t), intent(in) :: table
       character(*), intent(in) :: name
@@ -103,7 +103,7 @@ contains
       row_count = size(table%values, 2)
    end function row_count
 
-   !> The table as text, for tests and benchmarks; files are written row by row.
+   !> The table as a string, for tests and benchmarks. Files are written row by row.
    pure function csv_text(table) result(text)
       type(table_t), intent(in) :: table
       character(:), allocatable :: text
@@ -117,7 +117,7 @@ contains
       text = buffer%text()
    end function csv_text
 
-   !> One row with its line end.
+   !> One row as a line with its line end.
    pure function csv_row(values, is_whole) result(text)
       real(wp), intent(in) :: values(:)
       logical, intent(in) :: is_whole(:)        !! the columns of integers
@@ -139,7 +139,7 @@ contains
       text = line(:filled)
    end function csv_row
 
-   !> The nearest integer, for values small enough to have a fraction; nan gives nan.
+   !> The nearest integer of values small enough to have a fraction; NaN for NaN.
    elemental real(wp) function whole(value)
       real(wp), intent(in) :: value
 
@@ -260,7 +260,7 @@ contains
       table%values = table%values(:, :rows)
    end subroutine read_csv
 
-   !> Finds the positions of the commas of a line outside quotes, with the positions before the line and after the line.
+   !> Finds the positions of the commas of a line outside quotes, and adds the positions before and after the line.
    pure subroutine find_commas(content, at)
       character(*), intent(in) :: content
       integer, allocatable, intent(out) :: at(:)

@@ -17,7 +17,7 @@ module ek_test_result
    character(*), parameter :: axes_mark = 'axes ', iso = 'iso', right_mark = ', a right wheel'
    real(wp), parameter :: min_stroke = 1.0_wp   !! mm; with less travel the abscissa is the load factor
 
-   !> The grid of a test over travel and steering: its levels, ascending, and the row of the table at each pair.
+   !> The grid of a test over travel and steering: its levels in ascending order, and the row of the table at each pair of levels.
    type :: test_grid_t
       real(wp), allocatable :: travel(:)     !! mm
       real(wp), allocatable :: steer(:)      !! of the driver, in its unit
@@ -50,8 +50,8 @@ module ek_test_result
 
 contains
 
-   !> The header line of a table that defines its signs: the axes of its vectors, and the side of a single wheel, whose
-   !> columns have no prefix.
+   !> The header line of a table that defines its signs: the axes of its vectors, and the side of a single wheel, whose columns have
+   !> no prefix.
    pure function frame_line(is_iso, side) result(line)
       logical, intent(in) :: is_iso
       integer, intent(in) :: side           !! of a single wheel: −1 left, +1 right; 0: two wheels or none
@@ -62,7 +62,7 @@ contains
       if (side > 0) line = line//right_mark
    end function frame_line
 
-   !> Reads axes and side from a header line; other lines change nothing.
+   !> Reads axes and side from a header line. Other lines change nothing.
    pure subroutine read_frame_line(line, is_iso, side)
       character(*), intent(in) :: line
       logical, intent(inout) :: is_iso
@@ -98,7 +98,8 @@ contains
       test%sides = test%sides([2, 1])
    end subroutine find_wheels
 
-   !> Sets the abscissa of the charts for a kind of test, if the table has its column. An abscissa already set is unchanged.
+   !> Sets the abscissa of the charts for a kind of test, if the table has the column of the abscissa. An abscissa that is already
+   !> set is unchanged.
    subroutine choose_abscissa(test)
       type(test_result_t), intent(inout) :: test
       type(rig_test_t) :: kind
@@ -126,7 +127,7 @@ contains
 
    contains
 
-      !> Span of a column of any wheel.
+      !> Span of a column over all wheels, in the unit of the column.
       pure real(wp) function stroke(name)
          character(*), intent(in) :: name
          real(wp) :: range(2)
@@ -150,7 +151,7 @@ contains
 
    end subroutine choose_abscissa
 
-   !> The column of a wheel, or of the axle if the wheel has no column of this name; 0 if neither exists.
+   !> Index of the column of a wheel, or of the axle if the wheel has no column with this name; 0 if neither exists.
    pure integer function wheel_column(test, wheel, name) result(place)
       type(test_result_t), intent(in) :: test
       integer, intent(in) :: wheel
@@ -170,7 +171,7 @@ contains
       has_column = any([(wheel_column(test, k, name) > 0, k=1, size(test%prefixes) + 1)])
    end function has_column
 
-   !> The rows of converged states.
+   !> Whether each row is a converged state.
    pure function converged_rows(table) result(is_good)
       type(table_t), intent(in) :: table
       logical :: is_good(size(table%values, 2))
@@ -183,8 +184,8 @@ contains
       where (is_good) is_good = table%values(place, :) > 0.5_wp
    end function converged_rows
 
-   !> The converged rows around design over which the factor is monotonic: if a path turns back (limit points,
-   !> follow = 'arc') a factor has more than one state, and slopes and interpolation use the branch through design.
+   !> Whether each row is a converged state around design over which the factor is monotonic. If a path turns back (limit points,
+   !> follow = 'arc'), a factor has several states; slopes and interpolation use the branch through design.
    pure function unfolded_rows(table) result(is_good)
       type(table_t), intent(in) :: table
       logical :: is_good(size(table%values, 2))
@@ -224,7 +225,7 @@ contains
 
    end function unfolded_rows
 
-   !> The row of the design state, with `factor` = 0; 0 if there is no converged row.
+   !> Index of the row of the design state, with `factor` = 0; 0 if there is no converged row.
    pure integer function design_row(table) result(row)
       type(table_t), intent(in) :: table
       logical :: is_good(size(table%values, 2))
@@ -238,7 +239,7 @@ contains
       row = findloc(is_good, .true., dim=1, back=.true.)
    end function design_row
 
-   !> 'left' for 'left_'; '' for a single wheel.
+   !> The side in a prefix: 'left' for 'left_'; '' for a single wheel.
    pure function wheel_word(prefix) result(word)
       character(*), intent(in) :: prefix
       character(:), allocatable :: word

@@ -1,4 +1,4 @@
-!> A table of texts as comma-separated values (RFC 4180): a line of column names, one line per row.
+!> A table of strings as comma-separated values (RFC 4180): a line of column names, then one line per row.
 !>
 !> A cell with a comma, a quote or a line end is quoted. Lines that begin with # are skipped.
 module ek_text_table
@@ -37,7 +37,7 @@ contains
       table%columns = columns
    end function new_text_table
 
-   !> Begins a row of empty cells; the caller sets table%cells(k, table%rows)%text.
+   !> Begins a row of empty cells. The caller must set table%cells(k, table%rows)%text.
    pure subroutine add_row(table, line)
       type(text_table_t), intent(inout) :: table
       integer, intent(in), optional :: line
@@ -94,7 +94,7 @@ contains
       text = buffer%text()
    end function text_table_csv
 
-   !> A cell, quoted if necessary.
+   !> A cell as written, in quotes if necessary.
    pure function protected_cell(text) result(cell)
       character(*), intent(in) :: text
       character(:), allocatable :: cell

@@ -59,7 +59,7 @@ contains
       end associate
    end subroutine solve_with_slopes
 
-   !> Builds a table with the differentiated columns of a case and the differentiated entries of its compliance matrix.
+   !> Builds a table of the columns of a case and the entries of its compliance matrix that are differentiated.
    subroutine make_table(table, derivatives, whole, place, row)
       type(table_t), intent(in) :: table
       type(derivatives_t), intent(in) :: derivatives
@@ -77,7 +77,7 @@ contains
       row = [(minloc(abs(table%values(1, :) - (derivatives%states(s) - 1)), dim=1), s=1, size(derivatives%states))]
    end subroutine make_table
 
-   !> Moves the table to the design at a distance along a direction. A number that cannot move has no effect.
+   !> Moves the table to the design at a distance along a direction. A number that cannot be varied has no effect.
    pure subroutine move_table(p, distance, this)
       integer, intent(in) :: p                               !! the direction
       real(wp), intent(in) :: distance                       !! in its unit

@@ -58,7 +58,7 @@ contains
 
    contains
 
-      !> Whether a column changes when a body moves somehow, or the reactions change.
+      !> Whether a column changes when body b moves, or when the reactions change.
       logical function is_read(b)
          integer, intent(in) :: b
 
@@ -71,7 +71,7 @@ contains
          end do
       end function is_read
 
-      !> Moves from the state by one unknown of a body; unknown = 0 moves by all unknowns.
+      !> Moves one unknown of a body away from the state; unknown = 0 moves all unknowns of the body.
       subroutine move(b, unknown, distance)
          integer, intent(in) :: b, unknown
          real(wp), intent(in) :: distance
@@ -97,7 +97,7 @@ contains
          call move_all(1, step, moved%poses(b:b + 1))
       end subroutine move
 
-      !> Restores the pose of a body, or the reactions.
+      !> Restores the pose of a body, or the reactions, at the state.
       subroutine put_back(b)
          integer, intent(in) :: b
 

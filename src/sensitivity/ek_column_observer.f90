@@ -1,4 +1,4 @@
-!> The values of wanted columns at one state: quantities of the table of a case, and entries of its compliance matrix.
+!> The values of requested columns at one state: quantities of the table of a case, and entries of its compliance matrix.
 module ek_column_observer
    use ek_kinds, only: wp
    use ek_suspension, only: suspension_t
@@ -50,7 +50,7 @@ contains
       allocate (self%matrix(size(names)), source=0.0_wp)
    end subroutine new_column_observer
 
-   !> Computes values at an equilibrium; or, with the data stored at an equilibrium, at a state close to it.
+   !> Computes the values at an equilibrium. With data stored at an equilibrium, computes the values at a state close to it.
    subroutine observe_columns(suspension, state, inputs, kkt, self, values, kept)
       type(suspension_t), intent(in) :: suspension         !! on the rig
       type(state_t), intent(in) :: state
@@ -75,25 +75,25 @@ contains
       values(self%quantities + 1:) = self%matrix(self%entries)
    end subroutine observe_columns
 
-   !> Whether no column needs the compliance matrix or a model around the state.
+   !> Whether no column needs the compliance matrix, or a model in addition to the state.
    pure logical function reads_states(self)
       type(column_observer_t), intent(in) :: self
       reads_states = size(self%entries) == 0 .and. .not. reads_matrix(self%observer)
    end function reads_states
 
-   !> Whether all columns follow from the poses of the wheels and the numbers of the wheels.
+   !> Whether all columns follow from the poses and the data of the wheels.
    pure logical function reads_wheels_only(self)
       type(column_observer_t), intent(in) :: self
       reads_wheels_only = size(self%entries) == 0 .and. reads_poses_of_wheels(self%observer)
    end function reads_wheels_only
 
-   !> The unit loads whose responses are stored: the loads of the compliance matrix, if it is observed.
+   !> Number of unit loads whose responses are stored: the loads of the compliance matrix if it is observed, otherwise 0.
    pure integer function kept_loads(self)
       type(column_observer_t), intent(in) :: self
       kept_loads = merge(6*size(self%wheels), 0, size(self%entries) > 0)
    end function kept_loads
 
-   !> Stores the part of an observation of an equilibrium that serves states close to it.
+   !> Stores the data of an observed equilibrium that are used at states close to it.
    pure subroutine keep_state(self, kept)
       type(column_observer_t), intent(in) :: self          !! after observe_columns
       real(wp), intent(inout) :: kept(:, :)                !! (kept_loads, unknown)

@@ -1,7 +1,7 @@
-!> Numbers of a deck for which numbers of the results have given values: Newton's method within bounds.
+!> Finds numbers of a deck for which results have given values, by Newton's method within bounds.
 !>
-!> The conditions are scaled by the change that the unknowns can cause within their bounds, the unknowns by the width of the
-!> bounds. With fewer conditions than unknowns the change of the unknowns, in widths, is as small as possible; conditions that
+!> The conditions are scaled by the change that the unknowns can cause within their bounds. The unknowns are scaled by the width of
+!> the bounds. With fewer conditions than unknowns, the change of the unknowns, in widths, is as small as possible. Conditions that
 !> cannot all be met are met in the sense of least squares, and the findings give the reason.
 module ek_condition_solver
    use ek_kinds, only: wp
@@ -40,7 +40,7 @@ module ek_condition_solver
 
 contains
 
-   !> Solves the conditions; the workspace then contains the numbers found. Creates strings.
+   !> Solves the conditions. The workspace then contains the numbers found. Creates strings.
    subroutine solve_conditions(unknowns, wanted, targets, max_sweeps, workspace, found, error)
       type(unknown_t), intent(in) :: unknowns(:)
       type(wanted_number_t), intent(in) :: wanted(:)

@@ -1,6 +1,6 @@
 !> Derivatives of the columns of a case with respect to numbers of the deck, at states of its path. No solution is repeated.
 !>
-!>     call begin_derivatives(workspace, k, columns, directions, self)        once per deck, case, columns and numbers; makes texts
+!>     call begin_derivatives(workspace, k, columns, directions, self)        once per deck, case, columns and numbers; creates strings
 !>     call find_derivatives(workspace, states, self)                         at each design, after its case is solved
 !>
 !> Two steps at every state:
@@ -16,7 +16,7 @@
 !> With the same difference at 2h, Richardson's extrapolation removes the error of order h², and the difference of both quotients
 !> is the reported error: an upper limit where the column is smooth, and large where it has a corner within 2h (a stop at contact, a
 !> curve's point, an absolute value). A neighbouring design is the complete design of x ± h: realised, balanced, mounted. Its
-!> swept values are the swept values of the same state of the path. An undefined derivative is not a number: at a state that was
+!> swept values are the swept values of the same state of the path. An undefined derivative is NaN: at a state that was
 !> not reached or has a singular tangent, for a number that cannot move, for a column without a value at the state.
 module ek_derivatives
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
@@ -80,7 +80,7 @@ contains
       allocate (self%can_move(size(directions)), source=.true.)
    end subroutine begin_derivatives
 
-   !> Rejects a case without derivatives: each state must be an equilibrium under inputs that belong to its swept value.
+   !> Rejects a case without derivatives. Each state must be an equilibrium under inputs that follow from its swept value.
    subroutine refuse_case(case, error)
       type(case_t), intent(in) :: case
       type(error_t), allocatable, intent(out) :: error     !! exit_usage
@@ -94,7 +94,7 @@ contains
       end if
    end subroutine refuse_case
 
-   !> Computes derivatives at states of the path that the workspace has found for the case. No text is made.
+   !> Computes the derivatives at states of the path that the workspace has found for the case. No string is created.
    subroutine find_derivatives(workspace, states, self)
       type(workspace_t), intent(inout) :: workspace       !! the case is solved at its present numbers; its work space is used
       integer, intent(in) :: states(:)
@@ -168,13 +168,13 @@ contains
       end if
    end subroutine derive
 
-   !> Whether a solution for each column costs less than one for each number.
+   !> Whether one solution per column costs less than one solution per number.
    pure logical function is_adjoint(self)
       type(derivatives_t), intent(in) :: self
       is_adjoint = size(self%columns) > 0 .and. 3*size(self%columns) <= size(self%directions) .and. reads_states(self%observer)
    end function is_adjoint
 
-   !> Computes derivatives by the motions of the states.
+   !> Computes the derivatives from the motions of the states, with one solution per number.
    subroutine derive_by_numbers(x, result, first, last, inputs, changes, values, kept, points, self)
       real(wp), intent(in) :: x(:)                         !! numbers of the design
       type(case_result_t), intent(inout) :: result
@@ -208,7 +208,7 @@ contains
       end do
    end subroutine derive_by_numbers
 
-   !> Computes derivatives by the gradients of the columns: the adjoint way.
+   !> Computes the derivatives from the gradients of the columns, with one solution per column (adjoint method).
    !> Equation (E.9) of docs/theory/derivatives.md.
    subroutine derive_by_columns(x, result, first, last, inputs, changes, values, kept, points, self)
       real(wp), intent(in) :: x(:)                         !! numbers of the design
@@ -293,8 +293,8 @@ contains
       end do
    end subroutine add_forces
 
-   !> Adds difference quotients of the columns along the motions of the states, or at states that do not move, from the first
-   !> stencil whose points are all designs.
+   !> Adds difference quotients of the columns along the motions of the states, or at states that do not move. The first stencil
+   !> whose points are all valid designs is used.
    !> Equation (E.2) of docs/theory/derivatives.md.
    subroutine add_observations(x, p, result, points, here, values, kept, self, slopes, errors, motions)
       real(wp), intent(in) :: x(:)

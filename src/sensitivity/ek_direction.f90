@@ -37,7 +37,7 @@ module ek_direction
 
 contains
 
-   !> Lists all numbers that a deck gives. Those that cannot move (y of a point in the plane of &mirror) are omitted.
+   !> Lists all numbers that a deck gives. Numbers that cannot be varied (y of a point in the plane of &mirror) are omitted.
    subroutine all_directions(design, directions)
       type(design_t), intent(in) :: design
       type(direction_t), allocatable, intent(out) :: directions(:)
@@ -47,7 +47,8 @@ contains
       call gather(design, [(choice_t(k, design%parameters%list(k)%sign), k=1, used)], directions, .true.)
    end subroutine all_directions
 
-   !> Finds the directions of paths, in their order, each once; a path with * or of a list (bushing.a.kt) leads to several.
+   !> Finds the directions of paths, in the order of the paths, each once. A path with * or to a list (bushing.a.kt) leads to
+   !> several directions.
    subroutine find_directions(design, deck, paths, directions, error)
       type(design_t), intent(in) :: design
       type(deck_t), intent(in) :: deck                     !! of the design
@@ -82,8 +83,8 @@ contains
       end do
    end function is_listed
 
-   !> Gathers one direction for each number found; the number of the right side joins the direction of the left number if both
-   !> were found.
+   !> Creates one direction for each number found. The number of the right side joins the direction of the left number if both were
+   !> found.
    subroutine gather(design, found, directions, is_free_choice)
       type(design_t), intent(in) :: design
       type(choice_t), intent(in) :: found(:)
@@ -111,8 +112,8 @@ contains
       end associate
    end subroutine gather
 
-   !> The direction of a factor of a study: all its numbers move together. A direction contains only the sign of the change. The
-   !> value of the factor is not set.
+   !> The direction of a factor of a study, in which all numbers of the factor move together. A direction contains only the sign of
+   !> the change, not the value of the factor.
    function factor_direction(design, name, paths) result(direction)
       type(design_t), intent(in) :: design
       character(*), intent(in) :: name
@@ -145,7 +146,7 @@ contains
       end associate
    end function factor_direction
 
-   !> The step of differences for a number [SI].
+   !> The step of difference quotients for a number [SI].
    real(wp) function step_of(design, number) result(step)
       type(design_t), intent(in) :: design
       integer, intent(in) :: number
@@ -172,7 +173,7 @@ contains
       end if
    end function step_of
 
-   !> Why a path leads to no number that can be varied.
+   !> The reason why a path leads to no number that can be varied.
    function fault_of(design, deck, path, found) result(text)
       type(design_t), intent(in) :: design
       type(deck_t), intent(in) :: deck
@@ -204,7 +205,7 @@ contains
       end if
    end function fault_of
 
-   !> Moves all numbers of a direction.
+   !> Moves all numbers of a direction by a distance.
    pure subroutine move_along(direction, distance, x)
       type(direction_t), intent(in) :: direction
       real(wp), intent(in) :: distance                     !! in its unit

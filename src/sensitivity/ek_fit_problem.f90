@@ -1,4 +1,4 @@
-!> A fit against its deck: its factors as directions with bounds and priors, its targets as wanted numbers, one per point.
+!> A fit against its deck: the factors as directions with bounds and priors, and the targets as requested numbers, one per point.
 module ek_fit_problem
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
@@ -24,15 +24,15 @@ module ek_fit_problem
       type(direction_t) :: direction
       real(wp) :: start = 0.0_wp                           !! in the deck, in the unit of the direction
       real(wp) :: lower = -huge(1.0_wp), upper = huge(1.0_wp)
-      real(wp) :: nominal = 0.0_wp, deviation              !! of the prior; deviation is not a number without one
+      real(wp) :: nominal = 0.0_wp, deviation              !! of the prior; deviation is NaN without one
       real(wp) :: scale = 1.0_wp                           !! a change that counts as large
       logical :: is_positive = .false.                     !! a rate, a mass, a multiple: known only if known to be above zero
    end type fit_variable_t
 
-   !> One number that is fitted.
+   !> One result that is fitted to a target value.
    type :: fit_point_t
       integer :: target = 0
-      real(wp) :: value, low, high                         !! wanted; not a number: not given
+      real(wp) :: value, low, high                         !! wanted; NaN: not given
       real(wp) :: deviation = 1.0_wp                       !! by which the difference is divided: standard deviation over weight
    end type fit_point_t
 
@@ -47,7 +47,7 @@ module ek_fit_problem
 
 contains
 
-   !> Checks a fit against its deck; reports all errors. Nothing is solved.
+   !> Checks a fit against its deck and reports all errors. No case is solved.
    subroutine make_problem(fit, home, deck, workspace, problem, error)
       type(fit_t), intent(in) :: fit
       character(*), intent(in) :: home                     !! folder of the fit, with its slash
@@ -69,7 +69,7 @@ contains
       if (mistakes%count() > 0) call fail(error, exit_deck, mistakes%text())
    end subroutine make_problem
 
-   !> Adds a factor, or with each = .true. as many as its paths lead to numbers.
+   !> Adds a factor; with each = .true., adds one factor for each number to which its paths lead.
    subroutine add_factor(factor, deck, workspace, variables, mistakes)
       type(fit_factor_t), intent(in) :: factor
       type(deck_t), intent(in) :: deck
@@ -111,7 +111,7 @@ contains
 
    contains
 
-      !> Sets bounds and prior of the factor, which is then complete.
+      !> Sets the bounds and the prior of the factor, which is then complete.
       subroutine finish()
          this%start = this%direction%value
          this%lower = -huge(1.0_wp)
@@ -155,7 +155,8 @@ contains
       call join(factor, weight, number, direction)
    end function first_member
 
-   !> Adds a number that moves with the others of a factor. A weight is a factor of its sign: all that a direction needs.
+   !> Adds a number that moves together with the other numbers of a factor. Its weight is the sign relative to the factor, which is
+   !> all that a direction needs.
    subroutine join(factor, weight, number, direction)
       type(fit_factor_t), intent(in) :: factor
       real(wp), intent(in) :: weight
@@ -236,7 +237,7 @@ contains
       end associate
    end subroutine add_target
 
-   !> Adds the points of a target that is a curve: one for each row of its file with a number.
+   !> Adds the points of a target that is a curve: one point for each row of its file that contains a value.
    subroutine add_curve(this, head, home, first, model, problem, mistakes)
       type(fit_target_t), intent(in) :: this
       character(*), intent(in) :: head              !! of messages
@@ -288,7 +289,7 @@ contains
 
    contains
 
-      !> The value of a column in the row of the curve; not given without the column.
+      !> The value of a column in the current row of the curve; NaN if the file does not have the column.
       real(wp) function cell(place)
          integer, intent(in) :: place
          cell = not_given()

@@ -18,7 +18,7 @@ module ek_fit_reader
 
 contains
 
-   !> Reads a fit; all its errors are reported in one error.
+   !> Reads a fit file; all its errors are reported in one error.
    subroutine read_fit(path, fit, error)
       character(*), intent(in) :: path
       type(fit_t), intent(out) :: fit
@@ -62,7 +62,7 @@ contains
       if (reading%deck_errors%count() > 0) call fail(error, exit_deck, reading%deck_errors%text())
    end subroutine read_fit
 
-   !> Checks that a name can name a column or files, and is unique in its group.
+   !> Checks that a name is legal for columns and files, and unique in its group.
    subroutine check_name(reading)
       type(deck_reading_t), intent(inout) :: reading
       integer :: j

@@ -27,7 +27,7 @@ module ek_fit_solver
 
 contains
 
-   !> Solves a fit; the workspace then contains the design found. Creates strings.
+   !> Solves a fit. The workspace then contains the design found. Creates strings.
    subroutine solve_fit(problem, iterations, workspace, found, error)
       type(fit_problem_t), intent(in) :: problem
       integer, intent(in) :: iterations                    !! at most
@@ -82,7 +82,8 @@ contains
       found%ended = search%ended
    end subroutine solve_fit
 
-   !> Computes all differences with their derivatives. Differences of priors are at the end; without a prior they are zero.
+   !> Computes all differences and their derivatives. The differences of priors are at the end; the difference of a factor without a
+   !> prior is zero.
    !> Equation (E.5) of docs/theory/derivatives.md.
    subroutine find_residuals(problem, x, values, r, jacobian)
       type(fit_problem_t), intent(in) :: problem
@@ -121,7 +122,7 @@ contains
       difference = difference/point%deviation
    end function difference_of
 
-   !> Whether a point pulls at the fit: it has a value, or its limit is exceeded.
+   !> Whether a point contributes to the fit: its target is a value, or its limit is exceeded.
    pure logical function is_at_work(point, value)
       type(fit_point_t), intent(in) :: point
       real(wp), intent(in) :: value

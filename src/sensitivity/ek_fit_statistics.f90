@@ -107,7 +107,7 @@ contains
 
    contains
 
-      !> Half of the 95 % interval, in the unit of the factor.
+      !> Half width of the 95 % interval, in the unit of the factor.
       pure real(wp) function half(variance, width)
          real(wp), intent(in) :: variance, width
          half = variance
@@ -116,7 +116,7 @@ contains
 
    end subroutine find_statistics
 
-   !> Computes (AᵀA)⁻¹ from the singular values of A; infinite for an unknown that is part of the null space.
+   !> Computes (AᵀA)⁻¹ from the singular values of A. An entry is infinite for an unknown that is part of the null space.
    subroutine covariance_of(parts, covariance)
       type(singular_values_t), intent(in) :: parts
       real(wp), allocatable, intent(out) :: covariance(:, :)

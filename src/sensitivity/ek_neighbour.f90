@@ -1,4 +1,5 @@
-!> The neighbouring designs of a design, on the rig of a case: realised, balanced and mounted like any other, one after the other.
+!> The neighbouring designs of a design, on the rig of a case. Each is realised, balanced and mounted like any other design, one
+!> after the other.
 module ek_neighbour
    use ek_kinds, only: wp
    use ek_case, only: case_t
@@ -18,7 +19,7 @@ module ek_neighbour
 
    real(wp), parameter :: balance_tolerance = 1.0e-13_wp      !! m: balance 'spring' iterates; its error is divided by a step
 
-   !> A design close to another one.
+   !> A design close to a given design.
    type :: neighbour_t
       integer :: case = 0                                  !! number of the case in the workspace
       class(workspace_t), allocatable :: workspace         !! the deck at the numbers of the neighbour; a class as in case_work_t
@@ -36,7 +37,7 @@ module ek_neighbour
 
 contains
 
-   !> Prepares the neighbours of a design. Creates strings.
+   !> Prepares the neighbouring designs of a design. Creates strings.
    subroutine begin_neighbour(workspace, k, self)
       type(workspace_t), intent(in) :: workspace          !! the case was solved at its present numbers
       integer, intent(in) :: k                             !! the case
@@ -50,7 +51,7 @@ contains
       self%x = workspace%x
    end subroutine begin_neighbour
 
-   !> Stores the present design: numbers that do not change in the neighbours are then equal to the bit.
+   !> Copies the present design to the neighbour, so that numbers that do not change in the neighbour are equal to the bit.
    subroutine follow_design(workspace, self)
       type(workspace_t), intent(in) :: workspace
       type(neighbour_t), intent(inout) :: self
@@ -75,8 +76,8 @@ contains
       end do
    end subroutine keep_choices
 
-   !> Whether the bushing axes of two neighbouring designs are close: where a deck gives one axis, the same free choice gives the
-   !> other; where the choice changes, a rate or a column has no derivative.
+   !> Whether the bushing axes of two neighbouring designs are close. If a deck gives one axis, the other axis is chosen. If this
+   !> choice changes between the designs, rates and columns have no derivative.
    pure logical function has_same_axes(a, b)
       type(suspension_t), intent(in) :: a, b
       real(wp), parameter :: close = 0.1_wp
@@ -133,7 +134,7 @@ contains
       end do
    end subroutine learn_number
 
-   !> Finds the change from the points of a stencil. can_move is .false. if a point is not a valid design.
+   !> Finds the change of the parts from the points of a stencil. can_move is .false. if a point is not a valid design.
    subroutine visit_neighbours(x, direction, stencil, result, points, here, self, draft, change, can_move)
       real(wp), intent(in) :: x(:)
       type(direction_t), intent(in) :: direction
@@ -159,7 +160,7 @@ contains
       call finish_draft(direction%step, draft, change)
    end subroutine visit_neighbours
 
-   !> Adds the share of a neighbour in the derivatives of the inputs.
+   !> Adds the contribution of a neighbour to the derivatives of the inputs.
    subroutine add_rates(points, here, there, weight, rates)
       type(point_t), intent(in) :: points(:)
       type(inputs_t), intent(in) :: here(:), there(:)      !! of each state, the same loads and rows
@@ -181,7 +182,7 @@ contains
       end do
    end subroutine add_rates
 
-   !> Puts the neighbour on the rig with a number changed, with the inputs of the states.
+   !> Puts the neighbour with a changed number on the rig, with the inputs of the states.
    subroutine go_to(x, direction, steps, result, points, self, inputs, has_inputs, is_done)
       real(wp), intent(in) :: x(:)
       type(direction_t), intent(in) :: direction

@@ -70,7 +70,7 @@ module ek_part_change
       logical :: has_curves = .false.                    !! a law that is not linear changes: F may have a corner
    end type change_t
 
-   !> The changes of all parts, like change_t, while the neighbours are visited.
+   !> The changes of all parts, like change_t, as collected while the neighbours are visited.
    type :: draft_t
       type(term_change_t), allocatable, private :: terms(:)
       type(row_change_t), allocatable, private :: rows(:)
@@ -81,7 +81,7 @@ module ek_part_change
 
 contains
 
-   !> Begins with a number that changes nothing.
+   !> Begins the change of a number with no affected parts.
    subroutine begin_draft(suspension, stencil, step, draft, change)
       type(suspension_t), intent(in) :: suspension
       type(stencil_t), intent(in) :: stencil
@@ -139,7 +139,7 @@ contains
       end do
    end subroutine learn_neighbour
 
-   !> Stores the parts that the number touches.
+   !> Stores the parts that the number affects.
    subroutine finish_draft(step, draft, change)
       real(wp), intent(in) :: step
       type(draft_t), intent(inout) :: draft
@@ -165,7 +165,7 @@ contains
          sum([(sum(abs(change%elements(k)%load)), k=1, used)]))
    end subroutine finish_draft
 
-   !> Gives the laws of the neighbours their preloads.
+   !> Sets the preloads of the laws of the neighbours.
    pure subroutine put_held(change)
       type(element_change_t), intent(inout) :: change
       integer :: k
@@ -185,7 +185,7 @@ contains
       end do
    end subroutine put_held
 
-   !> Marks the parts that the number touches and whose response it needs.
+   !> Marks the parts that the number affects and whose response is needed.
    pure subroutine mark_parts(change, terms, elements)
       type(change_t), intent(in) :: change
       logical, intent(inout) :: terms(:), elements(:)
@@ -194,7 +194,7 @@ contains
       elements(change%elements%element) = .true.
    end subroutine mark_parts
 
-   !> Whether two wheels have the same numbers that define their attitude.
+   !> Whether two wheels have equal data for their attitude.
    elemental logical function same_wheel(a, b)
       type(wheel_t), intent(in) :: a, b
       same_wheel = .not. (any(abs(a%centre - b%centre) > 0.0_wp) .or. any(abs(a%contact - b%contact) > 0.0_wp) .or. &
@@ -250,7 +250,7 @@ contains
       end if
    end subroutine learn_measure
 
-   !> Learns the change of an element of one measure.
+   !> Adds the weighted change of an element with one measure between two designs.
    pure subroutine learn_spring(here, there, number, k, all, change, bends)
       type(element_t), intent(in) :: here, there
       integer, intent(in) :: number, k
@@ -314,7 +314,7 @@ contains
       change%is_touched = .true.
    end subroutine learn_bushing
 
-   !> Stores the law of a neighbour, with the markers of the design.
+   !> Stores the law of a neighbour with the markers of the design.
    pure subroutine keep_neighbour(here, there, k, laws)
       type(element_t), intent(in) :: here, there
       integer, intent(in) :: k
@@ -380,7 +380,7 @@ contains
          abs(a%end_value - b%end_value) > 0.0_wp .or. abs(a%end_slope - b%end_slope) > 0.0_wp)
    end function same_curve
 
-   !> Whether the axes, to rounding, and the rates and curves of two bushings with curves are equal.
+   !> Whether two bushings with curves have equal rates, equal curves, and equal axes to rounding.
    pure logical function same_components(a, b)
       type(element_t), intent(in) :: a, b
       integer :: c

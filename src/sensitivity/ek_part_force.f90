@@ -1,8 +1,8 @@
-!> ∂F/∂p at a state: the changes of the parts that a number of the deck affects, times their responses at the state.
+!> ∂F/∂p at a state: the changes of the parts that a number of the deck affects, times the responses of these parts at the state.
 !>
-!> So ∂F/∂p costs in proportion to the number of affected parts, and no digits are lost in differences of large forces. Only a law
-!> that is not linear in its numbers (a curve, a rounded contact) is looked up in each of the neighbouring designs, at the
-!> deflection of the state.
+!> The cost of ∂F/∂p is thus proportional to the number of affected parts, and no digits are lost in differences of large forces.
+!> Only a law that is not linear in its numbers (a curve, a rounded contact) is evaluated in each of the neighbouring designs, at
+!> the deflection of the state.
 module ek_part_force
    use ek_kinds, only: wp
    use ek_block, only: rotated, add_gradient
@@ -20,7 +20,7 @@ module ek_part_force
    private
    public :: part_forces_t, choose_parts, find_responses, add_force
 
-   !> The parts of a model that some numbers touch, and their responses at a state.
+   !> The parts of a model that some numbers affect, and their responses at a state.
    type :: part_forces_t
       logical, allocatable, private :: has_term(:), has_element(:)
       type(response_t), allocatable, private :: terms(:), elements(:)
@@ -28,7 +28,7 @@ module ek_part_force
 
 contains
 
-   !> Chooses the parts that any of the numbers touches.
+   !> Chooses the parts that any of the numbers affects.
    subroutine choose_parts(suspension, changes, self)
       type(suspension_t), intent(in) :: suspension
       type(change_t), intent(in) :: changes(:)
@@ -211,7 +211,7 @@ contains
       end associate
    end subroutine add_load
 
-   !> Adds the rates of inputs that change.
+   !> Adds the effect of inputs that change with the number to ∂F/∂p.
    pure subroutine add_rates(suspension, state, rates, nq, force)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state

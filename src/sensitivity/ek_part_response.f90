@@ -20,7 +20,7 @@ module ek_part_response
    private
    public :: response_t, respond_element, respond_measure, turn_directions
 
-   !> A part at one pair of poses.
+   !> The response of a part at one pair of poses.
    type :: response_t
       real(wp) :: value = 0.0_wp               !! of the measure [m, rad, -]
       real(wp) :: tension = 0.0_wp, slope = 0.0_wp     !! of an element of one measure
@@ -101,7 +101,7 @@ contains
       end do
    end subroutine respond_measure
 
-   !> Computes ∂g by the arms, from the tangent.
+   !> Computes the derivatives of g with respect to the arms of both markers, from the tangent.
    !> Equation (E.7) of docs/theory/derivatives.md.
    pure subroutine move_markers(blocks, pose_i, pose_j, response)
       real(wp), intent(in) :: blocks(6, 6, 3)            !! diagonal blocks of i and j, lower triangle; rows of j, columns of i

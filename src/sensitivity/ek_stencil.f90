@@ -47,14 +47,14 @@ contains
       if (sees_corners(stencil)) weight = corner_weights(k)
    end function corner_weight
 
-   !> Whether a stencil has points on both sides.
+   !> Whether a stencil has points on both sides of the middle, so that it detects corners.
    pure logical function sees_corners(stencil)
       type(stencil_t), intent(in) :: stencil
       sees_corners = stencil%at(1)*stencil%at(4) < 0.0_wp
    end function sees_corners
 
-   !> Computes the derivatives of many functions, and limits of their errors: where a function is straight but for one corner
-   !> within the points, the error is never larger, wherever the corner is.
+   !> Computes the derivatives of many functions, and limits of their errors. If a function is straight except for one corner within
+   !> the points, the error never exceeds the limit, wherever the corner is.
    !> Equation (E.2) of docs/theory/derivatives.md.
    pure subroutine differentiate(stencil, h, here, y, slope, error)
       type(stencil_t), intent(in) :: stencil
@@ -70,8 +70,9 @@ contains
       end do
    end subroutine differentiate
 
-   !> Computes the derivative of one function, and both parts of its error with their signs: the difference of both quotients,
-   !> and a corner. Equation (E.2) of docs/theory/derivatives.md.
+   !> Computes the derivative of one function, and both parts of its error with their signs: the difference of the two quotients,
+   !> and the effect of a corner.
+   !> Equation (E.2) of docs/theory/derivatives.md.
    pure subroutine find_quotients(stencil, h, here, y, slope, gap, corner)
       type(stencil_t), intent(in) :: stencil
       real(wp), intent(in) :: h                            !! step

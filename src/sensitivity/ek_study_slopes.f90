@@ -99,7 +99,7 @@ contains
       call place_curves(study, self)
    end subroutine begin_study_slopes
 
-   !> Lists the curves among the columns that are derived, and their states.
+   !> Finds the columns of the curves among the differentiated columns, and their states.
    subroutine place_curves(study, self)
       type(study_t), intent(in) :: study
       type(study_slopes_t), intent(inout) :: self
@@ -115,8 +115,8 @@ contains
       allocate (self%slopes(size(self%values), size(self%directions)))
    end subroutine place_curves
 
-   !> Computes values and derivatives at a design. is_valid is .false. where the design has a defect, a number of the deck is
-   !> outside its range, or a state was not found. No text is made.
+   !> Computes values and derivatives at a design. is_valid is .false. if the design has a defect, if a number of the deck is
+   !> outside its range, or if a state did not converge. No string is created.
    subroutine find_study_slopes(values, self, is_valid)
       real(wp), intent(in) :: values(:)                      !! of the factors
       type(study_slopes_t), intent(inout) :: self
@@ -154,7 +154,7 @@ contains
       if (is_valid) is_valid = all(ieee_is_finite(self%slopes(:self%responses, :)))
    end subroutine find_study_slopes
 
-   !> Reads the responses from the tables of the design or from the moved ones.
+   !> Reads the responses from the tables of the design, or from the moved tables.
    subroutine read_values(is_moved, self, values)
       logical, intent(in) :: is_moved
       type(study_slopes_t), intent(in) :: self

@@ -33,7 +33,7 @@ module ek_tolerance
 
 contains
 
-   !> Expands all responses and curves of a study. Texts are made.
+   !> Expands all responses and curves of a study. Creates strings.
    !>
    !> Equation (D.14) of docs/theory/sampling.md.
    subroutine find_tolerance(study, deck, designer, tolerance, error)
@@ -100,7 +100,7 @@ contains
 
    contains
 
-      !> Computes the slopes in standard form where factor f is u standard deviations from the centre.
+      !> Computes the slopes in standard form at the design whose factor f is u standard deviations from the centre.
       subroutine find_beside(u, standard)
          real(wp), intent(in) :: u
          real(wp), allocatable, intent(out) :: standard(:, :)      !! (value, factor)

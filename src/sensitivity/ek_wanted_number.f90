@@ -1,5 +1,5 @@
-!> A number of the results that is wanted: a column of a case at a swept value, an entry of its compliance matrix, or a key number
-!> of the report. Its definition, the cases it needs, and the way its value is read from their tables.
+!> A requested number of the results: a column of a case at a swept value, an entry of its compliance matrix, or a key number of the
+!> report. This module has its definition, the cases that it needs, and the way in which its value is read from their tables.
 module ek_wanted_number
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
@@ -39,7 +39,8 @@ module ek_wanted_number
 
 contains
 
-   !> Finds a column, an entry of the compliance matrix, or a key number, in this order.
+   !> Finds a requested number by its name: first among the columns, then among the entries of the compliance matrix, then among the
+   !> key numbers.
    subroutine find_wanted(workspace, k, name, at, wanted, error)
       type(workspace_t), intent(in) :: workspace
       integer, intent(in) :: k                             !! the case of a column
@@ -60,7 +61,7 @@ contains
          ', no entry of its compliance matrix and no key number'//hint)
    end subroutine find_wanted
 
-   !> Finds a column of a case, at a value of another one; wanted%case is 0 if the case has no such quantity.
+   !> Finds a column of a case, to be read at a value of another column. wanted%case is 0 if the case has no such quantity.
    subroutine find_column(workspace, k, name, over, at, wanted, heads)
       type(workspace_t), intent(in) :: workspace
       integer, intent(in) :: k                             !! the case
@@ -124,7 +125,7 @@ contains
       type(wanted_number_t), intent(in) :: wanted
       integer, intent(in) :: source                        !! of a key number that is read
       type(table_t), intent(in) :: table                   !! of its case
-      real(wp), intent(inout) :: value                     !! of the sources before; not a number before the first
+      real(wp), intent(inout) :: value                     !! of the sources before; NaN before the first
       real(wp) :: both(2)
       logical :: is_final
 
@@ -137,9 +138,9 @@ contains
       end if
    end subroutine read_number
 
-   !> Column y where column x has a given value: at a state with this value, otherwise on the cubic curve through the two states on
-   !> either side (a straight line next to an end). If x has the value several times, the point nearest to design is used. Not a
-   !> number outside the range of x.
+   !> Value of column y where column x has a given value. At a state with this value it is the value of the state; otherwise it is
+   !> on the cubic curve through the two states on either side (a straight line next to an end). If x has the value several times,
+   !> the point nearest to design is used. NaN outside the range of x.
    function value_at(table, x, y, at) result(value)
       type(table_t), intent(in) :: table
       integer, intent(in) :: x, y                          !! indices of the columns
@@ -177,8 +178,8 @@ contains
       end if
    end function value_at
 
-   !> The value at `at` of the polynomial through the given points (Lagrange). At a point, its y with the same bits; if two points
-   !> have the same x, the y of the first.
+   !> The value at `at` of the polynomial through the given points (Lagrange). At a point, it equals y of the point to the bit. If
+   !> two points have equal x, y of the first is used.
    pure real(wp) function polynomial(x, y, at) result(value)
       real(wp), intent(in) :: x(:), y(:), at
       real(wp) :: weight

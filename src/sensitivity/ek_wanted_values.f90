@@ -34,7 +34,7 @@ module ek_wanted_values
       logical :: is_used = .false.                           !! a number is read from it
    end type needed_t
 
-   !> Wanted numbers and their values at a design.
+   !> Requested numbers and their values at a design.
    type :: wanted_values_t
       type(wanted_number_t), allocatable :: wanted(:)
       type(direction_t), allocatable :: directions(:)
@@ -49,7 +49,7 @@ module ek_wanted_values
 
 contains
 
-   !> Solves the required cases with the current numbers of the workspace and prepares their derivatives. Creates strings.
+   !> Solves the required cases with the current numbers of the workspace, and prepares their derivatives. Creates strings.
    subroutine begin_values(wanted, directions, workspace, self, error)
       type(wanted_number_t), intent(in) :: wanted(:)
       type(direction_t), intent(in) :: directions(:)
@@ -129,7 +129,7 @@ contains
 
    end subroutine add_need
 
-   !> The number of cases that the numbers need.
+   !> The number of cases that the requested numbers need.
    pure integer function count_cases(wanted) result(many)
       type(wanted_number_t), intent(in) :: wanted(:)
       integer, allocatable :: cases(:)
@@ -144,7 +144,7 @@ contains
       many = size(cases)
    end function count_cases
 
-   !> The index of a case among the needed cases; 0 if it is not needed.
+   !> Index of a case in the list of needed cases; 0 if the case is not needed.
    pure integer function needed_number(case, needed) result(j)
       integer, intent(in) :: case
       type(needed_t), intent(in) :: needed(:)
@@ -155,7 +155,7 @@ contains
       j = 0
    end function needed_number
 
-   !> Finds the case from which a number is read, and solves it. A key number is read in the first test that has a value.
+   !> Finds and solves the case from which a number is read. A key number is read from the first test that has a value of it.
    subroutine settle(wanted, needed, workspace, error)
       type(wanted_number_t), intent(inout) :: wanted
       type(needed_t), intent(inout) :: needed(:)
@@ -192,7 +192,7 @@ contains
       end if
    end subroutine settle
 
-   !> Solves a case for the first time, unless this was done.
+   !> Solves a case for the first time, unless it was already solved.
    subroutine solve_first(this, reach, workspace, error)
       type(needed_t), intent(inout) :: this
       real(wp), intent(in) :: reach                          !! as far as this number needs the path
@@ -215,7 +215,7 @@ contains
       end associate
    end subroutine solve_first
 
-   !> Marks the cases that are used. Cases from which no number is read are not solved again.
+   !> Marks the cases from which a number is read. Other cases are not solved again.
    subroutine mark_used(self)
       type(wanted_values_t), intent(inout) :: self
       integer :: j, k, n
@@ -229,8 +229,8 @@ contains
       end do
    end subroutine mark_used
 
-   !> Computes values and derivatives of a design. is_valid is .false. where a number has no value: the design has a defect, a
-   !> number of the deck is outside its range, or a state that is needed was not found.
+   !> Computes values and derivatives of a design. is_valid is .false. if a number has no value, because the design has a defect, a
+   !> number of the deck is outside its range, or a required state did not converge.
    subroutine find_values(distances, workspace, self, is_valid)
       real(wp), intent(in) :: distances(:)                   !! along the directions, in their units
       type(workspace_t), intent(inout) :: workspace
@@ -288,7 +288,8 @@ contains
       end do
    end subroutine read_values
 
-   !> Computes the Jacobian: all numbers read from the tables moved along each direction. A number that cannot move has no effect.
+   !> Computes the Jacobian: all numbers are read from the tables moved along each direction. A number of the deck that cannot be
+   !> varied has no effect.
    !> Equation (E.3) of docs/theory/derivatives.md.
    subroutine differentiate_values(self)
       type(wanted_values_t), intent(inout) :: self

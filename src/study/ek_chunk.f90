@@ -72,7 +72,7 @@ contains
       allocate (self%reasons(0))
    end subroutine new_chunk
 
-   !> Notes why a design of the chunk failed.
+   !> Records why a design of the chunk failed.
    pure subroutine add_reason(self, design, text)
       type(chunk_t), intent(inout) :: self
       integer, intent(in) :: design               !! in the chunk, from 1
@@ -88,7 +88,7 @@ contains
       call move_alloc(more, self%reasons)
    end subroutine add_reason
 
-   !> Stores the first error that no design has caused: too little memory, or a table that cannot be read any more.
+   !> Stores the first error that was not caused by a design: too little memory, or a table that cannot be read any more.
    subroutine put_error(self, error)
       type(chunk_t), intent(inout) :: self
       type(error_t), intent(in) :: error
@@ -96,7 +96,7 @@ contains
       if (.not. allocated(self%error)) self%error = error
    end subroutine put_error
 
-   !> Why a design failed; '' if it did not.
+   !> The reason why a design failed; '' if the design did not fail.
    pure function reason_of(self, design) result(text)
       type(chunk_t), intent(in) :: self
       integer, intent(in) :: design               !! in the chunk
@@ -162,7 +162,8 @@ contains
 
    end subroutine write_chunk
 
-   !> '1 250 2 5 3 5500 0': first design, designs, factors, responses, columns and rows of the curves, reasons.
+   !> Sizes of a chunk as in '1 250 2 5 3 5500 0': first design, designs, factors, responses, columns and rows of the curves,
+   !> reasons.
    pure function line_of(self) result(text)
       type(chunk_t), intent(in) :: self
       character(:), allocatable :: text
@@ -171,8 +172,8 @@ contains
          str(size(self%responses, 1))//' '//str(size(self%curves, 1))//' '//str(self%rows)//' '//str(size(self%reasons))
    end function line_of
 
-   !> Reads a chunk. is_good is .false. if the file is absent, damaged, of another study, or of other designs: a file that was
-   !> renamed is not the chunk of its name.
+   !> Reads a chunk. is_good is .false. if the file is absent, damaged, from another study, or contains other designs. A renamed
+   !> file contains other designs.
    subroutine read_chunk(path, identity, first, designs, self, is_good)
       character(*), intent(in) :: path, identity
       integer(i8), intent(in) :: first             !! design of the chunk
@@ -232,7 +233,7 @@ contains
 
    contains
 
-      !> Reads the next numbers of the file.
+      !> Reads the next `count` numbers of the file.
       subroutine take(count)
          integer, intent(in) :: count
          numbers = transfer(text(at:at + 8*count - 1), numbers, count)
@@ -241,7 +242,7 @@ contains
 
    end subroutine read_chunk
 
-   !> The BLAS kernel by which a chunk was computed; '' if it is unknown, or there is no such file.
+   !> The BLAS kernel with which a chunk was computed; '' if the kernel is unknown or the file does not exist.
    function kernel_of(path) result(kernel)
       character(*), intent(in) :: path
       character(:), allocatable :: kernel
@@ -258,7 +259,7 @@ contains
       if (status == 0) kernel = trim(lines(3))
    end function kernel_of
 
-   !> The bytes of some numbers.
+   !> The bytes of real numbers as a string.
    pure function bytes_of(numbers) result(text)
       real(wp), intent(in) :: numbers(:)
       character(8*size(numbers)) :: text

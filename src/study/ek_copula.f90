@@ -22,7 +22,7 @@ module ek_copula
 
 contains
 
-   !> Creates the copula of n factors from pairs of factors and their correlations; other pairs are independent.
+   !> Creates the copula of n factors from pairs of factors and their correlations. All other pairs are independent.
    pure subroutine new_copula(n, pairs, correlations, copula, error)
       integer, intent(in) :: n
       integer, intent(in) :: pairs(:, :)          !! (2, m): two different factors each

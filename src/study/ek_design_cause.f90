@@ -1,5 +1,5 @@
-!> Causes of failed designs. While the designs of a chunk are solved, their causes are stored as numbers. Messages are made of them
-!> after the last design, by one thread at a time.
+!> Causes of failed designs. While the designs of a chunk are solved, their causes are stored as numbers. After the last design,
+!> messages are created from these causes, by one thread at a time.
 module ek_design_cause
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use ek_kinds, only: wp
@@ -17,14 +17,14 @@ module ek_design_cause
 
    type :: cause_t
       integer :: design = 0                        !! in the chunk, from 1
-      logical :: is_unread = .false.               !! the design must be read from the text, which gives the cause
+      logical :: is_unread = .false.               !! the design must be read from the deck's strings, which gives the cause
       type(error_t) :: error                       !! a case was not run: the first such case; message not allocated: none
       real(wp), allocatable :: lost(:, :)          !! (side, case): first swept value without an equilibrium; NaN: none
       integer, allocatable :: faults(:)            !! of each response, see read_response
       type(table_t), allocatable :: tables(:)      !! of each case; empty where no response has a fault
    end type cause_t
 
-   !> The causes of a chunk, in the order of its designs.
+   !> The causes of a chunk, in the order of the designs.
    type :: causes_t
       integer :: used = 0
       type(cause_t), allocatable :: list(:)
@@ -32,7 +32,7 @@ module ek_design_cause
 
 contains
 
-   !> Adds a design that must be read from the text.
+   !> Adds a design that must be read from the deck's strings.
    pure subroutine add_unread(design, causes)
       integer, intent(in) :: design
       type(causes_t), intent(inout) :: causes
@@ -59,7 +59,7 @@ contains
       causes%list(causes%used) = cause
    end subroutine add_cause
 
-   !> Finds why a design is incomplete. No text is made if all its cases were run.
+   !> Finds why a design is incomplete. No string is created if all cases of the design were run.
    subroutine find_cause(design, case_of, faults, workspace, cause)
       integer, intent(in) :: design
       integer, intent(in) :: case_of(:), faults(:)         !! of each response

@@ -1,5 +1,5 @@
-!> Data of the deck that a study stores from design to design: the numbers that its factors change, the cases that are solved,
-!> and the responses that are read from them, checked against the design of the deck itself.
+!> Data of the deck that a study stores from design to design: the numbers that the factors change, the cases that are solved, and
+!> the responses. The responses are checked against the design of the deck itself.
 module ek_designer
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t, fail, exit_deck
@@ -40,7 +40,7 @@ module ek_designer
 
 contains
 
-   !> Reads the deck and finds the numbers that the factors change; nothing is solved.
+   !> Reads the deck and finds the numbers that the factors change. No case is solved.
    subroutine begin_designer(study, deck, designer, error)
       type(study_t), intent(in) :: study
       type(deck_t), intent(in) :: deck
@@ -117,7 +117,7 @@ contains
       end do
    end subroutine list_cases
 
-   !> Lists the columns that are computed of a case.
+   !> Lists the columns that are computed for a case.
    subroutine list_columns(study, designer, case)
       type(study_t), intent(in) :: study
       type(designer_t), intent(inout) :: designer
@@ -135,7 +135,7 @@ contains
       designer%options(case)%has_violation = any(wanted == 'constraint_error')
    end subroutine list_columns
 
-   !> Checks that all columns named by the study are in the tables of the first design and that its responses can be read.
+   !> Checks that all columns named by the study are in the tables of the first design, and that all responses can be read.
    subroutine check_columns(study, home, designer, error)
       type(study_t), intent(in) :: study
       character(*), intent(in) :: home
@@ -170,7 +170,7 @@ contains
       if (mistakes%count() > 0) call fail(error, exit_deck, mistakes%text())
    end subroutine check_columns
 
-   !> Checks that no two columns of the table of responses have the same name.
+   !> Checks that no two columns of the table of responses have the same heading.
    subroutine check_heads(study, designer, mistakes)
       type(study_t), intent(in) :: study
       type(designer_t), intent(in) :: designer

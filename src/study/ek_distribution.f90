@@ -1,11 +1,11 @@
 !> Distributions of a factor: uniform, normal, log-normal and triangular, each with optional bounds.
 !>
-!> A distribution is read through its quantile function x = F⁻¹(u), 0 < u < 1. Bounds truncate: values outside are omitted, and
-!> the rest is scaled up to a probability of one (values outside are not moved to the bounds).
+!> A distribution is evaluated through its quantile function x = F⁻¹(u), 0 < u < 1. Bounds truncate the distribution: values outside
+!> are omitted, and the rest is scaled up to a probability of one. Values outside are not moved to the bounds.
 !>
 !> `nominal ± tolerance` (`from_tolerance`): the tolerance is the half-width of a uniform or triangular distribution, and three
-!> standard deviations of a normal or log-normal distribution. 99.73 % of a normal distribution lie within the tolerance. nominal
-!> is the mean, for all kinds. All values are in the unit of the factor.
+!> standard deviations of a normal or log-normal distribution. 99.73 % of a normal distribution lie within the tolerance. The
+!> nominal value is the mean, for all kinds. All values are in the unit of the factor.
 module ek_distribution
    use ek_kinds, only: wp
    use ek_error, only: error_t, fail, exit_deck
@@ -84,7 +84,7 @@ contains
       end select
    end subroutine new_distribution
 
-   !> Creates the distribution of nominal ± tolerance, see the head of the file.
+   !> Creates the distribution of nominal ± tolerance; see the comment at the beginning of this file.
    pure subroutine from_tolerance(kind, nominal, tolerance, distribution, error)
       integer, intent(in) :: kind
       real(wp), intent(in) :: nominal, tolerance       !! tolerance > 0
@@ -105,7 +105,7 @@ contains
       end select
    end subroutine from_tolerance
 
-   !> Leaves out values below `lower` or above `upper`. It is an error if less than 10⁻¹² of the probability remains.
+   !> Truncates a distribution below `lower` and above `upper`. Less than 10⁻¹² of remaining probability is an error.
    pure subroutine truncate(distribution, error, lower, upper)
       type(distribution_t), intent(inout) :: distribution
       type(error_t), allocatable, intent(out) :: error
@@ -132,7 +132,7 @@ contains
          ' leave nothing of the distribution')
    end subroutine truncate
 
-   !> x below which the share u of all values lies; 0 < u < 1.
+   !> The value x below which the share u of all values lies; 0 < u < 1.
    !>
    !> Equation (D.7) of docs/theory/sampling.md.
    pure real(wp) function quantile(distribution, u) result(x)
@@ -162,7 +162,7 @@ contains
       end associate
    end function quantile
 
-   !> quantile(Φ(z)): x of a standard normal number, which correlated factors are made of.
+   !> The value x = quantile(Φ(z)) at a standard normal number z, from which correlated factors are computed.
    pure real(wp) function quantile_of_score(distribution, z) result(x)
       type(distribution_t), intent(in) :: distribution
       real(wp), intent(in) :: z
@@ -176,7 +176,7 @@ contains
       end associate
    end function quantile_of_score
 
-   !> x of a normal or log-normal distribution without bounds at z standard deviations.
+   !> The value x of a normal or log-normal distribution without bounds, z standard deviations above the mean.
    pure real(wp) function of_score(distribution, z) result(x)
       type(distribution_t), intent(in) :: distribution
       real(wp), intent(in) :: z
@@ -185,7 +185,7 @@ contains
       if (distribution%kind == log_normal_kind) x = exp(min(x, 700.0_wp))
    end function of_score
 
-   !> The inverse of `of_score`; ∓`unbounded` at bounds that do not exist.
+   !> The score z at which of_score is x; −`unbounded` or +`unbounded` at a bound that does not exist.
    pure real(wp) function score_of(distribution, x) result(z)
       type(distribution_t), intent(in) :: distribution
       real(wp), intent(in) :: x
@@ -200,7 +200,7 @@ contains
       z = (z - distribution%center)/distribution%deviation
    end function score_of
 
-   !> The share of a triangular distribution, before it is truncated, below x.
+   !> The probability below x of a triangular distribution before truncation.
    pure real(wp) function triangle_probability(distribution, x) result(p)
       type(distribution_t), intent(in) :: distribution
       real(wp), intent(in) :: x
@@ -218,7 +218,7 @@ contains
       end associate
    end function triangle_probability
 
-   !> The mean of a distribution.
+   !> The mean of a distribution, in the unit of the factor.
    pure real(wp) function mean_of(distribution) result(mean)
       type(distribution_t), intent(in) :: distribution
       real(wp) :: deviation
@@ -226,7 +226,7 @@ contains
       call moments(distribution, mean, deviation)
    end function mean_of
 
-   !> The standard deviation of a distribution.
+   !> The standard deviation of a distribution, in the unit of the factor.
    pure real(wp) function deviation_of(distribution) result(deviation)
       type(distribution_t), intent(in) :: distribution
       real(wp) :: mean
@@ -272,7 +272,7 @@ contains
       end associate
    end subroutine moments
 
-   !> z φ(z), zero where there is no bound.
+   !> z φ(z); 0 where there is no bound.
    pure real(wp) function weighted(z)
       real(wp), intent(in) :: z
 
@@ -280,7 +280,8 @@ contains
       if (abs(z) < unbounded) weighted = z*normal_density(z)
    end function weighted
 
-   !> Computes mean and standard deviation of a truncated triangle; the Gauss points are exact for it.
+   !> Computes the mean and the standard deviation of a truncated triangular distribution. The Gauss points are exact for this
+   !> distribution.
    pure subroutine triangle_moments(distribution, mean, deviation)
       type(distribution_t), intent(in) :: distribution
       real(wp), intent(out) :: mean, deviation
@@ -337,14 +338,15 @@ contains
       end associate
    end subroutine integration_points
 
-   !> Whether the points of integration_points are logarithms of x.
+   !> Whether integration_points gives ln x instead of x.
    pure logical function acts_on_logarithm(distribution)
       type(distribution_t), intent(in) :: distribution
       acts_on_logarithm = distribution%kind == log_normal_kind
    end function acts_on_logarithm
 
-   !> Finds the range that grids, tornados and Morris' method explore: the bounds, and on a side without one, three standard
-   !> deviations from the mean (of ln x for a log-normal), so that a normal `nominal ± tolerance` is explored over its tolerance.
+   !> Finds the range that grids, tornados and Morris' method explore: from bound to bound. A missing bound is replaced by three
+   !> standard deviations from the mean (of ln x for a log-normal distribution). A normal `nominal ± tolerance` is thus explored
+   !> over its tolerance.
    pure subroutine ends_of(distribution, low, high)
       type(distribution_t), intent(in) :: distribution
       real(wp), intent(out) :: low, high

@@ -1,4 +1,4 @@
-!> From the factors of a study to numbers of the deck.
+!> Converts factors of a study to numbers of the deck.
 module ek_factor_numbers
    use ek_kinds, only: wp
    use ek_parameter, only: choice_t, parameters_t
@@ -16,9 +16,9 @@ module ek_factor_numbers
 
 contains
 
-   !> Changes to the design with these values of the factors, from the numbers alone, with its cases on the rig. is_done is
-   !> .false. if it must be read from the text: a factor is not a number of the design space, a value is outside its range, or the
-   !> design may have a defect.
+   !> Changes the workspace to the design with these factor values, from the numbers alone, and puts its cases on the rig. is_done
+   !> is .false. if the design must be read from the deck's strings: a factor is not a number of the design space, a value is
+   !> outside its range, or the design may have a defect.
    subroutine change_design(factors, values, workspace, is_done)
       type(factor_paths_t), intent(in) :: factors(:)
       real(wp), intent(in) :: values(:)                    !! in the units of the deck
@@ -39,8 +39,8 @@ contains
       if (is_done) call ready_cases(workspace, is_done)
    end subroutine change_design
 
-   !> Writes a factor into x: as a change relative to the numbers of the deck, or in their place. The right side of an axle
-   !> receives the value with its sign (ek_parameter).
+   !> Writes a factor into x: as a change of the numbers of the deck, or as a replacement. A number on the right side of an axle
+   !> receives the value times its sign (ek_parameter).
    pure subroutine put_factor(factor, value, parameters, x)
       type(factor_paths_t), intent(in) :: factor
       real(wp), intent(in) :: value
@@ -64,7 +64,7 @@ contains
       end do
    end subroutine put_factor
 
-   !> The number of the deck that a factor changes, in the unit of the deck; NaN if there are several that differ.
+   !> The number of the deck that a factor changes, in the unit of the deck; NaN if the factor changes several different numbers.
    pure real(wp) function deck_value(parameters, factor) result(value)
       type(parameters_t), intent(in) :: parameters
       type(factor_paths_t), intent(in) :: factor

@@ -48,9 +48,9 @@ contains
       if (mistakes%count() > 0) call fail(error, exit_deck, mistakes%text())
    end subroutine check_paths
 
-   !> Rejects factors that move a point out of the centre plane of a mirrored deck: every design would be invalid, as a point
-   !> off the plane exists on both sides. A factor that multiplies does not move the point out of the plane; the rows of a list
-   !> may have zeros.
+   !> Rejects factors that move a point out of the centre plane of a mirrored deck. Every such design would be invalid, because a
+   !> point off the plane exists on both sides. Factors that multiply are accepted. Studies of kind list are accepted, because their
+   !> rows may have zeros.
    subroutine check_planes(study, design, paths, error)
       type(study_t), intent(in) :: study
       type(design_t), intent(in) :: design
@@ -80,7 +80,7 @@ contains
       if (mistakes%count() > 0) call fail(error, exit_deck, mistakes%text())
    end subroutine check_planes
 
-   !> Whether a number is y of a point in the centre plane of a mirrored deck that `shared` does not name.
+   !> Whether a number is the y coordinate of a point in the centre plane of a mirrored deck that `shared` does not name.
    pure logical function is_held_in_plane(design, number)
       type(design_t), intent(in) :: design
       integer, intent(in) :: number               !! of the parameter
@@ -102,7 +102,8 @@ contains
       is_held_in_plane = .true.
    end function is_held_in_plane
 
-   !> Finds the numbers of the deck to which the paths of a factor lead; none if one of them is not a number of the design space.
+   !> Finds the numbers of the deck to which the paths of a factor lead. The list is empty if one of them is not a number of the
+   !> design space.
    subroutine find_paths(factor, design, paths)
       type(study_factor_t), intent(in) :: factor
       type(design_t), intent(in) :: design
@@ -123,7 +124,7 @@ contains
       end do
    end subroutine find_paths
 
-   !> The setting of a factor, as written in --set after the path and `=`: 5, +5 or *5.
+   !> The setting of a factor, as written after path= in --set: 5, +5 or *5.
    function setting_of(change, value) result(text)
       integer, intent(in) :: change
       real(wp), intent(in) :: value
@@ -134,7 +135,7 @@ contains
       if (change == by_scale) text = '*'//text
    end function setting_of
 
-   !> 'spring.coil.rate=30 bushing.top_mount.kt(1)=*1.5': the settings that define a design of the deck.
+   !> The settings that define a design of the deck: 'spring.coil.rate=30 bushing.top_mount.kt(1)=*1.5'.
    function label_of(study, values) result(label)
       type(study_t), intent(in) :: study
       real(wp), intent(in) :: values(:)
@@ -150,7 +151,7 @@ contains
       label = label(2:)
    end function label_of
 
-   !> The shortest text of nine or more digits that reads back as the same number: -5, 0.1, 1E-05.
+   !> The shortest string, of nine or more digits, that is read as the same number: -5, 0.1, 1E-05.
    function shortest(value) result(text)
       real(wp), intent(in) :: value
       character(:), allocatable :: text

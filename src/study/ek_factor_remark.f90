@@ -18,8 +18,8 @@ module ek_factor_remark
 
 contains
 
-   !> Adds the remarks on the factors of a study, at most one of each kind for each line of the study, because `each = .true.`
-   !> creates many factors.
+   !> Adds the remarks on the factors of a study. Each kind of remark is given at most once per line of the study, because `each =
+   !> .true.` creates many factors.
    subroutine factor_remarks(study, design, paths, words)
       type(study_t), intent(in) :: study
       type(design_t), intent(in) :: design                 !! of the deck
@@ -51,7 +51,7 @@ contains
       end do
    end subroutine factor_remarks
 
-   !> Finds the points of which a factor moves a coordinate.
+   !> Marks the points of which a factor moves a coordinate.
    subroutine find_moved(design, paths, is_moved)
       type(design_t), intent(in) :: design
       type(factor_paths_t), intent(in) :: paths
@@ -66,7 +66,7 @@ contains
       end do
    end subroutine find_moved
 
-   !> Lists the moved points as "'contact_patch' and 'wheel_centre'"; '' if none moved.
+   !> Lists the moved points of wheels as "'contact_patch' and 'wheel_centre'"; '' if no such point is moved.
    subroutine wheel_points(design, is_moved, list)
       type(design_t), intent(in) :: design
       logical, intent(in) :: is_moved(:)
@@ -99,8 +99,8 @@ contains
       end do
    end function is_of_wheel
 
-   !> Lists moved points, each with a point at the same location that is not moved: "'strut_top', but not 'spring_upper_seat'"; or
-   !> ''.
+   !> Lists moved points that coincide with a point that is not moved: "'strut_top', but not 'spring_upper_seat'"; '' if there are
+   !> none.
    subroutine parted_points(design, is_moved, list)
       type(design_t), intent(in) :: design
       logical, intent(in) :: is_moved(:)
@@ -127,7 +127,7 @@ contains
       if (found > most) list = list//' and '//str(found - most)//' more'
    end subroutine parted_points
 
-   !> Finds the locations of the points whose three coordinates are numbers of the deck.
+   !> Finds the locations of all points whose three coordinates are numbers of the deck.
    subroutine place_points(design, at, is_point)
       type(design_t), intent(in) :: design
       real(wp), intent(out) :: at(:, :)                    !! of each record [m]

@@ -1,7 +1,7 @@
-!> The unit of a factor, which is the unit of the numbers that it changes, in texts ('N/mm') and at the end of a heading
-!> ('n_per_mm').
+!> The unit of a factor, which is the unit of the numbers that the factor changes. It is given as a label ('N/mm') and as the suffix
+!> of a heading ('n_per_mm').
 !>
-!> A parameter contains only the size of its unit in SI; which unit this is follows from its group and key, here in one table.
+!> A parameter contains only the SI value of its unit. The unit itself follows from group and key, by one table in this module.
 module ek_factor_unit
    use ek_kinds, only: wp, millimetre, degree
    use ek_record, only: is_given
@@ -31,7 +31,8 @@ module ek_factor_unit
 
 contains
 
-   !> The unit of a factor: 'N/mm'; '' without one: a multiple of the deck, a share, a number whose unit is not known.
+   !> The unit of a factor, for instance 'N/mm'. It is '' for a multiple of the deck's number, for numbers without a known unit, and
+   !> if the paths have different units.
    function factor_unit(design, paths) result(unit)
       type(design_t), intent(in) :: design
       type(factor_paths_t), intent(in) :: paths
@@ -71,7 +72,7 @@ contains
 
    contains
 
-      !> The unit with the names of the deck.
+      !> The unit of a pattern, with the unit names of the deck.
       function written(pattern) result(text)
          character(*), intent(in) :: pattern
          character(:), allocatable :: text
@@ -94,7 +95,7 @@ contains
 
    end function parameter_unit
 
-   !> A unit as the end of a heading: 'n_per_mm' for 'N/mm', 'nmm_per_deg' for 'N mm/deg', 'm_per_s2' for 'm/s²'.
+   !> A unit as the suffix of a heading: 'n_per_mm' for 'N/mm', 'nmm_per_deg' for 'N mm/deg', 'm_per_s2' for 'm/s²'.
    pure function unit_ending(unit) result(ending)
       character(*), intent(in) :: unit
       character(:), allocatable :: ending

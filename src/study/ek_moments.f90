@@ -33,7 +33,7 @@ module ek_moments
 
 contains
 
-   !> Computes mean, deviations, skewness and shares.
+   !> Computes the mean, deviations, skewness and shares of a response.
    !>
    !> Equation (D.15) of docs/theory/sampling.md. Equation (D.16) of docs/theory/sampling.md.
    pure subroutine find_moments(expansion, factors, moments)
@@ -83,14 +83,14 @@ contains
       moments%interaction = 0.5_wp*sum(b**2)/moments%deviation**2
    end subroutine find_moments
 
-   !> tr b³, of a symmetric matrix.
+   !> Trace of b³ of a symmetric matrix b.
    pure real(wp) function trace_of_cube(b) result(trace)
       real(wp), intent(in) :: b(:, :)
       trace = sum(matmul(b, b)*b)
    end function trace_of_cube
 
-   !> The share of designs between two limits, if the response is nearly normal: the distribution function to the first term of
-   !> Edgeworth's series. Without skewness it is the share of the normal distribution.
+   !> The share of designs between two limits, for a nearly normal response. The distribution function is expanded to the first term
+   !> of Edgeworth's series. Without skewness, the share is the share of the normal distribution.
    !>
    !> Equation (D.17) of docs/theory/sampling.md.
    pure real(wp) function normal_yield(mean, deviation, skewness, lower, upper) result(share)
@@ -101,7 +101,7 @@ contains
 
    contains
 
-      !> The probability of a value below a limit.
+      !> The probability that the response is below a limit.
       pure real(wp) function below(limit)
          real(wp), intent(in) :: limit
          real(wp) :: z
@@ -115,7 +115,7 @@ contains
 
    end function normal_yield
 
-   !> The percentile of a response that is nearly normal, to the first term of the series of Cornish and Fisher.
+   !> The percentile of a nearly normal response, to the first term of the series of Cornish and Fisher.
    !>
    !> Equation (D.17) of docs/theory/sampling.md.
    pure real(wp) function normal_percentile(mean, deviation, skewness, share) result(value)

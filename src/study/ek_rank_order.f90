@@ -23,8 +23,8 @@ module ek_rank_order
 
 contains
 
-   !> Orders the intervals, 0 … n − 1, of the factors that have a correlation; the intervals of the other factors are their
-   !> permutations.
+   !> Orders the intervals, 0 … n − 1, of the factors that have a correlation. The intervals of all other factors follow from their
+   !> permutations alone.
    pure subroutine order_ranks(permutations, copula, tied, designs, intervals, error)
       type(permutation_t), intent(in) :: permutations(:)   !! of the intervals of each factor
       type(copula_t), intent(in) :: copula                 !! of all factors
@@ -57,7 +57,7 @@ contains
       end do
    end subroutine order_ranks
 
-   !> Gives the scores of a sample, which have the mean 0, the correlations of the copula exactly.
+   !> Changes the scores of a sample, which have mean 0, so that they have exactly the correlations of the copula.
    pure subroutine tie(copula, tied, factors, scores)
       type(copula_t), intent(in) :: copula
       integer, intent(in) :: tied(:), factors              !! indices of the factors; number of all factors
@@ -87,7 +87,7 @@ contains
       end do
    end subroutine tie
 
-   !> The least entry of a diagonal.
+   !> The smallest entry on the diagonal of a matrix.
    pure real(wp) function least(root)
       real(wp), intent(in) :: root(:, :)
       integer :: i

@@ -74,7 +74,7 @@ contains
    end subroutine start_ranks
 
 #ifndef EK_MPI
-   !> The reason why this program is not replaced by the program with MPI.
+   !> The reason why this program was not replaced by elastokin-mpi.
    function why_no_mpi() result(text)
       character(:), allocatable :: text
 
@@ -85,8 +85,8 @@ contains
    end function why_no_mpi
 #endif
 
-   !> Finds whether mpirun or srun started this process with MPI, and the number of processes (1 if it is unknown). srun without
-   !> --mpi gives the number of tasks only.
+   !> Finds whether mpirun or srun started this process with MPI, and the number of processes (1 if unknown). From srun without
+   !> --mpi, only the number of tasks is found.
    subroutine look_for_launcher(is_launched, launched)
       logical, intent(out) :: is_launched
       integer, intent(out) :: launched
@@ -109,7 +109,7 @@ contains
       end do
    end subroutine look_for_launcher
 
-   !> Increases a counter and returns its value before; `by` may be 0.
+   !> Increases a counter by `by`, which may be 0. Returns the value before.
    subroutine count_up(ranks, counter, by, before)
       type(ranks_t), intent(inout) :: ranks
       integer, intent(in) :: counter              !! one of *_counter
@@ -126,7 +126,8 @@ contains
       ranks%values(counter) = before + by
    end subroutine count_up
 
-   !> Passes the tickets of others, where the network cannot read the memory of rank 0 by itself. Called now and then.
+   !> Handles accesses of other ranks to the counters, where the network cannot read the memory of rank 0 by itself. Must be called
+   !> from time to time.
    subroutine help_others(ranks)
       type(ranks_t), intent(in) :: ranks
 #ifdef EK_MPI
@@ -139,7 +140,7 @@ contains
 #endif
    end subroutine help_others
 
-   !> Shares the list of rank 0 with all ranks.
+   !> Copies the list of rank 0 to all ranks.
    subroutine share(ranks, list)
       type(ranks_t), intent(in) :: ranks
       integer, allocatable, intent(inout) :: list(:)
@@ -158,7 +159,7 @@ contains
 #endif
    end subroutine share
 
-   !> Gives all ranks the error of the lowest rank that has one.
+   !> Returns on all ranks the error of the lowest rank that has an error.
    subroutine agree(ranks, error)
       type(ranks_t), intent(in) :: ranks
       type(error_t), allocatable, intent(inout) :: error

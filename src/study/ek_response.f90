@@ -26,7 +26,7 @@ module ek_response
 
 contains
 
-   !> Lists the columns from which a response may be read.
+   !> Lists the columns from which a response of this kind may be read.
    subroutine needed_columns(asked, kind, names)
       type(response_t), intent(in) :: asked
       character(*), intent(in) :: kind                          !! of the test of its case, '' for none
@@ -72,7 +72,8 @@ contains
 
    end subroutine needed_columns
 
-   !> Checks a response against the table of the first design; `message` gives the reason if it cannot be read, else ''.
+   !> Checks a response against the table of the first design. `message` gives the reason if the response cannot be read; otherwise
+   !> it is ''.
    subroutine prepare_reading(asked, table, factor_unit, reading, message, heads, home, test)
       type(response_t), intent(in) :: asked
       type(table_t), intent(in) :: table
@@ -117,7 +118,7 @@ contains
       if (message /= '') message = asked%where//': response '//quoted(asked%name)//': '//message
    end subroutine prepare_reading
 
-   !> Prepares the reading of a difference, after the reading of its two responses.
+   !> Prepares a response that is a difference. Its two responses must already be prepared.
    subroutine prepare_difference(asked, first, second, reading, message)
       type(response_t), intent(in) :: asked
       type(reading_t), intent(in) :: first, second
@@ -173,7 +174,8 @@ contains
       end if
    end subroutine find_gradient
 
-   !> The tests that have a gradient: "; this gradient belongs to 'lateral_force': give …"; '' if no test has the gradient.
+   !> Phrase about the tests that have a gradient: "; this gradient belongs to 'lateral_force': give …". It is '' if no test has the
+   !> gradient.
    function of_other_test(quantity) result(words)
       character(*), intent(in) :: quantity
       character(:), allocatable :: words
@@ -190,7 +192,7 @@ contains
       if (words /= '') words = '; this gradient belongs to'//words//': give the case of such a test in `case`'
    end function of_other_test
 
-   !> Reads the curve from which a column deviates: a CSV with the columns `factor` and the column of the response.
+   !> Reads the reference curve of a deviation from a CSV file with the columns `factor` and the column of the response.
    subroutine read_curve(asked, home, curve, message)
       type(response_t), intent(in) :: asked
       character(*), intent(in), optional :: home
@@ -218,7 +220,7 @@ contains
       curve = table%values([x, y], :)
    end subroutine read_curve
 
-   !> Why a response cannot be read.
+   !> The reason why a response cannot be read.
    function fault_text(reading, table, fault) result(text)
       type(reading_t), intent(in) :: reading
       type(table_t), intent(in) :: table
@@ -291,8 +293,8 @@ contains
          str(ceiling(second/unit*(1.0_wp - 1.0e-9_wp))*unit, 3)//' or more in the response'
    end function remedy
 
-   !> The default column over which a slope is taken: the travel of the only wheel; with two wheels, the travel on the side of the
-   !> column, or else of the left wheel.
+   !> The default column over which a slope is taken: the wheel travel. With two wheels it is the travel on the side of the column;
+   !> the left travel if the column has no side.
    pure function usual_over(column, table) result(over)
       character(*), intent(in) :: column
       type(table_t), intent(in) :: table

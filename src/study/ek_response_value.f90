@@ -1,5 +1,6 @@
-!> The value of a response, read from the table of a design: at a factor, a slope, a span, an extreme, the deviation from a given
-!> curve, or a gradient of the report. Every design of a study is read here, with the columns that ek_response found in the first.
+!> The value of a response, read from the table of a design: a value at a factor, a slope, a span, an extreme, the deviation from a
+!> given curve, or a gradient of the report. The responses of every design are read here, from the columns that ek_response found in
+!> the table of the first design.
 module ek_response_value
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan, ieee_is_finite
    use ek_kinds, only: wp
@@ -44,9 +45,10 @@ contains
       if (fault == no_fault .and. .not. ieee_is_finite(value)) fault = is_undefined
    end subroutine read_response
 
-   !> Reads a response of one table: the value at a factor (linear between states), the least-squares slope in a window around
-   !> it, the span or an extreme over all states, or the root of the mean square of the deviations from a curve at its points.
-   !> Where the column is undefined at a state that is read, there is no value: minval and maxval would pass over such a state.
+   !> Reads a response from one table. The kinds are: the value at a factor (linear between states), the least-squares slope in a
+   !> window around the factor, the span or an extreme over all states, or the root mean square of the deviations from a curve at
+   !> its points. The response has no value if the column is undefined at a state that is read. (minval and maxval would ignore such
+   !> a state.)
    subroutine read_value(reading, table, value, fault)
       type(reading_t), intent(in) :: reading
       type(table_t), intent(in) :: table
@@ -117,14 +119,14 @@ contains
       end select
    end subroutine read_value
 
-   !> Whether a response reads its column at every state. A gradient is given all: its columns need no compliance matrix.
+   !> Whether a response reads its column at every state. For a gradient this holds: its columns need no compliance matrix.
    pure logical function reads_all_states(reading)
       type(reading_t), intent(in) :: reading
       reads_all_states = reading%of == a_span .or. reading%of == a_least .or. reading%of == a_most .or. reading%of == a_gradient
    end function reads_all_states
 
-   !> Marks the states at which read_response reads the column of a response: the neighbours of a value, those in the window of a
-   !> slope, the neighbours of each point of a curve, or all.
+   !> Marks the states at which read_response reads the column of a response. These are the neighbours of a value, the states in the
+   !> window of a slope, the neighbours of each point of a curve, or all states.
    pure subroutine mark_states(reading, table, is_read)
       type(reading_t), intent(in) :: reading
       type(table_t), intent(in) :: table         !! swept values, and the column over which a slope is taken
@@ -161,13 +163,13 @@ contains
       if (first > 0) is_read(first:last) = .true.
    end subroutine mark_neighbours
 
-   !> Whether a response is the difference of two others and is read from no table.
+   !> Whether a response is the difference of two other responses. It is then read from no table.
    pure logical function is_difference(reading)
       type(reading_t), intent(in) :: reading
       is_difference = reading%of == a_difference
    end function is_difference
 
-   !> Sums of the least-squares line through some points: its slope is along/spread.
+   !> Computes two sums of the least-squares line through the selected points. The slope of the line is along/spread.
    pure subroutine fit_line(x, y, is_near, along, spread)
       real(wp), contiguous, intent(in) :: x(:), y(:)
       logical, contiguous, intent(in) :: is_near(:)      !! which points
@@ -221,8 +223,8 @@ contains
       end do
    end subroutine find_window
 
-   !> States that may lie in the window of a slope, although the column over which it is taken has no value there: they converged, and
-   !> a state before or after them is in the window.
+   !> Whether each state may lie in the window of a slope although the column over which the slope is taken has no value at the
+   !> state. Such a state has converged, and a state before or after it is in the window.
    pure function unplaced_states(reading, table, over, is_near) result(is_unplaced)
       type(reading_t), intent(in) :: reading
       type(table_t), intent(in) :: table
@@ -242,7 +244,7 @@ contains
       if (converged == 0) is_unplaced = .false.
    end function unplaced_states
 
-   !> A swept value that differs from an end of the range by rounding only is replaced by the end.
+   !> A swept value. A value within rounding of an end of the range of x is replaced by this end.
    pure real(wp) function rounded(at, x)
       real(wp), intent(in) :: at, x(:)
       real(wp) :: low, high
@@ -251,7 +253,7 @@ contains
       rounded = nearest_end(at, low, high)
    end function rounded
 
-   !> Finds the least and the largest of some swept values.
+   !> Finds the smallest and the largest of some swept values.
    pure subroutine find_ends(x, low, high)
       real(wp), intent(in) :: x(:)
       real(wp), intent(out) :: low, high
@@ -265,7 +267,7 @@ contains
       end do
    end subroutine find_ends
 
-   !> The swept value; a value within rounding of an end of the range is replaced by this end.
+   !> A swept value. A value within rounding of `low` or `high` is replaced by this end.
    pure real(wp) function nearest_end(at, low, high) result(rounded)
       real(wp), intent(in) :: at, low, high
       real(wp), parameter :: rounding = 1.0e-9_wp      ! of the range of a case, after conversion to SI
@@ -275,7 +277,7 @@ contains
       if (abs(at - high) <= rounding*(high - low)) rounded = high
    end function nearest_end
 
-   !> The index of a column; `usual`, its index in the table of the first design, is tried first.
+   !> Index of the column with a name. The index `usual`, from the table of the first design, is tried first.
    pure integer function place_of_column(table, name, usual) result(place)
       type(table_t), intent(in) :: table
       character(*), intent(in) :: name
@@ -292,7 +294,7 @@ contains
       place = column_index(table, name)
    end function place_of_column
 
-   !> y at x = at, linear between the rows; NaN outside their range.
+   !> Value of y at x = at, linear between the rows; NaN outside their range.
    pure real(wp) function between(x, y, at)
       real(wp), intent(in) :: x(:), y(:), at
       integer :: k, next

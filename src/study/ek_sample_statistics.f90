@@ -8,7 +8,7 @@ module ek_sample_statistics
 
 contains
 
-   !> Computes mean, and standard deviation with n − 1 (0 for one value), in two passes: s² = Σ (x − x̄)²/(n − 1).
+   !> Computes the mean and the standard deviation in two passes: s² = Σ (x − x̄)²/(n − 1). The deviation is 0 for one value.
    pure subroutine mean_and_deviation(values, mean, deviation)
       real(wp), intent(in) :: values(:)            !! at least one
       real(wp), intent(out) :: mean, deviation
@@ -23,7 +23,7 @@ contains
       deviation = sqrt(deviation/max(1, n - 1))
    end subroutine mean_and_deviation
 
-   !> Standard error of the standard deviation s of a sample of n, by its fourth moment κ s⁴: s √((κ − 1)/4n).
+   !> Standard error of the standard deviation s of a sample of n values: s √((κ − 1)/4n), with the fourth central moment κ s⁴.
    pure real(wp) function error_of_deviation(values) result(error)
       real(wp), intent(in) :: values(:)            !! not all equal
       real(wp) :: mean, deviation
@@ -152,7 +152,7 @@ contains
       if (xx > 0.0_wp .and. yy > 0.0_wp) r = max(-1.0_wp, min(1.0_wp, xy/(sqrt(xx)*sqrt(yy))))
    end function linear_correlation
 
-   !> Spearman's correlation: the linear one of the ranks.
+   !> Spearman's correlation: the linear correlation of the ranks.
    pure real(wp) function rank_correlation(x, y) result(r)
       real(wp), intent(in) :: x(:), y(:)           !! the same number of values
       real(wp), allocatable :: rank_x(:), rank_y(:)

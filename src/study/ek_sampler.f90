@@ -58,7 +58,7 @@ module ek_sampler
 
 contains
 
-   !> Creates a sampler. Every error in the settings of a study is returned as an error (exit_deck).
+   !> Creates a sampler. Every error in the settings of a study is returned (exit_deck).
    pure subroutine new_sampler(settings, factors, sampler, error)
       type(sampler_settings_t), intent(in) :: settings
       type(factor_t), intent(in) :: factors(:)
@@ -136,7 +136,7 @@ contains
       end associate
    end subroutine count_designs
 
-   !> The number of designs of a study: they are numbered from 1 to this.
+   !> The number of designs of a study. Designs are numbered from 1.
    pure integer(i8) function designs_of(sampler) result(designs)
       type(sampler_t), intent(in) :: sampler
 
@@ -158,7 +158,7 @@ contains
       is_kind = sampler%settings%kind == kind
    end function is_kind
 
-   !> Computes the factors of a design. No allocation.
+   !> Computes the factors of a design. Nothing is allocated.
    pure subroutine sample(sampler, design, x)
       type(sampler_t), intent(in) :: sampler
       integer(i8), intent(in) :: design            !! 1 … designs_of
@@ -199,7 +199,7 @@ contains
       end select
    end subroutine sample
 
-   !> Computes the factors of the kinds that begin with numbers u in (0, 1).
+   !> Computes the factors of a design, for the kinds of samplers that start from numbers u in (0, 1).
    pure subroutine sample_at_random(sampler, design, x)
       type(sampler_t), intent(in) :: sampler
       integer(i8), intent(in) :: design
@@ -232,7 +232,7 @@ contains
       call take_quantiles(sampler, x)
    end subroutine sample_at_random
 
-   !> The interval, 0 … n − 1, of a factor of a latin hypercube in a design.
+   !> The interval, 0 … n − 1, in which a factor lies in a design of a latin hypercube.
    pure integer(i8) function interval_of(sampler, j, design) result(i)
       type(sampler_t), intent(in) :: sampler
       integer, intent(in) :: j
@@ -247,7 +247,7 @@ contains
       i = image_of(sampler%permutations(j), design - 1)
    end function interval_of
 
-   !> A point in interval number i of n equal ones of (0, 1), at a fraction of it; rounding never moves it into another interval.
+   !> The point at a fraction of interval i of n equal intervals of (0, 1). Rounding never moves the point into another interval.
    !>
    !> Equation (D.6) of docs/theory/sampling.md.
    pure real(wp) function point_in_interval(i, n, fraction) result(u)
@@ -287,7 +287,8 @@ contains
       end do
    end subroutine take_quantiles
 
-   !> Level i of a factor with some levels: evenly over its range, or from its list (the nearest if the list has another length).
+   !> The value of level i of a factor. Levels are evenly spaced over the range, or taken from the list of values (the nearest entry
+   !> if the list has another length).
    pure real(wp) function level_of(sampler, j, i, levels) result(x)
       type(sampler_t), intent(in) :: sampler
       integer, intent(in) :: j
@@ -303,14 +304,14 @@ contains
       end if
    end function level_of
 
-   !> Whether the correlated factors of a latin hypercube have the order of their ranks.
+   !> Whether the correlated factors of a latin hypercube are ordered by ranks (ek_rank_order).
    pure logical function is_ordered(sampler)
       type(sampler_t), intent(in) :: sampler
       is_ordered = allocated(sampler%intervals)
    end function is_ordered
 
-   !> The factor that alone differs: from the nominal design (one_at_a_time), from the design before (morris), from A (saltelli).
-   !> 0 for the nominal design, the start of a trajectory, A, B, and all designs of the other kinds.
+   !> Index of the only factor that differs: from the nominal design (one_at_a_time), from the previous design (morris), or from A
+   !> (saltelli). 0 for the nominal design, the start of a trajectory, A, B, and all designs of other kinds.
    pure integer function changed_factor(sampler, design) result(factor)
       type(sampler_t), intent(in) :: sampler
       integer(i8), intent(in) :: design

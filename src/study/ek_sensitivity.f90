@@ -1,7 +1,7 @@
 !> Sensitivity of a response to the factors of a study: Sobol indices, Morris' elementary effects, the bars of a tornado.
 !>
 !> `responses` holds one number per design, in the order of the design numbers of the sampler. A design without a response (failed:
-!> not a number or infinite) omits the row, effect or bar that needs it; `used` counts the remaining rows.
+!> NaN or infinite) omits the row, effect or bar that needs it; `used` counts the remaining rows.
 module ek_sensitivity
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan, ieee_is_finite
    use ek_kinds, only: wp, i8
@@ -92,8 +92,9 @@ contains
       end do
    end subroutine sobol_indices
 
-   !> The number of designs per row of a Saltelli design: k + 2 (A, AB₁ … AB_k, B) or 2 k + 2 (A, AB₁ … AB_k, BA₁ … BA_k, B), as
-   !> SALib writes it without and with second order; 0 if the designs are none. AB_i: A with factor i from B; BA_i: B with i from A.
+   !> The number of designs per row of a Saltelli design, as SALib writes it: k + 2 without second order (A, AB₁ … AB_k, B), 2 k + 2
+   !> with second order (A, AB₁ … AB_k, BA₁ … BA_k, B); 0 if the designs are not a Saltelli design. AB_i is A with factor i from B;
+   !> BA_i is B with factor i from A.
    pure integer function saltelli_block(x) result(block)
       real(wp), intent(in) :: x(:, :)                        !! (factor, design)
       integer :: k, k2, r, i
@@ -120,7 +121,7 @@ contains
 
    contains
 
-      !> Whether a point equals `base` except in coordinate i, which equals coordinate i of `other`.
+      !> Whether a point equals `base` except in coordinate i, where the point equals `other`.
       pure logical function is_mixed(point, base, other, i)
          real(wp), intent(in) :: point(:), base(:), other(:)
          integer, intent(in) :: i
@@ -134,7 +135,8 @@ contains
 
    end function saltelli_block
 
-   !> Computes ⟨share⟩/V with V = ⟨a² + b²⟩/2 − ⟨a + b⟩²/4, and its confidence by the jackknife. Unchanged if V = 0.
+   !> Computes the index ⟨share⟩/V with V = ⟨a² + b²⟩/2 − ⟨a + b⟩²/4, and its confidence by the jackknife. Leaves index and error
+   !> unchanged if V = 0.
    !>
    !> Equation (D.11) of docs/theory/sampling.md.
    pure subroutine estimate(a, b, share, index, error)
@@ -171,7 +173,7 @@ contains
 
    end subroutine estimate
 
-   !> V of n rows from Σ(a² + b²) and Σ(a + b).
+   !> The variance V of n rows from Σ(a² + b²) and Σ(a + b).
    pure real(wp) function variance(sums, n)
       real(wp), intent(in) :: sums(3)
       integer, intent(in) :: n
@@ -219,7 +221,7 @@ contains
       end do
    end subroutine morris_effects
 
-   !> Finds the range of the response when each factor changes alone.
+   !> Finds the range of the response for each factor when only this factor changes.
    subroutine tornado(sampler, responses, bars)
       type(sampler_t), intent(in) :: sampler                 !! of kind one_at_a_time
       real(wp), intent(in) :: responses(:)

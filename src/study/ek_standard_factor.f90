@@ -1,5 +1,5 @@
-!> A factor as a number u of mean 0 and standard deviation 1, in which a response is expanded: x = center + scale u, or the
-!> exponential of it. A log-normal factor (a rate) acts by its logarithm.
+!> A factor as a number u of mean 0 and standard deviation 1, in which a response is expanded: x = center + scale u, or x =
+!> exp(center + scale u) for a log-normal factor.
 module ek_standard_factor
    use ek_kinds, only: wp
    use ek_distribution, only: integration_points, acts_on_logarithm, ends_of
@@ -45,7 +45,7 @@ contains
       standard%ends = (ends - standard%center)/standard%scale
    end subroutine new_standard_factor
 
-   !> The value of the factor at u.
+   !> The value x of the factor at u, in the unit of the factor.
    pure real(wp) function value_at(standard, u) result(x)
       type(standard_factor_t), intent(in) :: standard
       real(wp), intent(in) :: u

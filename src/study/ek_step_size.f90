@@ -33,7 +33,7 @@ module ek_step_size
 
 contains
 
-   !> Writes the study as CSV text: column `method`, then the columns listed above, with one row for each method and N. Each row
+   !> Writes the study as CSV: column `method`, then the columns listed above, with one row for each method and N. Each row
    !> is passed to `writer` as soon as it is available.
    subroutine step_size_text(study, deck, text, error, writer)
       type(study_t), intent(in) :: study

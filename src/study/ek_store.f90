@@ -28,7 +28,7 @@ module ek_store
    character(*), parameter :: helper_name = 'elastokin-netcdf', log_name = 'netcdf.log', &
       ended_with = 'it ended with status '         ! without a message
 
-   !> Texts that are written to the store.
+   !> Strings that are written to the store.
    type :: store_texts_t
       character(:), allocatable :: study, deck    !! the files
       character(:), allocatable :: changes        !! --set, one per line
@@ -37,7 +37,7 @@ module ek_store
 
 contains
 
-   !> Stores the texts of study and deck, as they are now; '' for a path that is not a file.
+   !> Stores the contents of the study file and the deck file as they are now; '' for a path that is not a file.
    subroutine keep_texts(study, deck, changes, texts)
       character(*), intent(in) :: study, deck              !! paths
       type(message_list_t), intent(in) :: changes          !! --set
@@ -56,16 +56,16 @@ contains
       name = study%name//'.nc'
    end function store_name
 
-   !> Whether a study stores its results in NetCDF if the helper exists: `format` is 'netcdf', or it is not given and there are
-   !> many designs.
+   !> Whether a study stores its results in NetCDF if the helper program exists: `format` is 'netcdf', or `format` is not given and
+   !> the study has many designs.
    pure logical function wants_store(study, designs)
       type(study_t), intent(in) :: study
       integer, intent(in) :: designs
       wants_store = study%format == 'netcdf' .or. (study%format == '' .and. designs > many_designs)
    end function wants_store
 
-   !> Decides whether the results are written to a store: if the study requests a store, or by default for many designs if the
-   !> helper exists.
+   !> Decides whether the results are written to a store. They are if the study requests a store, or by default for many designs if
+   !> the helper program exists.
    subroutine choose_store(study, plan, is_wanted, error)
       type(study_t), intent(in) :: study
       type(study_plan_t), intent(in) :: plan
@@ -123,7 +123,7 @@ contains
       call remove_file(join_path(parts, description_name))
    end subroutine write_store
 
-   !> Writes the tables of a store as CSV into a folder, with the curves of every n-th design.
+   !> Reads a store and writes its tables as CSV into a folder, with the curves of every n-th design.
    subroutine read_store(study, out, every, folder, error)
       type(study_t), intent(in) :: study
       character(*), intent(in) :: out                      !! folder of the store
@@ -149,7 +149,8 @@ contains
          trouble)
    end subroutine read_store
 
-   !> Runs the helper. HDF5 need not lock a file that no other process uses, and some network disks reject the lock.
+   !> Runs the helper program. HDF5 file locks are switched off: no other process uses the file, and some network disks reject the
+   !> lock.
    subroutine run_helper(arguments, folder, trouble)
       type(message_list_t), intent(in) :: arguments
       character(*), intent(in) :: folder                   !! for its messages
@@ -176,7 +177,7 @@ contains
       if (allocated(full)) trouble = full%message(index(full%message, ': ', back=.true.) + 2:)
    end subroutine run_helper
 
-   !> Describes the study to the helper.
+   !> Creates the description of the study for the helper program.
    subroutine describe(study, plan, texts, counts, store)
       type(study_t), intent(in) :: study
       type(study_plan_t), intent(in) :: plan
@@ -229,7 +230,7 @@ contains
       end do
    end subroutine describe
 
-   !> Begins variable k with its name. A name that is used already, or that a dimension has, gets its role as a suffix.
+   !> Begins variable k with its name. A name that is already used, or that is reserved for a dimension, gets its role as a suffix.
    subroutine begin_variable(store, k, head, role)
       type(store_t), intent(inout) :: store
       integer, intent(in) :: k
@@ -329,7 +330,7 @@ contains
       if (quantity%sign /= '') call variable%attributes%add('comment', trim(quantity%sign))
    end subroutine describe_column
 
-   !> The unit at the end of a name; '1' if it has none.
+   !> The unit at the end of a column name; '1' if the name has no unit.
    function units_of(name) result(text)
       character(*), intent(in) :: name
       character(:), allocatable :: text

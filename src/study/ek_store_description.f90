@@ -1,4 +1,4 @@
-!> The input of the program elastokin-netcdf, which writes the store of a study from its chunks: sizes, names, units, texts.
+!> The input of the program elastokin-netcdf, which writes the store of a study from its chunks: sizes, names, units, strings.
 !>
 !> elastokin writes the description into the folder of the chunks; the file is a list of records, each a line with word, name and
 !> length, then so many characters and a line end. A description of another version is rejected.
@@ -123,7 +123,7 @@ contains
 
    end subroutine write_description
 
-   !> A number as text with all its digits.
+   !> A number as a string with all its digits.
    function exact(value) result(text)
       real(wp), intent(in) :: value
       character(26) :: text
@@ -196,7 +196,7 @@ contains
 
    end subroutine read_description
 
-   !> Reads the first line of a record: 'text units 2'.
+   !> Reads the first line of a record, such as 'text units 2'.
    subroutine next_head(text, at, word, name, length)
       character(*), intent(in) :: text
       integer, intent(inout) :: at                !! first character of the record, then of its content

@@ -80,7 +80,7 @@ module ek_study
 
 contains
 
-   !> A number that the file does not give.
+   !> NaN, which marks a number that the file does not give.
    pure real(wp) function not_given()
       not_given = ieee_value(1.0_wp, ieee_quiet_nan)
    end function not_given
@@ -91,8 +91,8 @@ contains
       is_given = ieee_is_finite(value)
    end function is_given
 
-   !> Sets the range of a factor for the sampler. `usual` is the nominal value of a factor without a given one: the value of the
-   !> deck for an absolute factor (NaN if its paths lead to different numbers), else 0 (delta) or 1 (scale).
+   !> Sets the range of a factor for the sampler. `usual` is the nominal value if the study does not give one: the value of the deck
+   !> for an absolute factor (NaN if its paths lead to different numbers), 0 for delta, 1 for scale.
    subroutine define_factor(given, kind, usual, factor, error)
       type(study_factor_t), intent(in) :: given
       integer, intent(in) :: kind                          !! of the sampler
@@ -139,7 +139,7 @@ contains
 
    contains
 
-      !> Reports an error of the factor.
+      !> Reports an error in the factor.
       subroutine complain(what)
          character(*), intent(in) :: what
          call fail(error, exit_deck, given%where//': factor '//quoted(given%name)//': '//what)

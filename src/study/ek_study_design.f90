@@ -1,9 +1,9 @@
 !> Solves one design of a study: the factors become a model, its cases are solved, and the observations become a row of responses
 !> and the rows of the curves.
 !>
-!> solve_designs computes numbers only. The designs of a chunk that failed, or that must be read from the text, are completed after
-!> the last design, by complete_design, which makes texts and is called by one thread at a time: gfortran stores the length of a text
-!> that a function returns in one location for all threads.
+!> solve_designs computes numbers only. The designs of a chunk that failed, or that must be read from the deck's strings, are
+!> completed after the last design by complete_design. complete_design creates strings and is called by one thread at a time:
+!> gfortran stores the length of a string that a function returns in one location for all threads.
 module ek_study_design
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
@@ -29,7 +29,7 @@ module ek_study_design
 
 contains
 
-   !> Solves some designs of a chunk, at most `lanes`, whose factors the chunk has, and fills their rows.
+   !> Solves at most `lanes` designs of a chunk, whose factors are already in the chunk, and fills their rows.
    subroutine solve_designs(study, designer, first, last, chunk, causes)
       type(study_t), intent(in) :: study
       type(designer_t), intent(inout) :: designer
@@ -66,7 +66,8 @@ contains
       end do
    end subroutine solve_designs
 
-   !> Completes a failed design after the last design of its chunk: reads the design from the text, or explains its failure.
+   !> Completes a failed design after the last design of its chunk: reads the design from the deck's strings, or explains its
+   !> failure.
    subroutine complete_design(study, deck, designer, cause, chunk)
       type(study_t), intent(in) :: study
       type(deck_t), intent(in) :: deck
@@ -81,7 +82,7 @@ contains
       end if
    end subroutine complete_design
 
-   !> Solves the cases of a design whose paths were not walked in a pack, and fills its row.
+   !> Solves the cases of a design that were not solved in a pack, and fills the row of the design.
    subroutine finish_design(study, designer, is_walked, k, workspace, chunk, causes)
       type(study_t), intent(in) :: study
       type(designer_t), intent(in) :: designer
@@ -110,7 +111,7 @@ contains
       call add_cause(cause, causes)
    end subroutine finish_design
 
-   !> Solves a design that is read from the deck with its factors as settings, in a separate workspace.
+   !> Reads a design from the deck with its factors as settings, and solves it in a separate workspace.
    subroutine solve_from_text(study, deck, designer, k, chunk)
       type(study_t), intent(in) :: study
       type(deck_t), intent(in) :: deck
@@ -160,7 +161,7 @@ contains
       call add_reason(chunk, k, cause_text(cause, designer%case_of, designer%readings, workspace))
    end subroutine solve_from_text
 
-   !> Observes the K&C quantities, which the solution does not compute, at the states from which a response is read.
+   !> Computes the K&C quantities, which the solution omits, at the states from which a response is read.
    subroutine complete_tables(designer, workspace)
       type(designer_t), intent(in) :: designer
       type(workspace_t), intent(inout) :: workspace     !! its cases are solved

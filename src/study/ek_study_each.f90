@@ -57,8 +57,8 @@ contains
       call move_alloc(factors, study%factors)
    end subroutine expand_factors
 
-   !> Replaces columns with `*` by the matching columns of the results, except the number of the state, the swept value (it is
-   !> written anyway) and `converged`.
+   !> Replaces columns with `*` by the matching columns of the results. The columns `state`, `factor` (which is always written) and
+   !> `converged` do not match.
    subroutine expand_columns(study, deck, error)
       type(study_t), intent(inout) :: study
       type(deck_t), intent(in) :: deck
@@ -134,7 +134,7 @@ contains
       end do
    end subroutine add_each
 
-   !> A path without its side: 'point.left_ball.z' → 'point.ball.z'.
+   !> A path without its side: 'point.ball.z' for 'point.left_ball.z'.
    pure function without_side(path, name, own) result(text)
       character(*), intent(in) :: path, name, own
       character(:), allocatable :: text
@@ -145,7 +145,8 @@ contains
       if (at > 0) text = path(:at)//own//path(at + len(name) + 1:)
    end function without_side
 
-   !> 'bushing.lca_front.kt(1)' → 'lca_front_kt_1'; with the group in front if another factor has this name.
+   !> Name of the factor of a path: 'lca_front_kt_1' for 'bushing.lca_front.kt(1)'. The group is added in front if another factor
+   !> has this name.
    pure function name_of(path, factors) result(name)
       character(*), intent(in) :: path
       type(study_factor_t), intent(in) :: factors(:)

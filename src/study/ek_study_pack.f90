@@ -18,7 +18,7 @@ module ek_study_pack
    !> gfortran compiles lanes to vector instructions; flang calls its run-time library for lanes
    logical, parameter :: are_lanes_fast = index(compiler_version(), 'GCC') > 0
 
-   !> Work space of a thread.
+   !> Work space of one thread.
    type :: pack_space_t
       ! classes for the reason given at case_work_t
       class(workspace_t), allocatable :: workspaces(:)     !! the designs of a pack but the first, whose workspace the study has
@@ -28,7 +28,7 @@ module ek_study_pack
 
 contains
 
-   !> Prepares packs for the cases of a workspace, whose design was solved.
+   !> Prepares packs for the cases of a workspace, whose design must have been solved.
    subroutine begin_packs(workspace, space)
       type(workspace_t), intent(in) :: workspace
       type(pack_space_t), intent(out) :: space
@@ -44,7 +44,7 @@ contains
       allocate (space%workspaces(merge(lanes - 1, 0, any(space%is_used))), source=workspace)
    end subroutine begin_packs
 
-   !> Walks the paths of case c of several designs together; is_walked: whose path is complete.
+   !> Solves case c of several designs together. is_walked: whether the path of each design is complete.
    subroutine walk_case(c, workspace, is_wanted, space, is_walked)
       integer, intent(in) :: c
       type(workspace_t), intent(inout), target :: workspace        !! of the first design
@@ -71,7 +71,7 @@ contains
 
    contains
 
-      !> Sets the pointers of a member to the data of the case in a workspace.
+      !> Sets the pointers of a pack member to the data of the case in a workspace.
       subroutine point_to(from, member)
          type(workspace_t), intent(inout), target :: from
          type(member_t), intent(inout) :: member

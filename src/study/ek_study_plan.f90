@@ -1,4 +1,4 @@
-!> The plan of a study: the designs by number, their division into chunks, and the identity of the study.
+!> The plan of a study: the designs by index, their division into chunks, and the identity of the study.
 module ek_study_plan
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp, i8
@@ -89,7 +89,7 @@ contains
 
    contains
 
-      !> Includes files next to the study.
+      !> Adds the numbers of a list or a curve from a file next to the study to the checksum.
       subroutine include_numbers(numbers)
          real(wp), allocatable, intent(in) :: numbers(:, :)
          integer :: j
@@ -101,7 +101,7 @@ contains
 
    end subroutine new_plan
 
-   !> Prepares the sampler of a study. Only the numbers of the deck are used of the designer.
+   !> Prepares the sampler of a study. Of the designer, only the numbers of the deck are used.
    subroutine plan_sampler(study, home, designer, settings, sampler, error)
       type(study_t), intent(in) :: study
       character(*), intent(in) :: home                     !! folder of the study with its slash
@@ -128,7 +128,7 @@ contains
       end if
    end subroutine plan_sampler
 
-   !> Reads the designs of a list: a column per factor, of its name, with or without its unit; other columns are not used.
+   !> Reads the designs of a list: one column per factor, headed by its name with or without its unit. Other columns are ignored.
    subroutine read_list(study, home, designer, rows, error)
       type(study_t), intent(in) :: study
       character(*), intent(in) :: home
@@ -166,7 +166,7 @@ contains
       if (size(rows, 2) == 0) call fail(error, exit_file, path//': there is no design')
    end subroutine read_list
 
-   !> The first design of a chunk.
+   !> Index of the first design of a chunk.
    pure integer(i8) function first_of(plan, number)
       type(study_plan_t), intent(in) :: plan
       integer, intent(in) :: number               !! of the chunk, from 1
@@ -180,7 +180,7 @@ contains
       designs_in = int(min(int(plan%chunk, i8), plan%designs - first_of(plan, number) + 1))
    end function designs_in
 
-   !> Begins an empty chunk with the factors of its designs.
+   !> Creates an empty chunk and computes the factors of its designs.
    subroutine begin_chunk(plan, number, chunk)
       type(study_plan_t), intent(in) :: plan
       integer, intent(in) :: number               !! from 1

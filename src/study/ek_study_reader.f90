@@ -172,7 +172,7 @@ contains
       study%where = where_of(reading)
    end subroutine take_study
 
-   !> Reads the settings of the sampler, and none that its kind does not use.
+   !> Reads the settings of the sampler. Settings that its kind does not use are errors.
    subroutine take_settings(reading, study)
       type(deck_reading_t), intent(inout) :: reading
       type(study_t), intent(inout) :: study
@@ -203,7 +203,7 @@ contains
       end associate
    end subroutine take_settings
 
-   !> Reads &factor: values one by one; or from, to, count and spacing; or a range.
+   !> Reads &factor: a list of values; or from, to, count and spacing; or a range.
    subroutine take_factor(reading, study)
       type(deck_reading_t), intent(inout) :: reading
       type(study_t), intent(inout) :: study
@@ -240,7 +240,7 @@ contains
       study%factors = [study%factors, this]
    end subroutine take_factor
 
-   !> Reads from, to, count and spacing: evenly spaced values.
+   !> Reads from, to, count and spacing, which define evenly spaced values.
    subroutine take_steps(reading, this)
       type(deck_reading_t), intent(inout) :: reading
       type(study_factor_t), intent(inout) :: this
@@ -286,7 +286,7 @@ contains
       end if
    end subroutine check_range
 
-   !> Whether both ends of a range are given, and not in ascending order.
+   !> Whether both ends of a range are given and are not in ascending order.
    pure logical function is_reversed(lower, upper)
       real(wp), intent(in) :: lower, upper
 
@@ -357,7 +357,7 @@ contains
       study%responses = [study%responses, this]
    end subroutine take_response
 
-   !> Reads the two responses of a difference; any other response has a column.
+   !> Reads the two responses of a difference. Any other response must have a column.
    subroutine take_difference(reading, study, this)
       type(deck_reading_t), intent(inout) :: reading
       type(study_t), intent(in) :: study                   !! with the responses before this one

@@ -65,7 +65,7 @@ module ek_study_run
       end subroutine report_procedure
    end interface
 
-   !> Data that the threads of a run share.
+   !> Data shared by the threads of a run.
    type :: shared_t
       character(:), allocatable :: folder         !! of the chunks
       integer, allocatable :: pending(:)          !! numbers of the chunks that are missing
@@ -78,7 +78,7 @@ module ek_study_run
 
 contains
 
-   !> The folder of the chunks.
+   !> Path of the folder of the chunks.
    pure function parts_folder(study, out) result(folder)
       type(study_t), intent(in) :: study
       character(*), intent(in) :: out
@@ -86,7 +86,7 @@ contains
       folder = join_path(out, study%name//'.parts')
    end function parts_folder
 
-   !> Opens the folder of the chunks. A folder with another study is rejected.
+   !> Opens the folder of the chunks. Rejects a folder with chunks of another study.
    subroutine open_parts(study, plan, out, hold, error)
       type(study_t), intent(in) :: study
       type(study_plan_t), intent(in) :: plan
@@ -111,7 +111,7 @@ contains
       call write_whole(join_path(folder, identity_name), content_of(study, plan), error)
    end subroutine open_parts
 
-   !> Rejects a folder of chunks that holds another study, or designs that another build of this program has computed.
+   !> Rejects a folder with chunks of another study, or with designs computed by another build of this program.
    subroutine check_parts(study, plan, out, error)
       type(study_t), intent(in) :: study
       type(study_plan_t), intent(in) :: plan
@@ -181,7 +181,7 @@ contains
       done = shared%state%before
    end subroutine count_parts
 
-   !> Removes the chunks, after the tables were written from them, unless another run needs them.
+   !> Removes the chunks after the tables were written, unless another run needs the chunks.
    subroutine remove_parts(study, plan, out, hold, user)
       type(study_t), intent(in) :: study
       type(study_plan_t), intent(in) :: plan
@@ -204,7 +204,7 @@ contains
       call remove_empty_folder(folder)
    end subroutine remove_parts
 
-   !> Computes the missing chunks, or as many of them as the time limit permits. All ranks: `state` covers all ranks.
+   !> Computes the missing chunks, or as many as the time limit permits. All ranks must call it; `state` covers all ranks.
    subroutine run_chunks(study, plan, deck, out, hold, options, designer, ranks, state, report, error)
       type(study_t), intent(in) :: study
       type(study_plan_t), intent(in) :: plan
@@ -256,7 +256,7 @@ contains
       call count_up(ranks, failed_counter, 0, state%failed)
    end subroutine count_all
 
-   !> Lists the chunks of this run whose files are missing, damaged or of another study.
+   !> Lists the chunks of this run whose files are missing, damaged or from another study.
    subroutine list_pending(plan, options, shared)
       type(study_plan_t), intent(in) :: plan
       type(run_options_t), intent(in) :: options
@@ -279,7 +279,7 @@ contains
       shared%state%done = shared%state%before
    end subroutine list_pending
 
-   !> Works as one thread: computes chunks until none is left.
+   !> Computes chunks, as one thread, until none is left.
    subroutine work(study, plan, deck, options, designer, ranks, shared, report)
       type(study_t), intent(in) :: study
       type(study_plan_t), intent(in) :: plan
@@ -329,7 +329,7 @@ contains
       end do
    end subroutine work
 
-   !> Chooses the next chunk; 0 if there is no further chunk, or no time for it.
+   !> Chooses the next chunk; returns 0 if no chunk is left, or no time for another chunk.
    subroutine take_chunk(options, ranks, shared, number)
       type(run_options_t), intent(in) :: options
       type(ranks_t), intent(inout) :: ranks

@@ -16,14 +16,14 @@ module ek_study_survey
 
    !> The content of the folder of the chunks.
    type :: survey_t
-      integer :: done = 0, failed = 0                !! designs; of these, those that failed
+      integer :: done = 0, failed = 0                !! numbers of finished designs, and of failed designs
       logical :: is_at_work = .false.                !! a run has the folder
       real(wp) :: rate = 0.0_wp                      !! designs per second, lately; 0: unknown
    end type survey_t
 
 contains
 
-   !> Looks at all chunks.
+   !> Reads all chunks in the folder, and counts finished and failed designs.
    subroutine survey_parts(study, plan, out, survey)
       type(study_t), intent(in) :: study
       type(study_plan_t), intent(in) :: plan
@@ -54,8 +54,8 @@ contains
       survey%rate = rate_of_chunks(times(:n), designs(:n))
    end subroutine survey_parts
 
-   !> Designs per second in the last period of at least 20 s in which chunks were written. The chunks written at the beginning of
-   !> the period do not count. 0 if all chunks were written in less than 20 s.
+   !> Rate of finished designs [1/s] over the last period of at least 20 s in which chunks were written. Chunks written at the
+   !> beginning of the period do not count. 0 if all chunks were written in less than 20 s.
    pure real(wp) function rate_of_chunks(times, designs) result(rate)
       integer(i8), intent(in) :: times(:)            !! when each was written [s]
       integer, intent(in) :: designs(:)

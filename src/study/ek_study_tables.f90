@@ -37,7 +37,7 @@ module ek_study_tables
 
 contains
 
-   !> The names of the two tables of a study: of designs (1) and of states (2).
+   !> Name of a table of a study: the table of designs (1) or of states (2).
    pure function tables_of(study_name, number) result(name)
       character(*), intent(in) :: study_name
       integer, intent(in) :: number
@@ -46,7 +46,7 @@ contains
       if (number == 1) name = study_name//'_responses.csv'
    end function tables_of
 
-   !> The number of factors that the table of states repeats in each row: all, or 0 if there are more than the limit.
+   !> Number of factors that the table of states repeats in each row: all factors, or 0 if there are more than the limit.
    pure integer function repeated_factors(factors)
       integer, intent(in) :: factors
       repeated_factors = merge(factors, 0, factors <= most_repeated)
@@ -105,7 +105,7 @@ contains
       call curves%abandon()
    end subroutine write_tables
 
-   !> Counts how the designs ended, without writing anything.
+   !> Counts the designs by status; writes nothing.
    subroutine count_designs(study, plan, out, counts, error)
       type(study_t), intent(in) :: study
       type(study_plan_t), intent(in) :: plan
@@ -124,7 +124,7 @@ contains
       end do
    end subroutine count_designs
 
-   !> Lists the BLAS kernels by which the chunks were computed, each once, in the order of the chunks.
+   !> Lists the BLAS kernels with which the chunks were computed. Each kernel is listed once, in the order of the chunks.
    subroutine list_kernels(study, plan, out, counts)
       type(study_t), intent(in) :: study
       type(study_plan_t), intent(in) :: plan
@@ -143,7 +143,7 @@ contains
       end do
    end subroutine list_kernels
 
-   !> 'Haswell', 'Haswell and SkylakeX'; '' if none is known.
+   !> The BLAS kernels of a study: 'Haswell', or 'Haswell and SkylakeX'; '' if no kernel is known.
    function kernels_text(counts) result(text)
       type(study_counts_t), intent(in) :: counts
       character(:), allocatable :: text
@@ -156,7 +156,7 @@ contains
       end do
    end function kernels_text
 
-   !> ', BLAS kernel Haswell'; '' if none is known.
+   !> The BLAS kernels for a header: ', BLAS kernel Haswell'; '' if no kernel is known.
    pure function kernel_words(kernels) result(text)
       character(*), intent(in) :: kernels            !! of kernels_text
       character(:), allocatable :: text
@@ -181,7 +181,7 @@ contains
       if (.not. is_good) call fail(error, exit_file, path//': the chunk is missing or damaged')
    end subroutine load_chunk
 
-   !> Counts the designs of a chunk.
+   !> Counts the designs of a chunk by status, and the sizes that the tables need.
    subroutine count_chunk(study, chunk, counts)
       type(study_t), intent(in) :: study
       type(chunk_t), intent(in) :: chunk
@@ -218,7 +218,7 @@ contains
       text = csv_head(table)
    end function head_of
 
-   !> ', seed 1' for a kind that draws numbers.
+   !> The seed for a header: ', seed 1'; '' for a kind that draws no random numbers.
    function seed_of(study) result(text)
       type(study_t), intent(in) :: study
       character(:), allocatable :: text
@@ -280,7 +280,7 @@ contains
       keeps_limits = keeps(responses, study%responses%lower, study%responses%upper)
    end function keeps_limits
 
-   !> Designs between two empty lines of the table of responses; 0: there is none.
+   !> Number of designs between two empty lines of the table of responses; 0 if the table has no empty lines.
    pure integer function block_of(study)
       type(study_t), intent(in) :: study
 
@@ -290,7 +290,7 @@ contains
       if (allocated(study%factors(size(study%factors))%values)) block_of = size(study%factors(size(study%factors))%values)
    end function block_of
 
-   !> A string as a field of CSV (RFC 4180) on one line: quoted, or empty for an empty string.
+   !> A string as a CSV field (RFC 4180) on one line: in quotes; an empty string is an empty field.
    pure function quoted_field(text) result(field)
       character(*), intent(in) :: text
       character(:), allocatable :: field

@@ -8,7 +8,7 @@ module ek_trajectory
    private
    public :: trajectory_t, find_trajectory, level_on, factor_changed, change_of_level
 
-   !> A design on its trajectory.
+   !> The position of a design on its trajectory.
    type :: trajectory_t
       integer(i8) :: seed = 0, number = 0      !! number from 0
       integer(i8) :: step = 0                  !! 0 … k: factors already changed
@@ -18,7 +18,7 @@ module ek_trajectory
 
 contains
 
-   !> Finds the trajectory that a design lies on, and where.
+   !> Finds the trajectory that contains a design, and the step of the design on it.
    pure subroutine find_trajectory(settings, factors, design, trajectory)
       type(sampler_settings_t), intent(in) :: settings
       integer, intent(in) :: factors               !! k
@@ -42,7 +42,8 @@ contains
       step = 1 + image_of(trajectory%order, int(factor - 1, i8))
    end function step_of
 
-   !> The level of a factor, 0 … p − 1: random at first; from its step on, half of the levels further (or back).
+   !> The level of a factor, 0 … p − 1. The first level is random. From the step of the factor on, the level is p/2 higher, or lower
+   !> if p − 1 would be exceeded.
    pure integer(i8) function level_on(trajectory, factor, u) result(level)
       type(trajectory_t), intent(in) :: trajectory
       integer, intent(in) :: factor
@@ -54,7 +55,7 @@ contains
       end associate
    end function level_on
 
-   !> The factor that alone differs from the previous design; 0 at the start of a trajectory.
+   !> Index of the only factor that differs from the previous design; 0 at the start of a trajectory.
    pure integer function factor_changed(trajectory, factors) result(factor)
       type(trajectory_t), intent(in) :: trajectory
       integer, intent(in) :: factors               !! k
