@@ -89,7 +89,7 @@ contains
 
    !> Diagnoses the model on the rig of a case, at design.
    !>
-   !> With `known`, the first design is diagnosed in full. A later one that is certainly sound, with the same number of unknowns and
+   !> With `known`, the first design is diagnosed in full. A later design that is certainly sound, with the same number of unknowns and
    !> rows and the same inertia, is not: `diagnosis` then contains no message and no rank. A case that cannot be mounted
    !> has no defect here: the run reports the reason.
    subroutine examine_case(base, case, diagnosis, known, mounted)
