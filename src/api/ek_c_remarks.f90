@@ -41,7 +41,7 @@ contains
       address = text_of_remark(open_handle(model), k, is_severity=.true.)
    end function ek_model_remark_severity
 
-   !> A remark of the list that ek_model_remarks made, or its severity.
+   !> A remark from the list that ek_model_remarks has created, or the severity of the remark.
    type(c_ptr) function text_of_remark(handle, k, is_severity) result(address)
       type(handle_t), pointer, intent(in) :: handle
       integer(c_int), intent(in) :: k

@@ -193,8 +193,9 @@ contains
       needed%is_solved = .true.
    end subroutine solve
 
-   !> Explains which key numbers the last read_numbers gave no value, and why: states that did not converge, with their cases, or a
-   !> quantity that the model does not define. No error if all key numbers have a value. Only one thread at a time may call it.
+   !> Explains for which key numbers the last read_numbers found no value, and why: states that did not converge, with their cases,
+   !> or a quantity that the model does not define. Returns no error if all key numbers have a value. Only one thread at a time may
+   !> call it.
    subroutine explain_missing(numbers, names, values, defects, error)
       type(named_numbers_t), intent(inout) :: numbers
       character(*), intent(in) :: names(:)

@@ -263,7 +263,7 @@ contains
          end associate
       end function abscissa
 
-      !> The part of a plot command that draws one column of a target.
+      !> The part of a plot command that draws one column of a target in a style.
       function part(column, style) result(words)
          integer, intent(in) :: column
          character(*), intent(in) :: style

@@ -42,7 +42,7 @@ module ek_growth
 
 contains
 
-   !> Prints the table to standard output, or with --json an object.
+   !> Prints the table to standard output; with --json, prints an object.
    subroutine bench_growth(line, error)
       type(command_line_t), intent(in) :: line
       type(error_t), allocatable, intent(out) :: error

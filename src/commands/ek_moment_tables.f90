@@ -1,4 +1,4 @@
-!> The moments of a tolerance study: from its expansion, as tables, and read back for figures and page.
+!> The moments of a tolerance study: converts its expansion to tables, and reads the tables back for figures and page.
 !>
 !>     <study>_moments.csv   one row per response and method: mean, deviation, skewness, percentiles, share within the limits
 !>     <study>_shares.csv    one row per response and factor: derivatives and shares of the variance

@@ -32,7 +32,7 @@ module ek_record
    !> Errors found so far; reported in the order of files and lines.
    !>
    !> An error in an element duplicated by &mirror is reported once, under the name used in the deck: a message about the right
-   !> side is dropped if there is one about the left side at the same location, and the prefixes are removed from the latter.
+   !> side is dropped if the left side has a message at the same location, and the prefixes are removed from the latter.
    type :: deck_errors_t
       private
       integer :: used = 0

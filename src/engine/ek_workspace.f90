@@ -8,8 +8,8 @@
 !>
 !> solve_numbers and settle_numbers compute numbers and return a code. They create no strings, nor do ready_cases and balance_once.
 !> solve_or_explain and settle_or_explain examine the cases in full, call solve_numbers or settle_numbers, and explain a failure.
-!> balance_or_explain calls balance_once and explains a failure. These three create strings. gfortran stores the length of a text that a
-!> function returns in one location for all threads: the caller allows one thread at a time to call them.
+!> balance_or_explain calls balance_once and explains a failure. These three create strings. gfortran stores the length of a string
+!> that a function returns in one location for all threads, so that only one thread at a time may call these three.
 module ek_workspace
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t, fail, exit_model

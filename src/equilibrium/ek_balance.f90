@@ -136,7 +136,7 @@ contains
       end do
    end function kept_out
 
-   !> Applies Newton's method to the wheel heights in equilibrium; with more springs than wheels, the change of minimum norm.
+   !> Applies Newton's method to the wheel heights in equilibrium. With more springs than wheels, a change has minimum norm.
    !>
    !> The first change is the solution of the linear problem at design, close to the final one. A wheel with too little preload
    !> would settle on its stop, where the slope would give a change many times too large.

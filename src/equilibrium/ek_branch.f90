@@ -319,9 +319,8 @@ contains
       if (self%has_tangent) self%tangent_a = self%tangent_b
    end subroutine accept
 
-   !> Whether the joints may lose rank in a step: |det N|, which is proportional to det(Φq Φqᵀ), changes much in the step or has
-   !> changed much in the step before, as it does on the way to zero. For two states on either side of the zero the result has no
-   !> meaning.
+   !> Whether the joints may lose rank in a step. |det N| is proportional to det(Φq Φqᵀ) and changes much on the way to zero: in
+   !> this step, or in the step before. For two states on either side of the zero the result has no meaning.
    pure logical function is_uneven(self, outcome)
       type(branch_t), intent(in) :: self
       type(outcome_t), intent(in) :: outcome     !! of the iteration to b

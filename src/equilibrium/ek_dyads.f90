@@ -1,4 +1,4 @@
-!> N plus a few dyads: its solution and inertia from the factors of N, without another factorisation of its size.
+!> Solution and inertia of N plus a few dyads, from the factors of N, without another factorisation of the size of N.
 !>
 !>     N' = N + Σ s_k g_k g_kᵀ = N + G Σ Gᵀ,   G = [√|s_k| g_k],  Σ = diag(sign s_k)
 !>

@@ -173,7 +173,7 @@ contains
       end do
    end function squared_distance
 
-   !> |Δr|, or |Δπ| × characteristic length, of a body [m].
+   !> The motion of a body [m]: the larger of |Δr| and |Δπ| × characteristic length.
    pure function body_motion(twist, length) result(size)
       real(num), intent(in) :: twist(6), length
       real(num) :: size

@@ -1,9 +1,9 @@
 !> Predicts the next state by a polynomial through the last few states, in Lagrange's form.
 !>
-!> Positions, quaternions and reactions are smooth along a path, so each packed number is extrapolated separately; the
-!> quaternions are normalised afterwards. At a stop contact or a corner of a curve the path is not smooth: beyond it a
-!> polynomial through many states oscillates. After a poor prediction, the next one therefore uses the number of states
-!> that would have predicted best.
+!> Positions, quaternions and reactions are smooth along a path, so that each packed number is extrapolated separately. The
+!> quaternions are normalised afterwards. At a stop contact or a corner of a curve the path is not smooth, and a polynomial through
+!> many states oscillates beyond this point. After a poor prediction, the next prediction therefore uses the number of states that
+!> would have predicted best.
 module ek_predictor
    use ek_kinds, only: wp
    use ek_vector, only: add_multiple

@@ -52,7 +52,7 @@ contains
 
    !> Moves from design to equilibrium under the constant loads and preloads only.
    !>
-   !> In one step if possible; otherwise the imbalance of the design position is applied gradually (homotopy): its share
+   !> This takes one step if possible; otherwise the imbalance of the design position is applied gradually (homotopy): its share
    !> is the swept value on the path.
    subroutine settle(suspension, tolerance, state, kkt, failure, space)
       type(suspension_t), intent(in) :: suspension

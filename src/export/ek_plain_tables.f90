@@ -1,7 +1,8 @@
-!> A map as plain tables: kinematics over travel and steer, response to loads, compliance matrix; as CSV and as one JSON.
+!> A map as plain tables: kinematics over travel and steer, response to loads, and compliance matrix. The tables are written as CSV
+!> and as one JSON object.
 !>
-!> mm, deg, N, N m. Frame ISO 8855 (x forward, y to the left, z up) or SAE J670 (x forward, y to the right, z down); toe, camber,
-!> caster, travel, lengths and wheel load have the same sign in both.
+!> Units are mm, deg, N, N m. The frame is ISO 8855 (x forward, y to the left, z up) or SAE J670 (x forward, y to the right, z
+!> down). Toe, camber, caster, travel, lengths and wheel load have the same sign in both frames.
 module ek_plain_tables
    use ek_kinds, only: wp, degree, millimetre
    use ek_text, only: str

@@ -61,9 +61,9 @@ contains
       end associate
    end subroutine axle_characteristics
 
-   !> Vertical forces of the ground [N] on the left and the right contact point that hold their heights under lateral forces at the
-   !> contact points, 1 N to the right on the left point, `right` on the other: V = −CP_zz⁻¹ CP_zy F. Not a number if the wheels
-   !> cannot move independently in height.
+   !> Vertical forces of the ground [N] on the left and the right contact point that hold the heights of these points under lateral
+   !> forces. The lateral force is 1 N to the right on the left contact point and `right` on the right contact point: V = −CP_zz⁻¹
+   !> CP_zy F. NaN if the wheels cannot move independently in height.
    !> Equation (S.5) of docs/theory/suspension.md.
    pure function jacking_forces(patch, right) result(lift)
       real(wp), intent(in) :: patch(2:3, 2, 2:3, 2)

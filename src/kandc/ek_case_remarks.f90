@@ -179,7 +179,8 @@ contains
       end do
    end subroutine travel_remarks
 
-   !> Warns of curves used beyond their first or last point. There they are extrapolated linearly, without data of the deck.
+   !> Warns of curves used beyond their first or last point. Beyond these points, curves are extrapolated linearly, without data of
+   !> the deck.
    !>
    !> One message for each end of a curve that was exceeded by more than a thousandth of its span. Elements from one line of
    !> the deck (the two sides of a mirrored one) with the same curve give one message, for the largest excess.

@@ -1,7 +1,7 @@
 !> Contributions to the compliance matrix of a state: the share of each law of each element, of the geometric stiffness of
 !> each element, joint and load, and of each driver with a stiffness.
 !>
-!> With T u_j + Φᵀμ_j = b_j and Φ u_j = C μ_j, and v_i, ν_i the same of the transpose,
+!> With T u_j + Φᵀμ_j = b_j and Φ u_j = C μ_j, and v_i, ν_i the solutions with the transpose,
 !>
 !>     C_ij = v_iᵀ T u_j + ν_iᵀ C μ_j
 !>

@@ -89,9 +89,9 @@ contains
 
    !> Diagnoses the model on the rig of a case, at design.
    !>
-   !> With `known`, the first design is diagnosed in full. A later one that is certainly sound, with the same number of unknowns and
-   !> rows and the same inertia, is not: `diagnosis` then contains no message and no rank. A case that cannot be mounted
-   !> has no defect here: the run reports the reason.
+   !> With `known`, the first design is diagnosed in full. A later design is not diagnosed if it is certainly sound and has the same
+   !> number of unknowns and rows and the same inertia; `diagnosis` then contains no message and no rank. A case that cannot be
+   !> mounted has no defect here: the run reports the reason.
    subroutine examine_case(base, case, diagnosis, known, mounted)
       type(suspension_t), intent(in) :: base       !! not balanced
       type(case_t), intent(in) :: case
@@ -161,12 +161,11 @@ contains
       end do
    end function without_numbers
 
-   !> Collects the errors of every table, which was read with the deck, finds the column of every target, compares all headings of
-   !> the results; all errors are reported together.
+   !> Checks the inputs of all cases: collects the errors of every table (tables were read with the deck), finds the column of every
+   !> target, and compares all headings of the results. All errors are reported together.
    !>
-   !> A message on a table gives the line in the file and the line of the case in the deck:
-   !> `loads.csv:7: column 'fz_n': expected a number, found 'two'; in case 'bench' (front.nml:41)`.
-   !> In a deck with other errors the cases are checked as far as possible.
+   !> A message on a table gives the line in the file and the line of the case in the deck: `loads.csv:7: column 'fz_n': expected a
+   !> number, found 'two'; in case 'bench' (front.nml:41)`. In a deck with other errors, the cases are checked as far as possible.
    subroutine check_inputs(suspension, cases, error, is_whole)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: cases(:)

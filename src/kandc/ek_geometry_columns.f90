@@ -1,6 +1,5 @@
 !> Geometry of wheels, steering axes and steering, and of the elements whose length is not a port of the compliance matrix: the
-!> values of the sections wheel_axis to axle_geometry of ek_quantity, in SI. A quantity without a value at a state is not a
-!> number.
+!> values of the sections wheel_axis to axle_geometry of ek_quantity, in SI. A quantity without a value at a state is NaN.
 module ek_geometry_columns
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_is_nan, ieee_quiet_nan
    use ek_kinds, only: wp, pi

@@ -80,7 +80,8 @@ contains
       end do
    end subroutine load_wheels
 
-   !> Moves the columns of the three forces of a wheel to its contact point: a force F there is F and a×F at the centre.
+   !> Moves the columns of the three forces of a wheel to its contact point: a force F at the contact point equals F and a×F at the
+   !> centre.
    !> Equation (C.7) of docs/theory/compliance.md.
    pure subroutine load_patch(n, c, arm, m)
       integer, intent(in) :: n

@@ -194,7 +194,7 @@ contains
       end do
    end function is_coaxial_with_own
 
-   !> Whether each of two bushings is on the z axis of the other one.
+   !> Whether each of two bushings is on the z axis of the other bushing.
    pure logical function are_coaxial(suspension, a, b)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: a, b

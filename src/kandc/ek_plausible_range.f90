@@ -1,8 +1,8 @@
-!> Usual values of road vehicles: one table of ranges, from Formula Student to heavy trucks, with the likely cause of a
-!> value outside its range.
+!> Usual values of road vehicles: one table of ranges, from Formula Student to heavy trucks, with the likely cause of a value
+!> outside its range.
 !>
-!> A value outside its range is converted with the other units of its dimension: if one of them brings it into the range,
-!> this unit is named. Otherwise the remark gives the cause in the table row. No finding is an error.
+!> A value outside its range is converted with the other units of its dimension. If one of these units brings the value into the
+!> range, the remark names this unit. Otherwise the remark gives the cause in the table row. No finding is an error.
 module ek_plausible_range
    use ek_kinds, only: wp, units_t, degree
    use ek_error, only: message_list_t

@@ -83,8 +83,8 @@ contains
       inner = atan2(wheelbase*tan(outer), wheelbase - track*tan(outer))
    end function ackermann_angle
 
-   !> 100 (δi − δo)/(δA − δo) [%]: 100 for wheels that roll about one point, 0 for parallel steer. Not a number
-   !> below one degree of steer, nor if δA = δo: without a track, or with an infinite wheelbase.
+   !> The Ackermann percentage 100 (δi − δo)/(δA − δo) [%]: 100 for wheels that roll about one point, 0 for parallel steer. NaN
+   !> below one degree of steer, and if δA = δo: without a track, or with an infinite wheelbase.
    pure real(wp) function ackermann_percent(left, right, wheelbase, track) result(percent)
       real(wp), intent(in) :: left, right, wheelbase, track
       real(wp) :: inner, outer, wanted

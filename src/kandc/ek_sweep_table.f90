@@ -93,12 +93,12 @@ contains
       if (case%has_all) is_for = same_columns(suspension, self%kandc)
    end function is_for
 
-   !> Builds the table of a sweep: all states that were reached, and on each side the first state that was not reached. The latter
-   !> is marked by converged = 0 and NaN values.
+   !> Builds the table of a sweep. It contains all states that were reached, and on each side the first state that was not reached.
+   !> The latter is marked by converged = 0 and NaN values.
    !>
-   !> If the case requests all columns, the K&C quantities precede the last columns, from the compliance matrix
-   !> at every state; it is solved only if one of the columns of the observer needs it. With defers_kandc the K&C quantities are not
-   !> numbers: observe_kandc_at fills them, at the states where they are read.
+   !> If the case requests all columns, the K&C quantities precede the last columns. They come from the compliance matrix at every
+   !> state, which is solved only if one of the columns of the observer needs it. With defers_kandc the K&C quantities are NaN;
+   !> observe_kandc_at computes them at the states where they are read.
    subroutine observe(suspension, case, path, kkt, observer, table, defers_kandc)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case

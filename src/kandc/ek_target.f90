@@ -31,11 +31,12 @@ module ek_target
 
 contains
 
-   !> Searches a sweep of method `equilibrium` for case%target, 'column=value', and solves for the swept value between its
-   !> states.
+   !> Searches a sweep of method `equilibrium` for case%target, 'column=value', and solves for the swept value between the states of
+   !> the sweep.
    !>
-   !> The unit of the column may be omitted if only one column begins with the name. If there are several solutions, the one
-   !> nearest to design is used. Errors: exit_deck, no such column; exit_convergence, the sweep does not reach the value.
+   !> The unit of the column may be omitted if only one column begins with the name. If there are several solutions, the solution
+   !> nearest to design is used. Errors: exit_deck if there is no such column; exit_convergence if the sweep does not reach the
+   !> value.
    subroutine find_target(suspension, case, path, table, kkt, found, error)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case

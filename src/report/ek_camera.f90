@@ -1,7 +1,7 @@
 !> The camera of a scene: direction of view, scale, and the position of a point in the picture.
 !>
-!> It has the two angles [deg] of gnuplot's `set view`: at turn = 0 it looks to the right, from the left of the car, at 270
-!> rearward from its front.
+!> The camera has the two angles [deg] of gnuplot's `set view`. At turn = 0 the view is from the left of the car to the right; at
+!> turn = 270, from the front rearward.
 module ek_camera
    use ek_kinds, only: wp, degree
    use ek_scene, only: scene_t, run_t

@@ -61,7 +61,7 @@ contains
       change_of = (b - a)/scale
    end function change_of
 
-   !> Whether a change is more than the threshold.
+   !> Whether the magnitude of a change exceeds the threshold.
    elemental logical function has_changed(change, threshold)
       real(wp), intent(in) :: change, threshold
 

@@ -35,9 +35,9 @@ contains
    end function effect_sizes
 
    !> The magnitude of rank correlation that one or more of the factors reach by chance in at most one study of twenty, for designs
-   !> drawn at random. From P(|z| > t) ≤ exp(−t²/2) for a normal z = r √(n − 1), and at most k times this for k factors together. 0
-   !> for kinds of study whose effects have another measure, and for a grid, where every factor is varied independently of the
-   !> others.
+   !> drawn at random. The limit follows from P(|z| > t) ≤ exp(−t²/2) for a normal z = r √(n − 1), and at most k times this
+   !> probability for k factors together. It is 0 for kinds of study whose effects have another measure, and for a grid, where every
+   !> factor is varied independently of the others.
    pure real(wp) function least_correlation(study)
       type(study_data_t), intent(in) :: study
       real(wp), parameter :: chance = 0.05_wp

@@ -1,8 +1,8 @@
 !> A page of results as one self-contained HTML file: headings, tables and embedded pictures.
 !>
-!> No script, font or picture is fetched: the page itself forbids it (Content-Security-Policy). It is laid out for a screen, in one
-!> column for a phone (tables scroll in their own box), and for paper (A4). Every input string is escaped here. Style sheet and script
-!> are files of their own in page/, put into ek_page_assets by the build.
+!> No script, font or picture is fetched: the page itself forbids it (Content-Security-Policy). The page is laid out for a screen,
+!> in one column for a phone (tables scroll in their own box), and for paper (A4). Every input string is escaped here. Style sheet
+!> and script are separate files in page/, which the build puts into ek_page_assets.
 module ek_page
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_is_nan
    use ek_kinds, only: wp

@@ -1,5 +1,5 @@
 !> data.json: the content of the page of a report, without repetition: facts, key numbers, and the curves of every test. The page
-!> contains this file as a block of data, from which its charts are drawn; schema/data.schema.json describes it.
+!> contains the same object as a block of data, from which its charts are drawn. schema/data.schema.json describes the object.
 module ek_report_data
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp

@@ -116,7 +116,8 @@ contains
       text = end_panels(sheet)
    end function matrix_script
 
-   !> Indices of the factors in the order of the study. Of many factors, the factors with the largest rank correlation with any response.
+   !> Indices of the factors in the order of the study. Of many factors, the factors with the largest rank correlation with any
+   !> response.
    pure function leading_factors(study, most) result(factors)
       type(study_data_t), intent(in) :: study
       integer, intent(in) :: most

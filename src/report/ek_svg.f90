@@ -1,7 +1,7 @@
 !> Adapts a picture drawn by gnuplot as SVG for embedding in a page.
 !>
-!> Many pictures share one page, so the ids of each get a unique prefix; prolog, document type, scripts, mouse events and
-!> fixed sizes are removed; the view box is unchanged, so that the page determines the width.
+!> Many pictures share one page, so that the ids of each picture get a unique prefix. Prolog, document type, scripts, mouse events
+!> and fixed sizes are removed. The view box is unchanged, so that the page determines the width.
 module ek_svg
    use ek_letters, only: as_utf8
    use ek_buffer, only: buffer_t

@@ -120,7 +120,7 @@ contains
       end do
    end function all_same
 
-   !> The columns drawn for a set of charts, the most important ones first.
+   !> The columns drawn for a set of charts, in descending order of importance.
    pure function quantities_of(kind) result(columns)
       character(*), intent(in) :: kind
       character(48), allocatable :: columns(:)

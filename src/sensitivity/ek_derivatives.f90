@@ -1,6 +1,6 @@
 !> Derivatives of the columns of a case with respect to numbers of the deck, at states of its path. No solution is repeated.
 !>
-!>     call begin_derivatives(workspace, k, columns, directions, self)        once per deck, case, columns and numbers; creates strings
+!>     call begin_derivatives(workspace, k, columns, directions, self)        once per deck, case, columns, numbers; creates strings
 !>     call find_derivatives(workspace, states, self)                         at each design, after its case is solved
 !>
 !> Two steps at every state:

@@ -135,8 +135,8 @@ contains
       end do
    end subroutine covariance_of
 
-   !> The quantile of Student's distribution, p ≥ 1/2: exact for one and two degrees of freedom, otherwise the expansion in
-   !> 1/freedom by Cornish and Fisher, whose error is below 1 % from three on and below 1e-3 from six on.
+   !> The quantile of Student's distribution, p ≥ 1/2. It is exact for one and two degrees of freedom. Otherwise it is the expansion
+   !> in 1/freedom by Cornish and Fisher, whose error is below 1 % from three degrees of freedom on and below 1e-3 from six on.
    !> Source: M. Abramowitz, I. Stegun, Handbook of Mathematical Functions, 1964, 26.7.5.
    pure real(wp) function student_quantile(p, freedom) result(t)
       real(wp), intent(in) :: p

@@ -61,9 +61,9 @@ contains
       call keep_choices(workspace%raw, self%workspace%raw)
    end subroutine follow_design
 
-   !> Copies to the neighbours the directions that the rows of joints use perpendicular to an axis. Each is chosen as the global
-   !> axis with the least component along the joint axis. If two components are equal, the choice would change between neighbours,
-   !> and λ would have a different meaning in each.
+   !> Copies to the neighbours the directions perpendicular to an axis that the rows of joints use. Each such direction is made from
+   !> the global axis with the smallest component along the joint axis. If two components are equal, the choice would change between
+   !> neighbours, and λ would have a different meaning in each.
    subroutine keep_choices(design, neighbour)
       type(suspension_t), intent(in) :: design
       type(suspension_t), intent(inout) :: neighbour
@@ -109,9 +109,10 @@ contains
       end do
    end subroutine take_states
 
-   !> Learns the change that a number causes in the parts of the model: from two neighbours close by, or four where the axes of a
-   !> bushing may turn: between a stiff and a soft axis rates and preloads curve a hundred times as much as the angle. Where a law
-   !> that is not linear changes, and at the end of the range of the number, from the first stencil whose points are all designs.
+   !> Finds the change that a number causes in the parts of the model, from two neighbours close by. Four neighbours are used where
+   !> the axes of a bushing may turn: between a stiff and a soft axis, rates and preloads curve a hundred times as much as the
+   !> angle. Where a law that is not linear changes, and at the end of the range of the number, the first stencil whose points are
+   !> all valid designs is used.
    subroutine learn_number(x, direction, result, points, here, self, draft, change, can_move)
       real(wp), intent(in) :: x(:)
       type(direction_t), intent(in) :: direction

@@ -37,7 +37,7 @@ contains
    end function weight_of
 
    !> The weight of the value at a point in half the difference of the slopes on both sides, per step; point 0 is the middle. The
-   !> sum is of order h³ where there is no corner. One-sided stencils do not see one.
+   !> weighted sum is of order h³ if there is no corner. One-sided stencils cannot detect a corner.
    !> Equation (E.2) of docs/theory/derivatives.md.
    pure real(wp) function corner_weight(stencil, k) result(weight)
       type(stencil_t), intent(in) :: stencil

@@ -292,9 +292,9 @@ contains
       deviation = sqrt(sum(weight*(x - mean)**2))
    end subroutine triangle_moments
 
-   !> Lists points x (ln x of a log-normal distribution) with weights, so that Σ weight f(x) is the mean of f: four Gauss points
-   !> in each of some intervals. Exact for polynomials up to the sixth power over a triangle, and to 1e-12 over a normal
-   !> distribution.
+   !> Lists points x (ln x for a log-normal distribution) with weights, so that Σ weight f(x) is the mean of f. The points are four
+   !> Gauss points in each of several intervals. The mean is exact for polynomials up to the sixth power over a triangular
+   !> distribution, and to 1e-12 over a normal distribution.
    pure subroutine integration_points(distribution, x, weight)
       type(distribution_t), intent(in) :: distribution
       real(wp), allocatable, intent(out) :: x(:), weight(:)

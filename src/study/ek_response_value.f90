@@ -34,7 +34,7 @@ module ek_response_value
 
 contains
 
-   !> Reads a response from a table, and the reason if it has no value.
+   !> Reads a response from a table, or finds the reason why the response has no value.
    subroutine read_response(reading, table, value, fault)
       type(reading_t), intent(in) :: reading
       type(table_t), intent(in) :: table
@@ -306,7 +306,7 @@ contains
       if (next > k) between = y(k) + (y(next) - y(k))*(at - x(k))/(x(next) - x(k))
    end function between
 
-   !> Finds the row with x = at, or the two rows on either side of it.
+   !> Finds the row with x = at, or the two rows between which x = at lies.
    pure subroutine neighbours(x, at, first, last)
       real(wp), intent(in) :: x(:), at
       integer, intent(out) :: first, last        !! 0: outside the range of x

@@ -73,8 +73,9 @@ contains
       end do
    end subroutine ascending_order
 
-   !> The value below which a share p of the sample lies: linear between neighbours, the smallest at p = 0, the largest at p = 1
-   !> (type 7 of R. J. Hyndman, Y. Fan, Sample quantiles in statistical packages, Am. Stat. 50 (1996); numpy's default).
+   !> The value below which a share p of the sample lies: the smallest value at p = 0, the largest at p = 1, and linear between
+   !> neighbours. This is type 7 of R. J. Hyndman, Y. Fan, Sample quantiles in statistical packages, Am. Stat. 50 (1996), and
+   !> numpy's default.
    pure real(wp) function percentile(ascending, p) result(value)
       real(wp), intent(in) :: ascending(:)         !! the sample in ascending order, at least one
       real(wp), intent(in) :: p                    !! 0 … 1

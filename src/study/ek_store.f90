@@ -1,5 +1,5 @@
-!> The results of a large study as one NetCDF-4 file: decides whether to write it, describes it, and calls the
-!> program elastokin-netcdf, which is in the same folder as elastokin if it was built with NetCDF-Fortran.
+!> The results of a large study as one NetCDF-4 file. This module decides whether to write the file, describes it, and calls the
+!> program elastokin-netcdf. This program is in the same folder as elastokin if elastokin was built with NetCDF-Fortran.
 module ek_store
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t, fail, exit_file

@@ -352,7 +352,7 @@ contains
       if (before < size(shared%pending)) number = shared%pending(before + 1)
    end subroutine take_chunk
 
-   !> Stores a finished chunk.
+   !> Stores a finished chunk, and updates and reports the progress.
    subroutine put_chunk(plan, number, chunk, is_whole, time, ranks, shared, report)
       type(study_plan_t), intent(in) :: plan
       integer, intent(in) :: number

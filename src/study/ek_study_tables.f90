@@ -46,7 +46,7 @@ contains
       if (number == 1) name = study_name//'_responses.csv'
    end function tables_of
 
-   !> Number of factors that the table of states repeats in each row: all factors, or 0 if there are more than the limit.
+   !> Number of factors that the table of states repeats in each row: all factors, or 0 if their number exceeds the limit.
    pure integer function repeated_factors(factors)
       integer, intent(in) :: factors
       repeated_factors = merge(factors, 0, factors <= most_repeated)
