@@ -217,6 +217,8 @@ contains
 
       x = table%values(over, :)
       centre = between(table%values(2, :), x, at)
+      is_near = .false.
+      if (.not. ieee_is_finite(centre)) return
       do k = 1, size(x)
          is_near(k) = ieee_is_finite(x(k))
          if (is_near(k)) is_near(k) = abs(x(k) - centre) <= reading%asked%window*(1.0_wp + rounding)
