@@ -141,7 +141,7 @@ contains
       if (.not. write_bytes(c_fileno(self%stream), text)) self%reason = system_reason()      ! not copied: a page has megabytes
    end subroutine writer_add
 
-   !> Passes the added bytes to the system, so that it survives the end of this process. The bytes added to a part since the
+   !> Passes the added bytes to the system, so that they survive the end of this process. The bytes added to a part since the
    !> last flush is written in one call, so that a remaining part always ends at a flush.
    subroutine writer_flush(self)
       class(writer_t), intent(inout) :: self
@@ -299,8 +299,7 @@ contains
       scratch%lock = c_null_ptr
    end subroutine end_scratch
 
-   !> Removes a folder with its files. Links are removed, but not their targets. A folder with subfolders remains, because this
-   !> program does not create any.
+   !> Removes a folder with its files. Links are removed, but not their targets. A folder with subfolders remains.
    subroutine remove_folder(path)
       character(*), intent(in) :: path
       type(message_list_t) :: names

@@ -136,9 +136,8 @@ contains
       if (self%is_known) kept(:, :) = transpose(self%columns(:, :size(kept, 1)))
    end subroutine keep_responses
 
-   !> Computes the compliance of the wheels alone, without factorising, close to the state and design of stored responses X: C ≈ PᵀX
-   !> + XᵀP − XᵀKX, with K and P of this state. The error is even, and of second order in the distance. The matrix K must be
-   !> symmetric.
+   !> Computes the compliance of the wheels alone, without factorising, close to the state and design of stored responses X:
+   !> C ≈ PᵀX + XᵀP − XᵀKX, with K (symmetric) and P of this state. The error is even, and of second order in the distance.
    !> Equation (E.8) of docs/theory/derivatives.md.
    subroutine wheel_compliance_nearby(suspension, state, inputs, kept, kkt, self)
       type(suspension_t), intent(in) :: suspension
@@ -214,8 +213,7 @@ contains
    end subroutine solve_symmetric
 
    !> Moves every requested load to the column with the load's index, with zeros between. On some processors, the last digits of
-   !> LAPACK's columns depend on their index and number. With fixed columns, a quantity does not depend on the other requested
-   !> quantities.
+   !> LAPACK's columns depend on their index and number. Thus a quantity does not depend on the other requested quantities.
    pure subroutine spread(self)
       type(compliance_t), intent(inout) :: self
       integer :: j, k
@@ -385,8 +383,7 @@ contains
       left = left + rest
    end subroutine unit_responses
 
-   !> Solves for further columns of generalised forces [N, N m; m] with the matrix of the last state. On return, the columns contain
-   !> [u; μ].
+   !> Replaces further columns of generalised forces [N, N m; m] by their solutions [u; μ] with the matrix of the last state.
    subroutine solve_further(kkt, self, many, columns)
       type(kkt_t), intent(inout) :: kkt                     !! with the factors of `respond`
       type(compliance_t), intent(in) :: self
