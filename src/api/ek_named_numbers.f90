@@ -18,7 +18,6 @@ module ek_named_numbers
    use ek_table, only: name_length
    use ek_sweep_table, only: observer_t
    use ek_case_result, only: case_result_t, solve_options_t, solve_mounted, add_remarks
-   use ek_failure_text, only: failure_text
    use ek_test_result, only: test_result_t
    use ek_key_number, only: key_number_t, nothing, read_source, largest_of_all
    use ek_number_reach, only: reach_of, lacks_state
@@ -204,22 +203,19 @@ contains
       type(error_t), allocatable, intent(out) :: error      !! exit_convergence, or exit_model
       type(message_list_t) :: words
       type(buffer_t) :: lost, undefined
-      integer :: c, k, side, code
+      integer :: c, k, code
 
       code = exit_convergence
       do c = 1, size(numbers%cases)
          if (.not. numbers%cases(c)%is_missed) cycle
          associate (result => numbers%cases(c)%result)
-            if (.not. result%is_run()) then
+            call add_remarks(numbers%cases(c)%options, result)
+            if (result%is_run()) then
+               call words%add(result%remarks%failures())
+            else
                code = exit_model
-               call add_remarks(numbers%cases(c)%options, result)
                call words%add('case '//quoted(result%case%name)//': '//result%remarks%failures())
-               cycle
             end if
-            do side = 1, 2
-               if (result%path%failure(side)%state > 0) call words%add('case '//quoted(result%case%name)//': '// &
-                  failure_text(result%suspension, result%case, result%path, result%path%failure(side), result%kkt))
-            end do
          end associate
       end do
       do k = 1, size(names)

@@ -1,7 +1,6 @@
 !> Remarks on the results of a case: displacement under constant loads, drift, large travel, the rack, open joints, curves used
 !> beyond their points.
 module ek_case_remarks
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp, degree, millimetre
    use ek_text, only: str, quoted, plural
    use ek_suspension, only: suspension_t
@@ -12,6 +11,7 @@ module ek_case_remarks
    use ek_path, only: path_t
    use ek_newton, only: outcome_t, find_equilibrium
    use ek_table, only: table_t, column, row_count
+   use ek_sweep_table, only: open_states
    use ek_attitude, only: attitude_t, wheel_attitude
    use ek_remark, only: remark_list_t, note, warning, failure, on_settling, on_drift, on_travel, on_rack, on_closure, on_curve, &
       swept_text, has_spring
@@ -136,9 +136,9 @@ contains
       real(wp) :: gap(row_count(table))
       logical :: is_open(row_count(table))
 
-      gap = column(table, 'constraint_error')
-      is_open = ieee_is_finite(gap) .and. column(table, 'converged') < 0.5_wp
+      is_open = open_states(table)
       if (.not. any(is_open)) return
+      gap = column(table, 'constraint_error')
       call remarks%add(failure, on_closure, case, plural(count(is_open), &
          'state violates', 'states violate')//' the joint constraints (constraint_error up to '// &
          str(maxval(gap, mask=is_open), 2)//' m or rad) and '// &

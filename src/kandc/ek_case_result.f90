@@ -13,7 +13,7 @@ module ek_case_result
    use ek_path, only: path_t, sweep, progress_procedure
    use ek_rig, only: mounted_case_t, mount_case
    use ek_wheel_side, only: single_side
-   use ek_sweep_table, only: observer_t, make_observer, observe, sweep_bytes
+   use ek_sweep_table, only: observer_t, make_observer, observe, open_states, sweep_bytes
    use ek_failure_text, only: failure_text, stability_remarks
    use ek_case_remarks, only: settling_remarks, drift_remarks, travel_remarks, rack_remarks, closure_remarks, curve_reach_remarks
    use ek_remark, only: remark_list_t, failure, on_case, on_end
@@ -26,7 +26,7 @@ module ek_case_result
 
    ! outcomes
    integer, parameter :: solved = 0           !! all states converged
-   integer, parameter :: partly_solved = 1    !! some states did not converge; the others are available
+   integer, parameter :: partly_solved = 1    !! some states have converged = 0; the others are available
    integer, parameter :: not_solvable = 2     !! the model is a mechanism, or over-constrained
    integer, parameter :: not_mountable = 3    !! the load table of the case cannot be read
    integer, parameter :: out_of_memory = 4    !! the states would not fit into memory
@@ -112,7 +112,7 @@ contains
       end if
       if (.not. has_path) call sweep(result%suspension, result%case, result%path, result%kkt, progress, options%reach, result%space)
       call observe(result%suspension, result%case, result%path, result%kkt, tells, result%table, options%defers_kandc)
-      if (any(result%path%failure%state > 0)) result%outcome = partly_solved
+      if (any(result%path%failure%state > 0) .or. any(open_states(result%table))) result%outcome = partly_solved
       if (allocated(options%checksum)) call add_header(result%table, result%suspension, result%case, options%checksum)
    end subroutine solve_mounted
 
@@ -141,7 +141,7 @@ contains
       if (result%is_run()) then
          call remark_on_path(options, result)
          call closure_remarks(result%case, result%table, result%remarks)
-         if (result%remarks%has_failed()) result%outcome = partly_solved
+         if (result%remarks%has_failed()) result%outcome = partly_solved      ! drift: only remarks compare with equilibrium
       else
          call result%remarks%add(failure, on_case, result%case, reason(options, result))
       end if

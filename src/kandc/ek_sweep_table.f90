@@ -3,7 +3,7 @@
 !> The columns come from ek_state_columns and ek_kandc_columns, between `state` and `factor` in front and `converged`,
 !> `iterations` and `constraint_error` at the end.
 module ek_sweep_table
-   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
+   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan, ieee_is_finite
    use ek_kinds, only: wp, i8
    use ek_contract, only: are_checked, require
    use ek_suspension, only: suspension_t
@@ -17,12 +17,11 @@ module ek_sweep_table
    use ek_column_list, only: column_list_t, choose
    use ek_kandc_list, only: kandc_t, list_kandc, choose_kandc, begin_design, same_columns
    use ek_kandc_columns, only: fill_kandc
-   use ek_table, only: table_t, new_table, name_length
+   use ek_table, only: table_t, new_table, column_index, name_length
    implicit none(type, external)
    private
    public :: observer_t, make_observer, observe, observe_kandc_at, observe_state, quantity_columns, reads_matrix, &
-      is_kandc_column, reads_poses_of_wheels, nearly_singular, sweep_table, sweep_columns, &
-      sweep_bytes
+      is_kandc_column, reads_poses_of_wheels, nearly_singular, sweep_table, sweep_columns, open_states, sweep_bytes
 
    real(wp), parameter :: nearly_singular = 1.0e-12_wp   !! smallest over largest pivot: four digits are left
    real(wp), parameter :: open_joints = 1.0e-2_wp   !! |Φ| [m, rad] above which a state of a linear method is marked converged = 0
@@ -149,6 +148,18 @@ contains
          end do
       end associate
    end subroutine observe
+
+   !> Whether each state of a table was found by a linear method, but violates the joint constraints. Such a state has finite values
+   !> and converged = 0.
+   pure function open_states(table) result(is_open)
+      type(table_t), intent(in) :: table         !! of `observe`
+      logical :: is_open(size(table%values, 2))
+      integer :: converged, violation
+
+      converged = column_index(table, 'converged')
+      violation = column_index(table, 'constraint_error')
+      is_open = ieee_is_finite(table%values(violation, :)) .and. table%values(converged, :) < 0.5_wp
+   end function open_states
 
    !> Fills the K&C quantities of a table created by `observe` with defers_kandc, at the states where they are read. At all other
    !> states the K&C quantities remain NaN.

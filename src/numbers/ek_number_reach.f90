@@ -6,7 +6,8 @@ module ek_number_reach
    use ek_case, only: case_t, is_mountable
    use ek_rig, only: mount
    use ek_table, only: name_length
-   use ek_case_result, only: case_result_t
+   use ek_case_result, only: case_result_t, solved
+   use ek_sweep_table, only: open_states
    use ek_test_result, only: test_result_t
    use ek_key_number, only: key_source_t, needs_path, at_design
    implicit none(type, external)
@@ -54,21 +55,24 @@ contains
 
    end function reach_of
 
-   !> Whether a case lacks a state within a reach from design, because the case was not run or its states end earlier on one side.
+   !> Whether a case lacks a state within a reach from design: the case was not run, its states end earlier on one side, or a state
+   !> violates the joint constraints (converged = 0).
    pure logical function lacks_state(result, reach)
       type(case_result_t), intent(in) :: result
       real(wp), intent(in) :: reach                      !! swept value
+      real(wp) :: needed
       integer :: side, state
 
       lacks_state = .not. result%is_run()
-      if (lacks_state) return
+      if (lacks_state .or. result%outcome == solved) return
+      needed = reach
+      if (.not. result%path%is_settled .or. result%path%is_table .or. result%case%follows_arc) needed = huge(reach)
       do side = 1, 2
          state = result%path%failure(side)%state
-         if (state == 0) cycle
-         lacks_state = .not. result%path%is_settled .or. result%path%is_table .or. result%case%follows_arc
-         if (.not. lacks_state) lacks_state = abs(result%path%value(state)) <= reach
-         if (lacks_state) return
+         if (state > 0) lacks_state = lacks_state .or. abs(result%path%value(state)) <= needed
       end do
+      lacks_state = lacks_state .or. any(open_states(result%table) .and. &
+         abs(result%table%values(2, :)*result%case%unit) <= needed)
    end function lacks_state
 
 end module ek_number_reach

@@ -6,7 +6,8 @@ module ek_design_cause
    use ek_error, only: error_t, message_list_t
    use ek_text, only: str, quoted
    use ek_case_result, only: failure_of
-   use ek_table, only: table_t
+   use ek_table, only: table_t, column_index
+   use ek_sweep_table, only: open_states
    use ek_study, only: not_given
    use ek_response, only: fault_text
    use ek_response_value, only: reading_t
@@ -20,6 +21,7 @@ module ek_design_cause
       logical :: is_unread = .false.               !! the design must be read from the deck's strings, which gives the cause
       type(error_t) :: error                       !! a case was not run: the first such case; message not allocated: none
       real(wp), allocatable :: lost(:, :)          !! (side, case): first swept value without an equilibrium; NaN: none
+      real(wp), allocatable :: open(:, :)          !! (2, case): first swept value of open_states, and its |Φ| [m or rad]; NaN: none
       integer, allocatable :: faults(:)            !! of each response, see read_response
       type(table_t), allocatable :: tables(:)      !! of each case; empty where no response has a fault
    end type cause_t
@@ -66,11 +68,11 @@ contains
       type(workspace_t), intent(in) :: workspace           !! with the results of its cases
       type(cause_t), intent(out) :: cause
       type(error_t), allocatable :: error
-      integer :: c, j, side
+      integer :: c, j, side, row
 
       cause%design = design
       cause%faults = faults
-      allocate (cause%lost(2, size(workspace%cases)), source=not_given())
+      allocate (cause%lost(2, size(workspace%cases)), cause%open(2, size(workspace%cases)), source=not_given())
       allocate (cause%tables(size(workspace%cases)))
       do c = 1, size(workspace%cases)
          associate (result => workspace%cases(c)%result, path => workspace%cases(c)%result%path)
@@ -82,6 +84,9 @@ contains
             do side = 1, 2
                if (path%failure(side)%state > 0) cause%lost(side, c) = path%value(path%failure(side)%state)/result%case%unit
             end do
+            row = findloc(open_states(result%table), .true., dim=1)
+            if (row > 0) cause%open(:, c) = [result%table%values(2, row), result%table%values(column_index(result%table, &
+               'constraint_error'), row)]
          end associate
       end do
       do j = 1, size(faults)
@@ -107,6 +112,9 @@ contains
             if (.not. ieee_is_nan(cause%lost(side, c))) call words%add('case '//quoted(workspace%cases(c)%case%name)// &
                ': no equilibrium at factor '//str(cause%lost(side, c)))
          end do
+         if (.not. ieee_is_nan(cause%open(1, c))) call words%add('case '//quoted(workspace%cases(c)%case%name)//', method '// &
+            workspace%cases(c)%case%method//': at factor '//str(cause%open(1, c))//' a state violates the joint constraints by '// &
+            str(cause%open(2, c), 2)//' m or rad; use more increments, or method ''equilibrium''')
       end do
       do j = 1, size(cause%faults)
          if (cause%faults(j) /= 0) call words%add('response '//quoted(readings(j)%asked%name)//': '// &

@@ -10,7 +10,7 @@ module ek_study_design
    use ek_error, only: error_t, exit_deck, exit_file
    use ek_text, only: quoted, replace
    use ek_deck, only: deck_t, set_value
-   use ek_case_result, only: case_result_t, solve_case, solve_mounted, add_remarks
+   use ek_case_result, only: case_result_t, solve_case, solve_mounted, add_remarks, solved
    use ek_table, only: table_t, column_index
    use ek_study, only: study_t, not_given
    use ek_response_value, only: read_response, is_difference
@@ -204,8 +204,7 @@ contains
    pure logical function is_whole(result)
       type(case_result_t), intent(in) :: result
 
-      is_whole = result%is_run()
-      if (is_whole) is_whole = all(result%path%failure%state == 0)
+      is_whole = result%outcome == solved
    end function is_whole
 
    !> Inserts the states of a design after the states of the previous designs. Columns that its model does not define are NaN.
