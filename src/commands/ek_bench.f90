@@ -120,7 +120,7 @@ contains
       type(suspension_t), intent(out) :: suspension
       type(case_t), intent(out) :: case
       type(error_t), allocatable, intent(out) :: error
-      type(workspace_t) :: workspace
+      class(workspace_t), allocatable :: workspace
       type(case_t), allocatable :: chosen(:)
       type(examination_t) :: found
       character(:), allocatable :: checksum

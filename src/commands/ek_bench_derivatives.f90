@@ -49,7 +49,7 @@ contains
       type(command_line_t), intent(in) :: line
       type(error_t), allocatable, intent(out) :: error
       type(deck_settings_t) :: settings
-      type(session_t) :: session
+      class(session_t), allocatable :: session
       type(solve_options_t) :: options
       logical :: is_done
       integer :: k

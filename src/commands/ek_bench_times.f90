@@ -190,13 +190,14 @@ contains
       type(figures_t), intent(inout) :: figures
       type(error_t), allocatable, intent(out) :: error
       type(deck_t) :: deck
-      type(workspace_t) :: workspace
+      class(workspace_t), allocatable :: workspace
       type(factor_paths_t) :: paths(1)
       type(solve_options_t) :: options
       real(wp) :: start, value, time
       logical :: is_done
       integer :: k, d
 
+      allocate (workspace)
       call read_changed(settings%file, settings%changes, deck, error)
       if (.not. allocated(error)) call open_cases(deck, [case_name], workspace, error)
       if (allocated(error)) return

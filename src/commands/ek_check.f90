@@ -64,7 +64,7 @@ contains
       character(:), allocatable, intent(out) :: model, checksum      !! '' if the deck cannot be read
       type(error_t), allocatable, intent(out) :: error
       type(deck_t) :: deck
-      type(workspace_t) :: workspace
+      class(workspace_t), allocatable :: workspace
       type(case_t), allocatable :: chosen(:)
       type(mounted_case_t) :: mounted
       type(diagnosis_t) :: diagnosis

@@ -33,13 +33,14 @@ contains
       type(command_line_t), intent(in) :: line
       type(error_t), allocatable, intent(out) :: error
       type(windows_t) :: windows             !! of gradients, if they are computed from CSV files
-      type(comparison_t) :: this
+      class(comparison_t), allocatable :: this
       type(error_t), allocatable :: undrawn, unprinted
       character(:), allocatable :: message, path
       integer :: k, l
       type(deck_record_t), allocatable :: decks(:)
       logical :: is_quiet, has_plots
 
+      allocate (this)
       is_quiet = line%has('--quiet')
       has_plots = .not. line%has('--no-plots')
       call refuse_stream(line, error)

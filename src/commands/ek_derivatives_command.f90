@@ -35,14 +35,15 @@ contains
       type(command_line_t), intent(in) :: line
       type(error_t), allocatable, intent(out) :: error
       type(deck_settings_t) :: settings
-      type(session_t) :: session
+      class(session_t), allocatable :: session
       type(direction_t), allocatable :: directions(:)
-      type(derivatives_t) :: derivatives
+      class(derivatives_t), allocatable :: derivatives
       type(error_t), allocatable :: unreached
       character(name_length), allocatable :: columns(:)
       integer, allocatable :: states(:)
       integer :: k
 
+      allocate (derivatives)
       call read_deck_settings(line, settings)
       call load_session(settings, session, error)
       if (allocated(error)) return

@@ -43,7 +43,7 @@ contains
       type(command_line_t), intent(in) :: line
       type(error_t), allocatable, intent(out) :: error
       type(settings_t) :: settings
-      type(workspace_t) :: workspace
+      class(workspace_t), allocatable :: workspace
       type(case_t), allocatable :: chosen(:)
       type(examination_t) :: found
       type(model_remarks_t) :: remarks
@@ -115,12 +115,13 @@ contains
       type(error_t), allocatable, intent(out) :: error
       type(error_t), allocatable :: trouble
       type(solve_options_t) :: options
-      type(case_result_t) :: result
+      class(case_result_t), allocatable :: result
       type(contribution_table_t) :: table
       integer, allocatable :: laws(:)
       character(:), allocatable :: name
       integer :: k, printed
 
+      allocate (result)
       options%fault = fault
       allocate (options%columns(0))
       call solve_case(base, wanted, options, result, show_progress)

@@ -90,7 +90,7 @@ contains
       type(export_settings_t), intent(in) :: settings
       type(axle_map_t), intent(out) :: axle
       type(error_t), allocatable, intent(out) :: error
-      type(workspace_t) :: workspace
+      class(workspace_t), allocatable :: workspace
       type(model_remarks_t) :: remarks
 
       call load_deck(settings, workspace, axle%checksum, error)

@@ -28,13 +28,14 @@ contains
       type(error_t), allocatable, intent(out) :: error     !! exit_convergence: the iterations did not suffice
       type(fit_t) :: fit
       type(deck_t) :: deck
-      type(session_t) :: session
+      class(session_t), allocatable :: session
       type(fit_problem_t) :: problem
       type(fit_result_t) :: found
       type(fit_statistics_t) :: statistics
       type(buffer_t) :: text
       character(:), allocatable :: home, out, message
 
+      allocate (session)
       home = folder_name(line%files%line(1))
       out = line%value('--out', join_path(home, 'out'))
       if (out == '-') then

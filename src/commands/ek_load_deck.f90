@@ -55,7 +55,7 @@ contains
    !> together.
    subroutine load_deck(settings, workspace, checksum, error, needs_tables, used_deck)
       class(deck_settings_t), intent(in) :: settings
-      type(workspace_t), intent(out) :: workspace            !! without cases: the command chooses cases of the design
+      class(workspace_t), allocatable, intent(out) :: workspace      !! without cases: the command chooses cases of the design
       character(:), allocatable, intent(out), optional :: checksum     !! of the deck as it was used
       type(error_t), allocatable, intent(out) :: error
       logical, intent(in), optional :: needs_tables          !! if .true., a missing table is an error, also of a case not run
@@ -64,6 +64,7 @@ contains
       type(set_file_t), allocatable :: files(:)
       type(error_t), allocatable :: unset
 
+      allocate (workspace)
       call read_set_deck(settings, deck, files, unset, error)
       if (allocated(error)) return
       call open_model(deck, workspace, error, needs_tables)
@@ -76,12 +77,13 @@ contains
    !> Opens a deck with its settings as a session. (load_deck returns a model instead.)
    subroutine load_session(settings, session, error)
       class(deck_settings_t), intent(in) :: settings
-      type(session_t), intent(out) :: session
+      class(session_t), allocatable, intent(out) :: session
       type(error_t), allocatable, intent(out) :: error
       type(deck_t) :: deck
       type(set_file_t), allocatable :: files(:)
       type(error_t), allocatable :: unset
 
+      allocate (session)
       call read_set_deck(settings, deck, files, unset, error)
       if (allocated(error)) return
       call take_deck(deck, session, error)

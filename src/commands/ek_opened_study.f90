@@ -38,9 +38,10 @@ contains
    !> Reads the study and its deck. No case is solved.
    subroutine open_study(line, this, error)
       type(command_line_t), intent(in) :: line
-      type(opened_study_t), intent(out) :: this
+      class(opened_study_t), allocatable, intent(out) :: this
       type(error_t), allocatable, intent(out) :: error
 
+      allocate (this)
       this%build = ''
       if (allocated(line%build)) this%build = line%build
       this%home = folder_name(line%files%line(1))

@@ -25,7 +25,7 @@ contains
    subroutine run_plot_command(line, error)
       type(command_line_t), intent(in) :: line
       type(error_t), allocatable, intent(out) :: error
-      type(opened_study_t) :: this
+      class(opened_study_t), allocatable :: this
       type(message_list_t) :: kinds
 
       call check_kinds(line%values('--kind'), error)
@@ -79,12 +79,13 @@ contains
       type(message_list_t), intent(in) :: kinds      !! of figures; none: all that apply
       logical, intent(in) :: is_quiet
       type(error_t), allocatable, intent(out) :: error
-      type(study_data_t) :: data
+      class(study_data_t), allocatable :: data
       type(message_list_t) :: scripts, pictures
       type(error_t), allocatable :: undrawn
       character(:), allocatable :: folder, message, name
       integer :: k, sheet
 
+      allocate (data)
       call read_results_of(study, deck, home, out, data, error)
       if (allocated(error)) return
       folder = join_path(out, 'figures')

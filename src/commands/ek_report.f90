@@ -70,8 +70,8 @@ contains
       type(command_line_t), intent(in) :: line
       type(error_t), allocatable, intent(out) :: error
       type(settings_t) :: settings
-      type(report_t) :: page
-      type(workspace_t) :: workspace
+      class(report_t), allocatable :: page
+      class(workspace_t), allocatable :: workspace
       type(deck_t) :: deck
       type(case_t), allocatable :: cases(:), chosen(:)                  ! with the tests; those of this report
       type(examination_t) :: found
@@ -80,6 +80,7 @@ contains
       type(error_t), allocatable :: undrawn, unprinted, incomplete
       character(:), allocatable :: checksum
 
+      allocate (page)
       call read_settings(line, settings, error)
       if (.not. allocated(error) .and. line%has('--scales')) &
          call read_scales(line%value('--scales'), settings%windows, scales, error)
@@ -351,10 +352,11 @@ contains
       type(live_t), intent(inout), optional :: live         !! receives the data for the sliders of --live
       integer, parameter :: topics(7) = [on_case, on_end, on_stability, on_settling, on_rack, on_curve, on_closure]
       type(solve_options_t) :: options
-      type(case_result_t) :: result
+      class(case_result_t), allocatable :: result
       type(remark_t) :: remark
       integer :: topic, k
 
+      allocate (result)
       options%fault = fault
       options%checksum = checksum
       options%is_compared = .false.

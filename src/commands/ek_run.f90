@@ -43,7 +43,7 @@ contains
       type(command_line_t), intent(in) :: line
       type(error_t), allocatable, intent(out) :: error
       type(settings_t) :: settings
-      type(workspace_t) :: workspace
+      class(workspace_t), allocatable :: workspace
       type(case_t), allocatable :: cases(:), chosen(:)
       type(error_t), allocatable :: trouble, unprinted
       type(examination_t) :: found
@@ -183,10 +183,11 @@ contains
       type(error_t), allocatable, intent(out) :: error
       type(error_t), allocatable :: trouble, undrawn
       type(solve_options_t) :: options
-      type(case_result_t) :: result
+      class(case_result_t), allocatable :: result
       type(table_t) :: compliance
       character(:), allocatable :: name
 
+      allocate (result)
       options%fault = fault
       options%checksum = checksum
       if (allocated(settings%columns)) options%columns = settings%columns

@@ -77,7 +77,7 @@ contains
       character(*), intent(in) :: names(:)
       real(wp), intent(out) :: values(:)
       type(error_t), allocatable, intent(out) :: error
-      type(session_t) :: session
+      class(session_t), allocatable :: session
       type(case_t), allocatable :: cases(:), chosen(:)
       type(model_remarks_t) :: remarks
       type(error_t), allocatable :: unread

@@ -33,7 +33,7 @@ contains
       type(command_line_t), intent(in) :: line
       type(error_t), allocatable, intent(out) :: error     !! exit_convergence: not all conditions are met
       type(deck_settings_t) :: settings
-      type(session_t) :: session
+      class(session_t), allocatable :: session
       type(unknown_t), allocatable :: unknowns(:)
       type(wanted_number_t), allocatable :: wanted(:)
       real(wp), allocatable :: targets(:)

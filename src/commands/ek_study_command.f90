@@ -50,7 +50,7 @@ contains
       type(command_line_t), intent(in) :: line
       type(ranks_t), intent(inout) :: ranks
       type(error_t), allocatable, intent(out) :: error
-      type(opened_study_t) :: this
+      class(opened_study_t), allocatable :: this
       type(run_options_t) :: options
       type(message_list_t) :: tables
       logical :: has_designs, asks_status
@@ -100,7 +100,7 @@ contains
    subroutine run_merge_command(line, error)
       type(command_line_t), intent(in) :: line
       type(error_t), allocatable, intent(out) :: error
-      type(opened_study_t) :: this
+      class(opened_study_t), allocatable :: this
       type(message_list_t) :: tables
       type(scratch_t) :: hold
       character(:), allocatable :: results

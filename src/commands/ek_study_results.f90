@@ -47,13 +47,14 @@ contains
       character(*), intent(in) :: out                !! folder of the tables
       type(study_data_t), intent(out) :: data
       type(error_t), allocatable, intent(out) :: error     !! exit_deck, exit_file
-      type(designer_t) :: designer
+      class(designer_t), allocatable :: designer
       type(sampler_settings_t) :: settings
       type(sampler_t) :: sampler
       type(scratch_t) :: scratch
       character(:), allocatable :: folder
       integer :: r
 
+      allocate (designer)
       call begin_designer(study, deck, designer, error)
       if (.not. allocated(error)) call plan_sampler(study, home, designer, settings, sampler, error)
       if (allocated(error)) return

@@ -40,11 +40,12 @@ contains
    subroutine write_tolerance(this, error)
       type(opened_study_t), intent(in) :: this
       type(error_t), allocatable, intent(out) :: error     !! exit_file
-      type(study_data_t) :: data
+      class(study_data_t), allocatable :: data
       type(message_list_t) :: names
       type(buffer_t) :: text
       integer :: k
 
+      allocate (data)
       call read_results_of(this%study, this%deck, join_path(this%home, ''), this%out, data, error)
       if (allocated(error)) return
       if (allocated(data%moments)) deallocate (data%moments)           ! of a run before

@@ -72,8 +72,9 @@ contains
          type(table_t), intent(out) :: table
          type(error_t), allocatable, intent(out) :: error
          type(solve_options_t) :: options
-         type(case_result_t) :: result
+         class(case_result_t), allocatable :: result
 
+         allocate (result)
          options%is_compared = .false.
          call solve_case(suspension, this, options, result)
          call add_remarks(options, result)

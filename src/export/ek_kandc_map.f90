@@ -49,9 +49,10 @@ contains
       type(error_t), allocatable, intent(out) :: error      !! exit_model, exit_convergence
       real(wp), allocatable :: heights(:, :), steer(:)
       integer, allocatable :: at(:, :)
-      type(case_result_t) :: result
+      class(case_result_t), allocatable :: result
       integer :: wheels(2)
 
+      allocate (result)
       call describe(suspension, request, map)
       call left_and_right(suspension, wheels)
       if (map%kind == over_steer) call find_sign(suspension, request, map, error)
@@ -111,10 +112,11 @@ contains
       type(kandc_map_t), intent(inout) :: map
       type(error_t), allocatable, intent(out) :: error
       real(wp), parameter :: share = 0.05_wp, least = 1.0e-6_wp      ! of the range of steer; rad
-      type(case_result_t) :: result
+      class(case_result_t), allocatable :: result
       real(wp), allocatable :: motion(:, :)
       integer :: wheels(2), side
 
+      allocate (result)
       call left_and_right(suspension, wheels)
       side = merge(1, 2, wheels(1) > 0)
       call solve_rows(suspension, request, reshape([0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp], [2, 2]), &

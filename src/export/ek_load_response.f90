@@ -37,11 +37,12 @@ contains
       type(error_t), allocatable, intent(out) :: error
       integer, parameter :: at_centre = 6              ! added to the component of a table_column_t
       type(load_table_t) :: table
-      type(case_result_t) :: result
+      class(case_result_t), allocatable :: result
       real(wp), allocatable :: values(:), motion(:, :)
       character(:), allocatable :: vertical
       integer :: wheels(2), side, part, rows, at, k, component
 
+      allocate (result)
       call left_and_right(suspension, wheels)
       rows = 5*count*merge(2, 1, all(wheels > 0))
       allocate (table%columns(0), loads%load(10, rows), loads%value(quantities, rows, 2), values(rows))

@@ -45,6 +45,7 @@ contains
 
       call move_alloc(self%places, places)
       if (.not. allocated(places)) allocate (places(lanes))
+      if (.not. allocated(self%branch)) allocate (self%branch(lanes))
       call walk_together(self, members, places)
       call move_alloc(places, self%places)
    end subroutine walk_pack

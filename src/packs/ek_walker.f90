@@ -42,7 +42,7 @@ module ek_walker
    type :: walker_t
       type(pack_t) :: pack
       type(predictor_t) :: history               !! swept values of the stored states; their numbers are in the pack
-      type(branch_t) :: branch(lanes)            !! of each design, for steps that it takes alone
+      type(branch_t), allocatable :: branch(:)   !! of each design, for steps that it takes alone
       logical :: is_fresh(lanes) = .false.       !! the branch belongs to the present design
       type(state_t) :: state
       type(place_t), allocatable :: places(:)    !! of each design; reused as work space

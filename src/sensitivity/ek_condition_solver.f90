@@ -50,7 +50,7 @@ contains
       type(findings_t), intent(out) :: found
       type(error_t), allocatable, intent(out) :: error      !! a number has no value at the start
       type(bounded_search_t) :: search
-      type(wanted_values_t) :: values
+      class(wanted_values_t), allocatable :: values
       type(direction_t), allocatable :: directions(:)
       real(wp), allocatable :: start(:), width(:), scale(:), missing(:)
       logical :: is_valid

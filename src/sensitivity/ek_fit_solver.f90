@@ -34,7 +34,7 @@ contains
       type(workspace_t), intent(inout) :: workspace
       type(fit_result_t), intent(out) :: found
       type(error_t), allocatable, intent(out) :: error
-      type(wanted_values_t) :: values
+      class(wanted_values_t), allocatable :: values
       type(bounded_search_t) :: search
       type(direction_t), allocatable :: directions(:)
       real(wp), allocatable :: r(:), jacobian(:, :), tried(:)

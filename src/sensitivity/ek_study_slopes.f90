@@ -47,12 +47,13 @@ contains
       type(study_t), intent(in) :: study
       type(deck_t), intent(in) :: deck
       type(designer_t), intent(in) :: designer               !! of the study (new_designer)
-      type(study_slopes_t), intent(out) :: self
+      class(study_slopes_t), allocatable, intent(out) :: self
       type(error_t), allocatable, intent(out) :: error       !! exit_deck: numbers without a derivative; exit_model
       type(message_list_t) :: mistakes
       logical :: is_done
       integer :: c, f, k
 
+      allocate (self)
       allocate (self%workspace)
       call open_workspace(deck, self%workspace, error)
       if (allocated(error)) return

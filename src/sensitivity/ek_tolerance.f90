@@ -42,7 +42,7 @@ contains
       type(designer_t), intent(in) :: designer               !! of the study (new_designer)
       type(tolerance_t), intent(out) :: tolerance
       type(error_t), allocatable, intent(out) :: error       !! exit_deck, exit_model: numbers without a derivative, and the reason
-      type(study_slopes_t) :: slopes
+      class(study_slopes_t), allocatable :: slopes
       type(factor_t) :: factor
       real(wp), allocatable :: here(:), low(:, :), high(:, :)
       logical :: is_valid

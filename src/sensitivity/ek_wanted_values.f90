@@ -54,11 +54,12 @@ contains
       type(wanted_number_t), intent(in) :: wanted(:)
       type(direction_t), intent(in) :: directions(:)
       type(workspace_t), intent(inout) :: workspace
-      type(wanted_values_t), intent(out) :: self
+      class(wanted_values_t), allocatable, intent(out) :: self
       type(error_t), allocatable, intent(out) :: error       !! exit_usage, exit_model, exit_convergence: a number has no value
       type(message_list_t) :: mistakes
       integer :: n, j, code
 
+      allocate (self)
       self%wanted = wanted
       self%directions = directions
       self%start = workspace%x

@@ -69,7 +69,7 @@ contains
       type(study_t), intent(in) :: study
       type(deck_t), intent(in) :: deck
       character(*), intent(in) :: home                     !! folder of the study with its slash
-      type(designer_t), intent(out) :: designer
+      type(designer_t), intent(inout) :: designer          !! replaced
       type(error_t), allocatable, intent(out) :: error     !! exit_deck: all errors of the study
       integer :: k
 

@@ -41,7 +41,7 @@ contains
       character(:), allocatable, intent(out) :: text
       type(error_t), allocatable, intent(out) :: error
       type(writer_t), intent(inout), optional :: writer
-      type(workspace_t) :: workspace
+      class(workspace_t), allocatable :: workspace
       type(suspension_t) :: suspension
       type(case_t) :: case
       type(kkt_t) :: kkt
@@ -50,6 +50,7 @@ contains
       logical :: is_reached
       integer :: m, k
 
+      allocate (workspace)
       call open_cases(deck, [study%case], workspace, error)
       if (allocated(error)) return
       call mount(workspace%suspension, workspace%cases(1)%case, suspension, case)

@@ -158,7 +158,7 @@ contains
       type(message_list_t) :: words
       type(error_t), allocatable :: unread, full
       character(:), allocatable :: log
-      integer :: status, k
+      integer :: status, k, bytes
 
       call words%add('env')
       call words%add('HDF5_USE_FILE_LOCKING=FALSE')
@@ -173,7 +173,8 @@ contains
       trouble = printable(log(:verify(log, ' '//new_line('a'), back=.true.)))
       if (len(trouble) == 0) trouble = ended_with//str(status)
       ! HDF5 does not say that the disk is full
-      call write_whole(join_path(folder, 'room'), repeat(' ', room), full)
+      bytes = room                   ! a variable: gfortran would put the string of a constant into the program
+      call write_whole(join_path(folder, 'room'), repeat(' ', bytes), full)
       if (allocated(full)) trouble = full%message(index(full%message, ': ', back=.true.) + 2:)
    end subroutine run_helper
 

@@ -119,11 +119,12 @@ contains
       integer, intent(in) :: k
       type(chunk_t), intent(inout) :: chunk
       type(deck_t) :: changed
-      type(workspace_t) :: workspace
+      class(workspace_t), allocatable :: workspace
       type(error_t), allocatable :: error
       type(cause_t) :: cause
       integer :: faults(size(designer%readings)), f, j, case
 
+      allocate (workspace)
       changed = deck
       do f = 1, size(study%factors)
          do j = 1, size(study%factors(f)%paths)

@@ -63,7 +63,7 @@ contains
       type(study_t), intent(inout) :: study
       type(deck_t), intent(in) :: deck
       type(error_t), allocatable, intent(out) :: error     !! exit_deck, or as open_cases
-      type(workspace_t) :: workspace
+      class(workspace_t), allocatable :: workspace
       type(suspension_t) :: suspension
       type(case_t) :: case
       character(name_length), parameter :: never(3) = [character(name_length) :: 'state', 'factor', 'converged']
@@ -71,6 +71,7 @@ contains
       character(name_length), allocatable :: columns(:)
       integer :: c, k, before
 
+      allocate (workspace)
       if (.not. any(index(study%columns, '*') > 0)) return
       call open_cases(deck, [study%case], workspace, error)
       if (allocated(error)) return

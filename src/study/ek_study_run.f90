@@ -289,16 +289,15 @@ contains
       type(ranks_t), intent(inout) :: ranks
       type(shared_t), intent(inout) :: shared
       procedure(report_procedure) :: report
-      type(designer_t), allocatable :: mine
+      class(designer_t), allocatable :: mine
       type(chunk_t) :: chunk
       type(causes_t) :: causes
       real(wp) :: begun
       integer :: number, k
       logical :: is_whole
 
-      allocate (mine)
       !$omp critical (ek_words)
-      mine = designer
+      allocate (mine, source=designer)
       !$omp end critical (ek_words)
       do
          !$omp critical (ek_words)
