@@ -9,20 +9,20 @@
  *     ek_close(m);                                                         required after an error, too
  *
  * A function whose result is an error code returns one of the EK_ codes below. The program `elastokin` has the same
- * codes as exit status. A function whose result is a string returns NULL after an error. After an error, ek_message
- * gives the message. For an error in a deck, the message gives the file, the line and the remedy. The library prints
- * nothing, never stops the process, and shares no state between handles. One thread at a time may use a handle.
- * Different threads may use different handles at the same time.
+ * codes as exit status. If a function whose result is a string fails, it returns NULL. ek_message never returns NULL;
+ * it gives the message of the failed call. For an error in a deck, the message gives the file, the line and the remedy.
+ * (ek_use_one_thread has no handle, and therefore no message.) The library prints nothing, never stops the process, and
+ * shares no state between handles. One thread at a time may use a handle. Different threads may use different handles
+ * at the same time.
  *
  * Counts and positions are of type int. Positions are counted from 0. Strings are UTF-8 and end with '\0'. A returned
  * string belongs to the handle and stays valid until the handle has returned 16 further strings. The string returned by
- * ek_message stays valid until the next call with this handle. Parameters are in the units of the deck. A result is in
- * the unit with which its column name ends. ek_compliance returns SI units. Missing numbers are NaN.
- * input/QUANTITIES.md defines signs and frames.
+ * ek_message stays valid until the next call with this handle. Parameters are in the units of the deck. ek_column_unit
+ * gives the unit of a result column, ek_number_unit the unit of a key number. The values of ek_compliance are in SI
+ * units. Missing numbers are NaN. input/QUANTITIES.md defines signs and frames.
  *
  * Compatibility: the names, arguments and meanings of the functions and codes in this file do not change while the
- * SONAME is libelastokin.so.0. New functions may be added. The symbol version of an added function is the release that
- * introduced this function. */
+ * SONAME is libelastokin.so.0. New functions may be added; an added function has a new symbol version. */
 #ifndef ELASTOKIN_H
 #define ELASTOKIN_H
 
@@ -36,15 +36,23 @@ enum {
   EK_OK = 0,
   EK_USAGE = 1,       /* an unknown name, path, case or column; a position outside the list; an array of the wrong
                          length; a value that is not a finite number; in ek_set_text, a value of the wrong type; a
-                         missing solution; a null pointer where this file does not allow a null pointer */
+                         missing solution; a case that the function does not support; a null pointer where this file
+                         does not allow a null pointer */
   EK_DECK = 2,        /* errors in the deck, or numbers outside their legal ranges; the message lists all errors */
-  EK_MODEL = 3,       /* the model has a mechanism or redundant constraints and cannot be solved */
-  EK_CONVERGENCE = 4, /* some states did not converge. ek_solve computes the states from design towards each end of the
-                         range. In each direction, the table ends with the first state that did not converge. In the row
-                         of this state, `converged` is 0 and the results are NaN. If a load table defines the states of
-                         the case, the result table contains a row for every state. Key numbers that require a state
-                         that did not converge are NaN. The other rows and key numbers are valid */
-  EK_FILE = 5         /* a file cannot be read, or there is not enough memory */
+  EK_MODEL = 3,       /* the model cannot be solved: it has a mechanism or redundant constraints, or no preload that
+                         preload trim (`balance`) may change holds its loads */
+  EK_CONVERGENCE = 4, /* some states did not converge, the model does not define a requested key number, or preload trim
+                         (`balance`) did not converge. In the last case there are no results.
+                         ek_solve computes the states from design towards each end of the range. In each direction, the
+                         table ends with the first state that is not reached. In its row, `converged` is 0 and the
+                         results are NaN. If the states are those of a load table or of the grid travel_and_steering,
+                         the result table contains a row for every state.
+                         With method recursive or corrected, `converged` is also 0 for a state that violates the joint
+                         constraints; its results are finite.
+                         Key numbers that require a state with `converged` = 0 are NaN. The other rows and key numbers
+                         are valid */
+  EK_FILE = 5         /* the deck or a load table cannot be read (an included, hardpoint or property file: EK_DECK), or
+                         there is not enough memory */
 };
 
 /* ---- the library ---- */
@@ -55,8 +63,8 @@ int ek_use_one_thread(void);
 
 /* ---- a model ---- */
 int ek_open_file(const char *path, ek_model **model);                       /* reads a deck from a file */
-/* Reads a deck from a string. name is the file name in messages. In the deck, relative paths of included files and load
- * tables start from the folder of name. If name is NULL, the name is "deck". */
+/* Reads a deck from a string. name is the file name in messages. Relative paths of the files that are named in the deck
+ * start from the folder of name. If name is NULL, the name is "deck". */
 int ek_open_text(const char *text, const char *name, ek_model **model);
 void ek_close(ek_model *model);                     /* frees the handle; NULL is allowed */
 const char *ek_message(ek_model *model);            /* message of the last call; "" if that call succeeded */
@@ -66,21 +74,22 @@ int ek_wheel_count(ek_model *model);                /* 0, 1 or 2; the left wheel
 
 /* ---- copies ----
  * ek_copy opens a new handle, and copies the deck as it was opened and all changes made since then. ek_copy does not
- * copy the solution, and does not read files. If the copy fails, ek_message(*copy) gives the message, and *copy must be
- * closed. If model contains no deck, ek_copy returns an error code and does not set *copy.
+ * copy the solution, and does not read files. If model contains no deck, ek_copy returns an error code and leaves *copy
+ * unchanged. After any other error, ek_message(*copy) gives the message, and *copy must be closed.
  *
- * ek_file_path and ek_file_text read a list of files. The first file of the list is the deck. The other files are named
- * in the deck: included files, hardpoints, property files and load tables. ek_file_text returns the content that a file
- * had when the deck was opened. ek_open_files opens a deck from such contents, for instance in another process. */
+ * A handle contains a list of files. The first file of the list is the deck. The other files are named in the deck:
+ * included files, hardpoints, property files and load tables. ek_file_path returns the path of file k, and ek_file_text
+ * the content that the file had when the deck was opened. ek_open_files opens a deck from such contents, for instance
+ * in another process. A file that is named in the deck but is not in the list is read from disk. */
 int ek_copy(ek_model *model, ek_model **copy);
 int ek_file_count(ek_model *model);
 const char *ek_file_path(ek_model *model, int k);   /* path of the file; NULL outside the list */
 const char *ek_file_text(ek_model *model, int k);   /* content of the file; NULL outside the list */
 int ek_open_files(int n, const char *const *paths, const char *const *texts, ek_model **model);  /* the deck is first */
 /* Returns the deck with its current numbers as one string. A model opened from this string gives the same results as
- * model. The string contains all changes, both sides of a mirrored axle, and the contents of included files, hardpoints
- * and property files. Load tables are not contained; the string gives the absolute path of each load table. If the
- * numbers do not define a valid model, the function returns NULL, and ek_message gives the message. */
+ * the original model. The string contains all changes, both sides of a mirrored axle, and the contents of included
+ * files, hardpoints and property files. Load tables are not contained; the string gives the absolute path of each load
+ * table. If the numbers do not define a valid model, the function returns NULL, and ek_message gives the message. */
 const char *ek_deck_as_used(ek_model *model);
 
 /* ---- messages on the model ----
@@ -100,14 +109,15 @@ const char *ek_model_remark_severity(ek_model *model, int k);      /* "note", "w
  * If a number is outside its legal range (input/README.md), a function that sets numbers returns EK_DECK and changes no
  * number. ek_set_all sets either all numbers or none. Legal numbers are stored even if they do not define a valid model
  * together (two points that coincide, a case whose range is from 1 to 1). The next ek_solve or ek_numbers then returns
- * the error. ek_set_text checks the whole deck with the new value, reads no file, and rejects a value that causes an
- * error. */
+ * the error. ek_set_text checks the whole deck with the new value, and rejects a value that causes an error. For this
+ * check, the files of the deck are not read again; only a file with a new path is read. */
 int ek_parameter_count(ek_model *model);
 const char *ek_parameter_path(ek_model *model, int k);       /* "bushing.lca_front.kt(1)"; NULL outside the range */
 const char *ek_parameter_unit(ek_model *model, int k);       /* "N/mm"; "" if the number is dimensionless */
 int ek_parameter_is_given(ek_model *model, int k);           /* 1: given in the deck; 0: default value */
 int ek_parameter_twin(ek_model *model, int k);               /* for a number of the right side of a mirrored axle:
-                                                                position of the same number of the left side; else -1 */
+                                                                position of the corresponding number of the left side;
+                                                                else -1 */
 int ek_get_at(ek_model *model, int k, double *value);
 int ek_set_at(ek_model *model, int k, double value);
 int ek_get_all(ek_model *model, int n, double *values);      /* n must be ek_parameter_count */
@@ -152,35 +162,37 @@ const char *ek_remark_severity(ek_model *model, int k);      /* "note", "warning
  * (6 x ek_wheel_count) squared, and values contains one row of the matrix after the other. Each row of the matrix is a
  * displacement or rotation of a wheel centre (x y z [m], rx ry rz [rad]). Each column of the matrix is a load at a
  * wheel centre (fx fy fz [N], mx my mz [N m]). Displacements and loads are in the frame of the deck. The vertical
- * forces on all wheels are held. All entries are NaN if the state did not converge.
+ * forces of the ground on the wheels stay constant (`load_held` in input/QUANTITIES.md). All entries are NaN if the
+ * state did not converge or the matrix is singular.
  *
  * ek_compliance and ek_derivatives return EK_USAGE if numbers were changed after the solution and ek_numbers or
  * ek_model_remarks was called after the change. Call ek_solve again before ek_compliance or ek_derivatives. */
 int ek_compliance(ek_model *model, int row, int n, double *values);
 
-/* Exact derivatives of columns with respect to numbers of the deck, at one state of the last solution [unit of the
- * column per unit of the number]. row is the position of the state in the result table. values contains the n_numbers
- * derivatives of the first column, then the n_numbers derivatives of the second column, and so on. The case is not
- * solved again. The derivatives account for the change of the state, of the static equilibrium and of the trimmed
- * preloads (`balance`). For a case with another method than equilibrium or with follow = 'arc',
- * ek_derivatives returns EK_USAGE.
+/* Derivatives of columns with respect to numbers of the deck, at one state of the last solution [unit of the column per
+ * unit of the number], from the exact derivative of the state. row is the position of the state in the result table.
+ * values contains the n_numbers derivatives of the first column, then the n_numbers derivatives of the second column,
+ * and so on. The case is not solved again. The derivatives account for the change of the state, of the static
+ * equilibrium and of the trimmed preloads (`balance`). For a case with follow = 'arc', or
+ * with a method other than equilibrium, ek_derivatives returns EK_USAGE.
  *   columns: columns of the case, also columns not requested in ek_solve; or entries of the compliance matrix, with the
  *            names in the files of run --compliance
- *   paths:   as in ek_set; each path must lead to one number, or to the same number on both sides of a mirrored axle
+ *   paths:   as in ek_set; each path must lead to one number, or to the corresponding numbers on both sides of a
+ *            mirrored axle
  *   errors:  estimated errors of the derivatives, in the order of values; may be NULL
  * A derivative is NaN if the state did not converge, if the column has no value at the state, or if the number cannot
  * be changed. A further call with the same case, columns and paths is faster, even if numbers were changed. */
-int ek_derivatives(ek_model *model, int row, int n_columns, const char *const *columns, int n_numbers, const char *const *paths,
-                   double *values, double *errors);
+int ek_derivatives(ek_model *model, int row, int n_columns, const char *const *columns, int n_numbers,
+                   const char *const *paths, double *values, double *errors);
 
 /* ---- key numbers, as in key_numbers.csv of the report ----
  * ek_numbers computes the key numbers with the given names, and solves only the tests that these key numbers require.
  * The last solution (ek_values) does not change. In a model with two wheels, the name of a key number of one wheel
  * begins with left_ or right_. The name of a key number of the whole axle has no such prefix.
  *
- * If ek_numbers returns EK_CONVERGENCE, the key numbers listed in the message are NaN. For each of these key numbers,
- * the message gives the reason: a required state did not converge, or the model does not define the key number. A slope
- * requires only the states inside its window. The other key numbers are valid. */
+ * If ek_numbers returns EK_CONVERGENCE, the key numbers listed in the message are NaN, and the key numbers not listed
+ * are valid. The message gives the reason for each: a required state has `converged` = 0, or the model does not define
+ * the key number. A slope requires only the states inside its window. */
 int ek_numbers(ek_model *model, int n, const char *const *names, double *values);
 int ek_number_count(ek_model *model);               /* count of all names. No case is solved; a listed key
                                                        number may be NaN */

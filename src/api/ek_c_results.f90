@@ -16,6 +16,8 @@ module ek_c_results
    public :: ek_solve, ek_row_count, ek_column_count, ek_column_name, ek_column_unit, ek_column_title, ek_column_sign, ek_values, &
       ek_column_values, ek_remark_count, ek_remark_text, ek_remark_severity, ek_compliance, ek_derivatives
 
+   character(*), parameter :: no_solution = 'there is no solution'
+
 contains
 
    !> Exit code after solving a case (elastokin.h).
@@ -49,6 +51,16 @@ contains
       if (associated(handle)) last => result_of(handle%session)
    end function solution_of
 
+   !> The last solution, for a call that returns a string. If there is no solution, a message is stored in the handle.
+   function described_solution(handle) result(last)
+      type(handle_t), pointer, intent(in) :: handle          !! of open_handle
+      type(case_result_t), pointer :: last
+      integer(c_int) :: code
+
+      last => solution_of(handle)
+      if (.not. associated(last)) code = refuse(handle, no_solution)
+   end function described_solution
+
    !> Finds the last solution for a call that returns a code. The code is not ek_ok if there is no solution.
    subroutine take_solution(model, handle, last, code)
       type(c_ptr), intent(in) :: model
@@ -58,7 +70,7 @@ contains
 
       call take_handle(model, handle, code)
       last => solution_of(handle)
-      if (code == ek_ok .and. .not. associated(last)) code = refuse(handle, 'there is no solution')
+      if (code == ek_ok .and. .not. associated(last)) code = refuse(handle, no_solution)
    end subroutine take_solution
 
    !> Number of states of the last solution; 0 without a solution.
@@ -119,7 +131,7 @@ contains
       character(:), allocatable :: name, text
 
       address = c_null_ptr
-      last => solution_of(handle)
+      last => described_solution(handle)
       if (.not. associated(last)) return
       if (.not. is_position(handle, k, size(last%table%columns))) return
       !$omp critical (ek_words)
@@ -216,7 +228,7 @@ contains
       character(:), allocatable :: text, severity
 
       address = c_null_ptr
-      last => solution_of(handle)
+      last => described_solution(handle)
       if (.not. associated(last)) return
       if (.not. is_position(handle, k, last%remarks%count())) return
       !$omp critical (ek_words)
