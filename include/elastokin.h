@@ -39,8 +39,8 @@ enum {
                          missing solution; a case that the function does not support; a null pointer where this file
                          does not allow a null pointer */
   EK_DECK = 2,        /* errors in the deck, or numbers outside their legal ranges; the message lists all errors */
-  EK_MODEL = 3,       /* the model cannot be solved: it has a mechanism or redundant constraints, or no preload that
-                         preload trim (`balance`) may change holds its loads */
+  EK_MODEL = 3,       /* the model cannot be solved: it has a mechanism or redundant constraints, or preload trim
+                         (`balance`) has no solution */
   EK_CONVERGENCE = 4, /* some states did not converge, the model does not define a requested key number, or preload trim
                          (`balance`) did not converge. In the last case there are no results.
                          ek_solve computes the states from design towards each end of the range. In each direction, the
