@@ -12,7 +12,7 @@ module ek_contact
 
    !> A range of consecutive states in which a stop is in contact.
    type :: contact_t
-      character(name_length) :: stop = ''        !! without its side if both sides have the same stretch
+      character(name_length) :: stop = ''        !! name of the stop, without its side if both sides have the same range
       integer :: first = 0, last = 0             !! rows of the table
    end type contact_t
 
@@ -31,7 +31,7 @@ contains
       end do
    end subroutine states_in_contact
 
-   !> The ranges of states in which stops are in contact.
+   !> The ranges of states in which stops are in contact. Equal ranges of the two sides are listed once.
    pure function contacts_of(table) result(list)
       type(table_t), intent(in) :: table
       type(contact_t), allocatable :: list(:)

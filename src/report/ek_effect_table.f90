@@ -165,7 +165,7 @@ contains
       call add_markup(page, '</details>')
    end subroutine add_idle
 
-   !> Number of base points or effects from which an effect was computed, where designs failed: ' (67 of 256)'.
+   !> Number of base points or effects from which an effect was computed, if designs failed: ' (67 of 256)'; otherwise ''.
    pure function rests_on(effects, f) result(text)
       type(effects_t), intent(in) :: effects
       integer, intent(in) :: f

@@ -13,10 +13,11 @@ module ek_moving_states
 
 contains
 
-   !> Index of a test of the first wanted kind that has more than one state; 0 if there is no such test.
+   !> Index of the first test of a kind that has more than one reached state. The kinds are tried in their order; 0 if no kind
+   !! has such a test.
    pure integer function moving_test(tests, paths, kinds) result(test)
       type(test_result_t), intent(in) :: tests(:)
-      type(path_t), intent(in) :: paths(:)          !! of the tests
+      type(path_t), intent(in) :: paths(:)          !! paths of the tests
       character(*), intent(in) :: kinds(:)
       integer :: kind
 

@@ -1,5 +1,6 @@
-!> A table of results: named columns, one row per state, and header lines on its origin. As comma-separated text it has lines that
-!> begin with `# `, a line of column names, and one line per row. Numbers have 15 significant digits; `nan` is a missing value.
+!> A table of results: named columns, one row per state, and header lines on its origin. As CSV, a table has header lines that
+!> begin with `# `, a line of column names, and one line per row. Numbers have 15 significant digits; `nan` is a missing
+!> value.
 module ek_table
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan, ieee_is_finite, ieee_is_nan
    use ek_kinds, only: wp
@@ -21,7 +22,7 @@ module ek_table
    type :: table_t
       character(name_length), allocatable :: columns(:)   !! names with unit suffix, e.g. toe_deg
       real(wp), allocatable :: values(:, :)               !! (column, row): a row is contiguous
-      logical, allocatable :: is_whole(:)                 !! column of integers: state, iterations
+      logical, allocatable :: is_whole(:)                 !! the column contains integers: state, iterations, …
       type(message_list_t) :: header                      !! written above the table, each with '# '
    end type table_t
 
@@ -103,7 +104,7 @@ contains
       row_count = size(table%values, 2)
    end function row_count
 
-   !> The table as a string, for tests and benchmarks. Files are written row by row.
+   !> The table as a CSV string, for tests and benchmarks. Files are written row by row.
    pure function csv_text(table) result(text)
       type(table_t), intent(in) :: table
       character(:), allocatable :: text
@@ -117,7 +118,7 @@ contains
       text = buffer%text()
    end function csv_text
 
-   !> One row as a line with its line end.
+   !> One row of a table as a CSV line, with line end.
    pure function csv_row(values, is_whole) result(text)
       real(wp), intent(in) :: values(:)
       logical, intent(in) :: is_whole(:)        !! the columns of integers
@@ -139,7 +140,7 @@ contains
       text = line(:filled)
    end function csv_row
 
-   !> The nearest integer of values small enough to have a fraction; NaN for NaN.
+   !> The nearest integer, for magnitudes below 1e15; larger values, which have no fraction, and NaN are unchanged.
    elemental real(wp) function whole(value)
       real(wp), intent(in) :: value
 
@@ -214,7 +215,7 @@ contains
       call write_standard_output(buffer%text(), error)
    end subroutine print_csv
 
-   !> Reads a table. All lines with # go to the header; empty lines are skipped.
+   !> Reads a table from a CSV file. All lines that begin with # are header lines; empty lines are skipped.
    subroutine read_csv(path, table, error, may_stream, has_text)
       character(*), intent(in) :: path
       type(table_t), intent(out) :: table
@@ -306,7 +307,7 @@ contains
       character(*), intent(in) :: content
       character(*), intent(in) :: where                  !! 'file:line: ' for messages
       integer, intent(in) :: row
-      logical, intent(in) :: skips                       !! fields that are not numbers become nan
+      logical, intent(in) :: skips                       !! .true.: fields that are empty or in quotes remain nan
       type(table_t), intent(inout) :: table
       type(error_t), allocatable, intent(out) :: error
       integer, allocatable :: at(:)
