@@ -48,7 +48,7 @@ contains
    end function new_carpet
 
    !> Positions of the levels of a factor, from 0 to 1. Distances are proportional to differences of the levels, or of their
-   !! logarithms if is_log.
+   !> logarithms if is_log.
    pure function places(levels, is_log)
       real(wp), intent(in) :: levels(:)
       logical, intent(in) :: is_log

@@ -49,7 +49,7 @@ contains
    end function least_span
 
    !> The change (b − a) as a share of a scale: |a|, or the least span if that is larger. 0 if the share is at most 1e-6,
-   !! which is rounding; NaN if a or b is missing.
+   !> which is rounding; NaN if a or b is missing.
    elemental real(wp) function change_of(a, b, least)
       real(wp), intent(in) :: a, b, least
       real(wp) :: scale
@@ -71,7 +71,7 @@ contains
    end function has_changed
 
    !> Verdict on a row of the first result and of another result: 'changed', 'same', 'not a number', 'only in A' (or another
-   !! letter), or 'in neither'.
+   !> letter), or 'in neither'.
    pure function verdict_of(change, threshold, is_in_first, is_in_other, other) result(words)
       real(wp), intent(in) :: change, threshold
       logical, intent(in) :: is_in_first, is_in_other

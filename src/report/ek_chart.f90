@@ -30,7 +30,7 @@ module ek_chart
 
    character(25), parameter :: dashes(0:3) = [character(25) :: '', ' dashtype (10, 6)', ' dashtype (2, 4)', &
       ' dashtype (10, 4, 2, 4)']
-   integer, parameter :: chart_width = 460, chart_height = 330   !! pixels at font size 13
+   integer, parameter :: chart_width = 460, chart_height = 330   !! size of a chart [pixels], at font size 13
 
 contains
 
@@ -43,7 +43,7 @@ contains
    end function picture_file
 
    !> One gnuplot script that draws every chart as an SVG file (picture_file) in the folder where gnuplot runs. Charts without
-   !! curves and constant charts (is_level) are omitted.
+   !> curves and constant charts (is_level) are omitted.
    pure function charts_script(charts) result(text)
       type(chart_t), intent(in) :: charts(:)
       character(:), allocatable :: text
@@ -147,7 +147,7 @@ contains
    end subroutine add_contact
 
    !> Sets is_level of a chart: whether it is constant to the printed digits. In such a chart, every curve spans at most a
-   !! hundredth of the least span (chart%noise). Without curves or a least span, is_level is .false.
+   !> hundredth of the least span (chart%noise). Without curves or a least span, is_level is .false.
    elemental subroutine set_level(chart)
       type(chart_t), intent(inout) :: chart
       integer :: k
@@ -205,7 +205,7 @@ contains
    end function rounded
 
    !> Adds the picture files of charts to a list, every name once. Charts without curves and constant charts (is_level) are
-   !! omitted.
+   !> omitted.
    subroutine pictures_of(charts, pictures)
       type(chart_t), intent(in) :: charts(:)
       type(message_list_t), intent(inout) :: pictures
@@ -232,7 +232,7 @@ contains
    !> Removes the pictures that an earlier run has drawn of charts, for a page without pictures.
    subroutine remove_drawn(charts, folder)
       type(chart_t), intent(in) :: charts(:)
-      character(*), intent(in) :: folder        !! of the page
+      character(*), intent(in) :: folder        !! folder of the page
       integer :: k
 
       do k = 1, size(charts)

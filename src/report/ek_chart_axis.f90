@@ -1,5 +1,5 @@
 !> Ends of the y axis of a chart: at the values of the curves, at a limit for poles, or at the values of the free travel if
-!> the values with a stop in contact reach far beyond those.
+!> the values with a stop in contact reach far beyond the free travel.
 module ek_chart_axis
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
@@ -9,7 +9,7 @@ module ek_chart_axis
    private
    public :: range_of, view_of, cut_of, free_range, extremes, contact_spans
 
-   real(wp), parameter :: much = 3.0_wp       !! free spans; if the states span more, the axis shows the free travel only
+   real(wp), parameter :: much = 3.0_wp       !! largest span of all states, in spans of the free travel, without cutting the axis
 
 contains
 
@@ -39,7 +39,7 @@ contains
    end function range_of
 
    !> Returns the range of the y axis (range_of) as two numbers, for a page that draws the chart itself; low > high if the
-   !! chart has no value.
+   !> chart has no value.
    pure subroutine view_of(chart, low, high)
       type(chart_t), intent(in) :: chart
       real(wp), intent(out) :: low, high
@@ -64,7 +64,7 @@ contains
    end subroutine view_of
 
    !> Finds the smallest and the largest value of all curves, with values beyond ±cut moved to ±cut; low > high if no curve
-   !! has a value.
+   !> has a value.
    pure subroutine extremes(chart, cut, low, high)
       type(chart_t), intent(in) :: chart
       real(wp), intent(in) :: cut
@@ -82,10 +82,10 @@ contains
       end do
    end subroutine extremes
 
-   !> The limit of the axis on both sides of 0; 0 if there is no limit. It is the cap of the chart or, if a curve has a pole
-   !> and this is smaller, 8 times the geometric mean of the magnitudes of all curves. At a pole, the value changes sign
-   !> between two adjacent states and jumps by more than half of the whole span. Curves of less than 12 states are not
-   !> examined for poles.
+   !> The limit of the axis on both sides of 0; 0 if there is no limit. The limit is the cap of the chart. If a curve has a
+   !> pole, the limit is 8 times the geometric mean of the magnitudes of all curves, unless the cap is smaller. At a pole, the
+   !> value changes sign between two adjacent states and jumps by more than half of the whole span. Curves of less than 12
+   !> states are not examined for poles.
    pure real(wp) function cut_of(chart) result(cut)
       type(chart_t), intent(in) :: chart
       real(wp), parameter :: usual = 8.0_wp      ! times the mean of the magnitudes on a logarithmic scale
@@ -120,8 +120,9 @@ contains
       if (.not. cut > 0.0_wp .or. high < cut) cut = high
    end function cut_of
 
-   !> Finds the range of the free travel, with a margin of a quarter of its span, if all states together span more than three
-   !> times as much. Otherwise, is_cut is .false.; it is also .false. if a curve has no data on contact or no free state.
+   !> Finds the range of the free travel, with a margin of a quarter of this range, if all states together span more than
+   !> three times the range. Otherwise, is_cut is .false.; it is also .false. if a curve has no data on contact or no free
+   !> state. A range smaller than the noise counts as the noise.
    pure subroutine free_range(chart, low, high, is_cut)
       type(chart_t), intent(in) :: chart
       real(wp), intent(out) :: low, high

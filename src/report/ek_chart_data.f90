@@ -9,7 +9,7 @@ module ek_chart_data
    type :: trace_t
       character(:), allocatable :: title
       !> Columns of the abscissa and of the values in the table, or an expression of columns in parentheses:
-      !! `(abs(column("toe_deg")))`
+      !> `(abs(column("toe_deg")))`
       character(:), allocatable :: over, column
       real(wp), allocatable :: x(:), y(:)
       real(wp), allocatable :: mark(:)       !! [x, y] of the ring at the design state; not allocated: no ring

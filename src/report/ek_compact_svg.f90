@@ -60,7 +60,7 @@ contains
       short = short(:used)
    end function compact_svg
 
-   !> Whether a string begins at a position.
+   !> Whether a picture has the string `word` at the position `at`.
    pure logical function starts(svg, at, word)
       character(*), intent(in) :: svg, word
       integer, intent(in) :: at
@@ -80,7 +80,7 @@ contains
    end subroutine copy
 
    !> Appends coordinates up to the next apostrophe, or up to the blank before it. Digits after the first decimal, a tenth of
-   !! a pixel, are omitted.
+   !> a pixel, are omitted.
    pure subroutine copy_coordinates(svg, at, to, used)
       character(*), intent(in) :: svg
       integer, intent(inout) :: at, used
@@ -152,7 +152,7 @@ contains
    end subroutine copy_colour
 
    !> Moves `at` to the position after a group that has only an id and contains only line ends; leaves it unchanged at any
-   !! other string.
+   !> other string.
    pure subroutine skip_empty_group(svg, at)
       character(*), intent(in) :: svg
       integer, intent(inout) :: at

@@ -24,7 +24,7 @@ module ek_compare_charts
    end type chart_change_t
 
    !> The difference of a curve of one result from the curve of the first result. A curve that one of the two lacks has the
-   !! difference NaN.
+   !> difference NaN.
    type :: curve_difference_t
       character(:), allocatable :: test, chart, title, label, curve
       integer :: result = 2
@@ -44,7 +44,7 @@ contains
       type(results_t), intent(in) :: results(:)
       real(wp), intent(in) :: threshold
       type(chart_t), allocatable, intent(out) :: charts(:)
-      type(chart_change_t), allocatable, intent(out) :: changes(:)      !! of each chart
+      type(chart_change_t), allocatable, intent(out) :: changes(:)      !! largest change in each chart
       type(curve_difference_t), allocatable, intent(out) :: curves(:)
       type(chart_list_t) :: own(size(results))
       type(chart_t) :: chart
@@ -82,7 +82,7 @@ contains
       charts = charts(:used)
    end subroutine compare_charts
 
-   !> The index of the chart with the same name and abscissa; 0 if there is none.
+   !> The index of the chart in a list that has the name and the abscissa of another chart; 0 if the list has no such chart.
    pure integer function chart_number(list, chart) result(number)
       type(chart_t), intent(in) :: list(:), chart
 
@@ -92,7 +92,7 @@ contains
    end function chart_number
 
    !> Adds to the list of differences every curve of a chart that result r has, and that the result compared with it lacks.
-   !! For r = 1, the other result lacks the chart, otherwise the first result.
+   !> For r = 1, the other result lacks the chart, otherwise the first result.
    subroutine add_lone(chart, test, r, curves)
       type(chart_t), intent(in) :: chart
       character(*), intent(in) :: test
@@ -136,7 +136,7 @@ contains
    end subroutine add_curve
 
    !> Joins the corresponding charts of all results into one chart. Finds the largest change, and adds the differences of the
-   !! curves to their list.
+   !> curves to their list.
    subroutine join(own, places, design, threshold, test, chart, change, curves)
       type(chart_list_t), intent(in) :: own(:)
       integer, intent(in) :: places(:)             !! index of the chart in each list; 0: not in the list
@@ -227,8 +227,8 @@ contains
       largest = one
    end subroutine take
 
-   !> Indices of the curves of a chart with which a curve of another result is compared. They have the same name; a curve for both
-   !> sides is compared with each side.
+   !> Indices of the curves of a chart with which a curve of another result is compared: curves of the same name. A curve for
+   !> both sides is compared with each side.
    pure function partners(chart, title) result(found)
       type(chart_t), intent(in) :: chart
       character(*), intent(in) :: title
@@ -312,7 +312,7 @@ contains
    !> magnitude of a, or the least span of the chart if that is larger.
    pure type(chart_change_t) function distance(a, b, chart) result(change)
       type(trace_t), intent(in) :: a, b
-      type(chart_t), intent(in) :: chart           !! of a
+      type(chart_t), intent(in) :: chart           !! chart of curve a
       real(wp) :: cut, scale, y, one
       integer :: k
       logical :: is_paired
@@ -344,7 +344,7 @@ contains
    end function distance
 
    !> The value of a curve at x, interpolated between two adjacent states; NaN if no two adjacent states with values enclose
-   !! x.
+   !> x.
    pure real(wp) function value_at(curve, x)
       type(trace_t), intent(in) :: curve
       real(wp), intent(in) :: x

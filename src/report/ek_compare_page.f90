@@ -28,7 +28,7 @@ contains
    !> The content of the page compare.html.
    function page_of(this, why_none) result(text)
       type(comparison_t), intent(in) :: this
-      character(*), intent(in) :: why_none          !! why there are no pictures; '' if there is no message
+      character(*), intent(in) :: why_none          !! reason for missing pictures; '' if there is no message
       character(:), allocatable :: text
       type(page_t) :: page
       type(message_list_t) :: names, values, warnings
@@ -152,7 +152,7 @@ contains
    end subroutine fold_rows
 
    !> Counts the key numbers, gradients and charts that changed. Adds one line for key numbers and gradients, and one for
-   !! charts, if there are any.
+   !> charts, if there are any.
    subroutine verdicts(this, lines)
       type(comparison_t), intent(in) :: this
       type(message_list_t), intent(out) :: lines
@@ -226,7 +226,7 @@ contains
    end subroutine add_results
 
    !> Adds the table of key numbers and gradients. After 40 changed numbers, the others are in a folded table. Numbers that
-   !! are unchanged or cannot be compared are in another folded table.
+   !> are unchanged or cannot be compared are in another folded table.
    subroutine add_numbers(page, this)
       type(page_t), intent(inout) :: page
       type(comparison_t), intent(in) :: this
@@ -335,7 +335,7 @@ contains
    end subroutine begin_fold
 
    !> Adds charts side by side: areas that the script of the page fills or, on a static page, the pictures drawn by gnuplot.
-   !! Without pictures, a static page has no charts.
+   !> Without pictures, a static page has no charts.
    subroutine add_charts(page, this, numbers)
       type(page_t), intent(inout) :: page
       type(comparison_t), intent(in) :: this
@@ -364,7 +364,7 @@ contains
    end subroutine add_charts
 
    !> HTML of the largest difference of a chart, and of its magnitude in percent of the scale: ' <span…>largest difference
-   !! −0.31 (4.2 %)</span>'. '' if the chart cannot be compared.
+   !> −0.31 (4.2 %)</span>'. '' if the chart cannot be compared.
    function step_of(is_known, largest, change) result(html)
       logical, intent(in) :: is_known
       real(wp), intent(in) :: largest, change

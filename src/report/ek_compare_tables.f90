@@ -34,7 +34,7 @@ contains
    end subroutine write_tables
 
    !> The table of gradients, or of key numbers if is_by_name, as CSV: one row per gradient or key number, and per result
-   !! compared with the first.
+   !> compared with the first.
    function differences_csv(this, rows, is_by_name) result(text)
       type(comparison_t), intent(in) :: this
       type(difference_t), intent(in) :: rows(:)

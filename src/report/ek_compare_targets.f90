@@ -47,7 +47,7 @@ contains
    end subroutine find_targets
 
    !> Adds the key number of a path such as 'target_band.bump_camber.low' to a list, unless it is already listed. Other paths
-   !! are skipped.
+   !> are skipped.
    subroutine add_name(path, names)
       character(*), intent(in) :: path
       type(message_list_t), intent(inout) :: names
@@ -62,7 +62,7 @@ contains
    end subroutine add_name
 
    !> Adds the value, verdict and band of one result to a target. The verdict is 'outside' if the value of either wheel is
-   !! outside the band; '' without a band or a value.
+   !> outside the band; '' without a band or a value.
    subroutine judge(result, name, this)
       type(results_t), intent(in) :: result
       character(*), intent(in) :: name

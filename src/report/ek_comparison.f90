@@ -19,14 +19,14 @@ module ek_comparison
 
    !> One gradient or key number of all results. For a key number, `test` is its group and `column` its name for programs.
    type, extends(gradient_t) :: difference_t
-      real(wp) :: least = 0.0_wp              !! reference of a change where the value is smaller
+      real(wp) :: least = 0.0_wp              !! least span of a chart; reference of a change if the value is smaller
       real(wp), allocatable :: values(:)      !! one per result; NaN if the result lacks the number
       logical, allocatable :: is_there(:)
    end type difference_t
 
    type :: comparison_t
       character(:), allocatable :: folder               !! folder of the page
-      type(results_t), allocatable :: results(:)        !! the others are compared with the first
+      type(results_t), allocatable :: results(:)        !! compared results; the first is the reference
       real(wp) :: threshold = 0.01_wp                   !! limit above which a number or a chart counts as changed
       type(deck_difference_t), allocatable :: facts(:), deck(:)     !! differences of the runs and of the decks
       type(difference_t), allocatable :: rows(:), numbers(:)        !! gradients, key numbers
@@ -35,7 +35,7 @@ module ek_comparison
       type(chart_t), allocatable :: charts(:)           !! charts of the tests of the first result
       type(chart_change_t), allocatable :: changes(:)   !! largest change in each chart
       type(curve_difference_t), allocatable :: curves(:)
-      type(message_list_t) :: missing                   !! from some results
+      type(message_list_t) :: missing                   !! messages on tests, columns and gradients that a result lacks
       logical :: is_static = .false.                    !! the page has the pictures of gnuplot, and no script
       logical :: has_pictures = .false.                 !! the pictures in the folder belong to this comparison
    end type comparison_t
@@ -209,7 +209,7 @@ contains
    end function is_one_side
 
    !> The largest changes above the threshold, one per line, in at most `most` lines: 'bump toe left: -2.47 → 2.59 deg/m (+205
-   !! %), parallel_travel'.
+   !> %), parallel_travel'.
    function largest_lines(shown, threshold, most) result(lines)
       type(difference_t), intent(in) :: shown(:)       !! sorted by change
       real(wp), intent(in) :: threshold

@@ -13,7 +13,7 @@ module ek_contact
    !> A range of consecutive states in which a stop is in contact.
    type :: contact_t
       character(name_length) :: stop = ''        !! name of the stop, without its side if both sides have the same range
-      integer :: first = 0, last = 0             !! rows of the table
+      integer :: first = 0, last = 0             !! first and last row of the range in the table
    end type contact_t
 
 contains
@@ -53,7 +53,8 @@ contains
       end do
    end function contacts_of
 
-   !> Appends a range, unless the other side has an equal range.
+   !> Appends a range. If the left side of the stop has an equal range, that range then stands for both sides, and none is
+   !> appended.
    pure subroutine add(list, contact)
       type(contact_t), allocatable, intent(inout) :: list(:)
       type(contact_t), intent(in) :: contact

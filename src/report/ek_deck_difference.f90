@@ -13,16 +13,17 @@ module ek_deck_difference
       right(2) = [character(12) :: '.right_', 'wheel.right.'], both(2) = [character(12) :: '.', 'wheel.']
 
    type :: deck_difference_t
-      character(:), allocatable :: path           !! 'point.left_tie_rod_outer.z', or 'Deck checksum'
+      character(:), allocatable :: path           !! path of a value: 'point.left_tie_rod_outer.z'; or fact: 'Deck checksum'
       character(:), allocatable :: sides          !! 'both sides', 'both sides, mirrored; left shown', or ''
       type(message_list_t) :: texts               !! value in each result; '' if the result does not give it
    end type deck_difference_t
 
 contains
 
-   !> Finds the facts and values that differ between the records, in the order of the first record; names that it lacks
-   !> follow. A value that only some decks give is a difference. If both sides of an axle changed equally or oppositely, they
-   !> are one row. If the deck of a record is not known, no values are compared, and facts that a record lacks are omitted.
+   !> Finds the facts and values that differ between the records, in the order of the first record; names that the first
+   !> record lacks follow. A value that only some decks give is a difference. If both sides of an axle changed equally or
+   !> oppositely, they share a row. If the deck of a record is not known, no values are compared, and facts that a record
+   !> lacks are omitted.
    subroutine find_differences(records, facts, values)
       type(deck_record_t), intent(in) :: records(:)
       type(deck_difference_t), allocatable, intent(out) :: facts(:), values(:)
@@ -57,7 +58,7 @@ contains
 
    !> Lists the names whose strings differ between the results.
    subroutine differing(names, texts, list)
-      type(message_list_t), intent(in) :: names(:), texts(:)     !! of each result
+      type(message_list_t), intent(in) :: names(:), texts(:)     !! names and strings of each result
       type(deck_difference_t), allocatable, intent(out) :: list(:)
       type(deck_difference_t) :: row
       integer :: s, r, k, l, used

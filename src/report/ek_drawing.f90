@@ -21,9 +21,9 @@ module ek_drawing
 
 contains
 
-   !> Runs gnuplot once on existing scripts. The scripts read data from their folder and draw into the working folder. They
-   !> draw a picture of another folder ('../x.svg') as `to.'x.svg'`, where `to` is '' here. If gnuplot is not installed,
-   !> `message` says so, and this is not an error.
+   !> Runs gnuplot once on existing scripts. The scripts read data from their folder and draw into the working folder. A
+   !> script names a picture of another folder ('../x.svg') as `to.'x.svg'`; `to` is '' here, so that this picture is also
+   !> drawn into the working folder. If gnuplot is not installed, `message` says so, and this is not an error.
    subroutine run_gnuplot(scripts, pictures, folder, message, error)
       type(message_list_t), intent(in) :: scripts         !! names in the folder
       type(message_list_t), intent(in) :: pictures        !! paths relative to the folder
@@ -85,7 +85,7 @@ contains
    end subroutine run_plot_script
 
    !> Moves all pictures to their folder if all are complete, otherwise none, so that pictures of two runs are not mixed.
-   !! Removes the temporary folder.
+   !> Removes the temporary folder.
    subroutine take_pictures(scratch, pictures, folder, trouble)
       type(scratch_t), intent(inout) :: scratch           !! temporary folder; it is removed
       type(message_list_t), intent(in) :: pictures        !! paths relative to the folder
@@ -140,7 +140,7 @@ contains
    end subroutine draw_in
 
    !> The time limit of gnuplot [s]: the environment variable EK_GNUPLOT_SECONDS if it is a positive integer of up to 6
-   !! digits, otherwise the default of this module.
+   !> digits, otherwise the default of this module.
    integer function seconds_allowed() result(limit)
       character(12) :: text
       integer :: status

@@ -257,7 +257,8 @@ contains
       if (any_gap([effects])) part = '     $gaps'//str(panel)//" using 1:2:('–') with labels offset 1.5, 0 notitle, "//nl
    end function gaps_plot
 
-   !> Script of the Sobol indices with their 95 % intervals.
+   !> Script of the Sobol indices of some responses with their 95 % intervals. Indices from derivatives (tolerance studies)
+   !> have no interval.
    function sobol_script(study, name, subtitle, panels) result(text)
       type(study_data_t), intent(in) :: study
       integer, intent(in) :: panels(:)               !! indices of the responses

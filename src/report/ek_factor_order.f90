@@ -72,7 +72,7 @@ contains
    end function measure_of
 
    !> Whether a factor has no effect on a response: at most a millionth of the largest effect. .false. if the effect is
-   !! unknown.
+   !> unknown.
    pure logical function has_no_effect(sizes, f)
       real(wp), intent(in) :: sizes(:)
       integer, intent(in) :: f

@@ -141,7 +141,7 @@ contains
    end subroutine add_axes
 
    !> The string of a label. If is_folded, as in a small panel, the sign convention, '(+ …)' after four blanks, is placed on a
-   !! separate line.
+   !> separate line.
    pure function label(text, is_folded) result(words)
       character(*), intent(in) :: text
       logical, intent(in) :: is_folded
@@ -208,13 +208,12 @@ contains
    end function field
 
    !> Lists the standard figures of a run: wheel attitude, steering axis and forces, over the wheel travel or the load.
-   !> Quantities without a column or without a value are omitted.
-   !>
-   !> The wheel travel is drawn upward if the wheel moves by 1 mm or more; otherwise (for instance under a lateral force), and
-   !> with `factor_label`, the abscissa is the load factor.
+   !> Quantities without a column or without a value are omitted. The wheel travel is drawn upward if the wheel moves by 1 mm
+   !> or more. Otherwise (for instance under a lateral force), and with `factor_label` or `has_points`, the abscissa is the
+   !> column `factor`.
    subroutine run_figures(table, model, case_name, csv_name, figures, factor_label, elements, has_points)
       type(table_t), intent(in) :: table
-      character(*), intent(in) :: model, case_name          !! for the titles
+      character(*), intent(in) :: model, case_name          !! names for the titles
       character(*), intent(in) :: csv_name                  !! file name of the table, in the folder of the scripts
       type(figure_t), allocatable, intent(out) :: figures(:)   !! named <csv without suffix>_<quantity>
       character(*), intent(in), optional :: factor_label    !! label of the load factor, with its unit; '' as if absent

@@ -9,7 +9,7 @@ module ek_gnuplot_text
 contains
 
    !> A string between single quotes. gnuplot interprets only a quote and a line end in such a string: quotes are doubled, and
-   !! blanks replace control characters.
+   !> blanks replace control characters.
    pure function gnuplot_text(text) result(literal)
       character(*), intent(in) :: text
       character(:), allocatable :: literal
@@ -26,7 +26,7 @@ contains
    end function gnuplot_text
 
    !> A column name between double quotes. gnuplot interprets a double quote, a backslash and a backquote in such a name: '_'
-   !! replaces these characters.
+   !> replaces these characters.
    pure function gnuplot_name(text) result(literal)
       character(*), intent(in) :: text
       character(len(text) + 2) :: literal

@@ -12,7 +12,7 @@ module ek_label_places
       logical :: is_left = .false.
    end type label_place_t
 
-   real(wp), parameter :: gap = 0.02_wp           !! between a point and its name, as a share of the panel's width
+   real(wp), parameter :: gap = 0.02_wp           !! distance between a point and its name, as a share of the panel's width
    integer, parameter :: most_steps = 80          !! number of trial shifts of a name; the step is a quarter of its height
 
 contains
@@ -22,7 +22,7 @@ contains
    !> overlaps no other name and no point. If no trial position is free, the last one is used.
    pure subroutine place_labels(x, y, widths, height, places)
       real(wp), intent(in) :: x(:), y(:)          !! shares of the panel
-      real(wp), intent(in) :: widths(:), height   !! of the names, shares of the panel
+      real(wp), intent(in) :: widths(:), height   !! size of the names, as shares of the panel
       type(label_place_t), intent(out) :: places(:)
       real(wp) :: boxes(4, size(x)), box(4), shift
       integer :: k, step

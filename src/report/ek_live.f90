@@ -18,8 +18,8 @@ module ek_live
    type :: live_test_t
       character(:), allocatable :: name
       character(name_length), allocatable :: column(:)
-      logical, allocatable :: is_held(:), is_inverse(:)      !! see live_columns_t
-      real(wp), allocatable :: value(:, :)                   !! (column, state), as in the table
+      logical, allocatable :: is_held(:), is_inverse(:)      !! kind of each column (live_columns_t)
+      real(wp), allocatable :: value(:, :)                   !! values of the columns, as in the table: (column, state)
       type(live_state_t), allocatable :: state(:)
       integer, allocatable :: shown(:)                       !! states for which the page gives the displacement with other rates
       logical :: holds_heights = .false.                     !! the test holds or drives the heights of the wheels
@@ -41,7 +41,7 @@ contains
    !> added.
    subroutine add_live(result, test, live)
       type(case_result_t), intent(inout) :: result           !! is_run
-      type(test_result_t), intent(in) :: test                !! its name and kind
+      type(test_result_t), intent(in) :: test                !! name and kind of the test
       type(live_t), intent(inout) :: live
       character(24), parameter :: of_design(*) = [character(24) :: '*_load_held_*', '*_height_held_*', '*_rate_n_per_mm', &
          '*_stiffness_n_per_mm', 'wheel_rate_n_per_mm', 'ride_rate_n_per_mm']
@@ -73,7 +73,7 @@ contains
    end subroutine add_live
 
    !> Finds the columns of a test that match a list of names with * and follow the rates, and the data of their states, at the
-   !! given rows of the table.
+   !> given rows of the table.
    subroutine find_test(result, test, rates, names, rows, self)
       type(case_result_t), intent(inout) :: result
       type(test_result_t), intent(in) :: test

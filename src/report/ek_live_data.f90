@@ -67,7 +67,7 @@ contains
    end subroutine add_live_data
 
    !> Adds a rate: its group, name and part, its value in N/mm or N m/deg, and the paths of the settings that change it in the
-   !! deck.
+   !> deck.
    subroutine add_rate(json, rate)
       type(json_t), intent(inout) :: json
       type(live_rate_t), intent(in) :: rate
@@ -136,7 +136,8 @@ contains
    end subroutine add_number
 
    !> Columns of a test as JSON: laws, columns, and states. With `is_exact`, the numbers of a state are lists with all digits;
-   !> otherwise base64 with 7 digits, in the same order.
+   !> otherwise base64 with 7 digits, in the same order. The design state, and the first string of a test, also contain the
+   !> data for the displacements of the wheel centres (end_numbers).
    function test_text(test, of_law, is_exact, is_used) result(text)
       type(live_test_t), intent(in) :: test
       integer, intent(in) :: of_law(:)

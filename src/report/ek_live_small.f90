@@ -28,8 +28,9 @@ module ek_live_small
 
 contains
 
-   !> Takes the used column with the lowest index from a test, together with the columns that need no other laws. Marks all
-   !> these columns as no longer used. With all digits (`is_exact`), takes all used columns and all laws.
+   !> Takes from a test the first column that is still to be written, together with all such columns that need no other laws.
+   !> Marks the taken columns as written: is_used becomes .false. With all digits (`is_exact`), takes all columns that are
+   !> still to be written, and all laws.
    subroutine make_small(test, of_law, is_exact, is_used, small)
       type(live_test_t), intent(in) :: test
       integer, intent(in) :: of_law(:)
@@ -75,7 +76,7 @@ contains
    end subroutine make_small
 
    !> Replaces both laws of a rate by their sum and difference, at all known states. The load of a column gives the relative
-   !! sign of the two sides.
+   !> sign of the two sides.
    subroutine take_sums(of_law, column, state)
       integer, intent(in) :: of_law(:), column
       type(live_state_t), intent(inout) :: state(:)
@@ -145,7 +146,7 @@ contains
    end subroutine turn
 
    !> Finds the laws on which the load of a column acts, and the laws that A couples with them, directly or through other
-   !! laws.
+   !> laws.
    subroutine find_left(state, column, is_left)
       type(live_state_t), intent(in) :: state(:)
       integer, intent(in) :: column

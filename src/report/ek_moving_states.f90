@@ -13,8 +13,8 @@ module ek_moving_states
 
 contains
 
-   !> Index of the first test of a kind that has more than one reached state. The kinds are tried in their order; 0 if no kind
-   !! has such a test.
+   !> Index of a test with more than one reached state: the first such test of the first kind that has one. 0 if no kind in
+   !> the list has such a test.
    pure integer function moving_test(tests, paths, kinds) result(test)
       type(test_result_t), intent(in) :: tests(:)
       type(path_t), intent(in) :: paths(:)          !! paths of the tests

@@ -17,8 +17,8 @@ module ek_number_section
 
 contains
 
-   !> Adds the summary at the top of the report: the verdicts, and the main key numbers as cards. Adds nothing if there are no
-   !! such numbers.
+   !> Adds the summary at the top of the report: the verdicts, and the main key numbers as cards. Without main key numbers,
+   !> adds nothing.
    subroutine add_summary(page, report)
       type(page_t), intent(inout) :: page
       type(report_t), intent(in) :: report
@@ -137,7 +137,8 @@ contains
       html = html//' Name: <code>'//escape_html(numbers(k)%name)//'</code></p></details>'
    end function details_of
 
-   !> Value and unit of a key number as HTML: '−3.21 deg/m', with 'symmetric' or 'left; right wheel opposite' if this holds.
+   !> Value and unit of a key number as HTML: '−3.21 deg/m'. If both wheels have equal or opposite values, 'symmetric' or
+   !> 'left; right wheel opposite' follows.
    function values_of(number) result(html)
       type(key_number_t), intent(in) :: number
       character(:), allocatable :: html

@@ -72,7 +72,7 @@ contains
    pure subroutine begin_section(page, id, title, condition, is_printed)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: id, title
-      character(*), intent(in), optional :: condition      !! after the title, smaller
+      character(*), intent(in), optional :: condition      !! string after the title, in a smaller font
       logical, intent(in), optional :: is_printed          !! .false.: of a live page, on the screen alone
       character(:), allocatable :: small, look
 
@@ -87,7 +87,7 @@ contains
    end subroutine begin_section
 
    !> Adds a plain string as a paragraph 'p', as a heading 'h3' within a section, or as preformatted lines 'pre'. HTML markup
-   !! in the string is escaped.
+   !> in the string is escaped.
    pure subroutine add_text(page, tag, text)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: tag, text
@@ -242,7 +242,7 @@ contains
       call page%body%line('</div>')
    end subroutine end_charts
 
-   !> Adds an SVG picture drawn by gnuplot: at full width if it has a caption, otherwise as one chart of a block.
+   !> Adds an SVG picture drawn by gnuplot: at full width if `caption` is present, otherwise as one chart of a block.
    pure subroutine add_picture(page, svg, title, caption)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: svg, title     !! content of the file; its description
@@ -347,7 +347,7 @@ contains
    end function page_text
 
    !> A number for a table: four digits, with at most four decimals; below 1e7, all digits before the decimal point. From 1e7
-   !! on, it has an exponent. '–' for NaN, and '∞' or '−∞' for an infinite number.
+   !> on, it has an exponent. '–' for NaN, and '∞' or '−∞' for an infinite number.
    pure function page_number(value) result(text)
       real(wp), intent(in) :: value
       character(:), allocatable :: text

@@ -46,7 +46,7 @@ contains
    end subroutine add_solid
 
    !> Adds the bodies, the rods of rod joints and the treads of the wheels as thin lines. Other joints and elements are
-   !! omitted.
+   !> omitted.
    subroutine add_ghost(scene, suspension, state, kind)
       type(scene_t), intent(inout) :: scene
       type(suspension_t), intent(in) :: suspension
@@ -73,7 +73,7 @@ contains
    end subroutine add_ghost
 
    !> Adds the road under the wheels, and an arrow that points to the front of the car. Adds nothing for a model without
-   !! wheels.
+   !> wheels.
    subroutine add_ground(scene, suspension, state, is_plain)
       type(scene_t), intent(inout) :: scene
       type(suspension_t), intent(in) :: suspension
@@ -135,8 +135,8 @@ contains
       if (kind == part_arm .and. .not. plain) call add_plate(scene, state, body, skeleton)
    end subroutine add_body
 
-   !> Adds the plate of an arm attached at two points (a wishbone): a thin plate between these points and the point of the arm
-   !> that is furthest from both. Adds no plate if no point is further than 5 cm from both.
+   !> Adds the plate of an arm attached at two points (a wishbone). The thin plate is between the two points and the point of
+   !> the arm that is furthest from both. Adds no plate if no point is further than 5 cm from both.
    subroutine add_plate(scene, state, body, skeleton)
       type(scene_t), intent(inout) :: scene
       type(state_t), intent(in) :: state
@@ -221,7 +221,7 @@ contains
    end subroutine add_joints
 
    !> Signed distance along an axis from a point of a body to the attachment point of the body that is furthest along the
-   !! axis, in either direction [m].
+   !> axis, in either direction [m].
    real(wp) function reach_along(suspension, body, arm, axis) result(reach)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: body
@@ -275,7 +275,7 @@ contains
       end select
    end subroutine add_elastic
 
-   !> Adds a hub, and a tyre as a surface of revolution; if `plain`, the tyre is the circles of tread and rim.
+   !> Adds a hub, and a tyre as a surface of revolution. If `plain`, circles of tread and rim represent the tyre.
    subroutine add_wheel(scene, wheel, state, plain)
       type(scene_t), intent(inout) :: scene
       type(wheel_t), intent(in) :: wheel

@@ -17,7 +17,7 @@ module ek_picture_names
 contains
 
    !> Adds the axes of the deck at the front right corner of all faces, at the height of the lowest contact point; for a model
-   !! without wheels, at the height of the lowest face. Adds nothing without faces.
+   !> without wheels, at the height of the lowest face. Adds nothing without faces.
    subroutine add_axes(scene, suspension, state)
       type(scene_t), intent(inout) :: scene      !! with all parts
       type(suspension_t), intent(in) :: suspension
@@ -56,7 +56,7 @@ contains
    end subroutine add_axes
 
    !> Adds the names of bodies, rods, and elements between two points except stops. Left and right have one name, at the left
-   !! part.
+   !> part.
    subroutine add_names(scene, suspension, state)
       type(scene_t), intent(inout) :: scene
       type(suspension_t), intent(in) :: suspension

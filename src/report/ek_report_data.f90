@@ -66,7 +66,7 @@ contains
 
    !> The data of a comparison for its page: the tests of the first result with the charts of all results.
    function comparison_data(tests, charts) result(text)
-      type(test_result_t), intent(in) :: tests(:)      !! of the first result
+      type(test_result_t), intent(in) :: tests(:)      !! tests of the first result
       type(chart_t), intent(in) :: charts(:)
       character(:), allocatable :: text
       type(json_t) :: json

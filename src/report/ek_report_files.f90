@@ -71,7 +71,7 @@ contains
    end function table_file
 
    !> The file name of the wheel envelope of a test: name_envelope.csv or, if the table of a test has this name,
-   !! name-envelope.csv.
+   !> name-envelope.csv.
    pure function envelope_file(tests, k) result(file)
       type(test_result_t), intent(in) :: tests(:)      !! with their files
       integer, intent(in) :: k
@@ -183,7 +183,7 @@ contains
       end do
    end subroutine read_numbers
 
-   !> Index of the test with this name in a result; 0 if there is no such test.
+   !> Index of the test of a given name in a result; 0 if the result has no such test.
    pure integer function test_number(results, name) result(number)
       type(results_t), intent(in) :: results
       character(*), intent(in) :: name
@@ -194,7 +194,7 @@ contains
    end function test_number
 
    !> Whether a name is a plain file name: not empty, without a folder, not hidden, not a command option, and without control
-   !! characters.
+   !> characters.
    pure logical function is_file_name(name)
       character(*), intent(in) :: name
       is_file_name = len_trim(name) > 0 .and. scan(name, '/') == 0 .and. index(name, '.') /= 1 .and. index(name, '-') /= 1 &
@@ -202,7 +202,7 @@ contains
    end function is_file_name
 
    !> Reads a table and, from its header, the description of its test. A test without a description has the kind
-   !! 'parallel_travel' if its abscissa is the wheel travel, otherwise 'other'.
+   !> 'parallel_travel' if its abscissa is the wheel travel, otherwise 'other'.
    subroutine read_test(path, name, test, error, may_stream)
       character(*), intent(in) :: path, name
       type(test_result_t), intent(out) :: test

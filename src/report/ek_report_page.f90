@@ -250,7 +250,7 @@ contains
    end subroutine add_constants
 
    !> Mean of the smallest and the largest value of a nearly constant curve; 0 if its magnitude is below 1e-4 of the least
-   !! span.
+   !> span.
    pure real(wp) function level_of(y, span) result(value)
       real(wp), intent(in) :: y(:), span
 

@@ -152,7 +152,7 @@ contains
    end subroutine write_picture
 
    !> Writes the script of the animation: through the travel and back, then through the steering and back. Writes nothing if
-   !! no test moves the suspension; has_animation is then .false.
+   !> no test moves the suspension; has_animation is then .false.
    subroutine write_animation(report, suspension, camera, error)
       type(report_t), intent(inout) :: report                !! has_animation: something moves
       type(suspension_t), intent(in) :: suspension
@@ -193,7 +193,7 @@ contains
    end subroutine write_animation
 
    !> Label of an end of the travel: 'bump, +80 mm'. The number is the height of the first wheel's centre above its design
-   !! height. Without wheels, the label is 'end of travel'.
+   !> height. Without wheels, the label is 'end of travel'.
    function end_name(suspension, state) result(name)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state

@@ -58,7 +58,7 @@ contains
    end function above
 
    !> The script of a fan figure: the median, and the bands that contain 50 % and 90 % of the curves; dashed, the 90 % band
-   !! computed from derivatives, if there is one.
+   !> computed from derivatives, if there is one.
    function fan_script(study, name, subtitle, panels) result(text)
       type(study_data_t), intent(in) :: study
       integer, intent(in) :: panels(:)               !! indices of the columns
@@ -120,7 +120,7 @@ contains
    end function fan_script
 
    !> Whether the band of a column is too narrow to be distinguished from the median: everywhere less than 5 % of the range of
-   !! the median. The deviation from the median is then drawn.
+   !> the median. The deviation from the median is then drawn.
    pure logical function is_narrow(study, c)
       type(study_data_t), intent(in) :: study
       integer, intent(in) :: c                       !! index of the column

@@ -1,5 +1,5 @@
 !> The axes of another report, for the charts of a report. Reports whose charts have the same scales can be compared side by
-!! side.
+!> side.
 module ek_scales
    use ek_kinds, only: wp
    use ek_error, only: error_t

@@ -69,7 +69,7 @@ contains
    end function correlation_text
 
    !> Script of a matrix of panels: up to six responses over up to seven factors. Of more factors, those with the largest rank
-   !! correlations are shown. Of many designs, only some are drawn.
+   !> correlations are shown. Of many designs, only some are drawn.
    function matrix_script(study, name, subtitle) result(text)
       type(study_data_t), intent(in) :: study
       character(*), intent(in) :: name, subtitle

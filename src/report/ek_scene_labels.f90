@@ -27,7 +27,7 @@ module ek_scene_labels
 contains
 
    !> Places the names one after the other, each at the position with the lowest cost, given the names already placed. If no
-   !! position is free, the name is at its point.
+   !> position is free, the name is at its point.
    subroutine place_in_scene(scene, camera, placed)
       type(scene_t), intent(in) :: scene
       type(camera_t), intent(in) :: camera                !! fitted

@@ -51,7 +51,7 @@ contains
    end function scene_script
 
    !> A gnuplot script that draws a sequence of scenes as <name>.gif, which repeats endlessly, in the folder above the
-   !! script's folder, unless the variable `to` gives another folder.
+   !> script's folder, unless the variable `to` gives another folder.
    function animation_script(scenes, captions, camera, name, title) result(text)
       type(scene_t), intent(in) :: scenes(:)
       character(*), intent(in) :: captions(:)

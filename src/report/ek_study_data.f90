@@ -22,7 +22,7 @@ module ek_study_data
       logical :: is_target = .false.                   !! the limits are the band of the deck, not of the study
    end type study_axis_t
 
-   !> The statistics of a response over all designs that have a value of it.
+   !> The statistics of a response over all designs that have a value of the response.
    type :: summary_t
       integer :: used = 0                              !! designs with a value
       real(wp) :: mean = 0.0_wp, deviation = 0.0_wp, lowest = 0.0_wp, highest = 0.0_wp
@@ -61,10 +61,10 @@ module ek_study_data
    !> A best or worst design, to be shown on the page.
    type :: extreme_t
       integer :: response = 0
-      character(:), allocatable :: what                !! 'smallest', 'best' …
+      character(:), allocatable :: what                !! label of the design: 'smallest', 'best', …
       integer :: design = 0
       real(wp) :: value = 0.0_wp
-      character(:), allocatable :: settings            !! --set a=1 --set b=2
+      character(:), allocatable :: settings            !! options that set the factors: --set "a=1" --set "b=2"
       character(:), allocatable :: fragment            !! lines of the deck; '' if they are not known
    end type extreme_t
 
@@ -72,13 +72,13 @@ module ek_study_data
       character(:), allocatable :: name, title, kind, deck, case
       integer :: designs = 0, within = 0, failed = 0
       type(study_axis_t), allocatable :: factors(:), responses(:), columns(:)
-      real(wp), allocatable :: x(:, :), y(:, :)        !! (factor or response, design); NaN without a value
+      real(wp), allocatable :: x(:, :), y(:, :)        !! factors, responses: (factor or response, design); NaN: no value
       type(message_list_t) :: reasons                  !! messages on designs that failed, with the number of each design
       type(summary_t), allocatable :: summaries(:)     !! statistics of each response
       type(effects_t), allocatable :: effects(:)       !! effects on each response
       type(extreme_t), allocatable :: extremes(:)
       ! tolerance; not allocated if it was not computed
-      type(moment_row_t), allocatable :: moments(:, :) !! (method, response)
+      type(moment_row_t), allocatable :: moments(:, :) !! scatter of each response by each method: (method, response)
       real(wp), allocatable :: centers(:), deviations(:)       !! centres and standard deviations of the factors
       !> Scatter of the curves by derivatives: (nominal, mean, deviation, percentiles 5 and 95; column; state).
       real(wp), allocatable :: expected(:, :, :)
@@ -86,14 +86,14 @@ module ek_study_data
       character(:), allocatable :: swept               !! label of the swept value
       real(wp), allocatable :: sweep(:)                !! swept value of each state
       integer, allocatable :: drawn(:)                 !! designs whose curves were read
-      real(wp), allocatable :: curves(:, :, :)         !! (column, state, drawn)
-      real(wp), allocatable :: bands(:, :, :)          !! (percent, column, state)
+      real(wp), allocatable :: curves(:, :, :)         !! curves of the drawn designs: (column, state, index in `drawn`)
+      real(wp), allocatable :: bands(:, :, :)          !! percentiles of the curves: (index in `percents`, column, state)
    end type study_data_t
 
 contains
 
    !> Number of base points or effects used, if designs have failed: ' (67 of 256 base points)', or ' (60 to 67 of 256 base
-   !! points)' if it depends on the factor; otherwise ''.
+   !> points)' if it depends on the factor; otherwise ''.
    pure function basis_text(effects, what) result(text)
       type(effects_t), intent(in) :: effects
       character(*), intent(in) :: what                 !! 'base points'
@@ -108,7 +108,7 @@ contains
    end function basis_text
 
    !> Whether the study yields Sobol indices: from the designs of a saltelli study, from a list in the order of a Saltelli
-   !! design, or from the derivatives of a tolerance study.
+   !> design, or from the derivatives of a tolerance study.
    pure logical function has_indices(study)
       type(study_data_t), intent(in) :: study
 
@@ -116,7 +116,7 @@ contains
       if (size(study%effects) > 0) has_indices = allocated(study%effects(1)%first)
    end function has_indices
 
-   !> Whether derivatives give the curves of a tolerance study.
+   !> Whether the scatter of the curves of a tolerance study was computed from derivatives.
    pure logical function has_expected(study)
       type(study_data_t), intent(in) :: study
 

@@ -1,7 +1,6 @@
-!> The figures of a study: which of them apply follows from its kind and its columns, by one table.
-!>
-!> A new figure needs a row in `rules`, a case in `script_of`, and a procedure in ek_sample_figures, ek_effect_figures or a
-!> separate file.
+!> The figures of a study. One table, `rules`, gives the conditions for drawing each figure: the kind of study, columns,
+!> responses, and the numbers of factors and designs. A new figure needs a row in `rules`, a case in `script_of`, and a
+!> procedure in ek_sample_figures, ek_effect_figures or a separate file.
 module ek_study_figures
    use ek_text, only: plural
    use ek_study_data, only: study_data_t, has_indices
@@ -22,7 +21,7 @@ module ek_study_figures
       character(48) :: title
       character(80) :: kinds             !! kinds of study; '*': all
       character(9) :: panels             !! responses, columns, pairs of response and factor; '': one panel
-      logical :: needs_curves            !! columns in &study, and designs with curves
+      logical :: needs_curves            !! the figure needs columns in &study and designs with curves
       logical :: needs_responses
       integer :: least_factors, most_factors
       integer :: least_designs

@@ -93,7 +93,7 @@ contains
       text = page_number(100.0_wp*part/max(1, whole))//' %'
    end function share
 
-   !> The limits of a response: '−2 … 0.5', '≤ 0.5'; '' if it has none.
+   !> The limits of a response: '−2 … 0.5', '≥ −2', '≤ 0.5'; '' without limits.
    pure function limits_text(axis) result(text)
       type(study_axis_t), intent(in) :: axis
       character(:), allocatable :: text
@@ -187,7 +187,7 @@ contains
    end subroutine add_responses
 
    !> Adds the scatter of each response of a tolerance study, computed by derivatives and from the designs. Adds nothing for
-   !! other studies.
+   !> other studies.
    subroutine add_moments(page, study)
       type(page_t), intent(inout) :: page
       type(study_data_t), intent(in) :: study

@@ -68,7 +68,7 @@ contains
    pure subroutine add_numbers(sheet, values, label)
       type(sheet_t), intent(inout) :: sheet
       real(wp), intent(in) :: values(:)
-      character(*), intent(in), optional :: label      !! its quotes, backslashes and control characters become '_'
+      character(*), intent(in), optional :: label      !! string; '_' replaces quotes, backslashes and control characters
       integer :: k
 
       do k = 1, size(values)
@@ -98,7 +98,7 @@ contains
    end subroutine end_data
 
    !> Adds the names of points in a panel to the data: the point, the line from the point to its name, and whether the name is
-   !> to the left of the end of the line. Names do not overlap other names or named points, as far as there is room.
+   !> to the left of the end of the line. If there is enough room, names do not overlap other names or named points.
    subroutine add_point_names(sheet, panel, names, x, y, x_range, y_range)
       type(sheet_t), intent(inout) :: sheet
       integer, intent(in) :: panel
@@ -128,7 +128,7 @@ contains
    end subroutine add_point_names
 
    !> The last parts of a plot command: they draw the names of points of a panel (`add_point_names`), and the lines from the
-   !! points to their names.
+   !> points to their names.
    pure function names_plot(panel) result(parts)
       integer, intent(in) :: panel
       character(:), allocatable :: parts, data

@@ -58,7 +58,7 @@ contains
    end function summary_numbers
 
    !> The index of the key number that is shown instead of key number k; 0 if key number k has a target, or if no other key
-   !! number with a value is equivalent.
+   !> number with a value is equivalent.
    pure integer function kept_number(numbers, k) result(place)
       type(key_number_t), intent(in) :: numbers(:)
       integer, intent(in) :: k

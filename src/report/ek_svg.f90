@@ -69,11 +69,12 @@ contains
       svg = compact_svg(svg)
    end function embedded_svg
 
-   !> Adds the string up to the next tag, which begins at the new `at`. A blank string becomes one line end.
+   !> Adds the string up to the next tag, which begins at the new `at`. A blank string becomes one line end, or nothing if it
+   !> has no line end.
    pure subroutine add_words(out, text, at)
       type(buffer_t), intent(inout) :: out
       character(*), intent(in) :: text
-      integer, intent(inout) :: at           !! where the string begins
+      integer, intent(inout) :: at           !! position at which the string begins
       logical :: is_blank, has_end
       integer :: first
 
@@ -105,7 +106,7 @@ contains
       type(buffer_t), intent(inout) :: out
       type(symbols_t), intent(inout) :: symbols
       character(*), intent(in) :: text, prefix
-      integer, intent(inout) :: at           !! where the tag begins
+      integer, intent(inout) :: at           !! position at which the tag begins
       character(*), parameter :: empty = achar(line_feed)//'</g>', &
          defaults = ' stroke-width="1.00" stroke-linecap="butt" stroke-linejoin="miter"'
       integer :: begin, from, name, first, last, renamed, id(2), code

@@ -22,8 +22,9 @@ module ek_test_charts
 
 contains
 
-   !> Appends all charts of a test. Each is named <test>_<column>, or <test>_ and motion_ratio, force, torsion or bushings.
-   !! Curves of both sides are joined if they are equal.
+   !> Appends all charts of a test. The chart of a quantity is named <test>_<column>; the others are named
+   !> <test>_motion_ratio, <test>_force, <test>_torsion and <test>_bushings. Curves of both sides are joined if they are
+   !> equal.
    subroutine test_charts(test, charts, number)
       type(test_result_t), intent(in) :: test
       type(chart_t), allocatable, intent(inout) :: charts(:)
@@ -79,7 +80,7 @@ contains
    end subroutine set_contact
 
    !> Joins the curves of the two sides if they are equal within a thousandth of the least span. Either both have the same
-   !! abscissa, or one has the abscissa of the other in reverse order.
+   !> abscissa, or one has the abscissa of the other in reverse order.
    pure subroutine join_sides(chart)
       type(chart_t), intent(inout) :: chart
       logical :: is_twin(size(chart%traces))
@@ -167,7 +168,7 @@ contains
    end function quantities_of
 
    !> A chart of a test, still without curves. States that do not form a path, such as the rows of a load table, are drawn as
-   !! points.
+   !> points.
    pure type(chart_t) function chart_of(test, name, title, label) result(chart)
       type(test_result_t), intent(in) :: test
       character(*), intent(in) :: name, title, label
@@ -211,7 +212,7 @@ contains
    end function quantity_chart
 
    !> The chart of all columns with a suffix, labelled by the name before the suffix. Only the first eight columns are drawn.
-   !! The columns of wheels and axle are omitted.
+   !> The columns of wheels and axle are omitted.
    pure type(chart_t) function ending_chart(test, name, ending, title, label, noise) result(chart)
       type(test_result_t), intent(in) :: test
       character(*), intent(in) :: name, ending, title, label
@@ -252,7 +253,7 @@ contains
    end function colour_of
 
    !> The chart of the force magnitude of every bushing and joint that carries a force. Of more than eight, the elements with
-   !! the largest force are drawn.
+   !> the largest force are drawn.
    pure type(chart_t) function bushing_chart(test, elements) result(chart)
       type(test_result_t), intent(in) :: test
       character(*), intent(in), optional :: elements(:)    !! restriction to these elements; absent: all with _fx_n, _fy_n, _fz_n

@@ -46,7 +46,7 @@ module ek_verdict
 contains
 
    !> Lists the lines: incomplete tests, load at design, one line per domain, largest load. A line is omitted if the report
-   !! does not have the numbers of this line.
+   !> does not have the numbers of this line.
    subroutine verdict_lines(report, lines)
       type(report_t), intent(in) :: report
       type(verdict_t), allocatable, intent(out) :: lines(:)

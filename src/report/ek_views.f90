@@ -23,7 +23,7 @@ module ek_views
    integer, parameter :: views = 3, name_length = 63
    ! axes of a panel: to the right and upward; their directions in the frame of the program (x rearward, y to the right, z up)
    integer, parameter :: across(views) = [1, 2, 1], upward(views) = [3, 3, 2]
-   real(wp), parameter :: sense(views) = [1.0_wp, -1.0_wp, 1.0_wp]      ! of the axis to the right; seen from the front, left is right
+   real(wp), parameter :: sense(views) = [1.0_wp, -1.0_wp, 1.0_wp]      ! of the axis to the right; from the front, left is right
    character(14), parameter :: titles(views) = [character(14) :: 'From the left', 'From the front', 'From above']
    character(1), parameter :: axes(3) = ['x', 'y', 'z']
    real(wp), parameter :: room = 0.12_wp         !! margin around the points, as a share of their span

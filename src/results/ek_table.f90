@@ -23,7 +23,7 @@ module ek_table
       character(name_length), allocatable :: columns(:)   !! names with unit suffix, e.g. toe_deg
       real(wp), allocatable :: values(:, :)               !! (column, row): a row is contiguous
       logical, allocatable :: is_whole(:)                 !! the column contains integers: state, iterations, …
-      type(message_list_t) :: header                      !! written above the table, each with '# '
+      type(message_list_t) :: header                      !! lines above the columns, each written after '# '
    end type table_t
 
    character(*), parameter :: whole_names(5) = [character(13) :: 'state', 'converged', 'stable', 'near_singular', 'iterations']
@@ -32,7 +32,7 @@ contains
 
    !> A table with a number of rows, in which all values are NaN.
    pure type(table_t) function new_table(columns, rows) result(table)
-      character(*), intent(in) :: columns(:)    !! without comma, quote or line end
+      character(*), intent(in) :: columns(:)    !! names without comma, quote or line end
       integer, intent(in) :: rows
       integer :: k
 
@@ -149,7 +149,7 @@ contains
       if (abs(value) < 1e15_wp) whole = anint(value)
    end function whole
 
-   !> The header lines and the line of column names.
+   !> The header lines and the line of column names, as in a CSV file.
    pure function csv_head(table) result(text)
       type(table_t), intent(in) :: table
       character(:), allocatable :: text
@@ -173,7 +173,8 @@ contains
       text = buffer%text()//line_end
    end function csv_head
 
-   !> Writes the table; the file is complete or does not exist.
+   !> Writes the table as a CSV file. An error leaves an older file unchanged and no incomplete file. A column name with a
+   !> comma, a quote or a line end is an error.
    subroutine write_csv(table, path, error)
       type(table_t), intent(in) :: table
       character(*), intent(in) :: path
@@ -282,7 +283,7 @@ contains
       at = at(:used + 1)
    end subroutine find_commas
 
-   !> Creates the table from the line of column names.
+   !> Creates the table from the line of column names, with the header lines that were read before.
    pure subroutine take_names(content, rows, table)
       character(*), intent(in) :: content
       integer, intent(in) :: rows
@@ -302,7 +303,7 @@ contains
       table%header = header
    end subroutine take_names
 
-   !> Reads one line of numbers.
+   !> Reads one line of numbers into a row of the table.
    pure subroutine take_row(content, where, row, skips, table, error)
       character(*), intent(in) :: content
       character(*), intent(in) :: where                  !! 'file:line: ' for messages

@@ -23,13 +23,13 @@ module ek_test_result
       real(wp), allocatable :: steer(:)      !! levels of the driver, in `unit`
       character(:), allocatable :: driver    !! name of the driver
       character(3) :: unit = 'mm'            !! unit of the driver: mm, deg or -
-      integer, allocatable :: row(:, :)      !! (travel, steer); 0: the state did not converge
+      integer, allocatable :: row(:, :)      !! row of the table: (travel, steer); 0: the state did not converge
    end type test_grid_t
 
    type :: test_result_t
       character(:), allocatable :: name      !! name of the case, unique in a report
-      character(:), allocatable :: kind      !! 'parallel_travel', 'roll', 'lateral_force', …; 'other'
-      character(:), allocatable :: title     !! heading
+      character(:), allocatable :: kind      !! kind of test: 'parallel_travel', 'roll', 'lateral_force', …; 'other'
+      character(:), allocatable :: title     !! heading of the test on a page
       character(:), allocatable :: file      !! file of the table, in the folder of the report
       !> Abscissa of the charts: a column of each wheel or of the axle; its label with unit. abscissa_size is the value in the
       !> unit of the label per unit of the column.
@@ -54,7 +54,7 @@ contains
    !> no prefix.
    pure function frame_line(is_iso, side) result(line)
       logical, intent(in) :: is_iso
-      integer, intent(in) :: side           !! of a single wheel: −1 left, +1 right; 0: two wheels or none
+      integer, intent(in) :: side           !! side of a single wheel: −1 left, +1 right; 0: two wheels or none
       character(:), allocatable :: line
 
       line = axes_mark//'x-rear'
@@ -76,7 +76,7 @@ contains
    !> Sets prefixes and sides from the columns, the left wheel first. A single wheel has no prefix; its side is given.
    pure subroutine find_wheels(test, side)
       type(test_result_t), intent(inout) :: test
-      integer, intent(in), optional :: side      !! of a single wheel; absent: left
+      integer, intent(in), optional :: side      !! side of a single wheel; absent: left
       integer :: k, place
 
       test%prefixes = [character(name_length) ::]
