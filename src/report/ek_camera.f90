@@ -59,9 +59,9 @@ contains
       place = matmul(self%matrix, at - self%centre) + [0.5_wp, 0.5_wp + above_middle]
    end function in_picture
 
-   !> Fits a camera to some scenes: sets the centre, span, zoom and scale of the camera so that all faces and lines of the
-   !> scenes fill a picture of the given width and height. If the scenes are empty, only the span and the size of the picture
-   !> are set. gnuplot draws the longest edge of its box as a fixed share of the shorter side of the picture, times the zoom.
+   !> Fits a camera to some scenes: sets its centre, span, zoom and scale so that all faces and lines of the scenes fill a
+   !> picture of the given size. If the scenes are empty, only the span and the size of the picture are set. The longest edge
+   !> of gnuplot's box is a fixed share of the shorter side of the picture, times the zoom.
    subroutine fit_camera(camera, scenes, width, height, footer)
       type(camera_t), intent(inout) :: camera     !! tilt and turn are input
       type(scene_t), intent(in) :: scenes(:)

@@ -1,7 +1,7 @@
 !> Carpet plot over a grid of two factors: the points of the grid are joined by lines on which one of the factors is constant.
 !> The ordinate is a response. The abscissa is the level of the first factor, shifted with the level of the second. At any
-!> value of the response, the figure shows the pairs of factors that give this value. carpet_t contains only numbers and
-!> labels: a study creates a carpet from a grid of designs, a report from a test over travel and steering.
+!> value of the response, the figure shows the pairs of factors that give this value. The type carpet_t contains only numbers
+!> and labels. A study creates a carpet from a grid of designs, a report from a test over travel and steering.
 module ek_carpet_figure
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
@@ -96,7 +96,8 @@ contains
 
    contains
 
-      !> The part of a plot command for the values at the ends of the lines, outside the carpet, on one side (see add_ends).
+      !> A part of a plot command: it draws the values at those ends of the lines that have this side (see add_ends), outside
+      !> the carpet.
       function labels(side) result(words)
          integer, intent(in) :: side
          character(:), allocatable :: words

@@ -1,5 +1,5 @@
-!> Ends of the y axis of a chart: at the values of the curves, at a limit for poles, or at the values of the free travel if
-!> the values with a stop in contact reach far beyond the free travel.
+!> Ends of the y axis of a chart: the range of the curves, limited at poles. If the values with a stop in contact reach far
+!> beyond the free travel, it is the range of the free travel.
 module ek_chart_axis
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp

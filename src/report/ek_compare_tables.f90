@@ -75,8 +75,8 @@ contains
       text = text_table_csv(table)
    end function differences_csv
 
-   !> The table of curves as CSV, one row per curve and per result compared with the first: the largest difference, in the
-   !> unit of the label, and the value of the test's abscissa at which it occurs.
+   !> The table of curves as CSV, one row per curve and per result compared with the first. A row gives the largest
+   !> difference, in the unit of the label, and the value of the test's abscissa at this difference.
    function curves_csv(this) result(text)
       type(comparison_t), intent(in) :: this
       character(:), allocatable :: text

@@ -34,8 +34,8 @@ module ek_explanation
 contains
 
    !> Finds the parts of the wheel rate and the roll rate, then the contributions to the key compliances, at the state of a
-   !> case that is nearest to design. For an axle, only the left wheel is explained. The list is empty if no state was
-   !> reached, or if the matrix of that state is singular.
+   !> case that is nearest to design. For an axle, only the left wheel is explained. The list is empty if the model has no key
+   !> compliance, if no state was reached, or if the matrix of that state is singular.
    subroutine find_explanations(result, list)
       type(case_result_t), intent(inout) :: result              !! is_run
       type(explanation_t), allocatable, intent(out) :: list(:)

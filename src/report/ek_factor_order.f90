@@ -9,13 +9,13 @@ module ek_factor_order
    private
    public :: most_open, effect_sizes, effect_measure, has_no_effect, factor_order, strongest_names, least_correlation
 
-   integer, parameter :: most_open = 12           !! largest number of factors per response that are not folded
+   integer, parameter :: most_open = 12           !! largest number of factors, in all or per response, that are not folded
    integer, parameter :: most_names = 4           !! largest number of factors named as the strongest of a response
 
 contains
 
-   !> The sizes of the effects of all factors on a response, by the best measure that the study yields: total index or share, μ*,
-   !> span, or else the magnitude of the rank correlation. NaN for a factor without a value.
+   !> The sizes of the effects of all factors on a response, by the best measure that the study yields: total index or share,
+   !> μ*, or span. Without these, it is the magnitude of the rank correlation. NaN for a factor without a value.
    pure function effect_sizes(study, r) result(sizes)
       type(study_data_t), intent(in) :: study
       integer, intent(in) :: r                    !! response
@@ -35,9 +35,9 @@ contains
    end function effect_sizes
 
    !> The magnitude of rank correlation that one or more of the factors reach by chance in at most one study of twenty, for
-   !> designs drawn at random. The limit follows from P(|z| > t) ≤ exp(−t²/2) for a normal z = r √(n − 1), and at most k times
-   !> this probability for k factors together; r is the rank correlation and n the number of designs. The limit is 0 for kinds
-   !> of study whose effects have another measure, and for a grid, where every factor is varied independently of the others.
+   !> designs drawn at random. With n designs, z = r √(n − 1) is normal for the rank correlation r by chance, and P(|z| > t) ≤
+   !> exp(−t²/2). For k factors together, the probability is at most k times as large. The limit is 0 for kinds of study whose
+   !> effects have another measure, and for a grid, where every factor is varied independently of the others.
    pure real(wp) function least_correlation(study)
       type(study_data_t), intent(in) :: study
       real(wp), parameter :: chance = 0.05_wp

@@ -1,5 +1,5 @@
-!> A figure as a gnuplot script that the user can read, edit and run again: `gnuplot name.gp` in the folder of the script
-!> draws name.png and name.svg from the data files in the same folder. This module also lists the standard figures of one run.
+!> A figure as a gnuplot script that the user can read, edit and run again. In the folder of the script, `gnuplot name.gp`
+!> draws name.png and name.svg from the data files in this folder. This module also lists the standard figures of one run.
 module ek_gnuplot
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t

@@ -1,5 +1,5 @@
-!> The object "live" of data.json: the rates that a page can change, and the data that its script needs for the design state and
-!> for every state of the tests, in as few numbers as possible (ek_live_small).
+!> The object "live" of data.json: the rates that a page can change, and the data that its script needs for the design state
+!> and for every state of the tests. The data consist of as few numbers as possible (ek_live_small).
 module ek_live_data
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp

@@ -51,7 +51,8 @@ contains
       if (ieee_is_finite(number%left)) value = (number%left + number%right)/2
    end function mean_value
 
-   !> Verdict on a key number: 'inside' or 'outside' its target; both wheels count. '' without a target or a value.
+   !> Verdict on a key number: 'inside' if the values of all wheels satisfy the target, otherwise 'outside'. '' without a
+   !> target or a value.
    pure function target_verdict(number) result(verdict)
       type(key_number_t), intent(in) :: number
       character(7) :: verdict

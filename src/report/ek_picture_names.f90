@@ -16,8 +16,8 @@ module ek_picture_names
 
 contains
 
-   !> Adds the axes of the deck at the front right corner of all faces, at the height of the lowest contact point; for a model
-   !> without wheels, at the height of the lowest face. Adds nothing without faces.
+   !> Adds the axes of the deck at the front right corner of all faces, at the height of the lowest contact point. For a model
+   !> without wheels, they are at the height of the lowest face. Adds nothing without faces.
    subroutine add_axes(scene, suspension, state)
       type(scene_t), intent(inout) :: scene      !! with all parts
       type(suspension_t), intent(in) :: suspension

@@ -57,8 +57,8 @@ contains
       text = str(1.0_wp - real(pixels, wp)/full_height(sheet), 5)
    end function above
 
-   !> The script of a fan figure: the median, and the bands that contain 50 % and 90 % of the curves; dashed, the 90 % band
-   !> computed from derivatives, if there is one.
+   !> The script of a fan figure: the median, and the bands that contain 50 % and 90 % of the curves. If derivatives give a 90
+   !> % band, its ends are dashed lines.
    function fan_script(study, name, subtitle, panels) result(text)
       type(study_data_t), intent(in) :: study
       integer, intent(in) :: panels(:)               !! indices of the columns

@@ -11,7 +11,7 @@ module ek_scene_labels
    !> A placed name. Positions are shares of the picture's width, from the left, and of its height, from below.
    type :: placed_label_t
       real(wp) :: middle(2) = 0.0_wp, half(2) = 0.0_wp    !! centre of the label; half of its width and of its height
-      real(wp) :: foot(2) = 0.0_wp                        !! end at the label of a line from the point of the name
+      real(wp) :: foot(2) = 0.0_wp                        !! end, at the label, of the line from the label to its point
       logical :: has_line = .false.
    end type placed_label_t
 

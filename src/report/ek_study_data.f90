@@ -73,7 +73,7 @@ module ek_study_data
       integer :: designs = 0, within = 0, failed = 0
       type(study_axis_t), allocatable :: factors(:), responses(:), columns(:)
       real(wp), allocatable :: x(:, :), y(:, :)        !! factors, responses: (factor or response, design); NaN: no value
-      type(message_list_t) :: reasons                  !! messages on designs that failed, with the number of each design
+      type(message_list_t) :: reasons                  !! reasons for failures, each with the number of designs that failed
       type(summary_t), allocatable :: summaries(:)     !! statistics of each response
       type(effects_t), allocatable :: effects(:)       !! effects on each response
       type(extreme_t), allocatable :: extremes(:)
@@ -92,8 +92,8 @@ module ek_study_data
 
 contains
 
-   !> Number of base points or effects used, if designs have failed: ' (67 of 256 base points)', or ' (60 to 67 of 256 base
-   !> points)' if it depends on the factor; otherwise ''.
+   !> Number of base points or effects used, if designs have failed: ' (67 of 256 base points)'; otherwise ''. If the number
+   !> depends on the factor, it is a range: ' (60 to 67 of 256 base points)'.
    pure function basis_text(effects, what) result(text)
       type(effects_t), intent(in) :: effects
       character(*), intent(in) :: what                 !! 'base points'

@@ -22,8 +22,8 @@ contains
       sheets_of = merge(2, 1, panels > most_panels)
    end function sheets_of
 
-   !> The indices of the responses on a sheet. They are sorted by standard deviation as a share of the mean's magnitude, or of
-   !> the least span of a chart in their unit if the latter is larger.
+   !> The indices of the responses on a sheet, sorted by standard deviation. The deviation is a share of the mean's magnitude,
+   !> or of the least span of a chart in the unit of the response if the latter is larger.
    pure function response_panels(study, sheet) result(panels)
       type(study_data_t), intent(in) :: study
       integer, intent(in) :: sheet
@@ -37,7 +37,7 @@ contains
       panels = part_of(ranked(sizes, size(sizes)), sheet)
    end function response_panels
 
-   !> The indices of the columns on a sheet. They are sorted by the widest part of the band of 90 % of the curves, as a share
+   !> The indices of the columns on a sheet, sorted by the widest part of the band of 90 % of the curves. The width is a share
    !> of the range of the median curve, or of the least span of the column's unit if the latter is larger.
    pure function column_panels(study, sheet) result(panels)
       type(study_data_t), intent(in) :: study

@@ -97,8 +97,9 @@ contains
       call sheet%text%line('EOD')
    end subroutine end_data
 
-   !> Adds the names of points in a panel to the data: the point, the line from the point to its name, and whether the name is
-   !> to the left of the end of the line. If there is enough room, names do not overlap other names or named points.
+   !> Adds the names of points in a panel to the data, one row per name: the point, the line from the point to its name, and
+   !> whether the name is to the left of the end of the line. If there is enough room, names do not overlap other names or
+   !> named points.
    subroutine add_point_names(sheet, panel, names, x, y, x_range, y_range)
       type(sheet_t), intent(inout) :: sheet
       integer, intent(in) :: panel

@@ -57,8 +57,8 @@ contains
       end do
    end function summary_numbers
 
-   !> The index of the key number that is shown instead of key number k; 0 if key number k has a target, or if no other key
-   !> number with a value is equivalent.
+   !> The index of the key number that is shown instead of key number k; 0 if key number k is not replaced. It is replaced if
+   !> it has no target, and an equivalent key number has a value.
    pure integer function kept_number(numbers, k) result(place)
       type(key_number_t), intent(in) :: numbers(:)
       integer, intent(in) :: k

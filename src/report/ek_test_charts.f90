@@ -1,6 +1,6 @@
-!> The standard charts of a test: one per quantity in the order of quantities_of, then one each for the motion ratios, for
-!> springs, dampers and stops, for anti-roll bars, and for bushings and joints. Quantities without a column or without a value
-!> are omitted.
+!> The standard charts of a test: one per quantity, in the order of quantities_of. One chart each follows for the motion
+!> ratios, for springs, dampers and stops, for anti-roll bars, and for bushings and joints. Quantities without a column or
+!> without a value are omitted.
 module ek_test_charts
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp

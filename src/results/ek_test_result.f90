@@ -98,8 +98,9 @@ contains
       test%sides = test%sides([2, 1])
    end subroutine find_wheels
 
-   !> Sets the abscissa of the charts for a kind of test. If the table does not have the column of the abscissa, the abscissa
-   !> is the load factor. An abscissa that is already set is unchanged.
+   !> Sets the abscissa of the charts for a kind of test. An abscissa that is already set is unchanged. The abscissa is the
+   !> load factor if the table does not have the column of the abscissa, or if a test of kind 'other' has less travel than
+   !> min_stroke.
    subroutine choose_abscissa(test)
       type(test_result_t), intent(inout) :: test
       type(rig_test_t) :: kind
