@@ -16,8 +16,8 @@ module ek_camera
    !> Direction of view, centre and scale of a camera, and the size of its picture.
    type :: camera_t
       real(wp) :: tilt = 68.0_wp, turn = 300.0_wp       !! angles of `set view` [deg]
-      real(wp) :: centre(3) = 0.0_wp                    !! m, middle of the picture
-      real(wp) :: span = 1.0_wp                         !! m, edge of the cube of the axis ranges
+      real(wp) :: centre(3) = 0.0_wp                    !! point at the middle of the picture [m]
+      real(wp) :: span = 1.0_wp                         !! edge of the cube of the axis ranges [m]
       real(wp) :: zoom = 1.0_wp                         !! third number of `set view`
       real(wp) :: width = 3.0_wp, height = 2.0_wp       !! size of the picture, in any unit
       real(wp) :: scale = 1.0_wp                        !! length in the picture per m, in the unit of width and height

@@ -308,8 +308,9 @@ contains
    end function are_near
 
    !> The largest difference of curve b from curve a over their common range. If both have the same abscissa, they are
-   !> compared state by state, otherwise at the states of b, between which a is interpolated. The scale is the largest
-   !> magnitude of a, or the least span of the chart if that is larger.
+   !> compared state by state, otherwise at the states of b, at which a is interpolated. Independent states (has_points) are
+   !> compared only if both have the same abscissa. The scale is the largest magnitude of a, or the least span of the chart if
+   !> that is larger.
    pure type(chart_change_t) function distance(a, b, chart) result(change)
       type(trace_t), intent(in) :: a, b
       type(chart_t), intent(in) :: chart           !! chart of curve a

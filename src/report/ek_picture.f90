@@ -45,13 +45,13 @@ contains
       end do
    end subroutine add_solid
 
-   !> Adds the bodies, the rods of rod joints and the treads of the wheels as thin lines. Other joints and elements are
+   !> Adds the bodies, the rods of rod joints and the wheels (see add_tread) as thin lines. Other joints and elements are
    !> omitted.
    subroutine add_ghost(scene, suspension, state, kind)
       type(scene_t), intent(inout) :: scene
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
-      integer, intent(in) :: kind                   !! line_bump or line_rebound
+      integer, intent(in) :: kind                   !! kind of line: line_bump, line_rebound or line_ground
       type(skeleton_t) :: skeleton
       real(wp) :: line(3, 2)
       integer :: body, k
