@@ -13,14 +13,14 @@ module ek_camera
    real(wp), parameter :: box_share = 0.507_wp       ! longest edge of the box, in shorter sides of the picture
    real(wp), parameter :: above_middle = 0.014_wp    ! offset of the centre in picture heights
 
-   !> Direction of view and scale.
+   !> Direction of view, centre and scale of a camera, and the size of its picture.
    type :: camera_t
-      real(wp) :: tilt = 68.0_wp, turn = 300.0_wp       !! deg
-      real(wp) :: centre(3) = 0.0_wp                    !! m, middle of the picture
-      real(wp) :: span = 1.0_wp                         !! m, edge of the cube of the axis ranges
+      real(wp) :: tilt = 68.0_wp, turn = 300.0_wp       !! angles of `set view` [deg]
+      real(wp) :: centre(3) = 0.0_wp                    !! point at the middle of the picture [m]
+      real(wp) :: span = 1.0_wp                         !! edge of the cube of the axis ranges [m]
       real(wp) :: zoom = 1.0_wp                         !! third number of `set view`
-      real(wp) :: width = 3.0_wp, height = 2.0_wp       !! of the picture
-      real(wp) :: scale = 1.0_wp                        !! unit of width and height per m
+      real(wp) :: width = 3.0_wp, height = 2.0_wp       !! size of the picture, in any unit
+      real(wp) :: scale = 1.0_wp                        !! length in the picture per m, in the unit of width and height
    end type camera_t
 
    !> Transformation from a point in space to its position in the picture.
@@ -59,13 +59,13 @@ contains
       place = matmul(self%matrix, at - self%centre) + [0.5_wp, 0.5_wp + above_middle]
    end function in_picture
 
-   !> Sets centre, span and zoom so that all faces and lines of some scenes fill a picture of this shape.
-   !>
-   !> gnuplot draws the longest edge of its box as a fixed share of the shorter side of the picture, times the zoom.
+   !> Fits a camera to some scenes: sets its centre, span, zoom and scale so that all faces and lines of the scenes fill a
+   !> picture of the given size. If the scenes are empty, only the span and the size of the picture are set. The longest edge
+   !> of gnuplot's box is a fixed share of the shorter side of the picture, times the zoom.
    subroutine fit_camera(camera, scenes, width, height, footer)
       type(camera_t), intent(inout) :: camera     !! tilt and turn are input
       type(scene_t), intent(in) :: scenes(:)
-      real(wp), intent(in) :: width, height       !! of the picture, any unit
+      real(wp), intent(in) :: width, height       !! size of the picture, any unit
       real(wp), intent(in) :: footer              !! share of the height that is left free below
       real(wp), allocatable :: at(:, :), across(:), upward(:)
       real(wp) :: right(3), up(3), scale

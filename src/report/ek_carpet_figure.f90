@@ -1,7 +1,7 @@
-!> Carpet plot over a grid of two factors: each response over an abscissa that is shifted with the second factor, as lines on which
-!> one of the factors is constant. The figure shows both factors at any response, and the response with the accuracy of an axis.
-!>
-!> A carpet is plain numbers. A study creates it from a grid of designs, a report from a test over travel and steering.
+!> Carpet plot over a grid of two factors: the points of the grid are joined by lines on which one of the factors is constant.
+!> The ordinate is a response. The abscissa is the level of the first factor, shifted with the level of the second. At any
+!> value of the response, the figure shows the pairs of factors that give this value. The type carpet_t contains only numbers
+!> and labels. A study creates a carpet from a grid of designs, a report from a test over travel and steering.
 module ek_carpet_figure
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
@@ -14,28 +14,28 @@ module ek_carpet_figure
    public :: carpet_t, new_carpet, carpet_script, study_carpet, is_drawn, colours
 
    character(*), parameter :: nl = new_line('a')
-   integer, parameter :: most_lines = 7           !! of either factor; of more levels some are drawn
-   real(wp), parameter :: shift = 0.8_wp          !! of the abscissa from the first to the last level of factor 2, per width
+   integer, parameter :: most_lines = 7           !! largest number of lines per factor; with more levels, only some are drawn
+   real(wp), parameter :: shift = 0.8_wp          !! shift of the abscissa over the levels of factor 2, per range of factor 1
    !> Colours of the lines of equal factor 1 and of equal factor 2.
    character(*), parameter :: colours(2) = ["rgb '#0072B2'", "rgb '#D55E00'"]
 
    !> A grid of two factors, in the order of their levels, and the responses at its points.
    type :: carpet_t
       integer :: levels(2) = 0
-      type(message_list_t) :: factors                !! their labels
-      type(message_list_t) :: responses              !! likewise
-      real(wp), allocatable :: level(:, :)           !! value of a level, ascending; (level, factor)
-      real(wp), allocatable :: place(:, :)           !! the same from 0 to 1
-      real(wp), allocatable :: value(:, :, :)        !! (level of factor 1, of factor 2, response); NaN: none
+      type(message_list_t) :: factors                !! labels of the two factors
+      type(message_list_t) :: responses              !! labels of the responses
+      real(wp), allocatable :: level(:, :)           !! value of a level in ascending order; (level, factor)
+      real(wp), allocatable :: place(:, :)           !! position of a level, from 0 to 1; (level, factor)
+      real(wp), allocatable :: value(:, :, :)        !! responses; (level of factor 1, level of factor 2, response); NaN: no value
    end type carpet_t
 
 contains
 
-   !> A carpet with its levels, without labels and values.
+   !> A carpet with levels and their positions. It has no labels, and all values are 0.
    pure type(carpet_t) function new_carpet(first, second, responses, is_log) result(carpet)
       real(wp), intent(in) :: first(:), second(:)    !! levels of the factors, ascending
       integer, intent(in) :: responses
-      logical, intent(in) :: is_log(2)               !! the levels stand in equal ratios
+      logical, intent(in) :: is_log(2)               !! the levels of a factor are in equal ratios
 
       carpet%levels = [size(first), size(second)]
       allocate (carpet%level(maxval(carpet%levels), 2), source=0.0_wp)
@@ -47,7 +47,8 @@ contains
       allocate (carpet%value(size(first), size(second), responses), source=0.0_wp)
    end function new_carpet
 
-   !> Positions of the levels from 0 to 1.
+   !> Positions of the levels of a factor, from 0 to 1. Distances are proportional to differences of the levels, or of their
+   !> logarithms if is_log.
    pure function places(levels, is_log)
       real(wp), intent(in) :: levels(:)
       logical, intent(in) :: is_log
@@ -95,7 +96,8 @@ contains
 
    contains
 
-      !> The part of a plot command for the values at the ends of the lines, outside the carpet, on one side (see add_ends).
+      !> A part of a plot command: it draws the values at those ends of the lines that have this side (see add_ends), outside
+      !> the carpet.
       function labels(side) result(words)
          integer, intent(in) :: side
          character(:), allocatable :: words
@@ -112,7 +114,7 @@ contains
    !> The carpet of a study over a grid of two factors. The designs of the study have the last factor varying fastest.
    type(carpet_t) function study_carpet(study, panels) result(carpet)
       type(study_data_t), intent(in) :: study
-      integer, intent(in) :: panels(:)               !! responses
+      integer, intent(in) :: panels(:)               !! indices of the responses
       integer, allocatable :: order(:), other(:)
       integer :: n(2), f, i, j, k, r
 
@@ -240,7 +242,7 @@ contains
       call end_data(sheet)
    end subroutine add_ends
 
-   !> A value with four significant digits; trailing zeros may replace digits: 10080, 0.125.
+   !> A value rounded to four significant digits, such as 0.125. From 10000 to 1e8, it is printed without an exponent: 10080.
    function short(value) result(text)
       real(wp), intent(in) :: value
       character(:), allocatable :: text

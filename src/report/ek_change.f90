@@ -10,9 +10,9 @@ module ek_change
    public :: changed, same, unknown, only_in
 
    character(*), parameter :: changed = 'changed', same = 'same', unknown = 'not a number', only_in = 'only in '
-   real(wp), parameter :: rounding = 1.0e-6_wp      !! of the scale: two programs, or two computers, differ by less
+   real(wp), parameter :: rounding = 1.0e-6_wp      !! share of the scale; a smaller difference counts as rounding
 
-   !> The usual window of a slope, for units of slopes that no quantity has.
+   !> The usual window of a slope, for each unit of an abscissa. It is used for units of slopes that no quantity has.
    type :: width_t
       character(8) :: unit
       real(wp) :: width
@@ -48,7 +48,8 @@ contains
       if (least_span >= huge(1.0_wp)) least_span = 0.0_wp
    end function least_span
 
-   !> The change (b − a) as a share of |a|, or of the least span if the latter is larger; NaN if a or b is missing.
+   !> The change (b − a) as a share of a scale: |a|, or the least span if that is larger. 0 if the share is at most 1e-6,
+   !> which is rounding; NaN if a or b is missing.
    elemental real(wp) function change_of(a, b, least)
       real(wp), intent(in) :: a, b, least
       real(wp) :: scale
@@ -69,11 +70,12 @@ contains
       if (ieee_is_finite(change)) has_changed = abs(change) > threshold
    end function has_changed
 
-   !> Verdict on a row of the first result and of another result: 'changed', 'same', 'only in A', 'not a number'.
+   !> Verdict on a row of the first result and of another result: 'changed', 'same', 'not a number', 'only in A' (or another
+   !> letter), or 'in neither'.
    pure function verdict_of(change, threshold, is_in_first, is_in_other, other) result(words)
       real(wp), intent(in) :: change, threshold
       logical, intent(in) :: is_in_first, is_in_other
-      integer, intent(in) :: other                 !! number of the other result
+      integer, intent(in) :: other                 !! index of the other result
       character(12) :: words
 
       words = same
@@ -84,7 +86,7 @@ contains
       if (.not. is_in_first .and. .not. is_in_other) words = 'in neither'
    end function verdict_of
 
-   !> The letter of a result: A for the first result.
+   !> The letter of a result: A for the first result. After 26 results, the letters begin again at A.
    pure character(1) function letter_of(result)
       integer, intent(in) :: result
       letter_of = achar(iachar('A') + modulo(result - 1, 26))

@@ -1,6 +1,6 @@
 !> A small chart with its data, one of many on a page: all charts of a page are drawn by one gnuplot script.
 !>
-!> Its script contains the data, and its abscissa is always horizontal, because a page of small charts is read in one
+!> The script contains the data. The abscissa of every chart is horizontal, because a page of small charts is read in one
 !> direction. A figure (ek_gnuplot) shows the same charts from the result files in the same folder.
 module ek_chart
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
@@ -22,7 +22,7 @@ module ek_chart
    character(7), parameter :: palette(8) = ['#0072B2', '#D55E00', '#009E73', '#CC79A7', &
       '#E69F00', '#56B4E9', '#4D4D4D', '#8C510A']
 
-   character(*), parameter :: both_sides = 'left = right'     !! one curve for the two wheels of an axle
+   character(*), parameter :: both_sides = 'left = right'     !! title of a curve that is the same for both wheels of an axle
    character(*), parameter :: nl = new_line('a')
    character(*), parameter :: axes_style = "set grid linetype 1 linecolor rgb '#E6E6E6' linewidth 1"//nl// &
       "set xzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.2"//nl// &
@@ -30,7 +30,7 @@ module ek_chart
 
    character(25), parameter :: dashes(0:3) = [character(25) :: '', ' dashtype (10, 6)', ' dashtype (2, 4)', &
       ' dashtype (10, 4, 2, 4)']
-   integer, parameter :: chart_width = 460, chart_height = 330   !! pixels at font size 13
+   integer, parameter :: chart_width = 460, chart_height = 330   !! size of a chart [pixels], at font size 13
 
 contains
 
@@ -42,7 +42,8 @@ contains
       name = file_letters(chart%name)//'.svg'
    end function picture_file
 
-   !> One gnuplot script that draws every chart as <name>.svg in the folder where gnuplot runs.
+   !> One gnuplot script that draws every chart as an SVG file (picture_file) in the folder where gnuplot runs. Charts without
+   !> curves and constant charts (is_level) are omitted.
    pure function charts_script(charts) result(text)
       type(chart_t), intent(in) :: charts(:)
       character(:), allocatable :: text
@@ -64,7 +65,7 @@ contains
       text = script%text()
    end function charts_script
 
-   !> Adds the data and the plot command of one chart.
+   !> Adds the data and the plot command of one chart. A chart without curves or a constant chart (is_level) is omitted.
    pure subroutine add_chart(script, chart)
       type(buffer_t), intent(inout) :: script
       type(chart_t), intent(in) :: chart
@@ -145,7 +146,8 @@ contains
       call script%line("set label 3 'grey: stop in contact' at screen 0.965, screen 0.875 right font ',11' textcolor rgb '#606060'")
    end subroutine add_contact
 
-   !> Finds whether a chart is constant to the printed digits: every curve stays within a hundredth of the least span.
+   !> Sets is_level of a chart: whether it is constant to the printed digits. In such a chart, every curve spans at most a
+   !> hundredth of the least span (chart%noise). Without curves or a least span, is_level is .false.
    elemental subroutine set_level(chart)
       type(chart_t), intent(inout) :: chart
       integer :: k
@@ -187,7 +189,7 @@ contains
       call script%add(number(:used))
    end subroutine add_coordinate
 
-   !> A number rounded to significant digits; 0 below 1e-12.
+   !> A number rounded to significant digits; 0 for a magnitude below 1e-12. A magnitude above 1e12 is not rounded.
    elemental real(wp) function rounded(value, digits)
       real(wp), intent(in) :: value
       integer, intent(in) :: digits
@@ -202,7 +204,8 @@ contains
       rounded = anint(value*scale)/scale
    end function rounded
 
-   !> Lists the picture files of these charts. A chart without curves is omitted; every name is listed once.
+   !> Adds the picture files of charts to a list, every name once. Charts without curves and constant charts (is_level) are
+   !> omitted.
    subroutine pictures_of(charts, pictures)
       type(chart_t), intent(in) :: charts(:)
       type(message_list_t), intent(inout) :: pictures
@@ -226,10 +229,10 @@ contains
       end do
    end subroutine pictures_of
 
-   !> Removes pictures of these charts that an earlier run has drawn, for a page without pictures.
+   !> Removes the pictures that an earlier run has drawn of charts, for a page without pictures.
    subroutine remove_drawn(charts, folder)
       type(chart_t), intent(in) :: charts(:)
-      character(*), intent(in) :: folder        !! of the page
+      character(*), intent(in) :: folder        !! folder of the page
       integer :: k
 
       do k = 1, size(charts)

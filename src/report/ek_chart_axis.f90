@@ -1,5 +1,5 @@
-!> Where the axis of a chart ends: at its curves, at a pole, or at the values of the free travel where stops in contact reach far
-!> beyond them.
+!> Ends of the y axis of a chart: the range of the curves, limited at poles. If the values with a stop in contact reach far
+!> beyond the free travel, it is the range of the free travel.
 module ek_chart_axis
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
@@ -9,12 +9,13 @@ module ek_chart_axis
    private
    public :: range_of, view_of, cut_of, free_range, extremes, contact_spans
 
-   real(wp), parameter :: much = 3.0_wp       !! times the span of the free travel: beyond it, the axis covers the free travel only
+   real(wp), parameter :: much = 3.0_wp       !! largest span of all states, in spans of the free travel, without cutting the axis
 
 contains
 
-   !> The range of the y axis. If the span is within the noise or the chart is constant, the range surrounds the mean; otherwise it
-   !> is the range of the curves. Poles are cut off.
+   !> The range of the y axis, as gnuplot reads it. The fixed range of a chart comes first, then the range of the free travel
+   !> (free_range). Otherwise it is the range of the curves within ±cut_of(chart). If the curves are constant or span less
+   !> than the noise, the range surrounds their middle.
    pure function range_of(chart) result(range)
       type(chart_t), intent(in) :: chart
       character(:), allocatable :: range
@@ -37,7 +38,8 @@ contains
          range = '[* < '//str((low + high)/2 - chart%noise, 6)//' : '//str((low + high)/2 + chart%noise, 6)//' < *]'
    end function range_of
 
-   !> Returns the range as two numbers, for a page that draws the chart itself; low > high if the chart has no value.
+   !> Returns the range of the y axis (range_of) as two numbers, for a page that draws the chart itself; low > high if the
+   !> chart has no value.
    pure subroutine view_of(chart, low, high)
       type(chart_t), intent(in) :: chart
       real(wp), intent(out) :: low, high
@@ -61,7 +63,8 @@ contains
       high = middle + half
    end subroutine view_of
 
-   !> Finds the smallest and the largest value of all curves, with values beyond ±cut moved to ±cut.
+   !> Finds the smallest and the largest value of all curves, with values beyond ±cut moved to ±cut; low > high if no curve
+   !> has a value.
    pure subroutine extremes(chart, cut, low, high)
       type(chart_t), intent(in) :: chart
       real(wp), intent(in) :: cut
@@ -79,8 +82,10 @@ contains
       end do
    end subroutine extremes
 
-   !> The limit of the axis on both sides of 0: the cap of the chart; for a curve through a pole, a multiple of its usual magnitude;
-   !> 0 if there is no limit. At a pole, the value changes sign between two states and jumps by more than half of the whole span.
+   !> The limit of the axis on both sides of 0; 0 if there is no limit. The limit is the cap of the chart. If a curve has a
+   !> pole, the limit is 8 times the geometric mean of the magnitudes of all curves, unless the cap is smaller. At a pole, the
+   !> value changes sign between two adjacent states and jumps by more than half of the whole span. Curves of less than 12
+   !> states are not examined for poles.
    pure real(wp) function cut_of(chart) result(cut)
       type(chart_t), intent(in) :: chart
       real(wp), parameter :: usual = 8.0_wp      ! times the mean of the magnitudes on a logarithmic scale
@@ -115,8 +120,9 @@ contains
       if (.not. cut > 0.0_wp .or. high < cut) cut = high
    end function cut_of
 
-   !> Finds the range of the free travel, with a margin, if the states in contact span more than three times as much. is_cut is
-   !> .false. if there are no states in contact, or if the axis is already limited.
+   !> Finds the range of the free travel, with a margin of a quarter of this range, if all states together span more than
+   !> three times the range. Otherwise, is_cut is .false.; it is also .false. if a curve has no data on contact or no free
+   !> state. A range smaller than the noise counts as the noise.
    pure subroutine free_range(chart, low, high, is_cut)
       type(chart_t), intent(in) :: chart
       real(wp), intent(out) :: low, high
@@ -147,7 +153,7 @@ contains
       high = min(all(2), high + margin/4)
    end subroutine free_range
 
-   !> The ranges of the abscissa in which a stop is in contact along a curve: (2, range), from the last free state to the end of the
+   !> The ranges of the abscissa in which a stop is in contact along a curve: (2, range), from the first to the last state in
    !> contact.
    pure function contact_spans(trace) result(spans)
       type(trace_t), intent(in) :: trace

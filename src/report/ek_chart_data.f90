@@ -8,31 +8,32 @@ module ek_chart_data
    !> One curve of a chart.
    type :: trace_t
       character(:), allocatable :: title
-      !> Its columns in the table, or an expression of columns in parentheses: `(abs(column("toe_deg")))`
+      !> Columns of the abscissa and of the values in the table, or an expression of columns in parentheses:
+      !> `(abs(column("toe_deg")))`
       character(:), allocatable :: over, column
       real(wp), allocatable :: x(:), y(:)
-      real(wp), allocatable :: mark(:)       !! [x, y] of a ring: the design state
+      real(wp), allocatable :: mark(:)       !! [x, y] of the ring at the design state; not allocated: no ring
       integer :: colour = 1                  !! index in the palette
       integer :: dash = 0                    !! 0 solid, 1 dashed, 2 dotted, 3 dash-dotted
       integer :: design = 0                  !! row of the design state if it differs from the row of the test; 0: row of the test
-      logical, allocatable :: in_contact(:)  !! states at which a stop is in contact; not allocated: no stop, or not of interest
-      integer :: reference = 0               !! the curve of the chart that it is compared with; 0: none
+      logical, allocatable :: in_contact(:)  !! states at which a stop is in contact; not allocated: no stop, or not shown
+      integer :: reference = 0               !! index of the curve in the chart with which this curve is compared; 0: none
    end type trace_t
 
    type :: chart_t
-      integer :: test = 0                    !! number of the test that it belongs to
-      character(:), allocatable :: name      !! of the SVG, without extension
-      character(:), allocatable :: title     !! the quantity
-      character(:), allocatable :: y_label   !! its unit and sign
+      integer :: test = 0                    !! index of the test of the chart
+      character(:), allocatable :: name      !! name of the SVG file, without suffix
+      character(:), allocatable :: title     !! name of the quantity
+      character(:), allocatable :: y_label   !! unit and sign of the quantity
       character(:), allocatable :: x_label
       type(trace_t), allocatable :: traces(:)
       logical :: has_key = .false.           !! the curves are named in the chart
       logical :: has_points = .false.        !! the states are independent: points without a line
       logical :: is_fixed = .false.          !! the axis ends at `fixed`
       real(wp) :: fixed(2) = 0.0_wp
-      logical :: is_level = .false.          !! constant to the digits shown: a row of a table, not drawn
-      real(wp) :: noise = 0.0_wp             !! a smaller span is drawn flat
-      real(wp) :: cap = 0.0_wp               !! values beyond ± this are not drawn; 0: no limit
+      logical :: is_level = .false.          !! constant to the printed digits: a row of a table, not drawn
+      real(wp) :: noise = 0.0_wp             !! least span of the y axis; curves with a smaller span look flat
+      real(wp) :: cap = 0.0_wp               !! limit of the axis on both sides of 0; 0: no limit
    end type chart_t
 
 contains

@@ -60,7 +60,7 @@ contains
       short = short(:used)
    end function compact_svg
 
-   !> Whether a string begins at a position.
+   !> Whether a picture has the string `word` at the position `at`.
    pure logical function starts(svg, at, word)
       character(*), intent(in) :: svg, word
       integer, intent(in) :: at
@@ -79,7 +79,8 @@ contains
       used = used + len(text)
    end subroutine copy
 
-   !> Appends coordinates, up to the next quotation mark, with one digit after the point: a tenth of a pixel.
+   !> Appends coordinates up to the next apostrophe, or up to the blank before it. Digits after the first decimal, a tenth of
+   !> a pixel, are omitted.
    pure subroutine copy_coordinates(svg, at, to, used)
       character(*), intent(in) :: svg
       integer, intent(inout) :: at, used
@@ -150,7 +151,8 @@ contains
       at = k + 1
    end subroutine copy_colour
 
-   !> Moves `at` to after a group that has only an id and contains only line ends.
+   !> Moves `at` to the position after a group that has only an id and contains only line ends; leaves it unchanged at any
+   !> other string.
    pure subroutine skip_empty_group(svg, at)
       character(*), intent(in) :: svg
       integer, intent(inout) :: at

@@ -12,18 +12,19 @@ module ek_compare_charts
    private
    public :: chart_change_t, curve_difference_t, compare_charts
 
-   real(wp), parameter :: invisible = 1.0e-5_wp     !! of the scale: such curves are drawn as one
+   real(wp), parameter :: invisible = 1.0e-5_wp     !! largest difference of curves drawn as one, as a share of the scale
 
-   !> The distances of the curves of a chart from the curves of the first result.
+   !> The largest difference of a curve, or of all curves of a chart, from the curves of the first result.
    type :: chart_change_t
-      real(wp) :: change = 0.0_wp             !! largest change, with its sign, as a share (see ek_change)
-      real(wp) :: largest = 0.0_wp            !! the same in the unit of the chart
-      real(wp) :: at = 0.0_wp                 !! abscissa of the largest change
-      logical :: is_changed = .false.         !! by more than the threshold
+      real(wp) :: change = 0.0_wp             !! largest difference as a share of the scale (change_of), with its sign
+      real(wp) :: largest = 0.0_wp            !! largest difference in the unit of the chart, with its sign
+      real(wp) :: at = 0.0_wp                 !! abscissa of the largest difference
+      logical :: is_changed = .false.         !! the change is larger than the threshold
       logical :: is_known = .false.           !! some states can be compared
    end type chart_change_t
 
-   !> The difference of a curve of one result from the curve of the first result.
+   !> The difference of a curve of one result from the curve of the first result. A curve that one of the two lacks has the
+   !> difference NaN.
    type :: curve_difference_t
       character(:), allocatable :: test, chart, title, label, curve
       integer :: result = 2
@@ -43,7 +44,7 @@ contains
       type(results_t), intent(in) :: results(:)
       real(wp), intent(in) :: threshold
       type(chart_t), allocatable, intent(out) :: charts(:)
-      type(chart_change_t), allocatable, intent(out) :: changes(:)      !! of each chart
+      type(chart_change_t), allocatable, intent(out) :: changes(:)      !! largest change in each chart
       type(curve_difference_t), allocatable, intent(out) :: curves(:)
       type(chart_list_t) :: own(size(results))
       type(chart_t) :: chart
@@ -81,7 +82,7 @@ contains
       charts = charts(:used)
    end subroutine compare_charts
 
-   !> The index of the chart with the same name and abscissa; 0 if there is none.
+   !> The index of the chart in a list that has the name and the abscissa of another chart; 0 if the list has no such chart.
    pure integer function chart_number(list, chart) result(number)
       type(chart_t), intent(in) :: list(:), chart
 
@@ -90,7 +91,8 @@ contains
       end do
    end function chart_number
 
-   !> Adds a chart that only one result has.
+   !> Adds to the list of differences every curve of a chart that result r has, and that the result compared with it lacks.
+   !> For r = 1, the other result lacks the chart, otherwise the first result.
    subroutine add_lone(chart, test, r, curves)
       type(chart_t), intent(in) :: chart
       character(*), intent(in) :: test
@@ -104,7 +106,7 @@ contains
       end do
    end subroutine add_lone
 
-   !> The change of a chart that the other result lacks: NaN.
+   !> The change of a curve or a chart that cannot be compared, or has not been compared yet: NaN.
    pure type(chart_change_t) function missing_change()
       real(wp) :: nothing
 
@@ -133,7 +135,8 @@ contains
       curves = [curves, curve]
    end subroutine add_curve
 
-   !> Joins the corresponding charts of all results into one chart.
+   !> Joins the corresponding charts of all results into one chart. Finds the largest change, and adds the differences of the
+   !> curves to their list.
    subroutine join(own, places, design, threshold, test, chart, change, curves)
       type(chart_list_t), intent(in) :: own(:)
       integer, intent(in) :: places(:)             !! index of the chart in each list; 0: not in the list
@@ -212,7 +215,7 @@ contains
       if (is_invisible) is_invisible = abs(change%change) <= invisible
    end function is_invisible
 
-   !> Stores the larger of two changes.
+   !> Replaces the largest change by another change that is known and has a larger magnitude.
    pure subroutine take(one, largest)
       type(chart_change_t), intent(in) :: one
       type(chart_change_t), intent(inout) :: largest
@@ -224,8 +227,8 @@ contains
       largest = one
    end subroutine take
 
-   !> Indices of the curves of a chart with which a curve of another result is compared. They have the same name; a curve for both
-   !> sides is compared with each side.
+   !> Indices of the curves of a chart with which a curve of another result is compared: curves of the same name. A curve for
+   !> both sides is compared with each side.
    pure function partners(chart, title) result(found)
       type(chart_t), intent(in) :: chart
       character(*), intent(in) :: title
@@ -258,7 +261,7 @@ contains
    pure subroutine dress(trace, letters, r, is_elements)
       type(trace_t), intent(inout) :: trace
       character(*), intent(in) :: letters
-      integer, intent(in) :: r                  !! number of its result
+      integer, intent(in) :: r                  !! index of the result
       logical, intent(in) :: is_elements
       character(:), allocatable :: title
 
@@ -272,8 +275,8 @@ contains
       end if
    end subroutine dress
 
-   !> Sets the names under which the numbers of a curve are stored in the data of a page. Each result has separate names; the
-   !> abscissa of the first result is used if the abscissae are equal.
+   !> Sets the names under which the numbers of a curve are stored in the data of a page. Each result has separate names,
+   !> except for an expression in parentheses. The abscissa of the first result is used if the abscissae are equal.
    pure subroutine name_columns(trace, chart, r)
       type(trace_t), intent(inout) :: trace
       type(chart_t), intent(in) :: chart
@@ -304,11 +307,13 @@ contains
       are_near = all(abs(a - b) <= near)
    end function are_near
 
-   !> The distance of curve b from curve a over their common range. If both have the same abscissa, they are compared state by
-   !> state, otherwise at the states of a. The scale is the largest magnitude of a, or the least span of the chart.
+   !> The largest difference of curve b from curve a over their common range. If both have the same abscissa, they are
+   !> compared state by state, otherwise at the states of b, at which a is interpolated. Independent states (has_points) are
+   !> compared only if both have the same abscissa. The scale is the largest magnitude of a, or the least span of the chart if
+   !> that is larger.
    pure type(chart_change_t) function distance(a, b, chart) result(change)
       type(trace_t), intent(in) :: a, b
-      type(chart_t), intent(in) :: chart           !! of a
+      type(chart_t), intent(in) :: chart           !! chart of curve a
       real(wp) :: cut, scale, y, one
       integer :: k
       logical :: is_paired
@@ -339,7 +344,8 @@ contains
       if (change%is_known) change%change = change_of(scale, scale + change%largest, scale)
    end function distance
 
-   !> The value of a curve at x, interpolated between two of its states; NaN outside.
+   !> The value of a curve at x, interpolated between two adjacent states; NaN if no two adjacent states with values enclose
+   !> x.
    pure real(wp) function value_at(curve, x)
       type(trace_t), intent(in) :: curve
       real(wp), intent(in) :: x

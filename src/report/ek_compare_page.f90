@@ -20,15 +20,15 @@ module ek_compare_page
    private
    public :: page_of, verdicts
 
-   integer, parameter :: principal = 6        !! charts of a test that are not folded
-   integer, parameter :: most_rows = 40       !! of a table, before the others are folded
+   integer, parameter :: principal = 6        !! number of changed charts of a test that are not folded
+   integer, parameter :: most_rows = 40       !! number of rows of a table that are not folded
 
 contains
 
    !> The content of the page compare.html.
    function page_of(this, why_none) result(text)
       type(comparison_t), intent(in) :: this
-      character(*), intent(in) :: why_none          !! why there are no pictures; '' if there is no message
+      character(*), intent(in) :: why_none          !! reason for missing pictures; '' if there is no message
       character(:), allocatable :: text
       type(page_t) :: page
       type(message_list_t) :: names, values, warnings
@@ -151,7 +151,8 @@ contains
       call begin_rows(page, heads)
    end subroutine fold_rows
 
-   !> Counts the results that changed, and writes one line for numbers and one for charts.
+   !> Counts the key numbers, gradients and charts that changed. Adds one line for key numbers and gradients, and one for
+   !> charts, if there are any.
    subroutine verdicts(this, lines)
       type(comparison_t), intent(in) :: this
       type(message_list_t), intent(out) :: lines
@@ -173,7 +174,7 @@ contains
 
    contains
 
-      !> Phrase about the numbers that cannot be compared; '' if there are none.
+      !> Phrase with the number of rows or charts that cannot be compared; '' if it is 0.
       function others(number) result(text)
          integer, intent(in) :: number
          character(:), allocatable :: text
@@ -184,7 +185,7 @@ contains
 
    end subroutine verdicts
 
-   !> Adds the verdicts, the key numbers sorted by change, and the charts that changed most.
+   !> Adds the verdicts, the targets, the key numbers sorted by change, and a table of the charts that changed most.
    subroutine add_results(page, this)
       type(page_t), intent(inout) :: page
       type(comparison_t), intent(in) :: this
@@ -224,7 +225,8 @@ contains
       call end_table(page)
    end subroutine add_results
 
-   !> Adds the table of key numbers and gradients. Unchanged numbers are in a folded table.
+   !> Adds the table of key numbers and gradients. After 40 changed numbers, the others are in a folded table. Numbers that
+   !> are unchanged or cannot be compared are in another folded table.
    subroutine add_numbers(page, this)
       type(page_t), intent(inout) :: page
       type(comparison_t), intent(in) :: this
@@ -292,8 +294,8 @@ contains
       call add_cell(page, row%test//', '//row%window, 's')
    end subroutine add_number
 
-   !> Adds the charts of a test. Changed charts are sorted by the size of the change, and the first few are open. Unchanged charts
-   !> are folded.
+   !> Adds the charts of a test. Changed charts are sorted by the size of the change, and the first six are open. The others
+   !> and the unchanged charts are folded. Constant charts are listed in a table.
    subroutine add_test(page, this, test)
       type(page_t), intent(inout) :: page
       type(comparison_t), intent(in) :: this
@@ -332,7 +334,8 @@ contains
       call add_markup(page, '<details class="more"><summary>'//escape_html(summary)//'</summary>')
    end subroutine begin_fold
 
-   !> Adds charts side by side: either areas that the script of the page fills, or pictures drawn by gnuplot.
+   !> Adds charts side by side: areas that the script of the page fills or, on a static page, the pictures drawn by gnuplot.
+   !> Without pictures, a static page has no charts.
    subroutine add_charts(page, this, numbers)
       type(page_t), intent(inout) :: page
       type(comparison_t), intent(in) :: this
@@ -360,7 +363,8 @@ contains
       call end_charts(page)
    end subroutine add_charts
 
-   !> HTML of the largest difference of a chart: ' <span…>largest difference −0.31 (4.2 %)</span>'.
+   !> HTML of the largest difference of a chart, and of its magnitude in percent of the scale: ' <span…>largest difference
+   !> −0.31 (4.2 %)</span>'. '' if the chart cannot be compared.
    function step_of(is_known, largest, change) result(html)
       logical, intent(in) :: is_known
       real(wp), intent(in) :: largest, change

@@ -1,7 +1,7 @@
 !> The tables of a comparison for programs: differences.csv of the gradients, number-differences.csv of the key numbers,
-!> curve-differences.csv of the charts, deck-differences.csv of the decks. With their hyphen the names differ from the names of all
-!> tables of a report. `change` is in percent of A, or of the least span of a chart where A is smaller; `verdict` is changed, same,
-!> only in A, only in B or not a number.
+!> curve-differences.csv of the charts, deck-differences.csv of the decks. No table of a report has one of these names.
+!> `change` is in percent of A; where A is smaller than the least span of a chart, in percent of that span. `verdict` is
+!> changed, same, not a number, in neither, or only in a result: only in A, only in B and so on.
 module ek_compare_tables
    use ek_kinds, only: wp
    use ek_error, only: error_t
@@ -33,11 +33,12 @@ contains
       if (.not. allocated(error)) call write_whole(join_path(this%folder, 'deck-differences.csv'), deck_csv(this), error)
    end subroutine write_tables
 
-   !> One row per gradient or key number, and per result compared with the first.
+   !> The table of gradients, or of key numbers if is_by_name, as CSV: one row per gradient or key number, and per result
+   !> compared with the first.
    function differences_csv(this, rows, is_by_name) result(text)
       type(comparison_t), intent(in) :: this
       type(difference_t), intent(in) :: rows(:)
-      logical, intent(in) :: is_by_name            !! key numbers
+      logical, intent(in) :: is_by_name            !! the rows are key numbers
       character(:), allocatable :: text
       type(text_table_t) :: table
       real(wp) :: change
@@ -74,8 +75,8 @@ contains
       text = text_table_csv(table)
    end function differences_csv
 
-   !> The table of curves, one row per curve: the largest difference, in the unit of the label, and the value of the test's abscissa
-   !> at which it occurs.
+   !> The table of curves as CSV, one row per curve and per result compared with the first. A row gives the largest
+   !> difference, in the unit of the label, and the value of the test's abscissa at this difference.
    function curves_csv(this) result(text)
       type(comparison_t), intent(in) :: this
       character(:), allocatable :: text
@@ -103,8 +104,8 @@ contains
       text = text_table_csv(table)
    end function curves_csv
 
-   !> The table of decks, one row per value or fact that differs: the strings of all results; for two results, also the step of a
-   !> number from A to B.
+   !> The table of decks as CSV, one row per value or fact that differs: the strings of all results; for two results, also the
+   !> difference of a number from A to B.
    function deck_csv(this) result(text)
       type(comparison_t), intent(in) :: this
       character(:), allocatable :: text

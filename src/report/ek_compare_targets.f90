@@ -12,7 +12,7 @@ module ek_compare_targets
    private
    public :: target_t, find_targets, add_targets, target_lines
 
-   character(*), parameter :: band = 'target_band.', low = '.low', high = '.high'     !! of the paths in deck.csv
+   character(*), parameter :: band = 'target_band.', low = '.low', high = '.high'     !! parts of the paths in deck.csv
 
    !> A key number for which one or more of the decks have a band.
    type :: target_t
@@ -46,7 +46,8 @@ contains
       end do
    end subroutine find_targets
 
-   !> Adds the key number of a path such as 'target_band.bump_camber.low', unless it is already listed.
+   !> Adds the key number of a path such as 'target_band.bump_camber.low' to a list, unless it is already listed. Other paths
+   !> are skipped.
    subroutine add_name(path, names)
       character(*), intent(in) :: path
       type(message_list_t), intent(inout) :: names
@@ -60,7 +61,8 @@ contains
       call names%add(path(len(band) + 1:last))
    end subroutine add_name
 
-   !> Adds the value, verdict and band of one result. Both wheels count, as in a report.
+   !> Adds the value, verdict and band of one result to a target. The verdict is 'outside' if the value of either wheel is
+   !> outside the band; '' without a band or a value.
    subroutine judge(result, name, this)
       type(results_t), intent(in) :: result
       character(*), intent(in) :: name
@@ -98,7 +100,7 @@ contains
    subroutine read_limit(deck, path, default, limit, is_given)
       type(deck_record_t), intent(in) :: deck
       character(*), intent(in) :: path
-      real(wp), intent(in) :: default                  !! without the limit
+      real(wp), intent(in) :: default                  !! value of `limit` if the deck does not give it
       real(wp), intent(out) :: limit
       logical, intent(out) :: is_given
       integer :: k
@@ -132,7 +134,7 @@ contains
    subroutine add_targets(page, targets, letters)
       type(page_t), intent(inout) :: page
       type(target_t), intent(in) :: targets(:)
-      character(*), intent(in) :: letters(:)           !! of the results
+      character(*), intent(in) :: letters(:)           !! letters of the results
       character(12) :: heads(size(letters) + 3)
       integer :: k, r
 
@@ -153,7 +155,7 @@ contains
       call end_table(page)
    end subroutine add_targets
 
-   !> The bands of all results; one band if all bands are equal.
+   !> The bands of all results, separated by `arrow`; one band if all bands are equal.
    function bands_text(this, arrow) result(text)
       type(target_t), intent(in) :: this
       character(*), intent(in) :: arrow

@@ -19,25 +19,25 @@ module ek_comparison
 
    !> One gradient or key number of all results. For a key number, `test` is its group and `column` its name for programs.
    type, extends(gradient_t) :: difference_t
-      real(wp) :: least = 0.0_wp              !! reference of a change where the value is smaller
-      real(wp), allocatable :: values(:)      !! one per result; NaN if it lacks the gradient
+      real(wp) :: least = 0.0_wp              !! least span of a chart; reference of a change if the value is smaller
+      real(wp), allocatable :: values(:)      !! one per result; NaN if the result lacks the number
       logical, allocatable :: is_there(:)
    end type difference_t
 
    type :: comparison_t
-      character(:), allocatable :: folder               !! of the page
-      type(results_t), allocatable :: results(:)        !! the others are compared with the first
-      real(wp) :: threshold = 0.01_wp                   !! a larger change counts
+      character(:), allocatable :: folder               !! folder of the page
+      type(results_t), allocatable :: results(:)        !! compared results; the first is the reference
+      real(wp) :: threshold = 0.01_wp                   !! limit above which a number or a chart counts as changed
       type(deck_difference_t), allocatable :: facts(:), deck(:)     !! differences of the runs and of the decks
       type(difference_t), allocatable :: rows(:), numbers(:)        !! gradients, key numbers
       type(difference_t), allocatable :: shown(:)       !! gradients and key numbers without repetition, sorted by change
       type(target_t), allocatable :: targets(:)         !! key numbers with a band in a deck
-      type(chart_t), allocatable :: charts(:)           !! of the tests of the first
-      type(chart_change_t), allocatable :: changes(:)   !! of each chart
+      type(chart_t), allocatable :: charts(:)           !! charts of the tests of the first result
+      type(chart_change_t), allocatable :: changes(:)   !! largest change in each chart
       type(curve_difference_t), allocatable :: curves(:)
-      type(message_list_t) :: missing                   !! from some results
-      logical :: is_static = .false.                    !! the charts of gnuplot, no script
-      logical :: has_pictures = .false.                 !! those in the folder belong to this comparison
+      type(message_list_t) :: missing                   !! messages on tests, columns and gradients that a result lacks
+      logical :: is_static = .false.                    !! the page has the pictures of gnuplot, and no script
+      logical :: has_pictures = .false.                 !! the pictures in the folder belong to this comparison
    end type comparison_t
 
 contains
@@ -57,7 +57,7 @@ contains
       rows = rows(:used)
    end subroutine compare_gradients
 
-   !> Compares all key numbers of all results, by name. A single table has no key numbers and is omitted.
+   !> Compares all key numbers of all results, by name. If a result has no key numbers, as a single table, there are no rows.
    subroutine compare_numbers(results, rows)
       type(results_t), intent(in) :: results(:)
       type(difference_t), allocatable, intent(out) :: rows(:)
@@ -73,11 +73,11 @@ contains
       rows = rows(:used)
    end subroutine compare_numbers
 
-   !> Adds the values of result s to the rows.
+   !> Adds the values of result s to the rows, and a new row for each gradient or key number that has no row.
    subroutine take_rows(list, s, results, is_by_name, rows, used)
       type(gradient_t), intent(in) :: list(:)
       integer, intent(in) :: s, results
-      logical, intent(in) :: is_by_name             !! a row is known by `column`; otherwise by test, quantity and side
+      logical, intent(in) :: is_by_name             !! a row is identified by `column`; otherwise by test, quantity and side
       type(difference_t), intent(inout) :: rows(:)
       integer, intent(inout) :: used
       integer :: k, row
@@ -114,7 +114,7 @@ contains
       if (ieee_is_finite(a) .and. ieee_is_finite(b)) difference = b - a
    end function difference
 
-   !> The change 100 (b − a)/|a| [%]; NaN if a is zero to rounding.
+   !> The change 100 (b − a)/|a| [%]; NaN if a or b is missing, or if a is zero to rounding.
    elemental real(wp) function percent(a, b)
       real(wp), intent(in) :: a, b
       real(wp), parameter :: nothing = 1.0e-9_wp     ! in the unit of any gradient: rounding of a zero
@@ -140,8 +140,9 @@ contains
       end do
    end function largest_change
 
-   !> The key numbers and gradients for a page, sorted by the size of the change; numbers without a value are last. A gradient that
-   !> is also a key number is listed once. Both sides share a row if every result has equal or opposite numbers for them.
+   !> The key numbers and gradients for a page, sorted by the size of the change; numbers without a value are last. A gradient
+   !> that is also a key number is listed once, and so is an angle that is both toe and steer. Both sides share a row if every
+   !> result has equal or opposite numbers for them.
    function results_shown(numbers, rows) result(shown)
       type(difference_t), intent(in) :: numbers(:), rows(:)
       type(difference_t), allocatable :: shown(:), others(:)
@@ -207,7 +208,8 @@ contains
       is_one_side = side == 'left' .or. side == 'right'
    end function is_one_side
 
-   !> The largest changes above the threshold, one per line: 'bump toe left: -2.47 → 2.59 deg/m (+205 %), parallel_travel'.
+   !> The largest changes above the threshold, one per line, in at most `most` lines: 'bump toe left: -2.47 → 2.59 deg/m (+205
+   !> %), parallel_travel'.
    function largest_lines(shown, threshold, most) result(lines)
       type(difference_t), intent(in) :: shown(:)       !! sorted by change
       real(wp), intent(in) :: threshold

@@ -12,8 +12,8 @@ module ek_contact
 
    !> A range of consecutive states in which a stop is in contact.
    type :: contact_t
-      character(name_length) :: stop = ''        !! without its side if both sides have the same stretch
-      integer :: first = 0, last = 0             !! rows of the table
+      character(name_length) :: stop = ''        !! name of the stop, without its side if both sides have the same range
+      integer :: first = 0, last = 0             !! first and last row of the range in the table
    end type contact_t
 
 contains
@@ -31,7 +31,7 @@ contains
       end do
    end subroutine states_in_contact
 
-   !> The ranges of states in which stops are in contact.
+   !> The ranges of states in which stops are in contact. Equal ranges of the two sides are listed once.
    pure function contacts_of(table) result(list)
       type(table_t), intent(in) :: table
       type(contact_t), allocatable :: list(:)
@@ -53,7 +53,8 @@ contains
       end do
    end function contacts_of
 
-   !> Appends a range, unless the other side has an equal range.
+   !> Appends a range. If the left side of the stop has an equal range, that range then stands for both sides, and none is
+   !> appended.
    pure subroutine add(list, contact)
       type(contact_t), allocatable, intent(inout) :: list(:)
       type(contact_t), intent(in) :: contact

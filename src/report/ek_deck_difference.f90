@@ -13,15 +13,17 @@ module ek_deck_difference
       right(2) = [character(12) :: '.right_', 'wheel.right.'], both(2) = [character(12) :: '.', 'wheel.']
 
    type :: deck_difference_t
-      character(:), allocatable :: path           !! 'point.left_tie_rod_outer.z', or 'Deck checksum'
-      character(:), allocatable :: sides          !! 'both sides', 'both sides, mirrored', or ''
-      type(message_list_t) :: texts               !! one per result; '' where it is not given
+      character(:), allocatable :: path           !! path of a value: 'point.left_tie_rod_outer.z'; or fact: 'Deck checksum'
+      character(:), allocatable :: sides          !! 'both sides', 'both sides, mirrored; left shown', or ''
+      type(message_list_t) :: texts               !! value in each result; '' if the result does not give it
    end type deck_difference_t
 
 contains
 
-   !> Finds the facts and values that differ between the records, in the order of the first record. A value that only some decks
-   !> give is a difference. If both sides of an axle changed equally, they are one row.
+   !> Finds the facts and values that differ between the records, in the order of the first record; names that the first
+   !> record lacks follow. A value that only some decks give is a difference. If both sides of an axle changed equally or
+   !> oppositely, they share a row. If the deck of a record is not known, no values are compared, and facts that a record
+   !> lacks are omitted.
    subroutine find_differences(records, facts, values)
       type(deck_record_t), intent(in) :: records(:)
       type(deck_difference_t), allocatable, intent(out) :: facts(:), values(:)
@@ -54,9 +56,9 @@ contains
       is_in_all = all([(row%texts%line(r) /= '', r=1, row%texts%count())])
    end function is_in_all
 
-   !> Lists the names whose strings differ.
+   !> Lists the names whose strings differ between the results.
    subroutine differing(names, texts, list)
-      type(message_list_t), intent(in) :: names(:), texts(:)     !! of each result
+      type(message_list_t), intent(in) :: names(:), texts(:)     !! names and strings of each result
       type(deck_difference_t), allocatable, intent(out) :: list(:)
       type(deck_difference_t) :: row
       integer :: s, r, k, l, used
@@ -122,7 +124,7 @@ contains
       if (are_numbers(a, b, x, y)) is_equal = abs(x - y) <= 1.0e-12_wp*max(abs(x), abs(y))
    end function is_equal
 
-   !> Whether two strings are numbers; x and y return their values.
+   !> Whether two strings are both numbers; if so, x and y return their values.
    logical function are_numbers(a, b, x, y)
       character(*), intent(in) :: a, b
       real(wp), intent(out) :: x, y
@@ -135,7 +137,7 @@ contains
       are_numbers = is_number
    end function are_numbers
 
-   !> The difference b − a of two values, such as '+5'; '' if a value is not a number.
+   !> The difference b − a of two numbers, such as '+5'; '' if a or b is missing or is not a number.
    function step_text(a, b) result(text)
       character(*), intent(in) :: a, b
       character(:), allocatable :: text
@@ -179,7 +181,7 @@ contains
       list = pack(list, .not. is_twin)
    end subroutine join_sides
 
-   !> Whether all values of the right side are `sign` times the values of the left side.
+   !> Whether all numbers of the left side are `sign` times the numbers of the right side. Other strings must be equal.
    logical function are_alike(a, b, sign)
       type(message_list_t), intent(in) :: a, b
       real(wp), intent(in) :: sign

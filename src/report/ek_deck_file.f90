@@ -10,12 +10,12 @@ module ek_deck_file
    public :: deck_record_t, write_deck_file, read_deck_file, facts_of_table
 
    character(*), parameter :: fact = 'fact', value = 'value'
-   !> Facts that are not stored: the report gives them itself, or no result depends on them
+   !> Facts of the page that deck.csv omits: the report contains them elsewhere, or no result depends on them.
    character(*), parameter :: not_kept(2) = [character(14) :: 'Date', 'Road at design']
 
    type :: deck_record_t
-      type(message_list_t) :: names, facts      !! 'Deck checksum' and its text
-      type(message_list_t) :: paths, texts      !! values of the deck
+      type(message_list_t) :: names, facts      !! facts: 'Deck checksum' and its value
+      type(message_list_t) :: paths, texts      !! values of the deck by their paths
       logical :: is_known = .false.             !! the values of the deck are known
    end type deck_record_t
 
@@ -24,8 +24,8 @@ contains
    !> Writes deck.csv: the facts and the values of the deck.
    subroutine write_deck_file(path, names, facts, paths, texts, error)
       character(*), intent(in) :: path
-      type(message_list_t), intent(in) :: names, facts     !! at the top of the page
-      type(message_list_t), intent(in) :: paths, texts     !! of the values (ek_deck_values)
+      type(message_list_t), intent(in) :: names, facts     !! facts at the top of the page
+      type(message_list_t), intent(in) :: paths, texts     !! values of the deck by their paths (ek_deck_values)
       type(error_t), allocatable, intent(out) :: error
       type(text_table_t) :: table
       integer :: k
@@ -52,8 +52,8 @@ contains
 
    end subroutine write_deck_file
 
-   !> Reads deck.csv. Without the file the result is empty; this is not an error, because reports of earlier versions do not have
-   !> the file.
+   !> Reads deck.csv. Without the file, the record is empty and is_known is .false.; this is not an error, because reports of
+   !> earlier versions do not have the file.
    subroutine read_deck_file(path, record, error)
       character(*), intent(in) :: path
       type(deck_record_t), intent(out) :: record
@@ -76,7 +76,7 @@ contains
       end do
    end subroutine read_deck_file
 
-   !> Reads the facts about a run from the header of a table. Facts that the record already has are skipped.
+   !> Reads the facts about a run from the header of a table. If the record already has facts, it is left unchanged.
    subroutine facts_of_table(table, record)
       type(table_t), intent(in) :: table
       type(deck_record_t), intent(inout) :: record

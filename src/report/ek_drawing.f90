@@ -1,7 +1,6 @@
-!> Runs gnuplot in a temporary folder, for a limited time, on scripts alone. A picture is moved to its folder when it is
-!> complete; if gnuplot fails, hangs or draws nothing, earlier pictures are not replaced and an error is returned.
-!>
-!> gnuplot runs with -d: no settings of the user or of the machine affect a picture.
+!> Runs gnuplot on scripts in a temporary folder, for a limited time. A picture is moved to its folder when all pictures are
+!> complete. If gnuplot fails, hangs or draws nothing, earlier pictures are not replaced and an error is returned. gnuplot
+!> runs with -d: no settings of the user or of the machine affect a picture.
 module ek_drawing
    use, intrinsic :: iso_c_binding, only: c_null_char
    use ek_error, only: error_t, message_list_t, fail, exit_file
@@ -16,19 +15,20 @@ module ek_drawing
    private
    public :: run_gnuplot, run_plot_script
 
-   integer, parameter :: time_limit = 300             !! s for one run; the largest report takes a tenth of it
-   integer, parameter :: longest_log = 2000           !! characters of gnuplot's own message
+   integer, parameter :: time_limit = 300             !! limit on one run [s]; the largest report takes a tenth of the limit
+   integer, parameter :: longest_log = 2000           !! limit on the characters of gnuplot's own message
    character(*), parameter :: log_name = 'gnuplot.log'
 
 contains
 
-   !> Runs gnuplot once on existing scripts. The scripts read data from their folder and draw into the working folder. They draw a
-   !> picture of another folder ('../x.svg') as `to.'x.svg'`, where `to` is '' here.
+   !> Runs gnuplot once on existing scripts. The scripts read data from their folder and draw into the working folder. A
+   !> script names a picture of another folder ('../x.svg') as `to.'x.svg'`; `to` is '' here, so that this picture is also
+   !> drawn into the working folder. If gnuplot is not installed, `message` says so, and this is not an error.
    subroutine run_gnuplot(scripts, pictures, folder, message, error)
       type(message_list_t), intent(in) :: scripts         !! names in the folder
       type(message_list_t), intent(in) :: pictures        !! paths relative to the folder
       character(*), intent(in) :: folder
-      character(:), allocatable, intent(out) :: message   !! '' if the pictures were drawn, otherwise the reason
+      character(:), allocatable, intent(out) :: message   !! reason if gnuplot is not installed, otherwise ''
       type(error_t), allocatable, intent(out) :: error    !! exit_file, with gnuplot's message
       type(scratch_t) :: scratch
       character(:), allocatable :: trouble
@@ -47,8 +47,9 @@ contains
       if (len(trouble) > 0) call fail(error, exit_file, 'gnuplot could not draw the figures in '//folder//': '//trouble)
    end subroutine run_gnuplot
 
-   !> Runs a plot script of the user. The gnuplot variable `out` is the folder of the tables. Every complete file that the script
-   !> writes to the working folder is moved to `folder`.
+   !> Runs a plot script of the user in a temporary folder. The gnuplot variable `out` is this folder, which has links to the
+   !> tables. If all files that the script writes there are complete, they are moved to `folder`. An incomplete file, or no
+   !> file, is an error, and no file is moved.
    subroutine run_plot_script(script, tables, folder, error)
       character(*), intent(in) :: script                  !! path of the script
       type(message_list_t), intent(in) :: tables          !! names in the folder
@@ -83,9 +84,10 @@ contains
       if (len(trouble) > 0) call fail(error, exit_file, 'gnuplot could not run '''//script//''': '//trouble)
    end subroutine run_plot_script
 
-   !> Moves all pictures to their folder, or none, so that pictures of two runs are not mixed.
+   !> Moves all pictures to their folder if all are complete, otherwise none, so that pictures of two runs are not mixed.
+   !> Removes the temporary folder.
    subroutine take_pictures(scratch, pictures, folder, trouble)
-      type(scratch_t), intent(inout) :: scratch           !! it ends
+      type(scratch_t), intent(inout) :: scratch           !! temporary folder; it is removed
       type(message_list_t), intent(in) :: pictures        !! paths relative to the folder
       character(*), intent(in) :: folder
       character(:), allocatable, intent(inout) :: trouble !! '' so far, or nothing is moved
@@ -113,7 +115,7 @@ contains
    !> locales may write a decimal comma.
    subroutine draw_in(scratch, before, scripts, folder, trouble)
       type(scratch_t), intent(in) :: scratch
-      character(*), intent(in) :: before                  !! commands before any script
+      character(*), intent(in) :: before                  !! commands that run before the scripts
       type(message_list_t), intent(in) :: scripts         !! paths relative to the folder
       character(*), intent(in) :: folder
       character(:), allocatable, intent(out) :: trouble   !! '' if gnuplot succeeded
@@ -137,7 +139,8 @@ contains
       if (len(trouble) == 0) trouble = 'it ended with status '//str(status)
    end subroutine draw_in
 
-   !> The time limit of gnuplot [s]: the environment variable EK_GNUPLOT_SECONDS if set, otherwise the default of this module.
+   !> The time limit of gnuplot [s]: the environment variable EK_GNUPLOT_SECONDS if it is a positive integer of up to 6
+   !> digits, otherwise the default of this module.
    integer function seconds_allowed() result(limit)
       character(12) :: text
       integer :: status

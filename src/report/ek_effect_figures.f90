@@ -12,15 +12,15 @@ module ek_effect_figures
    public :: map_script, line_script, tornado_script, sobol_script, morris_script, ranked
 
    character(*), parameter :: nl = new_line('a')
-   integer, parameter :: most_bars = 15           !! factors of a panel, the most important ones
+   integer, parameter :: most_bars = 15           !! largest number of factors in a panel: the most important ones
    integer, parameter :: named_points = 8         !! factors named in the Morris plot
 
 contains
 
-   !> Script of the contours of each response over two factors of a grid.
+   !> Script of the contours of some responses over the two factors of a grid.
    function map_script(study, name, subtitle, panels) result(text)
       type(study_data_t), intent(in) :: study
-      integer, intent(in) :: panels(:)               !! responses
+      integer, intent(in) :: panels(:)               !! indices of the responses
       character(*), intent(in) :: name, subtitle
       character(:), allocatable :: text
       type(sheet_t) :: sheet
@@ -68,10 +68,10 @@ contains
       text = end_panels(sheet)
    end function map_script
 
-   !> Script of each response over the only factor of a grid.
+   !> Script of some responses over the only factor of a grid.
    function line_script(study, name, subtitle, panels) result(text)
       type(study_data_t), intent(in) :: study
-      integer, intent(in) :: panels(:)               !! responses
+      integer, intent(in) :: panels(:)               !! indices of the responses
       character(*), intent(in) :: name, subtitle
       character(:), allocatable :: text
       type(sheet_t) :: sheet
@@ -95,7 +95,7 @@ contains
       text = end_panels(sheet)
    end function line_script
 
-   !> The range of some values as a gnuplot range: '[low:high]'.
+   !> The range of some values as a gnuplot range: '[low:high]'. A range without a span is extended upward.
    pure function bounds(values) result(text)
       real(wp), intent(in) :: values(:)
       character(:), allocatable :: text
@@ -106,7 +106,7 @@ contains
       text = '['//str(range(1), 7)//':'//str(range(2), 7)//']'
    end function bounds
 
-   !> Tics at 1, 2 and 5 of every decade, for a logarithmic axis.
+   !> The tics of an axis for `set xtics`: for geometric values, at 1, 2 and 5 of every decade; otherwise 'autofreq'.
    pure function tics_of(values) result(text)
       real(wp), intent(in) :: values(:)
       character(:), allocatable :: text
@@ -157,7 +157,7 @@ contains
    !> A sheet of horizontal bars, one panel per response.
    function new_bars(study, panels, name, title, subtitle) result(sheet)
       type(study_data_t), intent(in) :: study
-      integer, intent(in) :: panels(:)               !! responses
+      integer, intent(in) :: panels(:)               !! indices of the responses
       character(*), intent(in) :: name, title, subtitle
       type(sheet_t) :: sheet
 
@@ -168,7 +168,7 @@ contains
       sheet%left = name_room(study, 14)
    end function new_bars
 
-   !> Note below a list of factors that was truncated; '' otherwise.
+   !> End of a subtitle if only some of the factors are drawn: '; the 15 most important of 20 factors'; '' otherwise.
    pure function cut(study) result(words)
       type(study_data_t), intent(in) :: study
       character(:), allocatable :: words
@@ -178,10 +178,10 @@ contains
          str(size(study%factors))//' factors'
    end function cut
 
-   !> Script of the change of each response when one factor changes alone (tornado).
+   !> Script of the change of some responses when one factor changes alone (tornado).
    function tornado_script(study, name, subtitle, panels) result(text)
       type(study_data_t), intent(in) :: study
-      integer, intent(in) :: panels(:)               !! responses
+      integer, intent(in) :: panels(:)               !! indices of the responses
       character(*), intent(in) :: name, subtitle
       character(:), allocatable :: text
       type(sheet_t) :: sheet
@@ -235,7 +235,7 @@ contains
       text = end_panels(sheet)
    end function tornado_script
 
-   !> Whether the response at an end of any factor is unknown.
+   !> Whether a response at an end of a factor is unknown.
    pure logical function any_gap(effects)
       type(effects_t), intent(in) :: effects(:)
       integer :: r
@@ -257,10 +257,11 @@ contains
       if (any_gap([effects])) part = '     $gaps'//str(panel)//" using 1:2:('–') with labels offset 1.5, 0 notitle, "//nl
    end function gaps_plot
 
-   !> Script of the Sobol indices with their 95 % intervals.
+   !> Script of the Sobol indices of some responses with their 95 % intervals. Indices from derivatives (tolerance studies)
+   !> have no interval.
    function sobol_script(study, name, subtitle, panels) result(text)
       type(study_data_t), intent(in) :: study
-      integer, intent(in) :: panels(:)               !! responses
+      integer, intent(in) :: panels(:)               !! indices of the responses
       character(*), intent(in) :: name, subtitle
       character(:), allocatable :: text
       type(sheet_t) :: sheet
@@ -304,11 +305,11 @@ contains
       text = end_panels(sheet)
    end function sobol_script
 
-   !> Script of Morris' μ* and σ. A factor far to the right has a large effect; a factor high up acts nonlinearly or together with
-   !> others.
+   !> Script of Morris' μ* and σ of some responses. A factor far to the right has a large effect; a factor high up acts
+   !> nonlinearly or together with others.
    function morris_script(study, name, subtitle, panels) result(text)
       type(study_data_t), intent(in) :: study
-      integer, intent(in) :: panels(:)               !! responses
+      integer, intent(in) :: panels(:)               !! indices of the responses
       character(*), intent(in) :: name, subtitle
       character(:), allocatable :: text
       type(sheet_t) :: sheet

@@ -1,5 +1,5 @@
-!> The table of the effects of the factors of a study on its responses. The strongest factor is first; further factors, and factors
-!> without an effect, are folded.
+!> The table of the effects of the factors of a study on its responses. For each response, the strongest factor is first.
+!> Factors after the 12 strongest, and factors without an effect, are folded.
 module ek_effect_table
    use ek_kinds, only: wp
    use ek_text, only: str, plural
@@ -13,8 +13,8 @@ module ek_effect_table
 
 contains
 
-   !> Adds the table of effects of the factors, for the kinds of study that yield effects. The strongest factors of each response
-   !> are shown; all others are folded.
+   !> Adds the table of effects of the factors, for the kinds of study that yield effects. The 12 strongest factors of each
+   !> response are shown; all others are folded.
    subroutine add_effects(page, study)
       type(page_t), intent(inout) :: page
       type(study_data_t), intent(in) :: study
@@ -165,7 +165,7 @@ contains
       call add_markup(page, '</details>')
    end subroutine add_idle
 
-   !> Number of base points or effects from which an effect was computed, where designs failed: ' (67 of 256)'.
+   !> Number of base points or effects from which an effect was computed, if designs failed: ' (67 of 256)'; otherwise ''.
    pure function rests_on(effects, f) result(text)
       type(effects_t), intent(in) :: effects
       integer, intent(in) :: f

@@ -19,22 +19,23 @@ module ek_explanation
    private
    public :: explanation_t, find_explanations, add_explanations, parts_of
 
-   integer, parameter :: shown = 10      !! contributions of a column
+   integer, parameter :: shown = 10      !! largest number of contributions of a column
 
-   !> A column at design with its contributions.
+   !> A column at design with its contributions, or a rate with its parts.
    type :: explanation_t
       character(:), allocatable :: title, column, unit
       real(wp) :: value = 0.0_wp
       integer :: rows = 0
-      character(share_length + 12) :: row(shown) = ''      !! 'arm_front x'
-      real(wp) :: part(shown) = 0.0_wp                     !! in the unit, the largest first
+      character(share_length + 12) :: row(shown) = ''      !! name of a contribution: 'arm_front x'
+      real(wp) :: part(shown) = 0.0_wp                     !! in the unit; of a compliance, the largest first
       real(wp) :: rest = 0.0_wp
    end type explanation_t
 
 contains
 
-   !> Finds the contributions to the key compliances at the state of a case that is nearest to design. For an axle, only the left
-   !> wheel is explained. The list is empty if there is no such state, or if its matrix is singular.
+   !> Finds the parts of the wheel rate and the roll rate, then the contributions to the key compliances, at the state of a
+   !> case that is nearest to design. For an axle, only the left wheel is explained. The list is empty if the model has no key
+   !> compliance, if no state was reached, or if the matrix of that state is singular.
    subroutine find_explanations(result, list)
       type(case_result_t), intent(inout) :: result              !! is_run
       type(explanation_t), allocatable, intent(out) :: list(:)
@@ -93,8 +94,8 @@ contains
       end do
    end subroutine find_explanations
 
-   !> Finds the wheel rate of the left or single wheel and the roll rate, with their parts. Rates that the table of the case does
-   !> not give at design are omitted.
+   !> Finds the wheel rate of the left or single wheel and the roll rate, with their parts. A rate is omitted if the table of
+   !> the case does not give it at design, or if its parts are not known.
    subroutine find_rates(result, table, found, used)
       type(case_result_t), intent(in) :: result
       type(contribution_table_t), intent(in) :: table
@@ -123,7 +124,7 @@ contains
       end do
    end subroutine find_rates
 
-   !> A rate with those parts that are not printed as 0.
+   !> A rate with its parts. Parts that are printed as 0.0 % belong to the rest.
    function split_of(column, value, shares) result(rate)
       character(*), intent(in) :: column
       real(wp), intent(in) :: value, shares(:)
@@ -144,7 +145,7 @@ contains
       rate%rest = value - sum(rate%part)
    end function split_of
 
-   !> The largest parts of a column: 'at design: springs 81 %, bushings 15 %, …'; '' if the column has no explanation.
+   !> The parts of a column: 'at design: springs 81 %, bushings 15 %, …'; '' if the column has no explanation.
    function parts_of(list, column) result(text)
       type(explanation_t), intent(in) :: list(:)
       character(*), intent(in) :: column
@@ -208,7 +209,7 @@ contains
       call add_cell(page, this%unit, 's')
    end subroutine add_row
 
-   !> Whether a number is printed as zero on the page; its row would show rounding only.
+   !> Whether a number is printed as zero on the page. A row with such a number would show rounding only.
    pure logical function reads_zero(number)
       real(wp), intent(in) :: number
       reads_zero = page_number(number) == '0'

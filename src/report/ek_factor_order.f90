@@ -9,13 +9,13 @@ module ek_factor_order
    private
    public :: most_open, effect_sizes, effect_measure, has_no_effect, factor_order, strongest_names, least_correlation
 
-   integer, parameter :: most_open = 12           !! factors of a table that are not folded
-   integer, parameter :: most_names = 4           !! factors that are named as the strongest of a response
+   integer, parameter :: most_open = 12           !! largest number of factors, in all or per response, that are not folded
+   integer, parameter :: most_names = 4           !! largest number of factors named as the strongest of a response
 
 contains
 
-   !> The sizes of the effects of all factors on a response, by the best measure that the study yields: total index or share, μ*,
-   !> span, or else the magnitude of the rank correlation. NaN for a factor without a value.
+   !> The sizes of the effects of all factors on a response, by the best measure that the study yields: total index or share,
+   !> μ*, or span. Without these, it is the magnitude of the rank correlation. NaN for a factor without a value.
    pure function effect_sizes(study, r) result(sizes)
       type(study_data_t), intent(in) :: study
       integer, intent(in) :: r                    !! response
@@ -34,10 +34,10 @@ contains
       end associate
    end function effect_sizes
 
-   !> The magnitude of rank correlation that one or more of the factors reach by chance in at most one study of twenty, for designs
-   !> drawn at random. The limit follows from P(|z| > t) ≤ exp(−t²/2) for a normal z = r √(n − 1), and at most k times this
-   !> probability for k factors together. It is 0 for kinds of study whose effects have another measure, and for a grid, where every
-   !> factor is varied independently of the others.
+   !> The magnitude of rank correlation that one or more of the factors reach by chance in at most one study of twenty, for
+   !> designs drawn at random. With n designs, z = r √(n − 1) is normal for the rank correlation r by chance, and P(|z| > t) ≤
+   !> exp(−t²/2). For k factors together, the probability is at most k times as large. The limit is 0 for kinds of study whose
+   !> effects have another measure, and for a grid, where every factor is varied independently of the others.
    pure real(wp) function least_correlation(study)
       type(study_data_t), intent(in) :: study
       real(wp), parameter :: chance = 0.05_wp
@@ -71,7 +71,8 @@ contains
       if (allocated(study%effects(1)%total) .and. study%kind == 'tolerance') words = 'share of the variance'
    end function measure_of
 
-   !> Whether a factor has no effect on a response: less than a millionth of the largest effect.
+   !> Whether a factor has no effect on a response: at most a millionth of the largest effect. .false. if the effect is
+   !> unknown.
    pure logical function has_no_effect(sizes, f)
       real(wp), intent(in) :: sizes(:)
       integer, intent(in) :: f
@@ -102,8 +103,8 @@ contains
       order = ranked(shares, size(shares))
    end function factor_order
 
-   !> Names of the factors with the largest effects on a response, in order: 'tie_rod_inner_z, lca_rear_z'. '' if no factor has an
-   !> effect that is more than chance.
+   !> Names of the factors with the largest effects on a response, at most four, in order: 'tie_rod_inner_z, lca_rear_z'. ''
+   !> if no factor has an effect that is more than chance.
    pure function strongest_names(study, r) result(names)
       type(study_data_t), intent(in) :: study
       integer, intent(in) :: r                    !! response

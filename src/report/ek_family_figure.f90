@@ -10,14 +10,14 @@ module ek_family_figure
    private
    public :: family_script, curve_leader
 
-   integer, parameter :: most_curves = 300           !! of the figure
+   integer, parameter :: most_curves = 300           !! largest number of designs with curves in the figure
 
 contains
 
-   !> The script of the figure.
+   !> The gnuplot script of the curves, with one panel per column. Of more than 300 designs, only some are drawn.
    function family_script(study, name, subtitle, panels) result(text)
       type(study_data_t), intent(in) :: study
-      integer, intent(in) :: panels(:)               !! columns
+      integer, intent(in) :: panels(:)               !! indices of the columns
       character(*), intent(in) :: name, subtitle
       character(:), allocatable :: text
       type(sheet_t) :: sheet
@@ -53,7 +53,7 @@ contains
 
    contains
 
-      !> Title above a panel: its factor with the range of the factor, if the panels have different factors.
+      !> Title above a panel if the panels have different factors: the factor of the panel and its range. Otherwise ''.
       function above(panel) result(words)
          integer, intent(in) :: panel
          character(:), allocatable :: words
@@ -67,7 +67,7 @@ contains
 
    end function family_script
 
-   !> Adds the data: swept value, the factor of each panel, and the column of each panel.
+   !> Adds the data of every `every`-th design: swept value, the factor of each panel, and the column of each panel.
    subroutine add_curves(sheet, study, panels, leaders, every)
       type(sheet_t), intent(inout) :: sheet
       type(study_data_t), intent(in) :: study
@@ -102,8 +102,8 @@ contains
       leader = maxloc(explained, dim=1)
    end function curve_leader
 
-   !> The part of the variance of y that a straight line over x explains, times the number of designs. Designs without values are
-   !> omitted.
+   !> The part of the variance of y that a straight line over x explains, times the number of designs. Designs without values
+   !> are omitted; with less than two designs, the part is 0.
    pure real(wp) function explained_variance(x, y) result(part)
       real(wp), intent(in) :: x(:), y(:)
       logical :: is_used(size(x))

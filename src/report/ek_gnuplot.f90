@@ -1,5 +1,5 @@
-!> A figure as a gnuplot script that the user can read, edit and run again: `gnuplot name.gp` in
-!> its folder draws name.png and name.svg from the data files in the same folder. The standard figures of one run.
+!> A figure as a gnuplot script that the user can read, edit and run again. In the folder of the script, `gnuplot name.gp`
+!> draws name.png and name.svg from the data files in this folder. This module also lists the standard figures of one run.
 module ek_gnuplot
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t
@@ -16,8 +16,8 @@ module ek_gnuplot
    private
    public :: figure_t, figure_script, draw_figures, run_figures
 
-   integer, parameter :: width = 1200        !! pixels
-   integer, parameter :: legend_on_top = 3   !! most entries of a legend above the panel; a longer one is placed at the right
+   integer, parameter :: width = 1200        !! width of a picture [pixels]
+   integer, parameter :: legend_on_top = 3   !! most entries of a legend above the panel; a longer legend is at the right
 
    character(*), parameter :: nl = new_line('a')
    character(*), parameter :: look = 'reset'//nl//'set encoding utf8'//nl//'set datafile separator comma'//nl// &
@@ -25,13 +25,13 @@ module ek_gnuplot
       "set tics out nomirror textcolor rgb '#404040'"
    character(*), parameter :: label_style = " textcolor rgb '#202020'"
 
-   !> One script: a panel, or several in two columns.
+   !> A figure, which one script draws: one panel, or several panels in two columns.
    type :: figure_t
-      character(:), allocatable :: name      !! name of the files, without extension
+      character(:), allocatable :: name      !! name of the files, without suffix
       character(:), allocatable :: title, subtitle
       character(:), allocatable :: file      !! table with the columns of all curves, relative to the script
       type(chart_t), allocatable :: panels(:)
-      logical :: is_upward = .false.         !! x upward, y to the right, as usual for wheel travel
+      logical :: is_upward = .false.         !! abscissa upward and values to the right, as usual for wheel travel
    end type figure_t
 
 contains
@@ -123,7 +123,7 @@ contains
       text = script%text()//nl//'   unset output'//nl//'}'//nl
    end function figure_script
 
-   !> Adds labels and ranges of one panel.
+   !> Adds the title, the labels and the range of values of one panel.
    pure subroutine add_axes(script, panel, is_upward, indent)
       type(message_list_t), intent(inout) :: script
       type(chart_t), intent(in) :: panel
@@ -140,7 +140,8 @@ contains
       call script%add(indent//'set '//y//'range '//range_of(panel))
    end subroutine add_axes
 
-   !> The string of a label. Its sign convention, '(+ …)' after two blanks, is placed on a separate line in a small panel.
+   !> The string of a label. If is_folded, as in a small panel, the sign convention, '(+ …)' after four blanks, is placed on a
+   !> separate line.
    pure function label(text, is_folded) result(words)
       character(*), intent(in) :: text
       logical, intent(in) :: is_folded
@@ -152,11 +153,11 @@ contains
       if (is_folded .and. gap > 0) words = gnuplot_text(text(:gap - 1))//'."\n".'//gnuplot_text(text(gap + 4:))
    end function label
 
-   !> Adds the plot command: the curves, then a ring on each curve at the design state.
+   !> Adds the plot command: the curves, then a ring at the design state of each curve that has a mark.
    pure subroutine add_plot(script, figure, number, has_legend)
       type(message_list_t), intent(inout) :: script
       type(figure_t), intent(in) :: figure
-      integer, intent(in) :: number              !! of the panel
+      integer, intent(in) :: number              !! index of the panel
       logical, intent(in) :: has_legend
       character(:), allocatable :: line, title
       integer :: k
@@ -207,15 +208,14 @@ contains
    end function field
 
    !> Lists the standard figures of a run: wheel attitude, steering axis and forces, over the wheel travel or the load.
-   !> Quantities without a column or without a value are omitted.
-   !>
-   !> The wheel travel is drawn upward if the wheel moves by 1 mm or more; otherwise (for instance under a lateral force), and
-   !> with `factor_label`, the abscissa is the load factor.
+   !> Quantities without a column or without a value are omitted. The wheel travel is drawn upward if the wheel moves by 1 mm
+   !> or more. Otherwise (for instance under a lateral force), and with `factor_label` or `has_points`, the abscissa is the
+   !> column `factor`.
    subroutine run_figures(table, model, case_name, csv_name, figures, factor_label, elements, has_points)
       type(table_t), intent(in) :: table
-      character(*), intent(in) :: model, case_name          !! for the titles
+      character(*), intent(in) :: model, case_name          !! names for the titles
       character(*), intent(in) :: csv_name                  !! file name of the table, in the folder of the scripts
-      type(figure_t), allocatable, intent(out) :: figures(:)   !! named <csv without extension>_<quantity>
+      type(figure_t), allocatable, intent(out) :: figures(:)   !! named <csv without suffix>_<quantity>
       character(*), intent(in), optional :: factor_label    !! label of the load factor, with its unit; '' as if absent
       character(*), intent(in), optional :: elements(:)     !! bushings whose force is drawn; absent: all
       logical, intent(in), optional :: has_points           !! the states are independent: points without a line

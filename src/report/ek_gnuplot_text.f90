@@ -8,7 +8,8 @@ module ek_gnuplot_text
 
 contains
 
-   !> A string between single quotes. gnuplot interprets only a quote and a line end in it.
+   !> A string between single quotes. gnuplot interprets only a quote and a line end in such a string: quotes are doubled, and
+   !> blanks replace control characters.
    pure function gnuplot_text(text) result(literal)
       character(*), intent(in) :: text
       character(:), allocatable :: literal
@@ -24,7 +25,8 @@ contains
       literal = literal//one_line(text(first:))//"'"
    end function gnuplot_text
 
-   !> A column name between double quotes. gnuplot accepts no quote and no backslash in the name.
+   !> A column name between double quotes. gnuplot interprets a double quote, a backslash and a backquote in such a name: '_'
+   !> replaces these characters.
    pure function gnuplot_name(text) result(literal)
       character(*), intent(in) :: text
       character(len(text) + 2) :: literal
@@ -36,7 +38,7 @@ contains
       end do
    end function gnuplot_name
 
-   !> A comment of one line. A backslash at its end would continue it on the next line.
+   !> A comment of one line. A backslash at the end would continue the comment on the next line: '/' replaces this backslash.
    pure function gnuplot_comment(text) result(comment)
       character(*), intent(in) :: text
       character(len(text) + 2) :: comment

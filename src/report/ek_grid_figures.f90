@@ -28,11 +28,12 @@ module ek_grid_figures
 
 contains
 
-   !> Finds the grid of a test, if its case has one.
+   !> Finds the grid of a test if the case has a grid: the levels in ascending order, and the table row of each pair of
+   !> levels. The row is 0 if the state did not converge.
    subroutine find_grid(suspension, case, test)
       type(suspension_t), intent(in) :: suspension
-      type(case_t), intent(in) :: case               !! on no rig
-      type(test_result_t), intent(inout) :: test     !! with its table
+      type(case_t), intent(in) :: case               !! case without a rig
+      type(test_result_t), intent(inout) :: test     !! test with its table
       logical :: is_good(row_count(test%table))
       integer :: levels(2), place(2), k
 
@@ -61,14 +62,14 @@ contains
       end associate
    end subroutine find_grid
 
-   !> Name of the figure of the carpets of a test, without extension.
+   !> Name of the figure of the carpets of a test, without suffix.
    pure function carpet_name(test) result(name)
       type(test_result_t), intent(in) :: test
       character(:), allocatable :: name
       name = test%name//'_carpet'
    end function carpet_name
 
-   !> The name of the figure of the envelope of a test.
+   !> Name of the figure of the envelope of a test, without suffix.
    pure function envelope_name(test) result(name)
       type(test_result_t), intent(in) :: test
       character(:), allocatable :: name
@@ -142,7 +143,8 @@ contains
       end do
    end function values_of
 
-   !> The wheel centres at design in the frame of the deck [mm], left before right. The table gives changes from these positions.
+   !> The wheel centres at design in the frame of the deck [mm], left before right. A single wheel is first, and the second is
+   !> 0. The table of a test gives changes from these positions.
    pure function design_centres(suspension) result(centres)
       type(suspension_t), intent(in) :: suspension
       real(wp) :: centres(3, 2)

@@ -5,23 +5,24 @@ module ek_label_places
    private
    public :: label_place_t, place_labels
 
-   !> The position at which the name of a point begins, or ends if the name is to the left of the point; shares of the panel's width
-   !> and height.
+   !> The position at which the name of a point begins, as shares of the panel's width and height. With is_left, the name is
+   !> to the left of the point and ends at this position.
    type :: label_place_t
       real(wp) :: x = 0.0_wp, y = 0.0_wp
       logical :: is_left = .false.
    end type label_place_t
 
-   real(wp), parameter :: gap = 0.02_wp           !! between a point and its name
-   integer, parameter :: most_steps = 80          !! that a name is moved up or down, a quarter of its height each
+   real(wp), parameter :: gap = 0.02_wp           !! distance between a point and its name, as a share of the panel's width
+   integer, parameter :: most_steps = 80          !! number of trial shifts of a name; the step is a quarter of its height
 
 contains
 
-   !> Places the names of points one after the other, each as near to its point as possible. In the right part of the panel, a name
-   !> is to the left of its point. A name is moved up and down in small steps until it overlaps no other name and no named point.
+   !> Places the names of points one after the other, each as near to its point as possible. A name is to the right of its
+   !> point, or to the left if it would cross the right edge of the panel. A name is moved up and down in small steps until it
+   !> overlaps no other name and no point. If no trial position is free, the last one is used.
    pure subroutine place_labels(x, y, widths, height, places)
       real(wp), intent(in) :: x(:), y(:)          !! shares of the panel
-      real(wp), intent(in) :: widths(:), height   !! of the texts, shares of the panel
+      real(wp), intent(in) :: widths(:), height   !! size of the names, as shares of the panel
       type(label_place_t), intent(out) :: places(:)
       real(wp) :: boxes(4, size(x)), box(4), shift
       integer :: k, step

@@ -14,12 +14,12 @@ module ek_live
    private
    public :: live_t, live_test_t, add_live
 
-   !> The columns of a test, or of the design state, at its states.
+   !> The columns of a test at its states, or at the design state alone.
    type :: live_test_t
       character(:), allocatable :: name
       character(name_length), allocatable :: column(:)
-      logical, allocatable :: is_held(:), is_inverse(:)      !! see live_columns_t
-      real(wp), allocatable :: value(:, :)                   !! (column, state), as in the table
+      logical, allocatable :: is_held(:), is_inverse(:)      !! kind of each column (live_columns_t)
+      real(wp), allocatable :: value(:, :)                   !! values of the columns, as in the table: (column, state)
       type(live_state_t), allocatable :: state(:)
       integer, allocatable :: shown(:)                       !! states for which the page gives the displacement with other rates
       logical :: holds_heights = .false.                     !! the test holds or drives the heights of the wheels
@@ -27,20 +27,21 @@ module ek_live
 
    !> Data for the sliders: the rates, the design state and the tests.
    type :: live_t
-      integer :: most = 0                                    !! requested number of rates
+      integer :: most = 0                                    !! largest number of rates
       type(live_rates_t), allocatable :: rates
-      character(:), allocatable :: balance                   !! of the deck: treatment of preloads in a run with other rates
+      character(:), allocatable :: balance                   !! `balance` of the deck: preload trim in a run with other rates
       type(live_test_t) :: design
       type(live_test_t), allocatable :: tests(:)             !! tests with columns that follow the rates
    end type live_t
 
 contains
 
-   !> Adds a test that was solved. The first test with a design state provides the rates and the key numbers; earlier tests have no
-   !> rates and key numbers.
+   !> Adds a test that was solved. The first test with a solved design state provides the rates and the design state; earlier
+   !> tests are omitted. All tests are omitted while there are no rates. A test without columns that follow the rates is not
+   !> added.
    subroutine add_live(result, test, live)
       type(case_result_t), intent(inout) :: result           !! is_run
-      type(test_result_t), intent(in) :: test                !! its name and kind
+      type(test_result_t), intent(in) :: test                !! name and kind of the test
       type(live_t), intent(inout) :: live
       character(24), parameter :: of_design(*) = [character(24) :: '*_load_held_*', '*_height_held_*', '*_rate_n_per_mm', &
          '*_stiffness_n_per_mm', 'wheel_rate_n_per_mm', 'ride_rate_n_per_mm']
@@ -71,7 +72,8 @@ contains
       if (size(new%column) > 0) live%tests = [live%tests, new]
    end subroutine add_live
 
-   !> Finds the columns of a test that are in a list of names, at the given rows of its table.
+   !> Finds the columns of a test that match a list of names with * and follow the rates, and the data of their states, at the
+   !> given rows of the table.
    subroutine find_test(result, test, rates, names, rows, self)
       type(case_result_t), intent(inout) :: result
       type(test_result_t), intent(in) :: test

@@ -1,5 +1,5 @@
-!> The object "live" of data.json: the rates that a page can change, and the data that its script needs for the design state and
-!> for every state of the tests, in as few numbers as possible (ek_live_small).
+!> The object "live" of data.json: the rates that a page can change, and the data that its script needs for the design state
+!> and for every state of the tests. The data consist of as few numbers as possible (ek_live_small).
 module ek_live_data
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
@@ -26,7 +26,7 @@ contains
    subroutine add_live_data(json, live, numbers)
       type(json_t), intent(inout) :: json
       type(live_t), intent(in) :: live
-      type(key_number_t), intent(in) :: numbers(:)         !! of the report
+      type(key_number_t), intent(in) :: numbers(:)         !! key numbers of the report
       integer, allocatable :: columns(:, :)                ! of each number: of the left and the right wheel in the design state
       logical, allocatable :: is_used(:), is_left(:)
       integer :: k, wheel
@@ -66,7 +66,8 @@ contains
       call json%close('}')
    end subroutine add_live_data
 
-   !> Adds a rate: its name, its value in a usual unit, and the paths of the settings that change it in the deck.
+   !> Adds a rate: its group, name and part, its value in N/mm or N m/deg, and the paths of the settings that change it in the
+   !> deck.
    subroutine add_rate(json, rate)
       type(json_t), intent(inout) :: json
       type(live_rate_t), intent(in) :: rate
@@ -96,8 +97,8 @@ contains
       call json%close('}')
    end subroutine add_rate
 
-   !> Finds the columns of the design state from which a key number is read. A column is 0 if the key number is not read at design,
-   !> or has no value.
+   !> Finds the columns of the design state from which a key number is read, for the left and the right wheel. A column is 0
+   !> if the key number is not read at design, has no value or does not follow the rates.
    subroutine find_columns(design, number, columns)
       type(live_test_t), intent(in) :: design
       type(key_number_t), intent(in) :: number
@@ -113,7 +114,7 @@ contains
       end do
    end subroutine find_columns
 
-   !> Adds a key number that follows the rates, and the name of the key number on the page next to which it is shown.
+   !> Adds a key number that follows the rates. `beside` is the name of the key number of the page next to which it is shown.
    subroutine add_number(json, numbers, k, columns, is_used)
       type(json_t), intent(inout) :: json
       type(key_number_t), intent(in) :: numbers(:)
@@ -135,12 +136,13 @@ contains
    end subroutine add_number
 
    !> Columns of a test as JSON: laws, columns, and states. With `is_exact`, the numbers of a state are lists with all digits;
-   !> otherwise base64 with 7 digits, in the same order.
+   !> otherwise base64 with 7 digits, in the same order. The design state, and the first string of a test, also contain the
+   !> data for the displacements of the wheel centres (end_numbers).
    function test_text(test, of_law, is_exact, is_used) result(text)
       type(live_test_t), intent(in) :: test
       integer, intent(in) :: of_law(:)
       logical, intent(in) :: is_exact
-      logical, intent(inout) :: is_used(:)                 !! columns that are to be written; on return, the columns that are left
+      logical, intent(inout) :: is_used(:)                 !! columns to be written; on return, columns that are not written yet
       character(:), allocatable :: text, name
       type(small_t) :: small
       type(buffer_t) :: out

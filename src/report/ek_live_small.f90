@@ -1,8 +1,8 @@
-!> The numbers of live states, reduced: numbers that follow from symmetry, or occur twice, are omitted.
-!>
-!> The two laws of a rate of both sides change alike, so their deflections may be replaced by sum and difference (over √2). Where
-!> loads and state are symmetric, the loads touch the sums alone and A does not couple them with the differences, which are then
-!> omitted: a quarter of A remains. Columns of one load, or of one reading, share its vector.
+!> The numbers of live states, reduced: numbers that follow from symmetry, or occur twice, are omitted. The two laws of a rate
+!> of both sides change alike, so their deflections may be replaced by sum and difference (over √2). If the loads and the
+!> state are symmetric, the loads act on the sums only, and the matrix A (ek_live_state) does not couple the sums with the
+!> differences. The differences are then omitted, and a quarter of A remains. Columns with the same load, or with the same
+!> reading, share one vector.
 module ek_live_small
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
@@ -12,29 +12,30 @@ module ek_live_small
    private
    public :: small_t, make_small, entries
 
-   real(wp), parameter :: nothing = 1.0e-8_wp       !! relative: a coupling that 7 digits do not show
-   real(wp), parameter :: same = 1.0e-12_wp         !! relative: vectors that differ less are equal
+   real(wp), parameter :: nothing = 1.0e-8_wp       !! relative limit: smaller couplings are not seen in 7 digits
+   real(wp), parameter :: same = 1.0e-12_wp         !! relative limit: vectors that differ less are equal
 
-   !> Some columns of a test with few numbers.
+   !> Some columns of a test, and the reduced numbers from which they are computed.
    type :: small_t
-      integer, allocatable :: of_law(:)             !! rate of each law that is left
-      integer, allocatable :: column(:)             !! of the test
-      integer, allocatable :: read(:), load(:)      !! vectors of each column
+      integer, allocatable :: of_law(:)             !! index of the rate of each law that is not omitted
+      integer, allocatable :: column(:)             !! indices of the columns in the test
+      integer, allocatable :: read(:), load(:)      !! index of the vector of each column: of its reading and of its load
       integer :: vectors = 0                        !! number of vectors
-      logical :: has_self = .false., has_held = .false.      !! which of both matrices the columns need
-      logical :: is_whole = .false.                 !! a matrix is not symmetric: it is stored in full, not as lower triangle
+      logical :: has_self = .false., has_held = .false.      !! the columns need A; they need A with heights held
+      logical :: is_whole = .false.                 !! a matrix is not symmetric: all are stored in full, not as lower triangles
       real(wp), allocatable :: numbers(:, :)        !! (number, state): values, A, A with heights held, vectors
    end type small_t
 
 contains
 
-   !> Takes the used column with the lowest index from a test, together with the columns that need the same laws. Marks all of them
-   !> as no longer used. With all digits (`is_exact`), takes all used columns and all laws.
+   !> Takes from a test the first column that is still to be written, together with all such columns that need no other laws.
+   !> Marks the taken columns as written: is_used becomes .false. With all digits (`is_exact`), takes all columns that are
+   !> still to be written, and all laws.
    subroutine make_small(test, of_law, is_exact, is_used, small)
       type(live_test_t), intent(in) :: test
       integer, intent(in) :: of_law(:)
       logical, intent(in) :: is_exact               !! .false.: 7 digits are written
-      logical, intent(inout) :: is_used(:)          !! of each column
+      logical, intent(inout) :: is_used(:)          !! columns that are still to be written
       type(small_t), intent(out) :: small
       type(live_state_t), allocatable :: state(:)
       logical, allocatable :: is_left(:), is_needed(:)
@@ -74,7 +75,8 @@ contains
       call put_numbers(test, state, small)
    end subroutine make_small
 
-   !> Replaces both laws of a rate by their sum and difference. The load of a column gives the relative sign of the two sides.
+   !> Replaces both laws of a rate by their sum and difference, at all known states. The load of a column gives the relative
+   !> sign of the two sides.
    subroutine take_sums(of_law, column, state)
       integer, intent(in) :: of_law(:), column
       type(live_state_t), intent(inout) :: state(:)
@@ -94,7 +96,7 @@ contains
       end do
    end subroutine take_sums
 
-   !> Replaces laws l and l + 1 of a state by their sum and difference, over √2.
+   !> Replaces laws l and l + 1 of a state by their sum and difference, over √2; law l + 1 is multiplied by `sign`.
    subroutine take_sum(l, sign, state)
       integer, intent(in) :: l                      !! the first law of a pair
       real(wp), intent(in) :: sign
@@ -108,7 +110,7 @@ contains
       call turn_rows(l, sign, state%load)
    end subroutine take_sum
 
-   !> Replaces rows l and l + 1 of a matrix by their sum and difference, over √2.
+   !> Replaces rows l and l + 1 of a matrix by their sum and difference, over √2; row l + 1 is multiplied by `sign`.
    pure subroutine turn_rows(l, sign, a)
       integer, intent(in) :: l
       real(wp), intent(in) :: sign
@@ -120,7 +122,7 @@ contains
       end do
    end subroutine turn_rows
 
-   !> Replaces columns l and l + 1 of a matrix by their sum and difference, over √2.
+   !> Replaces columns l and l + 1 of a matrix by their sum and difference, over √2; column l + 1 is multiplied by `sign`.
    pure subroutine turn_columns(l, sign, a)
       integer, intent(in) :: l
       real(wp), intent(in) :: sign
@@ -132,7 +134,7 @@ contains
       end do
    end subroutine turn_columns
 
-   !> Replaces two numbers by their sum and difference, over √2.
+   !> Replaces two numbers by their sum and difference, over √2; the second number is multiplied by `sign`.
    pure subroutine turn(sign, first, second)
       real(wp), intent(in) :: sign
       real(wp), intent(inout) :: first, second
@@ -143,7 +145,8 @@ contains
       first = sum
    end subroutine turn
 
-   !> Finds the laws on which the load of a column acts, and the laws that A couples with them.
+   !> Finds the laws on which the load of a column acts, and the laws that A couples with them, directly or through other
+   !> laws.
    subroutine find_left(state, column, is_left)
       type(live_state_t), intent(in) :: state(:)
       integer, intent(in) :: column
@@ -167,7 +170,7 @@ contains
 
    contains
 
-      !> Whether the coupling of law l with each other law in A exceeds rounding of their diagonal entries.
+      !> Whether A couples each law with law l by more than rounding of the diagonal entries of both laws.
       pure function is_coupled(a, l)
          real(wp), intent(in) :: a(:, :)
          integer, intent(in) :: l
@@ -252,7 +255,7 @@ contains
       is_symmetric = maxval(abs(a - transpose(a))) <= nothing*maxval(abs(a))
    end function is_symmetric
 
-   !> Writes the numbers of all states, in the order of `numbers`.
+   !> Stores the numbers of all known states in `numbers`; 0 for a missing value.
    subroutine put_numbers(test, state, small)
       type(live_test_t), intent(in) :: test
       type(live_state_t), intent(in) :: state(:)
@@ -279,7 +282,7 @@ contains
       end do
    end subroutine put_numbers
 
-   !> The entries of A row by row, or of its lower triangle.
+   !> The entries of a matrix row by row: all entries if is_whole, otherwise the entries of the lower triangle.
    pure function entries(a, is_whole) result(list)
       real(wp), intent(in) :: a(:, :)
       logical, intent(in) :: is_whole

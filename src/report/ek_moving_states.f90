@@ -13,10 +13,11 @@ module ek_moving_states
 
 contains
 
-   !> Index of a test of the first wanted kind that has more than one state; 0 if there is no such test.
+   !> Index of a test with more than one reached state: the first such test of the first kind that has one. 0 if no kind in
+   !> the list has such a test.
    pure integer function moving_test(tests, paths, kinds) result(test)
       type(test_result_t), intent(in) :: tests(:)
-      type(path_t), intent(in) :: paths(:)          !! of the tests
+      type(path_t), intent(in) :: paths(:)          !! paths of the tests
       character(*), intent(in) :: kinds(:)
       integer :: kind
 

@@ -17,7 +17,8 @@ module ek_number_section
 
 contains
 
-   !> Adds the key numbers at the top of the report, as cards.
+   !> Adds the summary at the top of the report: the verdicts, and the main key numbers as cards. Without main key numbers,
+   !> adds nothing.
    subroutine add_summary(page, report)
       type(page_t), intent(inout) :: page
       type(report_t), intent(in) :: report
@@ -66,7 +67,7 @@ contains
       call add_markup(page, '</dl>')
    end subroutine add_verdicts
 
-   !> The parts of a rate in percent, as HTML; '' for other key numbers.
+   !> The parts of a rate in percent, as HTML; '' for other key numbers, and if the parts are not known.
    function taken_apart(report, name) result(html)
       type(report_t), intent(in) :: report
       character(*), intent(in) :: name
@@ -136,7 +137,8 @@ contains
       html = html//' Name: <code>'//escape_html(numbers(k)%name)//'</code></p></details>'
    end function details_of
 
-   !> Value and unit of a key number as HTML, with a remark such as 'symmetric': '−3.21 deg/m'.
+   !> Value and unit of a key number as HTML: '−3.21 deg/m'. If both wheels have equal or opposite values, 'symmetric' or
+   !> 'left; right wheel opposite' follows.
    function values_of(number) result(html)
       type(key_number_t), intent(in) :: number
       character(:), allocatable :: html
@@ -147,8 +149,8 @@ contains
       if (is_opposite(number)) html = html//' <small>left; right wheel opposite</small>'
    end function values_of
 
-   !> The value of a key number of the axle, or of both wheels if they are equal to the printed digits; otherwise left and right
-   !> values.
+   !> The value of a key number as HTML. For the axle, or if both wheels have equal or opposite values to the printed digits,
+   !> it is one value (`left`). Otherwise it is the left and the right value, or the only value.
    function pair_of(number) result(html)
       type(key_number_t), intent(in) :: number
       character(:), allocatable :: html, right

@@ -14,12 +14,13 @@ module ek_number_words
    character(*), parameter :: away(*) = [character(44) :: 'wheel_roll_steer', 'lateral_force_steer', 'aligning_torque_steer', &
       'lateral_in_load_held_steer_deg_per_kn', 'lateral_in_height_held_steer_deg_per_kn', &
       'aligning_in_load_held_steer_deg_per_100nm', 'aligning_in_height_held_steer_deg_per_100nm']
-   real(wp), parameter :: nothing = 5.0e-4_wp       !! deg per deg, kN or 100 N m: not seen in the digits that are shown
+   real(wp), parameter :: nothing = 5.0e-4_wp       !! deg per deg, kN or 100 N m: smaller values are neutral
 
 contains
 
-   !> The effect of a steer angle in a bend on the car: a front axle that steers out of the bend understeers, a rear axle
-   !> oversteers.
+   !> The effect of a key number of steer on the car in a bend. A front axle that steers out of the bend understeers, a rear
+   !> axle oversteers; steer into the bend has the opposite effect. A small value is neutral. If the axle is not known, the
+   !> effects of both axles are given. '' for other key numbers, and without a value.
    pure function steer_effect(number, axle) result(effect)
       type(key_number_t), intent(in) :: number
       integer, intent(in) :: axle                   !! −1 front, 1 rear, 0 not known
@@ -40,7 +41,7 @@ contains
       end if
    end function steer_effect
 
-   !> The value of the axle, or the mean of both wheels.
+   !> The value of the axle, the mean of both wheels, or the value of the only wheel.
    pure real(wp) function mean_value(number) result(value)
       type(key_number_t), intent(in) :: number
 
@@ -50,7 +51,8 @@ contains
       if (ieee_is_finite(number%left)) value = (number%left + number%right)/2
    end function mean_value
 
-   !> Verdict on a key number: 'inside' or 'outside' its target; both wheels count. '' without a target or a value.
+   !> Verdict on a key number: 'inside' if the values of all wheels satisfy the target, otherwise 'outside'. '' without a
+   !> target or a value.
    pure function target_verdict(number) result(verdict)
       type(key_number_t), intent(in) :: number
       character(7) :: verdict
@@ -68,7 +70,7 @@ contains
       end do
    end function target_verdict
 
-   !> The quantity of a key number without the suffix of a fitted slope, which is shown in the formula.
+   !> The quantity of a key number, with an initial capital, and without ' (fitted)', the suffix of a fitted slope.
    function short_name(number) result(name)
       type(key_number_t), intent(in) :: number
       character(:), allocatable :: name
@@ -90,7 +92,7 @@ contains
       is_symmetric = page_number(number%left) == page_number(number%right)
    end function is_symmetric
 
-   !> Whether left and right differ only in sign.
+   !> Whether left and right differ only in sign, to the printed digits.
    pure logical function is_opposite(number)
       type(key_number_t), intent(in) :: number
 

@@ -1,8 +1,9 @@
 !> A page of results as one self-contained HTML file: headings, tables and embedded pictures.
 !>
-!> No script, font or picture is fetched: the page itself forbids it (Content-Security-Policy). The page is laid out for a screen,
-!> in one column for a phone (tables scroll in their own box), and for paper (A4). Every input string is escaped here. Style sheet
-!> and script are separate files in page/, which the build puts into ek_page_assets.
+!> No script, font or picture is fetched: the page itself forbids fetching (Content-Security-Policy). The page is laid out for
+!> a screen, in one column for a phone (tables scroll in their own box), and for paper (A4). Input strings are escaped here,
+!> except HTML (add_markup), SVG and JSON. Style sheet and script are separate files in page/, which the build puts into
+!> ek_page_assets.
 module ek_page
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_is_nan
    use ek_kinds, only: wp
@@ -28,10 +29,10 @@ module ek_page
       character(:), allocatable :: data     !! JSON from which the script draws; not allocated: a page without script
       integer :: header = 0                 !! characters of the body before the list of contents
       integer :: pictures = 0, table_columns = 0
-      integer :: cells = 0                  !! of the last row, while it has not all
+      integer :: cells = 0                  !! cells of the last row while the row is incomplete, otherwise 0
       logical :: has_section = .false.
-      logical :: is_live = .false.          !! its script also changes rates
-      logical :: has_turntable = .false.    !! its script also turns the suspension
+      logical :: is_live = .false.          !! the script of the page also changes rates
+      logical :: has_turntable = .false.    !! the script of the page also turns the suspension
    end type page_t
 
 contains
@@ -71,7 +72,7 @@ contains
    pure subroutine begin_section(page, id, title, condition, is_printed)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: id, title
-      character(*), intent(in), optional :: condition      !! after the title, smaller
+      character(*), intent(in), optional :: condition      !! string after the title, in a smaller font
       logical, intent(in), optional :: is_printed          !! .false.: of a live page, on the screen alone
       character(:), allocatable :: small, look
 
@@ -85,7 +86,8 @@ contains
       call page%contents%line('<li><a href="#'//escape_html(id)//'">'//escape_html(title)//'</a></li>')
    end subroutine begin_section
 
-   !> Adds a plain string as a paragraph 'p', or as a heading 'h3' within a section; HTML markup in it is escaped.
+   !> Adds a plain string as a paragraph 'p', as a heading 'h3' within a section, or as preformatted lines 'pre'. HTML markup
+   !> in the string is escaped.
    pure subroutine add_text(page, tag, text)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: tag, text
@@ -176,7 +178,7 @@ contains
       character(*), intent(in) :: text
       character(1), intent(in), optional :: kind
       character(*), intent(in), optional :: link       !! id of the target of the link on the page
-      character(*), intent(in), optional :: verdict    !! after the text, in colour: 'inside' in that of good, others in that of bad
+      character(*), intent(in), optional :: verdict    !! after a string without link: 'inside' is green, others are red
 
       if (page%cells == 0) call page%body%add('<tr>')
       call page%body%add('<td')
@@ -205,7 +207,7 @@ contains
    !> Adds the next cell with a bar. The bar begins in the middle and extends to the right; for a negative share, to the left.
    pure subroutine add_bar(page, share)
       type(page_t), intent(inout) :: page
-      real(wp), intent(in) :: share              !! of the longest bar, -1 to 1
+      real(wp), intent(in) :: share              !! length as a share of the longest bar, -1 to 1
       integer :: length
 
       length = nint(100.0_wp*max(-1.0_wp, min(1.0_wp, share)))
@@ -240,7 +242,7 @@ contains
       call page%body%line('</div>')
    end subroutine end_charts
 
-   !> Adds an SVG picture drawn by gnuplot: at full width if it has a caption, otherwise as one chart of a block.
+   !> Adds an SVG picture drawn by gnuplot: at full width if `caption` is present, otherwise as one chart of a block.
    pure subroutine add_picture(page, svg, title, caption)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: svg, title     !! content of the file; its description
@@ -344,7 +346,8 @@ contains
       call tail%copy(1, text(behind + 1:))
    end function page_text
 
-   !> A number for a table: about four digits, with an exponent only from 1e7 on; '–' for a missing value.
+   !> A number for a table: four digits, with at most four decimals; below 1e7, all digits before the decimal point. From 1e7
+   !> on, it has an exponent. '–' for NaN, and '∞' or '−∞' for an infinite number.
    pure function page_number(value) result(text)
       real(wp), intent(in) :: value
       character(:), allocatable :: text

@@ -14,11 +14,13 @@ module ek_parallel_figure
    public :: parallel_script
 
    character(*), parameter :: nl = new_line('a')
-   integer, parameter :: most_lines = 300            !! of parallel coordinates
+   integer, parameter :: most_lines = 300            !! largest number of lines of the figure
 
 contains
 
-   !> The script of the parallel coordinates: one line per design across factors and responses, coloured by the first response.
+   !> The script of the parallel coordinates: one line per design across the leading factors and up to four responses,
+   !> coloured by the first response. Of more than 300 designs, only some are drawn. Designs without a value of a response are
+   !> omitted.
    function parallel_script(study, name, subtitle) result(text)
       type(study_data_t), intent(in) :: study
       character(*), intent(in) :: name, subtitle

@@ -11,7 +11,7 @@ module ek_peak_section
 
 contains
 
-   !> Adds the section. Members that carry nothing in any test are omitted.
+   !> Adds the section. Members without force and moment in all tests are omitted.
    subroutine add_peak_loads(page, record)
       type(page_t), intent(inout) :: page
       type(load_record_t), intent(in) :: record

@@ -1,7 +1,7 @@
 !> Picture of a suspension at a state: its parts as solids or as thin lines; the ground.
 !>
-!> A body has no shape in the model: its skeleton represents it. `plain` selects fewer faces, for animations. All positions are
-!> global [m].
+!> A body has no shape in the model: the skeleton of the body represents it. `plain` selects fewer faces, for animations. All
+!> positions are global [m].
 module ek_picture
    use ek_kinds, only: wp, pi
    use ek_block, only: rotated
@@ -45,12 +45,13 @@ contains
       end do
    end subroutine add_solid
 
-   !> Adds all parts as thin lines.
+   !> Adds the bodies, the rods of rod joints and the wheels (see add_tread) as thin lines. Other joints and elements are
+   !> omitted.
    subroutine add_ghost(scene, suspension, state, kind)
       type(scene_t), intent(inout) :: scene
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
-      integer, intent(in) :: kind                   !! line_bump or line_rebound
+      integer, intent(in) :: kind                   !! kind of line: line_bump, line_rebound or line_ground
       type(skeleton_t) :: skeleton
       real(wp) :: line(3, 2)
       integer :: body, k
@@ -71,7 +72,8 @@ contains
       end do
    end subroutine add_ghost
 
-   !> Adds the road under the wheels, and an arrow that points to the front of the car.
+   !> Adds the road under the wheels, and an arrow that points to the front of the car. Adds nothing for a model without
+   !> wheels.
    subroutine add_ground(scene, suspension, state, is_plain)
       type(scene_t), intent(inout) :: scene
       type(suspension_t), intent(in) :: suspension
@@ -107,7 +109,7 @@ contains
       call add_label(scene, at, 'front')
    end subroutine add_ground
 
-   !> Adds bars along the skeleton of a body. An arm attached at two points also gets a plate between them.
+   !> Adds bars along the skeleton of a body. Unless `plain`, an arm attached at two points also has a plate between them.
    subroutine add_body(scene, suspension, state, body, plain)
       type(scene_t), intent(inout) :: scene
       type(suspension_t), intent(in) :: suspension
@@ -133,8 +135,8 @@ contains
       if (kind == part_arm .and. .not. plain) call add_plate(scene, state, body, skeleton)
    end subroutine add_body
 
-   !> Adds the plate of an arm attached at two points (a wishbone): a thin plate between these points and the point of the arm that
-   !> is furthest from them.
+   !> Adds the plate of an arm attached at two points (a wishbone). The thin plate is between the two points and the point of
+   !> the arm that is furthest from both. Adds no plate if no point is further than 5 cm from both.
    subroutine add_plate(scene, state, body, skeleton)
       type(scene_t), intent(inout) :: scene
       type(state_t), intent(in) :: state
@@ -162,7 +164,7 @@ contains
       call add_run(scene%faces, part_plate, face)
    end subroutine add_plate
 
-   !> Adds rods, ball joints, sliding joints, and attachments to the chassis.
+   !> Adds rods, ball joints, hinges, sliding joints, and attachments to the chassis.
    subroutine add_joints(scene, suspension, state, plain)
       type(scene_t), intent(inout) :: scene
       type(suspension_t), intent(in) :: suspension
@@ -218,7 +220,8 @@ contains
 
    end subroutine add_joints
 
-   !> Signed distance from a point to the attachment point of a body that is furthest along an axis, in either direction [m].
+   !> Signed distance along an axis from a point of a body to the attachment point of the body that is furthest along the
+   !> axis, in either direction [m].
    real(wp) function reach_along(suspension, body, arm, axis) result(reach)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: body
@@ -235,8 +238,9 @@ contains
       end do
    end function reach_along
 
-   !> Adds an elastic element: a coil, a damper as two tubes, the rubber of a stop, or the sleeve of a bushing. A torsion spring is
-   !> not drawn, because it is part of the bars that it connects.
+   !> Adds an elastic element: a coil or a rod, a damper as two tubes, the rubber of a stop (unless `plain`), or the sleeve of
+   !> a bushing. An element with another measure than a distance is not drawn: a torsion spring is part of the bars that it
+   !> connects.
    subroutine add_elastic(scene, element, is_a_rod, state, plain)
       type(scene_t), intent(inout) :: scene
       type(element_t), intent(in) :: element
@@ -271,7 +275,7 @@ contains
       end select
    end subroutine add_elastic
 
-   !> Adds a tyre as a surface of revolution, and a hub.
+   !> Adds a hub, and a tyre as a surface of revolution. If `plain`, circles of tread and rim represent the tyre.
    subroutine add_wheel(scene, wheel, state, plain)
       type(scene_t), intent(inout) :: scene
       type(wheel_t), intent(in) :: wheel
@@ -291,7 +295,7 @@ contains
       end if
    end subroutine add_wheel
 
-   !> Adds circles of the tread and the rim, in the wheel plane.
+   !> Adds the circle of the tread in the wheel plane; for the kind line_ground, also the circle of the rim.
    subroutine add_tread(scene, wheel, state, kind)
       type(scene_t), intent(inout) :: scene
       type(wheel_t), intent(in) :: wheel

@@ -16,7 +16,8 @@ module ek_picture_names
 
 contains
 
-   !> Adds the axes of the deck at a corner of the road; for a model without wheels, at its lowest corner.
+   !> Adds the axes of the deck at the front right corner of all faces, at the height of the lowest contact point. For a model
+   !> without wheels, they are at the height of the lowest face. Adds nothing without faces.
    subroutine add_axes(scene, suspension, state)
       type(scene_t), intent(inout) :: scene      !! with all parts
       type(suspension_t), intent(in) :: suspension
@@ -54,7 +55,8 @@ contains
 
    end subroutine add_axes
 
-   !> Adds the names of bodies, rods and springs; one name for left and right.
+   !> Adds the names of bodies, rods, and elements between two points except stops. Left and right have one name, at the left
+   !> part.
    subroutine add_names(scene, suspension, state)
       type(scene_t), intent(inout) :: scene
       type(suspension_t), intent(in) :: suspension

@@ -18,23 +18,23 @@ module ek_report_content
    type :: report_t
       character(:), allocatable :: title, folder
       type(message_list_t) :: names, values            !! facts for the top of the page
-      type(message_list_t) :: warnings                 !! on the model as a whole
-      type(message_list_t) :: deck_paths, deck_texts   !! values of the deck (ek_deck_values)
+      type(message_list_t) :: warnings                 !! warnings on the model as a whole
+      type(message_list_t) :: deck_paths, deck_texts   !! paths and values of the deck (ek_deck_values)
       type(test_result_t), allocatable :: tests(:)
-      type(path_t), allocatable :: paths(:)            !! states of each test, for pictures; empty if it was not run
-      type(chart_t), allocatable :: charts(:)          !! of all tests
+      type(path_t), allocatable :: paths(:)            !! states of each test, for pictures; empty if the test was not run
+      type(chart_t), allocatable :: charts(:)          !! charts of all tests
       type(gradient_t), allocatable :: gradients(:)
       type(key_number_t), allocatable :: numbers(:)    !! key numbers of the tests
-      type(load_record_t), allocatable :: loads        !! of the members, if they are wanted
-      type(explanation_t), allocatable :: explanations(:)     !! contributions to the key compliances
-      type(live_t), allocatable :: live                !! rates that the page can change, if they are wanted
+      type(load_record_t), allocatable :: loads        !! loads of the members, if requested
+      type(explanation_t), allocatable :: explanations(:)     !! contributions to the rates and the key compliances
+      type(live_t), allocatable :: live                !! rates that the page can change, if requested
       type(turntable_t), allocatable :: turntable      !! the suspension in space, if something moves
-      integer :: axle = 0                              !! −1 front, 1 rear, 0 unknown; for the effect of steer on the car
+      integer :: axle = 0                              !! position of the axle: −1 front, 1 rear, 0 unknown; for the effect of steer
       type(message_list_t) :: drawn                    !! scripts and pictures of this report, relative to the folder
-      type(message_list_t) :: copies                   !! load tables that stand with the deck as it was used, in the folder
-      integer :: incomplete = 0                        !! tests that failed or were not run to their ends
-      logical :: is_static = .false.                   !! the charts of gnuplot, no script
-      logical :: has_pictures = .false., has_animation = .false., has_views = .false.   !! the folder has these of this report
+      type(message_list_t) :: copies                   !! copies of the load tables of the deck, in the folder
+      integer :: incomplete = 0                        !! number of tests that failed or were not run to their ends
+      logical :: is_static = .false.                   !! the page has the pictures of gnuplot, and no script
+      logical :: has_pictures = .false., has_animation = .false., has_views = .false.   !! files of this report are in the folder
    end type report_t
 
 contains

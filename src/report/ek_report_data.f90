@@ -66,7 +66,7 @@ contains
 
    !> The data of a comparison for its page: the tests of the first result with the charts of all results.
    function comparison_data(tests, charts) result(text)
-      type(test_result_t), intent(in) :: tests(:)      !! of the first result
+      type(test_result_t), intent(in) :: tests(:)      !! tests of the first result
       type(chart_t), intent(in) :: charts(:)
       character(:), allocatable :: text
       type(json_t) :: json
@@ -123,7 +123,7 @@ contains
       type(json_t), intent(inout) :: json
       type(test_result_t), intent(in) :: test
       type(chart_t), intent(in) :: charts(:)
-      integer, intent(in) :: number                   !! of the test
+      integer, intent(in) :: number                   !! index of the test
       character(*), intent(in) :: of                  !! prefix of the names of stops: the result to which they belong
       type(message_list_t) :: written
       integer :: k, l, pass
@@ -236,7 +236,7 @@ contains
    end function merge_name
 
    !> The column name of a curve. For an expression, which is the magnitude of a force, it is the element name with the suffix
-   !> _force_magnitude_n.
+   !> _force_magnitude_n; a curve for both sides has the name of the left element.
    function column_of(trace) result(name)
       type(trace_t), intent(in) :: trace
       character(:), allocatable :: name
@@ -250,8 +250,8 @@ contains
       name = name//'_force_magnitude_n'
    end function column_of
 
-   !> The numbers of an abscissa (pass 1) or of a curve (pass 2); values smaller than a millionth of the least span count as
-   !> rounding.
+   !> The numbers of an abscissa (pass 1) or of the values of a curve (pass 2) as a JSON list. Values of a curve smaller than
+   !> a millionth of the least span are rounding, and are written as 0.
    function merge_numbers(trace, pass, span) result(literal)
       type(trace_t), intent(in) :: trace
       integer, intent(in) :: pass

@@ -60,8 +60,8 @@ contains
       line = line//size_mark//trim(adjustl(number))
    end function test_line
 
-   !> The file name of a test's table. It contains a hyphen, which case names do not, so that it differs from the report's other
-   !> files.
+   !> The file name of a test's table: name.csv or, if a report has another table of this name, name-case.csv. Case names have
+   !> no hyphen, so the latter is not the table of another test.
    pure function table_file(name) result(file)
       character(*), intent(in) :: name
       character(:), allocatable :: file
@@ -70,7 +70,8 @@ contains
       if (is_table_of_report(lower(file))) file = name//'-case.csv'
    end function table_file
 
-   !> The file name of the wheel envelope of a test, different from the names of the tables.
+   !> The file name of the wheel envelope of a test: name_envelope.csv or, if the table of a test has this name,
+   !> name-envelope.csv.
    pure function envelope_file(tests, k) result(file)
       type(test_result_t), intent(in) :: tests(:)      !! with their files
       integer, intent(in) :: k
@@ -83,7 +84,7 @@ contains
       end do
    end function envelope_file
 
-   !> Writes tests.csv: the tests of a report and their files.
+   !> Writes tests.csv: the tests of a report that were run, and the files of their tables.
    subroutine write_contents(tests, path, error)
       type(test_result_t), intent(in) :: tests(:)
       character(*), intent(in) :: path
@@ -182,7 +183,7 @@ contains
       end do
    end subroutine read_numbers
 
-   !> Index of the test with this name in a result; 0 if there is no such test.
+   !> Index of the test of a given name in a result; 0 if the result has no such test.
    pure integer function test_number(results, name) result(number)
       type(results_t), intent(in) :: results
       character(*), intent(in) :: name
@@ -192,14 +193,16 @@ contains
       end do
    end function test_number
 
-   !> Whether a name is a plain file name: without a folder, not hidden, and without control characters.
+   !> Whether a name is a plain file name: not empty, without a folder, not hidden, not a command option, and without control
+   !> characters.
    pure logical function is_file_name(name)
       character(*), intent(in) :: name
       is_file_name = len_trim(name) > 0 .and. scan(name, '/') == 0 .and. index(name, '.') /= 1 .and. index(name, '-') /= 1 &
          .and. one_line(name) == name
    end function is_file_name
 
-   !> Reads a table and the description of its test in the header.
+   !> Reads a table and, from its header, the description of its test. A test without a description has the kind
+   !> 'parallel_travel' if its abscissa is the wheel travel, otherwise 'other'.
    subroutine read_test(path, name, test, error, may_stream)
       character(*), intent(in) :: path, name
       type(test_result_t), intent(out) :: test
@@ -233,7 +236,7 @@ contains
       if (test%kind == 'other' .and. test%abscissa /= 'factor') test%kind = 'parallel_travel'
    end subroutine read_test
 
-   !> The label of a result in the legend: the last part of its path, without extension.
+   !> The label of a result in the legend: the last part of its path, without suffix.
    pure function label_of(path) result(label)
       character(*), intent(in) :: path
       character(:), allocatable :: label

@@ -1,5 +1,5 @@
-!> The file names of a report, and which files every report has. This is one table for the commands that write, read and remove the
-!> files.
+!> The file names of a report, and lists of the files that a report can have. This is one table for the commands that write,
+!> read and remove the files.
 module ek_report_names
    implicit none(type, external)
    private
@@ -17,7 +17,7 @@ module ek_report_names
    character(*), parameter :: files_of_reports(*) = [character(18) :: contents_file, gradients_file, gradients_json_file, &
       compliance_file, numbers_file, numbers_json_file, deck_file, used_deck_file, data_file, page_file]
 
-   !> Files of a report with --loads.
+   !> Additional files of a report with --loads.
    character(*), parameter :: files_of_loads(*) = [character(18) :: loads_file, peaks_file]
 
 contains

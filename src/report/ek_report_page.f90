@@ -23,7 +23,7 @@ module ek_report_page
    private
    public :: report_page, add_pictures, add_constants
 
-   integer, parameter :: principal = 6        !! charts of a test that are not folded
+   integer, parameter :: principal = 6        !! number of charts of a test that are not folded
 
    ! headings of the values, and whether they belong to a table with two sides
    character(6), parameter :: values(3) = [character(6) :: '>Left', '>Right', '>Value']
@@ -118,12 +118,12 @@ contains
       if (.not. is_of_axle) call add_cell(page, page_number(right), 'n')
    end subroutine add_values
 
-   !> Adds the section of a test: warnings, charts, gradients.
+   !> Adds the section of a test: warnings, the charts or the figures of a grid, constant quantities, and gradients.
    subroutine add_test(page, report, test, number)
       type(page_t), intent(inout) :: page
       type(report_t), intent(in) :: report
       type(test_result_t), intent(in) :: test
-      integer, intent(in) :: number              !! of the test
+      integer, intent(in) :: number              !! index of the test
       character(16), allocatable :: names(:)
       integer :: k
 
@@ -164,7 +164,7 @@ contains
          ' of the wheel travel and '//str(size(test%grid%steer))//' of '//test%grid%driver
    end function over_what
 
-   !> Adds a figure of the folder of figures, of full width.
+   !> Adds an SVG figure of the folder figures/ at full width. Adds nothing if the file does not exist.
    subroutine add_figure(page, folder, name, title, caption)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: folder, name, title, caption
@@ -177,8 +177,8 @@ contains
       if (.not. allocated(error)) call add_picture(page, svg, title, caption)
    end subroutine add_figure
 
-   !> Adds the charts of a test that the page script draws. The principal charts are open, the others folded. Without a script, a
-   !> chart is a link to the picture drawn by gnuplot.
+   !> Adds the charts of a test that the page script draws. The first six charts are open, the others folded. In a browser
+   !> without script, a chart is a link to the picture drawn by gnuplot.
    subroutine add_live_charts(page, charts, test, held)
       type(page_t), intent(inout) :: page
       type(chart_t), intent(in) :: charts(:)
@@ -249,7 +249,8 @@ contains
       call add_markup(page, '</details>')
    end subroutine add_constants
 
-   !> Mean of the smallest and the largest value of a nearly constant curve; 0 if it is below 1e-4 of the least span.
+   !> Mean of the smallest and the largest value of a nearly constant curve; 0 if its magnitude is below 1e-4 of the least
+   !> span.
    pure real(wp) function level_of(y, span) result(value)
       real(wp), intent(in) :: y(:), span
 
@@ -257,7 +258,7 @@ contains
       if (abs(value) < 1.0e-4_wp*span) value = 0.0_wp
    end function level_of
 
-   !> Adds the charts of a test as drawn by gnuplot. The charts after the first few are folded.
+   !> Adds the charts of a test as drawn by gnuplot. The charts after the first six are folded.
    subroutine add_charts(page, charts, test, folder)
       type(page_t), intent(inout) :: page
       type(chart_t), intent(in) :: charts(:)
@@ -287,11 +288,11 @@ contains
       path = join_path(join_path(folder, 'figures'), picture_file(chart))
    end function figure_of
 
-   !> Adds charts drawn by gnuplot, side by side.
+   !> Adds charts drawn by gnuplot, side by side. Constant charts, and charts without a file, are omitted.
    subroutine add_pictures(page, charts, numbers, folder)
       type(page_t), intent(inout) :: page
       type(chart_t), intent(in) :: charts(:)
-      integer, intent(in) :: numbers(:)              !! of the charts that are shown
+      integer, intent(in) :: numbers(:)              !! indices of the charts that are shown
       character(*), intent(in) :: folder
       type(error_t), allocatable :: error
       character(:), allocatable :: svg
@@ -313,11 +314,11 @@ contains
       if (is_begun) call end_charts(page)
    end subroutine add_pictures
 
-   !> Adds the gradients of a test, with left and right in one row.
+   !> Adds the gradients of a test, with left and right in one row, and the reasons for gradients without a value.
    subroutine add_gradients(page, test, list)
       type(page_t), intent(inout) :: page
-      character(*), intent(in) :: test                    !! its name
-      type(gradient_t), intent(in) :: list(:)             !! of all tests
+      character(*), intent(in) :: test                    !! name of the test
+      type(gradient_t), intent(in) :: list(:)             !! gradients of all tests
       type(gradient_t), allocatable :: gradients(:)
       type(message_list_t) :: unknown                     ! why some have no value
       logical :: has_sides, has_twin

@@ -1,5 +1,5 @@
-!> The pictures of a report: the charts of its tests, the suspension in space, and its animation. All are drawn in one run of
-!> gnuplot.
+!> The pictures of a report: the charts of its tests, the carpets and envelopes of grid tests, the suspension in space, the
+!> three views of its hardpoints, and its animation. All are drawn in one run of gnuplot.
 module ek_report_pictures
    use ek_kinds, only: wp, millimetre
    use ek_error, only: error_t, message_list_t
@@ -22,18 +22,18 @@ module ek_report_pictures
    private
    public :: draw_pictures
 
-   integer, parameter :: max_frames = 40        !! of an animation
+   integer, parameter :: max_frames = 40        !! largest number of frames of an animation
 
 contains
 
-   !> Draws all pictures of a report into its folder: picture.svg and .png, animation.gif if requested, and in figures/ the charts
-   !> and the three views.
+   !> Draws all pictures of a report: picture.svg and .png, animation.gif if requested, and in figures/ the charts, the
+   !> carpets and envelopes of grid tests, and the three views. With --no-plots, deletes the pictures of an earlier report.
    subroutine draw_pictures(report, suspension, wants_plots, wants_animation, message, error)
       type(report_t), intent(inout) :: report                !! has_animation: it was requested, and something moves; has_views
       type(suspension_t), intent(in) :: suspension
       logical, intent(in) :: wants_plots, wants_animation
-      character(:), allocatable, intent(out) :: message      !! why there are no pictures; '' if there are
-      type(error_t), allocatable, intent(out) :: error       !! a script cannot be written or gnuplot refuses it
+      character(:), allocatable, intent(out) :: message      !! reason for missing pictures, otherwise ''
+      type(error_t), allocatable, intent(out) :: error       !! a script cannot be written, or gnuplot failed
       character(17), parameter :: in_space(5) = [character(17) :: 'picture.svg', 'picture.png', 'figures/views.svg', &
          'figures/views.png', 'animation.gif']
       character(4), parameter :: endings(2) = ['.svg', '.png']
@@ -100,14 +100,14 @@ contains
       call run_gnuplot(scripts, pictures, join_path(report%folder, 'figures'), message, error)
    end subroutine draw_pictures
 
-   !> The rest of a string after its first `first` characters.
+   !> The rest of a string after its first len(first) characters.
    pure function after(text, first) result(rest)
       character(*), intent(in) :: text, first
       character(:), allocatable :: rest
       rest = text(len(first) + 1:)
    end function after
 
-   !> Writes the script of a figure with its data, which draws <name>.svg and .png.
+   !> Writes the script of a figure with its data, and adds the script and its pictures <name>.svg and .png to the lists.
    subroutine add_sheet(folder, name, script, scripts, pictures, error)
       character(*), intent(in) :: folder, name, script
       type(message_list_t), intent(inout) :: scripts, pictures
@@ -151,7 +151,8 @@ contains
          suspension%name//': design, and the ends of its travel'), error, can_be_redrawn=.true.)
    end subroutine write_picture
 
-   !> Writes the script of the animation: up and down through the travel, then through the steering.
+   !> Writes the script of the animation: through the travel and back, then through the steering and back. Writes nothing if
+   !> no test moves the suspension; has_animation is then .false.
    subroutine write_animation(report, suspension, camera, error)
       type(report_t), intent(inout) :: report                !! has_animation: something moves
       type(suspension_t), intent(in) :: suspension
@@ -191,7 +192,8 @@ contains
          animation_script(scenes, captions, fitted, 'animation', suspension%name), error, can_be_redrawn=.true.)
    end subroutine write_animation
 
-   !> Label of an end of the travel: 'bump, +80 mm'. The number is the height of the first wheel's centre above its design height.
+   !> Label of an end of the travel: 'bump, +80 mm'. The number is the height of the first wheel's centre above its design
+   !> height. Without wheels, the label is 'end of travel'.
    function end_name(suspension, state) result(name)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state

@@ -1,4 +1,4 @@
-!> Figures of the designs of a study as a sample: bands of curves, scatter, histograms, means.
+!> Figures of the designs of a study as a sample: bands of curves, histograms, and the convergence of means.
 module ek_sample_figures
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
@@ -13,7 +13,7 @@ module ek_sample_figures
    public :: thinned, cut, add_scale
 
    character(*), parameter :: nl = new_line('a')
-   real(wp), parameter :: room_above = 1.08_wp       !! upper edge of a histogram over its highest bar
+   real(wp), parameter :: room_above = 1.08_wp       !! upper edge of a histogram per height of its highest bar
 
 contains
 
@@ -26,7 +26,7 @@ contains
       if (every > 1) words = '; one in '//str(every)//' of the '//str(of)//' designs is drawn'
    end function thinned
 
-   !> Phrase about omitted responses for a subtitle: '; 9 of 12 responses'; '' if all are drawn.
+   !> Phrase about omitted responses, factors or pairs for a subtitle: '; 9 of 12 responses'; '' if all are drawn.
    pure function cut(drawn, of, what) result(words)
       integer, intent(in) :: drawn, of
       character(*), intent(in) :: what
@@ -40,7 +40,7 @@ contains
    subroutine add_scale(sheet, label, values)
       type(sheet_t), intent(inout) :: sheet
       character(*), intent(in) :: label
-      real(wp), intent(in) :: values(:)              !! that are coloured
+      real(wp), intent(in) :: values(:)              !! values that are coloured
 
       if (.not. is_geometric(pack(values, ieee_is_finite(values)))) call sheet%text%line('set cbtics '//tic_step(values))
       call sheet%text%line('set colorbox horizontal user origin screen 0.74, screen '//above(sheet, 42)//' size screen 0.22, '// &
@@ -57,10 +57,11 @@ contains
       text = str(1.0_wp - real(pixels, wp)/full_height(sheet), 5)
    end function above
 
-   !> The script of a fan figure: the median, and the bands that contain 50 % and 90 % of the curves.
+   !> The script of a fan figure: the median, and the bands that contain 50 % and 90 % of the curves. If derivatives give a 90
+   !> % band, its ends are dashed lines.
    function fan_script(study, name, subtitle, panels) result(text)
       type(study_data_t), intent(in) :: study
-      integer, intent(in) :: panels(:)               !! columns
+      integer, intent(in) :: panels(:)               !! indices of the columns
       character(*), intent(in) :: name, subtitle
       character(:), allocatable :: text
       type(sheet_t) :: sheet
@@ -105,7 +106,7 @@ contains
 
    contains
 
-      !> The plot commands of both ends of the band computed from derivatives.
+      !> The plot commands of both ends of the band computed from derivatives; '' if there is no such band.
       function lines_of(c) result(more)
          integer, intent(in) :: c
          character(:), allocatable :: more
@@ -118,10 +119,11 @@ contains
 
    end function fan_script
 
-   !> Whether the band is too narrow to be distinguished from its curve. The deviation from the median is then drawn.
+   !> Whether the band of a column is too narrow to be distinguished from the median: everywhere less than 5 % of the range of
+   !> the median. The deviation from the median is then drawn.
    pure logical function is_narrow(study, c)
       type(study_data_t), intent(in) :: study
-      integer, intent(in) :: c                       !! column
+      integer, intent(in) :: c                       !! index of the column
       real(wp) :: range(2), width(2)
 
       range = range_of_values(study%bands(3, c, :))
@@ -132,7 +134,7 @@ contains
    !> Script of a histogram of each response with its percentiles and limits.
    function histogram_script(study, name, subtitle, panels) result(text)
       type(study_data_t), intent(in) :: study
-      integer, intent(in) :: panels(:)               !! responses
+      integer, intent(in) :: panels(:)               !! indices of the responses
       character(*), intent(in) :: name, subtitle
       character(:), allocatable :: text
       type(sheet_t) :: sheet
@@ -197,7 +199,7 @@ contains
    !> The height of the highest bar of a histogram, or of the density drawn over it if that is higher; 1 without designs.
    pure real(wp) function highest(study, r)
       type(study_data_t), intent(in) :: study
-      integer, intent(in) :: r                       !! response
+      integer, intent(in) :: r                       !! index of the response
       real(wp), parameter :: step = 0.05_wp          ! of the density in standard deviations: its top is flat
       real(wp) :: z
       integer :: k
@@ -216,7 +218,7 @@ contains
    !> Whether derivatives give a density that can be drawn over the histogram of a response.
    pure logical function has_density(study, r)
       type(study_data_t), intent(in) :: study
-      integer, intent(in) :: r                       !! response
+      integer, intent(in) :: r                       !! index of the response
 
       has_density = allocated(study%moments)
       if (has_density) has_density = study%moments(2, r)%deviation > 0.0_wp .and. &
@@ -226,7 +228,7 @@ contains
    !> The height of the normal density at its mean, in designs per bar of the histogram.
    pure real(wp) function density_height(study, r) result(height)
       type(study_data_t), intent(in) :: study
-      integer, intent(in) :: r                       !! response
+      integer, intent(in) :: r                       !! index of the response
 
       associate (summary => study%summaries(r))
          height = summary%used*(summary%highest - summary%lowest)/size(summary%counts)/ &
@@ -238,7 +240,7 @@ contains
    !> Edgeworth). '' if there is no such density.
    function density_of(study, r) result(more)
       type(study_data_t), intent(in) :: study
-      integer, intent(in) :: r                       !! response
+      integer, intent(in) :: r                       !! index of the response
       character(:), allocatable :: more
       character(:), allocatable :: z
 
@@ -271,7 +273,7 @@ contains
    !> Script of the mean of the first n designs with its 95 % interval, over n.
    function convergence_script(study, name, subtitle, panels) result(text)
       type(study_data_t), intent(in) :: study
-      integer, intent(in) :: panels(:)               !! responses
+      integer, intent(in) :: panels(:)               !! indices of the responses
       character(*), intent(in) :: name, subtitle
       character(:), allocatable :: text
       type(sheet_t) :: sheet

@@ -1,4 +1,5 @@
-!> Takes over the axes of another report. Reports whose charts have the same scales can be compared side by side.
+!> The axes of another report, for the charts of a report. Reports whose charts have the same scales can be compared side by
+!> side.
 module ek_scales
    use ek_kinds, only: wp
    use ek_error, only: error_t
@@ -12,7 +13,7 @@ module ek_scales
 
 contains
 
-   !> Reads the tables of a report folder and makes its charts again.
+   !> Reads the tables of a report folder and creates the charts of that report from them.
    subroutine read_scales(folder, windows, charts, error)
       character(*), intent(in) :: folder
       type(windows_t), intent(in) :: windows
@@ -29,7 +30,7 @@ contains
       end do
    end subroutine read_scales
 
-   !> Sets the axes of charts to the axes of the charts with the same name in the other report. The axes of other charts are
+   !> Sets the axes of charts to the axes of the charts with the same name in another report. The axes of all other charts are
    !> unchanged.
    subroutine take_scales(from, charts)
       type(chart_t), intent(in) :: from(:)

@@ -13,13 +13,13 @@ module ek_scatter_figure
    public :: pairs_script, matrix_script, most_columns, leading_factors
 
    character(*), parameter :: nl = new_line('a')
-   integer, parameter :: most_points = 6000           !! of all panels together: more make the page slow and large
-   integer, parameter :: most_rows = 6, most_columns = 7     !! of a matrix: responses, factors
-   integer, parameter :: most_cells = 26             !! of a matrix: gnuplot names panels by a letter, and further ones alike
+   integer, parameter :: most_points = 6000           !! limit on points in all panels: more make the page slow and large
+   integer, parameter :: most_rows = 6, most_columns = 7     !! largest numbers of responses and of factors in a matrix
+   integer, parameter :: most_cells = 26             !! limit on panels of a matrix: gnuplot has one letter per panel
 
 contains
 
-   !> Script of the pairs of a response and a factor with the largest rank correlations, in order.
+   !> Script of the pairs of a response and a factor with the largest rank correlations, in order, one panel per pair.
    function pairs_script(study, name, subtitle) result(text)
       type(study_data_t), intent(in) :: study
       character(*), intent(in) :: name, subtitle
@@ -68,7 +68,8 @@ contains
       if (ieee_is_finite(correlation)) text = 'r = '//str(real(nint(100*correlation), wp)/100, 2)
    end function correlation_text
 
-   !> Script of responses over factors. Of many factors, the factors with the largest rank correlations are shown.
+   !> Script of a matrix of panels: up to six responses over up to seven factors. Of more factors, those with the largest rank
+   !> correlations are shown. Of many designs, only some are drawn.
    function matrix_script(study, name, subtitle) result(text)
       type(study_data_t), intent(in) :: study
       character(*), intent(in) :: name, subtitle
@@ -116,8 +117,8 @@ contains
       text = end_panels(sheet)
    end function matrix_script
 
-   !> Indices of the factors in the order of the study. Of many factors, the factors with the largest rank correlation with any
-   !> response.
+   !> Indices of at most `most` factors, in the order of the study. Of more factors, those with the largest rank correlation
+   !> with any response are selected.
    pure function leading_factors(study, most) result(factors)
       type(study_data_t), intent(in) :: study
       integer, intent(in) :: most

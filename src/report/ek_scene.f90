@@ -14,10 +14,10 @@ module ek_scene
       part_spring = 7, part_damper = 8, part_bushing = 9, part_ball = 10, part_mount = 11, part_stop = 12, parts = 12
    integer, parameter :: line_bump = 1, line_rebound = 2, line_ground = 3, line_axes = 4, line_kinds = 4
 
-   !> Faces and lines as runs of vertices.
+   !> Faces or lines of a scene. Each face or line is a run of vertices.
    type :: run_t
       real(wp), allocatable :: at(:, :)        !! vertices [m]
-      integer, allocatable :: first(:), kind(:)   !! first(k) … first(k+1) − 1 are the vertices of run k
+      integer, allocatable :: first(:), kind(:)   !! vertices of run k: first(k) … first(k+1) − 1; kind: part_* or line_*
       integer :: runs = 0, used = 0
    end type run_t
 
@@ -95,7 +95,7 @@ contains
       call add_surface(scene, kind, a, (b - a)/length, along, round, sides)
    end subroutine add_tube
 
-   !> Adds a surface of revolution: radius at positions along an axis through a point.
+   !> Adds a surface of revolution, given by the radius at positions along an axis through a point.
    pure subroutine add_surface(scene, kind, base, axis, along, radius, sides)
       type(scene_t), intent(inout) :: scene
       integer, intent(in) :: kind
@@ -125,7 +125,7 @@ contains
       end do
    end subroutine add_surface
 
-   !> Adds a coil spring from a to b, closed and ground at its ends.
+   !> Adds a coil spring from a to b, in which 0.6 of a coil is flat at each end.
    pure subroutine add_coil(scene, kind, a, b, radius, wire, coils, per_coil)
       type(scene_t), intent(inout) :: scene
       integer, intent(in) :: kind
@@ -170,7 +170,7 @@ contains
          radius*[0.0_wp, 0.8_wp, 0.8_wp, 0.0_wp], sides)
    end subroutine add_ball
 
-   !> Finds two unit vectors normal to an axis.
+   !> Finds two unit vectors normal to an axis and to each other.
    pure subroutine find_normals(axis, u, v)
       real(wp), intent(in) :: axis(3)
       real(wp), intent(out) :: u(3), v(3)

@@ -8,10 +8,10 @@ module ek_scene_labels
    private
    public :: placed_label_t, place_in_scene
 
-   !> A placed name. Its position is given as shares of the picture's width, from the left, and height, from below.
+   !> A placed name. Positions are shares of the picture's width, from the left, and of its height, from below.
    type :: placed_label_t
-      real(wp) :: middle(2) = 0.0_wp, half(2) = 0.0_wp    !! of the text
-      real(wp) :: foot(2) = 0.0_wp                        !! where a line from its point ends
+      real(wp) :: middle(2) = 0.0_wp, half(2) = 0.0_wp    !! centre of the label; half of its width and of its height
+      real(wp) :: foot(2) = 0.0_wp                        !! end, at the label, of the line from the label to its point
       logical :: has_line = .false.
    end type placed_label_t
 
@@ -26,7 +26,8 @@ module ek_scene_labels
 
 contains
 
-   !> Places the names one after the other, each at the position with the lowest cost, given the names already placed.
+   !> Places the names one after the other, each at the position with the lowest cost, given the names already placed. If no
+   !> position is free, the name is at its point.
    subroutine place_in_scene(scene, camera, placed)
       type(scene_t), intent(in) :: scene
       type(camera_t), intent(in) :: camera                !! fitted
@@ -89,7 +90,7 @@ contains
       end do
    end function is_taken
 
-   !> The mean weight of the drawn cells that a label would cover.
+   !> The mean weight of the cells that a label would cover. A cell in which nothing is drawn has the weight 0.
    pure real(wp) function covered(drawn, middle, half)
       real(wp), intent(in) :: drawn(:, :), middle(2), half(2)
       integer :: low(2), high(2)
@@ -106,7 +107,7 @@ contains
       cell = max(1, min(cells, ceiling(max(0.0_wp, min(1.0_wp, place/pixels))*cells)))
    end function cell_of
 
-   !> Marks the boxes around faces, which are small; transparent faces have a lower weight.
+   !> Marks the boxes around faces, which are small. Transparent faces have a lower weight; the road is not marked.
    subroutine mark_faces(faces, projection, drawn)
       type(run_t), intent(in) :: faces
       type(projection_t), intent(in) :: projection

@@ -26,8 +26,8 @@ module ek_scene_script
 
 contains
 
-   !> A gnuplot script that draws one scene as <name>.png and <name>.svg in the folder above its own, unless the variable `to` gives
-   !> another folder.
+   !> A gnuplot script that draws one scene as <name>.png and <name>.svg in the folder above the script's folder, unless the
+   !> variable `to` gives another folder. With the variable `look`, the script opens a window instead.
    function scene_script(scene, camera, name, title) result(text)
       type(scene_t), intent(in) :: scene
       type(camera_t), intent(in) :: camera
@@ -50,7 +50,8 @@ contains
       text = script%text()
    end function scene_script
 
-   !> A gnuplot script that draws a sequence of scenes as <name>.gif, which repeats endlessly.
+   !> A gnuplot script that draws a sequence of scenes as <name>.gif, which repeats endlessly, in the folder above the
+   !> script's folder, unless the variable `to` gives another folder.
    function animation_script(scenes, captions, camera, name, title) result(text)
       type(scene_t), intent(in) :: scenes(:)
       character(*), intent(in) :: captions(:)
@@ -106,7 +107,7 @@ contains
       end do
    end subroutine add_blocks
 
-   !> Whether the scene has faces or lines of a kind.
+   !> Whether a list of faces or lines contains a kind.
    pure logical function has_kind(list, kind)
       type(run_t), intent(in) :: list
       integer, intent(in) :: kind
@@ -219,7 +220,7 @@ contains
       !> Adds one swatch and its label.
       subroutine add_entry(name, colour, height)
          character(*), intent(in) :: name, colour
-         real(wp), intent(in) :: height              !! of the swatch, share of the picture
+         real(wp), intent(in) :: height              !! height of the swatch, as a share of the picture
          integer, parameter :: in_a_row = 6
          character(:), allocatable :: at
 

@@ -1,7 +1,7 @@
 !> The skeleton of a body: it represents the body in a picture, as bodies have no shape in the model.
 !>
-!> It is the shortest tree through the attachment points, in which two points on the chassis are never joined directly
-!> (a wishbone is an A, not a bar along its own pivots).
+!> It is the shortest tree through the attachment points. Two points on the chassis are joined directly only if the body has
+!> no other point (a wishbone is an A, not a bar along its own pivots).
 module ek_skeleton
    use ek_kinds, only: wp
    use ek_measure, only: measure_t, distance
@@ -13,26 +13,26 @@ module ek_skeleton
    private
    public :: skeleton_t, node_t, skeleton_of, first_measure, ends_of, place_of, bar_of, slides, same_point
 
-   real(wp), parameter :: same_point = 1.0e-3_wp    !! m; points as close as this are drawn as one
-   integer, parameter :: max_points = 64           !! of a body; further ones are omitted
+   real(wp), parameter :: same_point = 1.0e-3_wp    !! distance below which points are drawn as one [m]
+   integer, parameter :: max_points = 64           !! largest number of points of a body; further points are omitted
 
    !> A point of a body.
    type :: node_t
-      real(wp) :: arm(3) = 0.0_wp           !! body axes [m]
-      logical :: is_held = .false.          !! attached to the chassis
-      logical :: is_spring = .false.        !! only a spring seat
+      real(wp) :: arm(3) = 0.0_wp           !! position in body axes [m]
+      logical :: is_held = .false.          !! attached to the chassis by a joint or a bushing; not by a rod or spring
+      logical :: is_spring = .false.        !! the point is the seat of a spring, damper or stop only
    end type node_t
 
    !> The points of a body and the bars between them.
    type :: skeleton_t
       type(node_t) :: nodes(max_points)
       integer :: bars(2, max_points) = 0
-      integer :: used = 0, count = 0        !! nodes, bars
+      integer :: used = 0, count = 0        !! number of nodes, number of bars
    end type skeleton_t
 
 contains
 
-   !> Attachment points of a body and the shortest tree through them.
+   !> The attachment points and the wheel centre of a body, and the shortest tree through these points.
    function skeleton_of(suspension, body) result(skeleton)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: body
@@ -143,7 +143,7 @@ contains
       ends(:, 2) = place_of(state, body, skeleton%nodes(skeleton%bars(2, k))%arm)
    end function bar_of
 
-   !> Whether a body slides along another moving body: the rod of a damper.
+   !> Whether a body is one of two moving bodies that slide along each other: the rod or the tube of a damper.
    pure logical function slides(suspension, body)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: body

@@ -18,8 +18,8 @@ module ek_sparkline
 
 contains
 
-   !> An SVG element with the curve of the left wheel or of the axle, the curve of the right wheel where it differs, and a dot at
-   !> design. '' with fewer than two states.
+   !> An SVG element with the curve of the left wheel or of the axle, the curve of the right wheel behind it, and a dot at
+   !> design. '' if the key number has no source, or its test has fewer than two states with values.
    function sparkline(number, tests) result(svg)
       type(key_number_t), intent(in) :: number
       type(test_result_t), intent(in) :: tests(:)

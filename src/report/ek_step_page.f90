@@ -19,7 +19,7 @@ module ek_step_page
 
    character(*), parameter :: figure_ending = '_steps'     !! appended to the name of the study
 
-   !> The number of errors in the table, and their columns and names.
+   !> The number of errors per row of the table, and their columns and labels.
    integer, parameter :: errors = 4
    character(20), parameter :: columns(errors) = [character(20) :: 'constraint_error', 'travel_error_mm', 'toe_error_deg', &
       'camber_error_deg']
@@ -30,10 +30,10 @@ contains
 
    !> The content of the page of a step-size study.
    function step_page(title, name, deck, case, table, folder, message) result(text)
-      character(*), intent(in) :: title, name, deck, case     !! of the study; the title may be ''
-      type(text_table_t), intent(in) :: table                 !! of the study
-      character(*), intent(in) :: folder                      !! of the figure; '': none
-      character(*), intent(in) :: message                     !! why there is no figure; may be ''
+      character(*), intent(in) :: title, name, deck, case     !! title, name, deck and case of the study; the title may be ''
+      type(text_table_t), intent(in) :: table                 !! table of the study
+      character(*), intent(in) :: folder                      !! folder of the figure; '': no figure
+      character(*), intent(in) :: message                     !! reason for a missing figure; may be ''
       character(:), allocatable :: text
       type(page_t) :: page
       type(message_list_t) :: names, values, trouble
@@ -106,7 +106,7 @@ contains
 
    !> The script of the figure: magnitudes of the errors over the number of increments, both on logarithmic axes.
    function step_script(name, table) result(text)
-      character(*), intent(in) :: name                        !! of the study
+      character(*), intent(in) :: name                        !! name of the study
       type(text_table_t), intent(in) :: table
       character(:), allocatable :: text, subtitle, line
       type(sheet_t) :: sheet
@@ -147,7 +147,7 @@ contains
       text = end_panels(sheet)
    end function step_script
 
-   !> A magnitude that a logarithmic axis can show; NaN for a value that is only rounding.
+   !> The magnitude of an error, for a logarithmic axis. NaN below 1e-12, which is only rounding, and for a missing error.
    pure real(wp) function drawn(value)
       real(wp), intent(in) :: value
 
@@ -156,7 +156,7 @@ contains
       if (abs(value) >= 1.0e-12_wp) drawn = abs(value)
    end function drawn
 
-   !> An error with three digits, because it may be as small as rounding.
+   !> An error with three digits, because it may be as small as rounding; '–' for a missing error.
    function short(value) result(text)
       real(wp), intent(in) :: value
       character(:), allocatable :: text

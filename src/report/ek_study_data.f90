@@ -14,37 +14,37 @@ module ek_study_data
    !> A factor, a response or a column of the curves.
    type :: study_axis_t
       character(:), allocatable :: name
-      character(:), allocatable :: head                !! of the column of a factor
+      character(:), allocatable :: head                !! heading of the column of a factor
       character(:), allocatable :: label               !! name with unit
-      character(:), allocatable :: unit                !! of a response or column; '' without one
+      character(:), allocatable :: unit                !! unit of a response or column; '' without a unit
       character(:), allocatable :: note                !! path of a factor; description of a response
       real(wp) :: lower = -huge(1.0_wp), upper = huge(1.0_wp)      !! limits of a response
       logical :: is_target = .false.                   !! the limits are the band of the deck, not of the study
    end type study_axis_t
 
-   !> The statistics of a response over all designs that have a value of it.
+   !> The statistics of a response over all designs that have a value of the response.
    type :: summary_t
       integer :: used = 0                              !! designs with a value
       real(wp) :: mean = 0.0_wp, deviation = 0.0_wp, lowest = 0.0_wp, highest = 0.0_wp
       real(wp) :: percentiles(size(percents)) = 0.0_wp
-      integer :: within = 0                            !! designs that satisfy its limits
+      integer :: within = 0                            !! designs that satisfy the limits of the response
       integer, allocatable :: counts(:)                !! histogram: designs in equal intervals from lowest to highest
       integer, allocatable :: steps(:)                 !! convergence: numbers of designs
-      real(wp), allocatable :: running(:), half(:)     !! mean of the first `steps` designs, half of its 95 % interval
+      real(wp), allocatable :: running(:), half(:)     !! mean of the first `steps` designs; half-width of its 95 % interval
    end type summary_t
 
    !> The effects of the factors on a response; allocated for the kinds of study that give them.
    type :: effects_t
       real(wp) :: nominal = 0.0_wp
-      real(wp), allocatable :: at_low(:), at_high(:)           !! tornado: at the smallest and the largest value of each factor
-      real(wp), allocatable :: lowest(:), highest(:)           !! tornado: over all its values
-      real(wp), allocatable :: first(:), total(:), first_error(:), total_error(:)    !! Sobol indices, half of the 95 % interval
+      real(wp), allocatable :: at_low(:), at_high(:)           !! tornado: response at smallest, largest value of each factor
+      real(wp), allocatable :: lowest(:), highest(:)           !! tornado: smallest, largest response over all factor values
+      real(wp), allocatable :: first(:), total(:), first_error(:), total_error(:)    !! Sobol indices; half-widths of 95 % intervals
       real(wp), allocatable :: mean_size(:), deviation(:)      !! Morris: μ* and σ
       real(wp), allocatable :: correlation(:)                  !! rank correlation with each factor
       integer, allocatable :: used(:)                          !! Sobol: base points used for the factor; Morris: effects
       integer :: planned = 0                                   !! value of `used` without failed designs
       ! tolerance: derivatives at the centre of each factor
-      real(wp), allocatable :: slope(:)                        !! per unit of the factor
+      real(wp), allocatable :: slope(:)                        !! derivative per unit of the factor
       real(wp), allocatable :: effect(:)                       !! change per standard deviation of the factor
       real(wp), allocatable :: curvature(:)                    !! second derivative, per standard deviation squared
    end type effects_t
@@ -52,47 +52,48 @@ module ek_study_data
    !> The scatter of a response by one method, in the unit of the response.
    type :: moment_row_t
       real(wp) :: mean, deviation, skewness, low, high         !! low, high: percentiles 5 and 95
-      real(wp) :: mean_half, deviation_half                    !! half of the 95 % interval; 0 for a number without sampling error
-      real(wp) :: within, within_half                          !! share of designs within the limits
+      real(wp) :: mean_half, deviation_half                    !! half-widths of 95 % intervals; 0 without sampling error
+      real(wp) :: within, within_half                          !! share of designs within the limits; half-width of its interval
    end type moment_row_t
 
    character(*), parameter :: methods(3) = [character(12) :: 'first_order', 'second_order', 'monte_carlo']
 
-   !> A design to be shown on the page.
+   !> A best or worst design, to be shown on the page.
    type :: extreme_t
       integer :: response = 0
-      character(:), allocatable :: what                !! 'smallest', 'best' …
+      character(:), allocatable :: what                !! label of the design: 'smallest', 'best', …
       integer :: design = 0
       real(wp) :: value = 0.0_wp
-      character(:), allocatable :: settings            !! --set a=1 --set b=2
-      character(:), allocatable :: fragment            !! of the deck; '' if it is not known
+      character(:), allocatable :: settings            !! options that set the factors: --set "a=1" --set "b=2"
+      character(:), allocatable :: fragment            !! lines of the deck; '' if they are not known
    end type extreme_t
 
    type :: study_data_t
       character(:), allocatable :: name, title, kind, deck, case
       integer :: designs = 0, within = 0, failed = 0
       type(study_axis_t), allocatable :: factors(:), responses(:), columns(:)
-      real(wp), allocatable :: x(:, :), y(:, :)        !! (factor or response, design); NaN without a value
-      type(message_list_t) :: reasons                  !! of the designs that failed, with their number
-      type(summary_t), allocatable :: summaries(:)     !! of the responses
-      type(effects_t), allocatable :: effects(:)       !! on the responses
+      real(wp), allocatable :: x(:, :), y(:, :)        !! factors, responses: (factor or response, design); NaN: no value
+      type(message_list_t) :: reasons                  !! reasons for failures, each with the number of designs that failed
+      type(summary_t), allocatable :: summaries(:)     !! statistics of each response
+      type(effects_t), allocatable :: effects(:)       !! effects on each response
       type(extreme_t), allocatable :: extremes(:)
       ! tolerance; not allocated if it was not computed
-      type(moment_row_t), allocatable :: moments(:, :) !! (method, response)
-      real(wp), allocatable :: centers(:), deviations(:)       !! of the factors
-      !> Of the curves: (nominal, mean, deviation, percentiles 5 and 95; column; state).
+      type(moment_row_t), allocatable :: moments(:, :) !! scatter of each response by each method: (method, response)
+      real(wp), allocatable :: centers(:), deviations(:)       !! centres and standard deviations of the factors
+      !> Scatter of the curves by derivatives: (nominal, mean, deviation, percentiles 5 and 95; column; state).
       real(wp), allocatable :: expected(:, :, :)
       ! curves of some designs
       character(:), allocatable :: swept               !! label of the swept value
       real(wp), allocatable :: sweep(:)                !! swept value of each state
-      integer, allocatable :: drawn(:)                 !! the designs whose curves were read
-      real(wp), allocatable :: curves(:, :, :)         !! (column, state, drawn)
-      real(wp), allocatable :: bands(:, :, :)          !! (percent, column, state)
+      integer, allocatable :: drawn(:)                 !! designs whose curves were read
+      real(wp), allocatable :: curves(:, :, :)         !! curves of the drawn designs: (column, state, index in `drawn`)
+      real(wp), allocatable :: bands(:, :, :)          !! percentiles of the curves: (index in `percents`, column, state)
    end type study_data_t
 
 contains
 
-   !> Number of base points used, if designs have failed: ' (67 of 256 base points)'; otherwise ''.
+   !> Number of base points or effects used, if designs have failed: ' (67 of 256 base points)'; otherwise ''. If the number
+   !> depends on the factor, it is a range: ' (60 to 67 of 256 base points)'.
    pure function basis_text(effects, what) result(text)
       type(effects_t), intent(in) :: effects
       character(*), intent(in) :: what                 !! 'base points'
@@ -106,7 +107,8 @@ contains
       text = ' ('//text//' of '//str(effects%planned)//' '//what//')'
    end function basis_text
 
-   !> Whether the designs yield Sobol indices: the designs of a saltelli study, or of a list in the order of a Saltelli design.
+   !> Whether the study yields Sobol indices: from the designs of a saltelli study, from a list in the order of a Saltelli
+   !> design, or from the derivatives of a tolerance study.
    pure logical function has_indices(study)
       type(study_data_t), intent(in) :: study
 
@@ -114,7 +116,7 @@ contains
       if (size(study%effects) > 0) has_indices = allocated(study%effects(1)%first)
    end function has_indices
 
-   !> Whether derivatives give the curves of a tolerance study.
+   !> Whether the scatter of the curves of a tolerance study was computed from derivatives.
    pure logical function has_expected(study)
       type(study_data_t), intent(in) :: study
 
@@ -147,7 +149,7 @@ contains
       is_geometric = 2*count(values < 0.42_wp*(low + high)) >= size(values)
    end function is_geometric
 
-   !> A step between tics, as a string, that puts about four tics on an axis.
+   !> A step between tics, as a string, that puts about four tics on an axis; 'autofreq' if all values are equal.
    pure function tic_step(values) result(text)
       real(wp), intent(in) :: values(:)
       character(:), allocatable :: text

@@ -1,7 +1,6 @@
-!> The figures of a study: which of them apply follows from its kind and its columns, by one table.
-!>
-!> A new figure: its row in `rules`, its case in `script_of`, and its procedure in ek_sample_figures, ek_effect_figures or a file
-!> of its own.
+!> The figures of a study. One table, `rules`, gives the conditions for drawing each figure: the kind of study, columns,
+!> responses, and the numbers of factors and designs. A new figure needs a row in `rules`, a case in `script_of`, and a
+!> procedure in ek_sample_figures, ek_effect_figures or a separate file.
 module ek_study_figures
    use ek_text, only: plural
    use ek_study_data, only: study_data_t, has_indices
@@ -20,9 +19,9 @@ module ek_study_figures
    type :: figure_rule_t
       character(11) :: name
       character(48) :: title
-      character(80) :: kinds             !! of studies; '*': all
+      character(80) :: kinds             !! kinds of study; '*': all
       character(9) :: panels             !! responses, columns, pairs of response and factor; '': one panel
-      logical :: needs_curves            !! columns in &study, and designs with curves
+      logical :: needs_curves            !! the figure needs columns in &study and designs with curves
       logical :: needs_responses
       integer :: least_factors, most_factors
       integer :: least_designs
@@ -76,7 +75,7 @@ contains
       if (rule%panels == 'pairs') panels_of = size(study%responses)*size(study%factors)
    end function panels_of
 
-   !> Number of sheets of a figure that applies, 1 or 2: the strongest panels, and all others.
+   !> Number of sheets of a figure that applies, 1 or 2. The first sheet has the strongest panels, the second the others.
    pure integer function sheets(rule, study)
       type(figure_rule_t), intent(in) :: rule
       type(study_data_t), intent(in) :: study

@@ -34,7 +34,7 @@ contains
    function study_page(study, figures, message) result(text)
       type(study_data_t), intent(in) :: study
       character(*), intent(in) :: figures            !! folder of the pictures
-      character(*), intent(in) :: message            !! why there are no pictures, or fewer; may be ''
+      character(*), intent(in) :: message            !! reason for missing pictures; may be ''
       character(:), allocatable :: text
       type(page_t) :: page
       type(message_list_t) :: names, values, trouble
@@ -93,7 +93,7 @@ contains
       text = page_number(100.0_wp*part/max(1, whole))//' %'
    end function share
 
-   !> The limits of a response: '−2 … 0.5', '≤ 0.5'; '' if it has none.
+   !> The limits of a response: '−2 … 0.5', '≥ −2', '≤ 0.5'; '' without limits.
    pure function limits_text(axis) result(text)
       type(study_axis_t), intent(in) :: axis
       character(:), allocatable :: text
@@ -121,7 +121,7 @@ contains
    subroutine add_verdict(page, text, is_all, is_any)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: text
-      logical, intent(in) :: is_all, is_any          !! designs inside
+      logical, intent(in) :: is_all, is_any          !! all designs, some designs are inside
 
       if (is_all) call add_cell(page, text, verdict='inside')
       if (.not. is_all .and. is_any) call add_cell(page, text, verdict='partly outside')
@@ -169,7 +169,7 @@ contains
 
    contains
 
-      !> Adds a cell with the limits of a response.
+      !> Adds a cell with the limits of a response, and the share of designs that satisfy them.
       subroutine add_limits(axis, summary)
          type(study_axis_t), intent(in) :: axis
          type(summary_t), intent(in) :: summary
@@ -186,7 +186,8 @@ contains
 
    end subroutine add_responses
 
-   !> Adds the scatter of each response, computed by derivatives and from the designs.
+   !> Adds the scatter of each response of a tolerance study, computed by derivatives and from the designs. Adds nothing for
+   !> other studies.
    subroutine add_moments(page, study)
       type(page_t), intent(inout) :: page
       type(study_data_t), intent(in) :: study
@@ -238,8 +239,8 @@ contains
 
    end subroutine add_moments
 
-   !> Adds the strongest factors of each response, then all factors with the ranges that the designs cover, sorted by effect. Of
-   !> many factors, only the strongest are open.
+   !> Adds the strongest factors of each response, then all factors with the ranges that the designs cover, sorted by effect.
+   !> After the 12 strongest factors, the others are folded.
    subroutine add_factors(page, study)
       type(page_t), intent(inout) :: page
       type(study_data_t), intent(in) :: study

@@ -1,5 +1,5 @@
-!> The panels of a figure of a study: responses or columns, sorted by the size of their scatter. The first sheet shows the strongest
-!> panels, the second sheet all others.
+!> The panels of a figure of a study: responses or columns, sorted by the size of their scatter. The first sheet shows the six
+!> strongest panels, the second sheet the others, at most 24.
 module ek_study_panels
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
@@ -11,8 +11,8 @@ module ek_study_panels
    private
    public :: most_panels, sheets_of, response_panels, column_panels, panels_text
 
-   integer, parameter :: most_panels = 6          !! of the first sheet
-   integer, parameter :: most_others = 24         !! of the second sheet
+   integer, parameter :: most_panels = 6          !! largest number of panels on the first sheet
+   integer, parameter :: most_others = 24         !! largest number of panels on the second sheet
 
 contains
 
@@ -22,8 +22,8 @@ contains
       sheets_of = merge(2, 1, panels > most_panels)
    end function sheets_of
 
-   !> The responses on a sheet. They are sorted by standard deviation as a share of the mean, or of the least span of a chart in
-   !> their unit if the latter is larger.
+   !> The indices of the responses on a sheet, sorted by standard deviation. The deviation is a share of the mean's magnitude,
+   !> or of the least span of a chart in the unit of the response if the latter is larger.
    pure function response_panels(study, sheet) result(panels)
       type(study_data_t), intent(in) :: study
       integer, intent(in) :: sheet
@@ -37,8 +37,8 @@ contains
       panels = part_of(ranked(sizes, size(sizes)), sheet)
    end function response_panels
 
-   !> The columns on a sheet. They are sorted by the widest part of the band of 90 % of the curves, as a share of the range of the
-   !> median curve, or of the least span of the column if the latter is larger.
+   !> The indices of the columns on a sheet, sorted by the widest part of the band of 90 % of the curves. The width is a share
+   !> of the range of the median curve, or of the least span of the column's unit if the latter is larger.
    pure function column_panels(study, sheet) result(panels)
       type(study_data_t), intent(in) :: study
       integer, intent(in) :: sheet

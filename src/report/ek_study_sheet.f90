@@ -1,6 +1,6 @@
-!> A sheet of panels as a gnuplot script that contains its data: `gnuplot name.gp` draws name.png and name.svg where it runs.
-!>
-!> First the data blocks, then begin_panels, then for each panel begin_panel and its plot command, then sheet_text.
+!> A sheet of panels as a gnuplot script that contains its data: `gnuplot name.gp` draws name.png and name.svg in the folder
+!> where gnuplot runs. The caller adds the data blocks, calls begin_panels, calls begin_panel and adds the plot command for
+!> each panel, and then calls end_panels.
 module ek_study_sheet
    use ek_kinds, only: wp
    use ek_text, only: str
@@ -15,19 +15,19 @@ module ek_study_sheet
    public :: blues
 
    character(*), parameter :: nl = new_line('a')
-   !> Of a colour scale: viridis without its lightest end.
+   !> The gnuplot command of the colour scale: viridis without its lightest end.
    character(*), parameter :: blues = "set palette defined (0 '#440154', 0.25 '#3B528B', 0.5 '#21918C', 0.75 '#5EC962', "// &
       "1 '#E8D000')"
-   integer, parameter :: title_height = 88        !! pixels above the panels
+   integer, parameter :: title_height = 88        !! height above the panels [pixels]
 
    type :: sheet_t
       character(:), allocatable :: name, title, subtitle
       integer :: panels = 1, columns = 1
-      integer :: width = 1200                     !! pixels
-      integer :: height = 420                     !! of a row of panels
-      integer :: left = 110, right = 30, bottom = 80, top = 34      !! margins of a panel, pixels
+      integer :: width = 1200                     !! width of the picture [pixels]
+      integer :: height = 420                     !! height of a row of panels [pixels]
+      integer :: left = 110, right = 30, bottom = 80, top = 34      !! margins of a panel [pixels]
       integer :: letters = 15                     !! size of the font
-      logical :: has_scale = .false.              !! a scale of colours stands at the right of title and subtitle
+      logical :: has_scale = .false.              !! a scale of colours is at the right of title and subtitle
       type(buffer_t) :: text
    end type sheet_t
 
@@ -37,7 +37,7 @@ contains
    pure type(sheet_t) function new_sheet(name, title, subtitle, panels, height) result(sheet)
       character(*), intent(in) :: name, title, subtitle
       integer, intent(in) :: panels
-      integer, intent(in), optional :: height     !! of a row of panels; chosen here if absent or 0
+      integer, intent(in), optional :: height     !! height of a row of panels [pixels]; chosen here if absent or 0
 
       sheet%name = name
       sheet%title = title
@@ -64,11 +64,11 @@ contains
       call sheet%text%line('$'//name//' << EOD')
    end subroutine begin_data
 
-   !> Adds a row of numbers with seven digits to a data block, with a string at its end.
+   !> Adds a row of numbers with seven digits to a data block. A label is added in quotes at the end of the row.
    pure subroutine add_numbers(sheet, values, label)
       type(sheet_t), intent(inout) :: sheet
       real(wp), intent(in) :: values(:)
-      character(*), intent(in), optional :: label      !! a word without quotes and blanks becomes a quoted field
+      character(*), intent(in), optional :: label      !! string; '_' replaces quotes, backslashes and control characters
       integer :: k
 
       do k = 1, size(values)
@@ -79,7 +79,7 @@ contains
       call sheet%text%line('')
    end subroutine add_numbers
 
-   !> A string as a field of a data block.
+   !> A string as a field of a data block: '_' replaces quotes, backslashes and control characters.
    pure function field_of(label) result(field)
       character(*), intent(in) :: label
       character(len(label)) :: field
@@ -97,14 +97,15 @@ contains
       call sheet%text%line('EOD')
    end subroutine end_data
 
-   !> Adds the names of points in a panel to the data: the point, the line to its name, and whether the name ends at this position.
-   !> Names do not overlap other names or named points.
+   !> Adds the names of points in a panel to the data, one row per name: the point, the line from the point to its name, and
+   !> whether the name is to the left of the end of the line. If there is enough room, names do not overlap other names or
+   !> named points.
    subroutine add_point_names(sheet, panel, names, x, y, x_range, y_range)
       type(sheet_t), intent(inout) :: sheet
       integer, intent(in) :: panel
-      character(*), intent(in) :: names(:)           !! of the first points
-      real(wp), intent(in) :: x(:), y(:)             !! of all points
-      real(wp), intent(in) :: x_range(2), y_range(2) !! of the panel, from left to right and from below upward
+      character(*), intent(in) :: names(:)           !! names of the first points
+      real(wp), intent(in) :: x(:), y(:)             !! coordinates of all points
+      real(wp), intent(in) :: x_range(2), y_range(2) !! ranges of the panel, from left to right and from below upward
       type(label_place_t) :: places(size(names))
       real(wp), parameter :: size_in_png = 4.0_wp/3.0_wp     ! pixels per point of a font; 1 in SVG
       real(wp) :: widths(size(names)), letters, cell, to(2)
@@ -127,7 +128,8 @@ contains
       call end_data(sheet)
    end subroutine add_point_names
 
-   !> The gnuplot commands that draw these names and lines to them: the last parts of a plot command.
+   !> The last parts of a plot command: they draw the names of points of a panel (`add_point_names`), and the lines from the
+   !> points to their names.
    pure function names_plot(panel) result(parts)
       integer, intent(in) :: panel
       character(:), allocatable :: parts, data
@@ -138,7 +140,7 @@ contains
          '     '//data//' using ($5 > 0 ? $1 + $3 : NaN):($2 + $4):6 with labels right offset -0.2, 0 notitle'
    end function names_plot
 
-   !> Begins the drawing: format, size, title.
+   !> Begins the drawing: format, size, title and subtitle.
    pure subroutine begin_panels(sheet)
       type(sheet_t), intent(inout) :: sheet
       character(:), allocatable :: size_text, heading, small
@@ -197,7 +199,7 @@ contains
       full_height = title_height + sheet%height*((sheet%panels + sheet%columns - 1)/sheet%columns)
    end function full_height
 
-   !> Begins the next panel, row by row from the top, and sets its title and axis labels.
+   !> Begins a panel, and sets its title and axis labels. Panels are numbered row by row from the top.
    pure subroutine begin_panel(sheet, number, title, x_label, y_label, most)
       type(sheet_t), intent(inout) :: sheet
       integer, intent(in) :: number
@@ -224,7 +226,7 @@ contains
       call sheet%text%line('set ylabel '//gnuplot_text(y_label)//" offset 0.6, 0 textcolor rgb '#404040'")
    end subroutine begin_panel
 
-   !> The end of the script, and the complete script.
+   !> The complete script. Its last commands are added to the sheet here.
    function end_panels(sheet) result(text)
       type(sheet_t), intent(inout) :: sheet
       character(:), allocatable :: text

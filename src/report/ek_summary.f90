@@ -1,4 +1,4 @@
-!> The key numbers at the top of a report, and key numbers that repeat another one.
+!> The key numbers at the top of a report, and the key numbers that repeat another key number.
 module ek_summary
    use ek_key_number, only: key_number_t, has_value
    implicit none(type, external)
@@ -8,16 +8,16 @@ module ek_summary
    integer, parameter :: most = 16, most_ratios = 3
    character(*), parameter :: ratio = '*_motion_ratio'
 
-   !> Key numbers at the top of a report, in this order, as far as a suspension has them. Of motion ratios, the first three of the
-   !> deck.
+   !> Candidates for the key numbers at the top of a report, in order. Key numbers without a value are omitted, and only the
+   !> first three motion ratios of the deck are used.
    character(*), parameter :: heads(*) = [character(44) :: 'bump_toe', 'bump_camber', 'wheel_rate', 'roll_centre_height_mm', &
       'wheel_roll_steer', 'camber_relative_to_road_in_roll', 'suspension_roll_rate_nm_per_deg', 'lateral_force_steer', &
       'lateral_deflection', 'aligning_torque_steer', 'braking_steer', ratio, 'anti_dive_percent', 'anti_lift_brake_percent', &
       'anti_squat_percent', 'anti_lift_drive_percent', 'ride_frequency_hz', 'steering_ratio', 'caster_trail_mm', &
       'scrub_radius_mm', 'wheel_roll_camber', 'lateral_force_camber', 'braking_deflection', 'toe_deg', 'camber_deg']
 
-   !> A key number, and an equivalent number: a slope fitted around design and its value at design; a load and its inverse; an angle
-   !> as toe and as steer angle.
+   !> A repeated key number and the equivalent key number that is shown: a slope fitted around design and its value at design;
+   !> a load and its inverse; an angle as toe and as steer angle.
    type :: pair_t
       character(44) :: repeated = '', kept = ''
    end type pair_t
@@ -57,7 +57,8 @@ contains
       end do
    end function summary_numbers
 
-   !> The index of the key number that is shown instead of key number k; 0 if there is none.
+   !> The index of the key number that is shown instead of key number k; 0 if key number k is not replaced. It is replaced if
+   !> it has no target, and an equivalent key number has a value.
    pure integer function kept_number(numbers, k) result(place)
       type(key_number_t), intent(in) :: numbers(:)
       integer, intent(in) :: k

@@ -1,6 +1,6 @@
 !> Adapts a picture drawn by gnuplot as SVG for embedding in a page.
 !>
-!> Many pictures share one page, so that the ids of each picture get a unique prefix. Prolog, document type, scripts, mouse events
+!> Many pictures share one page, so the ids of each picture get a unique prefix. Prolog, document type, scripts, mouse events
 !> and fixed sizes are removed. The view box is unchanged, so that the page determines the width.
 module ek_svg
    use ek_letters, only: as_utf8
@@ -19,8 +19,8 @@ module ek_svg
    type :: symbols_t
       integer :: count = 0
       character(24) :: names(max_symbols) = ''
-      integer :: first(max_symbols) = 0, last(max_symbols) = 0    !! letters of the output
-      character(:), allocatable :: used      !! with a blank before and after each
+      integer :: first(max_symbols) = 0, last(max_symbols) = 0    !! first and last character of a definition in the output
+      character(:), allocatable :: used      !! ids that are referred to, with a blank before and after each
    contains
       procedure :: define, refer
    end type symbols_t
@@ -69,11 +69,12 @@ contains
       svg = compact_svg(svg)
    end function embedded_svg
 
-   !> Adds the string up to the next tag, which begins at the new `at`. A blank string becomes one line end.
+   !> Adds the string up to the next tag, which begins at the new `at`. A blank string becomes one line end, or nothing if it
+   !> has no line end.
    pure subroutine add_words(out, text, at)
       type(buffer_t), intent(inout) :: out
       character(*), intent(in) :: text
-      integer, intent(inout) :: at           !! where the string begins
+      integer, intent(inout) :: at           !! position at which the string begins
       logical :: is_blank, has_end
       integer :: first
 
@@ -98,13 +99,14 @@ contains
       end if
    end subroutine add_words
 
-   !> Adds a tag, and moves `at` to after the tag. Ids and references to ids are renamed; mouse events and gnuplot's default style
-   !> are dropped. An empty group, of which gnuplot writes many, is omitted with its end.
+   !> Adds a tag, and moves `at` to the position after the tag. Ids and references to ids are renamed; mouse events and
+   !> gnuplot's default style are omitted; a bold font becomes font-weight. An empty group, of which gnuplot writes many, is
+   !> omitted with its end.
    pure subroutine add_tag(out, symbols, text, prefix, at)
       type(buffer_t), intent(inout) :: out
       type(symbols_t), intent(inout) :: symbols
       character(*), intent(in) :: text, prefix
-      integer, intent(inout) :: at           !! where the tag begins
+      integer, intent(inout) :: at           !! position at which the tag begins
       character(*), parameter :: empty = achar(line_feed)//'</g>', &
          defaults = ' stroke-width="1.00" stroke-linecap="butt" stroke-linejoin="miter"'
       integer :: begin, from, name, first, last, renamed, id(2), code
@@ -179,8 +181,8 @@ contains
       end if
    end subroutine add_tag
 
-   !> Whether an attribute name="value" can be copied unchanged. This is judged by single letters: most attributes can, and all
-   !> others are examined in full.
+   !> Whether single letters of an attribute name="value" show that it can be copied unchanged, as most attributes can. All
+   !> other attributes are examined in full.
    pure logical function is_plain(attribute, value)
       character(*), intent(in) :: attribute
       integer, intent(in) :: value           !! position of the first quote
@@ -191,11 +193,11 @@ contains
          attribute(value + 1:value + 1) /= 'u' .and. attribute(last:last) /= 'd'
    end function is_plain
 
-   !> Records where a point symbol is defined.
+   !> Records where a point symbol (an id that begins with 'gp') is defined. Other ids are skipped.
    pure subroutine define(self, name, first, last)
       class(symbols_t), intent(inout) :: self
       character(*), intent(in) :: name
-      integer, intent(in) :: first, last     !! letters of the output
+      integer, intent(in) :: first, last     !! first and last character in the output
 
       if (index(name, 'gp') /= 1 .or. len(name) > len(self%names) .or. self%count == max_symbols) return
       self%count = self%count + 1

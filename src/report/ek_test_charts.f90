@@ -1,7 +1,6 @@
-!> The standard charts of a test, side by side, in the order of quantities_of: one per quantity, then motion ratios, springs,
-!> anti-roll bars and bushings together.
-!>
-!> Quantities without a column or without a value are omitted.
+!> The standard charts of a test: one per quantity, in the order of quantities_of. One chart each follows for the motion
+!> ratios, for springs, dampers and stops, for anti-roll bars, and for bushings and joints. Quantities without a column or
+!> without a value are omitted.
 module ek_test_charts
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
@@ -17,17 +16,19 @@ module ek_test_charts
    private
    public :: test_charts, quantity_chart, ending_chart, bushing_chart, quantities_of
 
-   real(wp), parameter :: longest_arm = 20000.0_wp   !! mm; a longer swing arm is not drawn: its length passes through infinity
-   real(wp), parameter :: widest_circle = 60.0_wp    !! m; a turning circle is infinite without steering
-   integer, parameter :: max_curves = 8       !! in one chart, for legibility
+   real(wp), parameter :: longest_arm = 20000.0_wp   !! longest swing arm that is drawn [mm]: its length passes through infinity
+   real(wp), parameter :: widest_circle = 60.0_wp    !! largest turning circle that is drawn [m]: it is infinite without steering
+   integer, parameter :: max_curves = 8       !! largest number of elements in one chart, for legibility
 
 contains
 
-   !> Appends all charts of a test. Each is named <test>_<column>.
+   !> Appends all charts of a test. The chart of a quantity is named <test>_<column>; the others are named
+   !> <test>_motion_ratio, <test>_force, <test>_torsion and <test>_bushings. Curves of both sides are joined if they are
+   !> equal.
    subroutine test_charts(test, charts, number)
       type(test_result_t), intent(in) :: test
       type(chart_t), allocatable, intent(inout) :: charts(:)
-      integer, intent(in), optional :: number         !! of the test
+      integer, intent(in), optional :: number         !! index of the test
       character(48), allocatable :: columns(:)
       type(chart_t), allocatable :: drawn(:)
       logical, allocatable :: is_in_contact(:)
@@ -54,7 +55,7 @@ contains
 
    contains
 
-      !> Stores a chart that has a curve.
+      !> Stores a chart that has a curve, joins its equal sides, and sets is_level.
       subroutine take(chart)
          type(chart_t), intent(in) :: chart
 
@@ -78,7 +79,8 @@ contains
       end do
    end subroutine set_contact
 
-   !> Joins the curves of the two sides if they are equal: within a thousandth of the least span, over the same abscissa.
+   !> Joins the curves of the two sides if they are equal within a thousandth of the least span. Either both have the same
+   !> abscissa, or one has the abscissa of the other in reverse order.
    pure subroutine join_sides(chart)
       type(chart_t), intent(inout) :: chart
       logical :: is_twin(size(chart%traces))
@@ -120,7 +122,7 @@ contains
       end do
    end function all_same
 
-   !> The columns drawn for a set of charts, in descending order of importance.
+   !> The columns drawn in the charts of a kind of test, in descending order of importance.
    pure function quantities_of(kind) result(columns)
       character(*), intent(in) :: kind
       character(48), allocatable :: columns(:)
@@ -165,7 +167,8 @@ contains
       end select
    end function quantities_of
 
-   !> A chart of a test without curves. The rows of a load table do not form a path and are drawn as points.
+   !> A chart of a test, still without curves. States that do not form a path, such as the rows of a load table, are drawn as
+   !> points.
    pure type(chart_t) function chart_of(test, name, title, label) result(chart)
       type(test_result_t), intent(in) :: test
       character(*), intent(in) :: name, title, label
@@ -174,8 +177,8 @@ contains
       chart%has_points = is_scattered(test%kind)
    end function chart_of
 
-   !> The chart of a quantity of every wheel, or of the axle, over the abscissa of the test. It has no curves if there is no such
-   !> column.
+   !> The chart of a quantity of every wheel, or of the axle, over the abscissa of the test. The chart has no curves if there
+   !> is no such column.
    pure type(chart_t) function quantity_chart(test, quantity) result(chart)
       type(test_result_t), intent(in) :: test
       type(quantity_t), intent(in) :: quantity
@@ -208,11 +211,12 @@ contains
       end do
    end function quantity_chart
 
-   !> The chart of all columns with a suffix, labelled by the name before the suffix. The columns of wheels and axle are omitted.
+   !> The chart of all columns with a suffix, labelled by the name before the suffix. Only the first eight columns are drawn.
+   !> The columns of wheels and axle are omitted.
    pure type(chart_t) function ending_chart(test, name, ending, title, label, noise) result(chart)
       type(test_result_t), intent(in) :: test
       character(*), intent(in) :: name, ending, title, label
-      real(wp), intent(in) :: noise              !! in units of the column; a smaller span is drawn flat
+      real(wp), intent(in) :: noise              !! least span of the y axis, in the unit of the column
       character(name_length) :: stem
       integer :: k, place, columns
 
@@ -248,10 +252,11 @@ contains
       end do
    end function colour_of
 
-   !> The chart of the force magnitude of every bushing; of many bushings, the bushings with the largest force.
+   !> The chart of the force magnitude of every bushing and joint that carries a force. Of more than eight, the elements with
+   !> the largest force are drawn.
    pure type(chart_t) function bushing_chart(test, elements) result(chart)
       type(test_result_t), intent(in) :: test
-      character(*), intent(in), optional :: elements(:)    !! only these; absent: all with _fx_n, _fy_n, _fz_n
+      character(*), intent(in), optional :: elements(:)    !! restriction to these elements; absent: all with _fx_n, _fy_n, _fz_n
       real(wp), allocatable :: force(:, :)
       character(name_length), allocatable :: names(:)
       integer :: k, carrying
@@ -268,15 +273,16 @@ contains
       end do
    end function bushing_chart
 
-   !> Finds the elements with columns _fx_n, _fy_n and _fz_n, in the order of the columns, and the magnitudes of their forces. If
-   !> there are more elements than fit in a chart, the elements with the largest force are returned.
+   !> Finds the elements with columns _fx_n, _fy_n and _fz_n that carry a force, in the order of the columns, and the
+   !> magnitudes of their forces. If there are more elements than fit in a chart, the elements with the largest force are
+   !> returned.
    pure subroutine largest_forces(table, is_good, names, force, carrying, elements)
       type(table_t), intent(in) :: table
       logical, intent(in) :: is_good(:)                    !! rows to consider
       character(name_length), allocatable, intent(out) :: names(:)
-      real(wp), allocatable, intent(out) :: force(:, :)    !! N (row, name); NaN elsewhere
-      integer, intent(out) :: carrying                     !! elements that carry a force
-      character(*), intent(in), optional :: elements(:)    !! only these
+      real(wp), allocatable, intent(out) :: force(:, :)    !! [N] (row, name); NaN in rows that are not considered
+      integer, intent(out) :: carrying                     !! number of elements that carry a force
+      character(*), intent(in), optional :: elements(:)    !! restriction to these elements
       character(*), parameter :: ending = '_fx_n'
       real(wp) :: peak(size(table%columns)), least
       integer :: places(3), k, row, n, at

@@ -1,5 +1,5 @@
-!> The suspension on a turntable of the page: its lines, fixed to its bodies, and the poses of the bodies in states of the travel
-!> and of the steering. Every state is one of the tests; between two of them nothing is shown.
+!> The suspension on a turntable of the page: its lines, fixed to its bodies, and the poses of the bodies in states of the
+!> travel and of the steering. Every state is a solved state of a test; poses are not interpolated between states.
 module ek_turntable
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp, pi, millimetre
@@ -21,39 +21,39 @@ module ek_turntable
    private
    public :: turntable_t, make_turntable, add_turntable
 
-   integer, parameter :: most_states = 25        !! of a test
-   integer, parameter :: corners = 32            !! of the circle of a tread
+   integer, parameter :: most_states = 25        !! largest number of states of a test, in addition to design
+   integer, parameter :: corners = 32            !! corners of the circle of a tread
 
    !> A line through points, each fixed to a body.
    type :: fixed_line_t
       character(8) :: kind = ''                  !! part to which it belongs: arm, carrier, rod, damper, spring, wheel
-      integer, allocatable :: body(:)            !! of each point; 0: the chassis
-      real(wp), allocatable :: arm(:, :)         !! from the reference point of its body, body axes (3, points) [m]
+      integer, allocatable :: body(:)            !! body of each point; 0: the chassis
+      real(wp), allocatable :: arm(:, :)         !! position of each point in its body, body axes (3, points) [m]
    end type fixed_line_t
 
    !> States of one test, as poses of the bodies.
    type :: motion_t
       character(:), allocatable :: test, label   !! name of the test; moved quantity with unit
-      real(wp), allocatable :: value(:)          !! in that unit
+      real(wp), allocatable :: value(:)          !! value of the moved quantity in each state, in the unit of the label
       real(wp), allocatable :: pose(:, :, :)     !! reference point [m], quaternion q1 to q3 with q0 ≥ 0: (6, body, state)
       integer :: design = 0                      !! index of the state nearest to design
    end type motion_t
 
    type :: turntable_t
       integer :: bodies = 0
-      real(wp) :: frame(3) = 1.0_wp              !! from the program's frame to the deck's frame
-      real(wp) :: turn = -116.0_wp               !! at first, deg: where the reader stands, from the x axis of the deck towards y
+      real(wp) :: frame(3) = 1.0_wp              !! directions of the deck's axes along the axes of the program: 1 or −1
+      real(wp) :: turn = -116.0_wp               !! initial direction of the viewer [deg], from the x axis of the deck towards y
       type(fixed_line_t), allocatable :: lines(:)
       type(motion_t), allocatable :: motions(:)
    end type turntable_t
 
 contains
 
-   !> Creates the turntable of a report. The turntable is not allocated if no body moves.
+   !> Creates the turntable of a report. `table` is not allocated if no test moves the suspension.
    subroutine make_turntable(suspension, tests, paths, table)
       type(suspension_t), intent(in) :: suspension
       type(test_result_t), intent(in) :: tests(:)
-      type(path_t), intent(in) :: paths(:)                 !! of the tests
+      type(path_t), intent(in) :: paths(:)                 !! paths of the tests
       type(turntable_t), allocatable, intent(out) :: table
       integer :: chosen(2), k, n
 
@@ -88,7 +88,7 @@ contains
       if (frame(1) < 0.0_wp) first_turn = first_turn - sign(180.0_wp, first_turn)
    end function first_turn
 
-   !> Adds the bars of the skeletons.
+   !> Adds the bars of the skeletons of all bodies.
    subroutine add_bodies(suspension, lines)
       type(suspension_t), intent(in) :: suspension
       type(fixed_line_t), allocatable, intent(inout) :: lines(:)
@@ -176,8 +176,8 @@ contains
       call move_alloc(more, lines)
    end subroutine add_line
 
-   !> Takes states of a test: the first and the last state that were reached, and states between them; the state nearest to design
-   !> is included.
+   !> Takes up to 25 states of a test at equal intervals, from the first to the last state that was reached, and the state
+   !> nearest to design. States without a value of the abscissa are omitted.
    subroutine take_motion(suspension, test, path, motion)
       type(suspension_t), intent(in) :: suspension
       type(test_result_t), intent(in) :: test
@@ -266,7 +266,7 @@ contains
       call json%close('}')
    end subroutine add_turntable
 
-   !> Poses as one list, with a factor for each of their six numbers.
+   !> Poses as one list. Each of the six numbers of a pose is multiplied by its factor.
    pure function scaled(pose, factors) result(list)
       real(wp), intent(in) :: pose(:, :, :), factors(6)
       real(wp) :: list(size(pose))

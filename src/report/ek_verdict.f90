@@ -45,7 +45,8 @@ module ek_verdict
 
 contains
 
-   !> Lists the lines. A domain is omitted if the report has none of its key numbers.
+   !> Lists the lines: incomplete tests, load at design, one line per domain, largest load. A line is omitted if the report
+   !> does not have the numbers of this line.
    subroutine verdict_lines(report, lines)
       type(report_t), intent(in) :: report
       type(verdict_t), allocatable, intent(out) :: lines(:)
@@ -158,7 +159,7 @@ contains
       if (verdict /= '') words = words//' ('//trim(verdict)//' '//band//')'
    end subroutine speak
 
-   !> Finds the band of a key number, and the verdict 'inside' or 'outside'; '' without a band.
+   !> Finds the band of a key number, and the verdict 'inside' or 'outside'. The verdict is '' without a band or a value.
    subroutine find_band(number, verdict, band)
       type(key_number_t), intent(in) :: number
       character(7), intent(out) :: verdict
@@ -199,8 +200,8 @@ contains
       if (limit < 0.0_wp) text = '−'//text
    end function short
 
-   !> Phrase about the largest force on a member if the loads of the members are requested; otherwise about the largest force on the
-   !> rack.
+   !> Phrase about the largest force on a member if the loads of the members are requested; otherwise about the largest force
+   !> on the rack. '' if this force is not known.
    function largest_load(report) result(text)
       type(report_t), intent(in) :: report
       character(:), allocatable :: text
@@ -223,7 +224,7 @@ contains
          trim(report%loads%cases(report%loads%case(resultant, e)))
    end function largest_load
 
-   !> The line for a terminal, with hyphens as minus signs.
+   !> A line of the verdict for a terminal, with hyphens as minus signs.
    pure function plain(text) result(ascii)
       character(*), intent(in) :: text
       character(:), allocatable :: ascii

@@ -1,7 +1,7 @@
 !> Three views of a suspension at design with the names of its hardpoints: from the left, from the front and from above.
 !>
-!> Of an axle the left half is drawn, names without 'left_'. Axes are the axes of the deck [mm]; seen from the left and from
-!> above, the front of the car is at the left.
+!> Of an axle, the left half is shown, and the names of its points are without 'left_'. Axes are the axes of the deck [mm]. In
+!> the views from the left and from above, the front of the car is at the left.
 module ek_views
    use ek_kinds, only: wp, millimetre
    use ek_text, only: str
@@ -23,15 +23,15 @@ module ek_views
    integer, parameter :: views = 3, name_length = 63
    ! axes of a panel: to the right and upward; their directions in the frame of the program (x rearward, y to the right, z up)
    integer, parameter :: across(views) = [1, 2, 1], upward(views) = [3, 3, 2]
-   real(wp), parameter :: sense(views) = [1.0_wp, -1.0_wp, 1.0_wp]      ! of the axis to the right; seen from the front, left is right
+   real(wp), parameter :: sense(views) = [1.0_wp, -1.0_wp, 1.0_wp]      ! of the axis to the right; from the front, left is right
    character(14), parameter :: titles(views) = [character(14) :: 'From the left', 'From the front', 'From above']
    character(1), parameter :: axes(3) = ['x', 'y', 'z']
-   real(wp), parameter :: room = 0.12_wp         !! around the points, share of the view
+   real(wp), parameter :: room = 0.12_wp         !! margin around the points, as a share of their span
 
-   !> The hardpoints of a half with their names.
+   !> The hardpoints that are shown, with their names.
    type :: points_t
       character(name_length), allocatable :: names(:)
-      real(wp), allocatable :: at(:, :)          !! frame of the program [m]
+      real(wp), allocatable :: at(:, :)          !! positions in the frame of the program [m]
    end type points_t
 
 contains

@@ -54,7 +54,8 @@ contains
       self%is_empty = .false.
    end subroutine json_close
 
-   !> Adds an item. `literal` is created by json_string, json_strings, json_number, json_numbers, or by str for an integer.
+   !> Adds an item of an object. `literal` is created by json_string, json_strings, json_number, json_numbers, or by str for
+   !> an integer.
    pure subroutine json_item(self, key, literal)
       class(json_t), intent(inout) :: self
       character(*), intent(in) :: key, literal

@@ -1,5 +1,6 @@
-!> A table of results: named columns, one row per state, and header lines on its origin. As comma-separated text it has lines that
-!> begin with `# `, a line of column names, and one line per row. Numbers have 15 significant digits; `nan` is a missing value.
+!> A table of results: named columns, one row per state, and header lines on its origin. As CSV, a table has header lines that
+!> begin with `# `, a line of column names, and one line per row. Numbers have 15 significant digits; `nan` is a missing
+!> value.
 module ek_table
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan, ieee_is_finite, ieee_is_nan
    use ek_kinds, only: wp
@@ -21,8 +22,8 @@ module ek_table
    type :: table_t
       character(name_length), allocatable :: columns(:)   !! names with unit suffix, e.g. toe_deg
       real(wp), allocatable :: values(:, :)               !! (column, row): a row is contiguous
-      logical, allocatable :: is_whole(:)                 !! column of integers: state, iterations
-      type(message_list_t) :: header                      !! written above the table, each with '# '
+      logical, allocatable :: is_whole(:)                 !! the column contains integers: state, iterations, …
+      type(message_list_t) :: header                      !! lines above the columns, each written after '# '
    end type table_t
 
    character(*), parameter :: whole_names(5) = [character(13) :: 'state', 'converged', 'stable', 'near_singular', 'iterations']
@@ -31,7 +32,7 @@ contains
 
    !> A table with a number of rows, in which all values are NaN.
    pure type(table_t) function new_table(columns, rows) result(table)
-      character(*), intent(in) :: columns(:)    !! without comma, quote or line end
+      character(*), intent(in) :: columns(:)    !! names without comma, quote or line end
       integer, intent(in) :: rows
       integer :: k
 
@@ -103,7 +104,7 @@ contains
       row_count = size(table%values, 2)
    end function row_count
 
-   !> The table as a string, for tests and benchmarks. Files are written row by row.
+   !> The table as a CSV string, for tests and benchmarks. Files are written row by row.
    pure function csv_text(table) result(text)
       type(table_t), intent(in) :: table
       character(:), allocatable :: text
@@ -117,7 +118,7 @@ contains
       text = buffer%text()
    end function csv_text
 
-   !> One row as a line with its line end.
+   !> One row of a table as a CSV line, with line end.
    pure function csv_row(values, is_whole) result(text)
       real(wp), intent(in) :: values(:)
       logical, intent(in) :: is_whole(:)        !! the columns of integers
@@ -139,7 +140,7 @@ contains
       text = line(:filled)
    end function csv_row
 
-   !> The nearest integer of values small enough to have a fraction; NaN for NaN.
+   !> The nearest integer, for magnitudes below 1e15; larger values, which have no fraction, and NaN are unchanged.
    elemental real(wp) function whole(value)
       real(wp), intent(in) :: value
 
@@ -148,7 +149,7 @@ contains
       if (abs(value) < 1e15_wp) whole = anint(value)
    end function whole
 
-   !> The header lines and the line of column names.
+   !> The header lines and the line of column names, as in a CSV file.
    pure function csv_head(table) result(text)
       type(table_t), intent(in) :: table
       character(:), allocatable :: text
@@ -172,7 +173,8 @@ contains
       text = buffer%text()//line_end
    end function csv_head
 
-   !> Writes the table; the file is complete or does not exist.
+   !> Writes the table as a CSV file. An error leaves an older file unchanged and no incomplete file. A column name with a
+   !> comma, a quote or a line end is an error.
    subroutine write_csv(table, path, error)
       type(table_t), intent(in) :: table
       character(*), intent(in) :: path
@@ -214,7 +216,7 @@ contains
       call write_standard_output(buffer%text(), error)
    end subroutine print_csv
 
-   !> Reads a table. All lines with # go to the header; empty lines are skipped.
+   !> Reads a table from a CSV file. All lines that begin with # are header lines; empty lines are skipped.
    subroutine read_csv(path, table, error, may_stream, has_text)
       character(*), intent(in) :: path
       type(table_t), intent(out) :: table
@@ -281,7 +283,7 @@ contains
       at = at(:used + 1)
    end subroutine find_commas
 
-   !> Creates the table from the line of column names.
+   !> Creates the table from the line of column names, with the header lines that were read before.
    pure subroutine take_names(content, rows, table)
       character(*), intent(in) :: content
       integer, intent(in) :: rows
@@ -301,12 +303,12 @@ contains
       table%header = header
    end subroutine take_names
 
-   !> Reads one line of numbers.
+   !> Reads one line of numbers into a row of the table.
    pure subroutine take_row(content, where, row, skips, table, error)
       character(*), intent(in) :: content
       character(*), intent(in) :: where                  !! 'file:line: ' for messages
       integer, intent(in) :: row
-      logical, intent(in) :: skips                       !! fields that are not numbers become nan
+      logical, intent(in) :: skips                       !! .true.: fields that are empty or in quotes remain nan
       type(table_t), intent(inout) :: table
       type(error_t), allocatable, intent(out) :: error
       integer, allocatable :: at(:)

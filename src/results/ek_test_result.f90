@@ -15,35 +15,35 @@ module ek_test_result
 
    character(*), parameter :: travel_column = 'wheel_travel_mm'
    character(*), parameter :: axes_mark = 'axes ', iso = 'iso', right_mark = ', a right wheel'
-   real(wp), parameter :: min_stroke = 1.0_wp   !! mm; with less travel the abscissa is the load factor
+   real(wp), parameter :: min_stroke = 1.0_wp   !! least travel [mm] of kind 'other'; with less, the abscissa is the load factor
 
    !> The grid of a test over travel and steering: its levels in ascending order, and the row of the table at each pair of levels.
    type :: test_grid_t
-      real(wp), allocatable :: travel(:)     !! mm
-      real(wp), allocatable :: steer(:)      !! of the driver, in its unit
-      character(:), allocatable :: driver    !! its name
-      character(3) :: unit = 'mm'            !! of its values: mm or deg
-      integer, allocatable :: row(:, :)      !! (travel, steer); 0: the state did not converge
+      real(wp), allocatable :: travel(:)     !! levels of the wheel travel [mm]
+      real(wp), allocatable :: steer(:)      !! levels of the driver, in `unit`
+      character(:), allocatable :: driver    !! name of the driver
+      character(3) :: unit = 'mm'            !! unit of the driver: mm, deg or -
+      integer, allocatable :: row(:, :)      !! row of the table: (travel, steer); 0: the state did not converge
    end type test_grid_t
 
    type :: test_result_t
       character(:), allocatable :: name      !! name of the case, unique in a report
-      character(:), allocatable :: kind      !! 'parallel_travel', 'roll', 'lateral_force', …; 'other'
-      character(:), allocatable :: title     !! heading
+      character(:), allocatable :: kind      !! kind of test: 'parallel_travel', 'roll', 'lateral_force', …; 'other'
+      character(:), allocatable :: title     !! heading of the test on a page
       character(:), allocatable :: file      !! file of the table, in the folder of the report
-      !> Abscissa of the charts: a column of each wheel or of the axle; its label with unit; unit of the label per unit
-      !> of the column
+      !> Abscissa of the charts: a column of each wheel or of the axle; its label with unit. abscissa_size is the value in the
+      !> unit of the label per unit of the column.
       character(:), allocatable :: abscissa, label
       real(wp) :: abscissa_size = 1.0_wp
       real(wp) :: factor_size = 1.0_wp       !! load or displacement at `factor` = 1 [N, N m or mm]
       character(48) :: held = ''             !! condition of the wheels: 'vertical force held'; '': unknown
       logical :: is_anti = .false.           !! the loads on the right and left wheels are opposite
       logical :: is_iso = .false.            !! vectors in the table are in ISO 8855 axes (x forward, y left)
-      character(name_length), allocatable :: prefixes(:)   !! of the wheels: '', or 'left_' and 'right_'
-      integer, allocatable :: sides(:)       !! of the wheels: −1 left, +1 right
+      character(name_length), allocatable :: prefixes(:)   !! prefixes of the columns of the wheels: '', or 'left_' and 'right_'
+      integer, allocatable :: sides(:)       !! sides of the wheels: −1 left, +1 right
       logical :: is_run = .true.             !! false: the model could not be solved, and the table is empty
       type(table_t) :: table
-      type(test_grid_t), allocatable :: grid !! of a test whose states form a grid
+      type(test_grid_t), allocatable :: grid !! grid of the states; not allocated: no grid
       character(:), allocatable :: envelope  !! file of the wheel envelope of a grid, in the folder of the report
       type(message_list_t) :: remarks        !! messages on failed or doubtful states
    end type test_result_t
@@ -54,7 +54,7 @@ contains
    !> no prefix.
    pure function frame_line(is_iso, side) result(line)
       logical, intent(in) :: is_iso
-      integer, intent(in) :: side           !! of a single wheel: −1 left, +1 right; 0: two wheels or none
+      integer, intent(in) :: side           !! side of a single wheel: −1 left, +1 right; 0: two wheels or none
       character(:), allocatable :: line
 
       line = axes_mark//'x-rear'
@@ -76,7 +76,7 @@ contains
    !> Sets prefixes and sides from the columns, the left wheel first. A single wheel has no prefix; its side is given.
    pure subroutine find_wheels(test, side)
       type(test_result_t), intent(inout) :: test
-      integer, intent(in), optional :: side      !! of a single wheel; absent: left
+      integer, intent(in), optional :: side      !! side of a single wheel; absent: left
       integer :: k, place
 
       test%prefixes = [character(name_length) ::]
@@ -98,8 +98,9 @@ contains
       test%sides = test%sides([2, 1])
    end subroutine find_wheels
 
-   !> Sets the abscissa of the charts for a kind of test, if the table has the column of the abscissa. An abscissa that is already
-   !> set is unchanged.
+   !> Sets the abscissa of the charts for a kind of test. An abscissa that is already set is unchanged. The abscissa is the
+   !> load factor if the table does not have the column of the abscissa, or if a test of kind 'other' has less travel than
+   !> min_stroke.
    subroutine choose_abscissa(test)
       type(test_result_t), intent(inout) :: test
       type(rig_test_t) :: kind
@@ -127,7 +128,7 @@ contains
 
    contains
 
-      !> Span of a column over all wheels, in the unit of the column.
+      !> The largest span of a column of any wheel or of the axle, in the unit of the column; 0 without values.
       pure real(wp) function stroke(name)
          character(*), intent(in) :: name
          real(wp) :: range(2)
@@ -171,7 +172,7 @@ contains
       has_column = any([(wheel_column(test, k, name) > 0, k=1, size(test%prefixes) + 1)])
    end function has_column
 
-   !> Whether each row is a converged state.
+   !> Whether each row is a converged state. Without a column `converged`, every row is.
    pure function converged_rows(table) result(is_good)
       type(table_t), intent(in) :: table
       logical :: is_good(size(table%values, 2))
@@ -184,8 +185,9 @@ contains
       where (is_good) is_good = table%values(place, :) > 0.5_wp
    end function converged_rows
 
-   !> Whether each row is a converged state around design over which the factor is monotonic. If a path turns back (limit points,
-   !> follow = 'arc'), a factor has several states; slopes and interpolation use the branch through design.
+   !> Whether each row is a converged state on the branch through design, along which the factor does not turn back. If a path
+   !> turns back (limit points, follow = 'arc'), several states have the same factor; slopes and interpolation use only this
+   !> branch. Without a column `factor`, every converged row is.
    pure function unfolded_rows(table) result(is_good)
       type(table_t), intent(in) :: table
       logical :: is_good(size(table%values, 2))
@@ -203,8 +205,8 @@ contains
 
    contains
 
-      !> The index of the first row on one side at which the factor changes direction; the index after the last row if there is
-      !> none.
+      !> The index of the first row on one side of `middle` at which the factor changes direction. If there is none, it is the
+      !> index before the first row or after the last row.
       pure integer function rotation_behind(middle, step) result(row)
          integer, intent(in) :: middle, step
          real(wp) :: before, way, first_way
@@ -225,7 +227,7 @@ contains
 
    end function unfolded_rows
 
-   !> Index of the row of the design state, with `factor` = 0; 0 if there is no converged row.
+   !> Index of the last converged row with `factor` = 0, the design state; 0 if there is no such row.
    pure integer function design_row(table) result(row)
       type(table_t), intent(in) :: table
       logical :: is_good(size(table%values, 2))

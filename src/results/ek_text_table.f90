@@ -1,6 +1,7 @@
 !> A table of strings as comma-separated values (RFC 4180): a line of column names, then one line per row.
 !>
-!> A cell with a comma, a quote or a line end is quoted. Lines that begin with # are skipped.
+!> A cell is quoted if it contains a comma, a quote or a line end, or begins with #. Lines of a file that begin with # are
+!> skipped, and so are empty lines.
 module ek_text_table
    use ek_error, only: error_t, message_list_t, fail, exit_file
    use ek_text, only: str, quoted, plural
@@ -21,7 +22,7 @@ module ek_text_table
    type :: text_table_t
       character(:), allocatable :: file             !! source file, for messages
       character(32), allocatable :: columns(:)
-      type(cell_t), allocatable :: cells(:, :)      !! (column, row), the first `rows` rows
+      type(cell_t), allocatable :: cells(:, :)      !! cells: (column, row); the first `rows` rows are in use
       integer, allocatable :: lines(:)              !! line of each row in its file
       integer :: rows = 0
    end type text_table_t
@@ -72,7 +73,7 @@ contains
       end do
    end function cell_of
 
-   !> The table as CSV text.
+   !> The table as a CSV string.
    pure function text_table_csv(table) result(text)
       type(text_table_t), intent(in) :: table
       character(:), allocatable :: text
