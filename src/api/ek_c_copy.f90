@@ -30,7 +30,7 @@ contains
       other%is_open = code == ek_ok
    end function ek_copy
 
-   !> Number of files of the deck: the deck and all files that it names.
+   !> Number of files of the deck: the deck and all files that it names. 0 if the deck could not be read.
    integer(c_int) function ek_file_count(model) bind(c) result(count)
       type(c_ptr), value :: model
       type(handle_t), pointer :: handle

@@ -313,7 +313,7 @@ contains
       end select
    end subroutine obey
 
-   !> Help for a command; '' gives the overview.
+   !> Help for a command; the overview for '' or an unknown name.
    pure function help_text(name) result(text)
       character(*), intent(in) :: name
       character(:), allocatable :: text

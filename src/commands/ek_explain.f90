@@ -30,10 +30,10 @@ module ek_explain
    public :: explain
 
    type, extends(deck_settings_t) :: settings_t
-      character(name_length), allocatable :: columns(:)     !! names or patterns
+      character(name_length), allocatable :: columns(:)     !! names or patterns of columns
       type(message_list_t) :: rigid                         !! names of elements, or element.part
       logical :: has_scan = .false., has_json = .false., has_place = .false.
-      real(wp) :: place = 0.0_wp                            !! swept value that is printed, in its unit
+      real(wp) :: place = 0.0_wp                            !! swept value of --at, in the unit of the case
    end type settings_t
 
 contains

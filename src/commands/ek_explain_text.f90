@@ -17,9 +17,9 @@ module ek_explain_text
    private
    public :: add_largest, add_rigid, add_scan
 
-   integer, parameter :: shown = 10            !! rows of a column
-   integer, parameter :: longest_bar = 30      !! letters
-   real(wp), parameter :: added_rate = 1.0e6_wp      !! N/m: 1 kN/mm
+   integer, parameter :: shown = 10            !! largest number of rows per column
+   integer, parameter :: longest_bar = 30      !! length of the longest bar [letters]
+   real(wp), parameter :: added_rate = 1.0e6_wp      !! rate of the added spring [N/m]: 1 kN/mm
 
 contains
 
@@ -62,7 +62,7 @@ contains
          repeat(merge('+', '-', value > 0.0_wp), letters))
    end subroutine add_bar
 
-   !> Adds the value of each requested column with some laws rigid, or with a stiffness of 1 kN/mm added to one law.
+   !> Adds the value of each requested column, and its value with some laws rigid.
    subroutine add_rigid(suspension, name, laws, kkt, table, text)
       type(suspension_t), intent(in) :: suspension
       character(*), intent(in) :: name                 !! name of the rigid element or axis
@@ -85,7 +85,7 @@ contains
       end do
    end subroutine add_rigid
 
-   !> Adds the locations at which an added spring of 1 kN/mm changes a column most. The locations are along axes of bushings and
+   !> Adds the ten locations at which an added spring of 1 kN/mm changes a column most. The locations are along axes of bushings and
    !> parallel to springs.
    subroutine add_scan(suspension, kkt, table, text)
       type(suspension_t), intent(in) :: suspension

@@ -1,6 +1,6 @@
 !> Man pages, and completion for bash, zsh and fish, from the tables of commands and options that --help prints (ek_command).
 !>
-!> `elastokin --help-files DIR` writes them in the folders of a share folder; the build calls it.
+!> `elastokin --help-files DIR` writes these files into subfolders of DIR; the build runs this command.
 module ek_help_files
    use ek_error, only: error_t
    use ek_file, only: join_path, make_folder, write_whole

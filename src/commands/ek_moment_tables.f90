@@ -1,4 +1,5 @@
-!> The moments of a tolerance study: converts its expansion to tables, and reads the tables back for figures and page.
+!> The moments of a tolerance study: takes them from its expansion and from its designs, writes them as tables, and reads the tables
+!> back for figures and page.
 !>
 !>     <study>_moments.csv   one row per response and method: mean, deviation, skewness, percentiles, share within the limits
 !>     <study>_shares.csv    one row per response and factor: derivatives and shares of the variance
@@ -87,8 +88,8 @@ contains
 
    end subroutine take_tolerance
 
-   !> Copies the data that the figures of one factor at a time and of the indices need in addition to the values at the ends of the
-   !> ranges.
+   !> Sets the smallest and largest value of a response, and errors of 0 for its indices. The figures of one factor at a time and
+   !> the figures of the indices need these data.
    pure subroutine take_ranges(data, r)
       type(study_data_t), intent(inout) :: data
       integer, intent(in) :: r
@@ -202,7 +203,7 @@ contains
 
    end subroutine write_moments
 
-   !> Adds the remaining cells of a row; nan for a limit that is not given.
+   !> Adds the remaining cells of a row; nan for a limit that is not given and for an unknown value.
    subroutine add_numbers(csv, values)
       type(buffer_t), intent(inout) :: csv
       real(wp), intent(in) :: values(:)
@@ -221,7 +222,8 @@ contains
       call csv%line('')
    end subroutine add_numbers
 
-   !> Reads the tables of a finished study. Components without a table, or whose table does not match, stay unallocated.
+   !> Reads the tables of a finished study. If the tables of moments and shares are missing or do not match, `moments` stays
+   !> unallocated, and no bands are read. If the table of bands is missing or does not match, `expected` has no columns.
    subroutine read_moments(out, data)
       character(*), intent(in) :: out
       type(study_data_t), intent(inout) :: data

@@ -57,15 +57,15 @@ module ek_report
    integer, parameter :: most_live = 24      ! rates: more make the page slow and large
 
    type, extends(deck_settings_t) :: settings_t
-      type(windows_t) :: windows                     !! of gradients
+      type(windows_t) :: windows                     !! windows of the gradients
       logical :: has_plots = .true., is_animated = .false., is_static = .false., has_loads = .false.
-      integer :: live = 0                            !! rates that the page can change
+      integer :: live = 0                            !! number of rates that the page can change; 0: no sliders
    end type settings_t
 
 contains
 
-   !> Runs the tests of a deck and writes all files. If a test fails part way, its converged states are written, and `error` has the
-   !> code exit_convergence at the end.
+   !> Runs the tests of a deck and writes all files. If a test fails part way, its converged states are written. `error` then has
+   !> the code exit_convergence at the end, or the code of a test that could not be run.
    subroutine report(line, error)
       type(command_line_t), intent(in) :: line
       type(error_t), allocatable, intent(out) :: error
@@ -157,7 +157,7 @@ contains
 
    !> Writes the gradients, the key numbers with their targets, and the list of tests.
    subroutine write_numbers(workspace, checksum, page, unprinted, error)
-      type(workspace_t), intent(in) :: workspace                !! balanced
+      type(workspace_t), intent(in) :: workspace                !! with trimmed preloads
       character(*), intent(in) :: checksum
       type(report_t), intent(inout) :: page                     !! with the gradients; gets the key numbers
       type(error_t), allocatable, intent(inout) :: unprinted    !! a path could not be printed
@@ -240,8 +240,8 @@ contains
       end if
    end subroutine read_live
 
-   !> Runs the tests and writes their tables. Also writes the compliance matrix at every state of the first test that was run, for a
-   !> suspension with wheels.
+   !> Runs the tests, writes their tables and the envelopes of grid tests, and collects gradients and charts. Also writes the
+   !> compliance matrix at every state of the first test that was run, for a suspension with wheels.
    subroutine run_tests(windows, suspension, chosen, found, checksum, page, unprinted, incomplete, error)
       type(windows_t), intent(in) :: windows
       type(suspension_t), intent(in) :: suspension
@@ -336,8 +336,9 @@ contains
       call add_fact(page, 'Date', date_text())
    end subroutine set_head
 
-   !> Runs one test. The remarks of the test report every failure to converge. `error` then has the code exit_convergence (or
-   !> exit_model if the model cannot be solved), and the table has the states before the failure.
+   !> Runs one test. If the test does not converge at every state, `error` has the code exit_convergence, the remarks of the test
+   !> contain each failure, and the table has the converged states. If the model cannot be solved, `error` has the code exit_model,
+   !> and the table is empty.
    subroutine run_planned(base, case, fault, checksum, test, path, error, compliance, loads, explanations, live)
       type(suspension_t), intent(in) :: base
       type(case_t), intent(in) :: case

@@ -1,4 +1,5 @@
-!> elastokin run: builds the model of a deck, and for each case solves the sweep and writes the table as CSV and the figures.
+!> elastokin run: builds the model of a deck. For each case, solves the sweep and writes the table as CSV and, if requested, the
+!> figures.
 module ek_run
    use ek_kinds, only: wp
    use ek_error, only: error_t, fail, exit_usage, exit_convergence
@@ -30,15 +31,16 @@ module ek_run
 
    type, extends(deck_settings_t) :: settings_t
       logical :: has_plots = .false., has_compliance = .false., has_json = .false., has_loads = .false.
-      character(name_length), allocatable :: columns(:)     !! of the tables; not allocated: all
+      character(name_length), allocatable :: columns(:)     !! columns of the tables; not allocated: all
    end type settings_t
 
    character(*), parameter :: compliance_ending = '_compliance.csv'
 
 contains
 
-   !> Runs the chosen cases of a deck. If a case fails part way, its converged states are written, and the other cases are run. At
-   !> the end, `error` has the code of the first failure other than lack of convergence; otherwise exit_convergence.
+   !> Runs the chosen cases of a deck. If a case fails part way, its converged states are written, and the other cases are run. If a
+   !> case failed, `error` at the end has the code of the first failure other than lack of convergence; without such a failure, it
+   !> has exit_convergence. With --responses, writes key numbers instead.
    subroutine run(line, error)
       type(command_line_t), intent(in) :: line
       type(error_t), allocatable, intent(out) :: error
@@ -170,7 +172,8 @@ contains
       end do
    end subroutine refuse_double_files
 
-   !> Runs one case: solves it, reports its remarks, and writes its table and figures.
+   !> Runs one case: solves the case, prints its messages, and writes its table. If requested, also writes its figures, its
+   !> compliance matrix, and the state that meets its target, and adds its loads and its JSON object.
    subroutine run_case(settings, base, wanted, fault, checksum, json, loads, unprinted, error)
       type(settings_t), intent(in) :: settings
       type(suspension_t), intent(in) :: base
@@ -219,8 +222,8 @@ contains
       call move_alloc(trouble, error)
    end subroutine run_case
 
-   !> Finds the swept value that meets the target of a case, reports it, and writes the state to a separate file (unless results go
-   !> to standard output). The linear methods are excluded, because their states are not equilibria.
+   !> Finds the swept value that meets the target of a case, prints a note, and writes the state to a separate file (unless results
+   !> go to standard output). The linear methods are excluded, because their states are not equilibria.
    subroutine aim(settings, result, checksum, path, unprinted, error)
       type(settings_t), intent(in) :: settings
       type(case_result_t), intent(inout) :: result

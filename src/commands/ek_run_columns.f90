@@ -15,8 +15,8 @@ module ek_run_columns
 
 contains
 
-   !> Chooses the columns of the results to which names, or patterns with *, refer, and the columns of targets. All
-   !> quantities may be named, regardless of the settings of the cases.
+   !> Chooses the result columns that match a list of names or patterns with *, and the columns of the targets of the cases. All
+   !> quantities may be named, regardless of the settings of the cases: the cases are set to compute all of them.
    subroutine choose_columns(list, suspension, cases, columns, error, option, others)
       character(*), intent(in) :: list                  !! names with commas between them
       type(suspension_t), intent(in) :: suspension      !! on no rig

@@ -14,8 +14,8 @@ module ek_study_options
 
 contains
 
-   !> Reads --jobs, --shard and --time-limit. The default of --jobs is one thread per processor; with several ranks, one thread per
-   !> rank.
+   !> Reads --jobs, --shard and --time-limit. The default of --jobs is one thread per processor, but no more than the environment
+   !> allows; with several ranks, one thread per rank.
    subroutine read_options(line, ranks, options, error)
       type(command_line_t), intent(in) :: line
       type(ranks_t), intent(in) :: ranks

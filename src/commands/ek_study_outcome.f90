@@ -23,7 +23,7 @@ module ek_study_outcome
 
 contains
 
-   !> Writes the tables, removes the chunks, and counts the designs that failed.
+   !> Writes the tables or the store, removes the chunks, and reports the designs that failed.
    subroutine write_results(line, this, hold, tables, is_missing, error)
       type(command_line_t), intent(in) :: line
       type(opened_study_t), intent(in) :: this
@@ -91,7 +91,7 @@ contains
       if (.not. allocated(error)) call tables%add(study%name//'.csv')
    end subroutine write_step_size
 
-   !> Prints the paths of the tables and draws the figures.
+   !> Prints the paths of the tables, writes the moments of a tolerance study, and draws the figures unless --no-plots is given.
    subroutine show_results(line, this, tables, error)
       type(command_line_t), intent(in) :: line
       type(opened_study_t), intent(in) :: this

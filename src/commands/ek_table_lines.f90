@@ -8,8 +8,8 @@ module ek_table_lines
    private
    public :: lines_t, open_table, next_line, take_numbers, close_table
 
-   integer, parameter :: longest_line = 200000       !! characters, of the column names
-   integer, parameter :: longest_message = 1000      !! stored characters of a reason
+   integer, parameter :: longest_line = 200000       !! length of the longest line of column names [characters]
+   integer, parameter :: longest_message = 1000      !! characters stored of the message on a failed design
 
    !> A table that is read line by line.
    type :: lines_t
@@ -21,7 +21,7 @@ module ek_table_lines
 
 contains
 
-   !> Opens a table, and reads its header and the names of its columns.
+   !> Opens a table, compares the deck checksum in its header, and reads the names of its columns.
    subroutine open_table(path, deck_sum, lines, names, error)
       character(*), intent(in) :: path
       character(*), intent(in) :: deck_sum           !! '' if it is not to be compared

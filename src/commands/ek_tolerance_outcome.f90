@@ -18,8 +18,8 @@ module ek_tolerance_outcome
    private
    public :: expand_study, write_tolerance
 
-   integer, parameter :: most_listed = 8             !! factors of a response
-   real(wp), parameter :: least_listed = 0.005_wp    !! share of the variance of a factor that is listed
+   integer, parameter :: most_listed = 8             !! largest number of listed factors of a response
+   real(wp), parameter :: least_listed = 0.005_wp    !! smallest share of the variance of a listed factor
    integer, parameter :: width = 13
 
 contains
