@@ -80,7 +80,7 @@ contains
       !$omp end critical (ek_words)
    end subroutine list
 
-   !> Name, unit or definition of a key number in the list that ek_number_count has created.
+   !> Name, unit or definition of a key number in the list of key numbers. The list is created if it is empty.
    type(c_ptr) function text_of_number(handle, k, what) result(address)
       type(handle_t), pointer, intent(in) :: handle
       integer(c_int), intent(in) :: k

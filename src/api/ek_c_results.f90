@@ -219,7 +219,7 @@ contains
       address = text_of_remark(open_handle(model), k, is_severity=.true.)
    end function ek_remark_severity
 
-   !> A remark on the last solution, or the severity of the remark.
+   !> A message on the last solution, or the severity of the message; NULL outside the list.
    type(c_ptr) function text_of_remark(handle, k, is_severity) result(address)
       type(handle_t), pointer, intent(in) :: handle
       integer(c_int), intent(in) :: k

@@ -219,8 +219,7 @@ contains
       type(workspace_t), intent(in) :: workspace
       integer, intent(in) :: k
       type(use_t), intent(in) :: uses(:)
-      real(wp), intent(in) :: walk, row          !! time of the sweep by LAPACK; time of the compliance matrix at all states of the
-                                                 !! sweep [s]
+      real(wp), intent(in) :: walk, row          !! sweep by LAPACK; compliance matrix at all states of the sweep [s]
       character(:), allocatable :: text
       character(200) :: line
       integer :: u

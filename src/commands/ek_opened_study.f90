@@ -22,7 +22,7 @@ module ek_opened_study
 
    !> An opened study: the study and its deck, the folders, the designer, and the plan of its designs.
    type :: opened_study_t
-      type(study_t) :: study                         !! study, with its factors and columns of each = .true. expanded
+      type(study_t) :: study                         !! study; factors with each = .true. and columns with * are expanded
       type(deck_t) :: deck
       character(:), allocatable :: home, out         !! folder of the study; folder of its results
       type(designer_t) :: designer
