@@ -28,7 +28,7 @@ module ek_named_numbers
 
    !> One of the cases: its required columns and range, and its last solution.
    type :: needed_case_t
-      logical :: is_first = .false.     !! whether a number always needs this case; other cases are read only if it gives no value
+      logical :: is_first = .false.     !! whether a number always needs this case; else only if earlier cases give no value
       logical :: is_solved = .false.              !! whether the case is solved for the present design
       logical :: is_missed = .false.              !! whether a number has no value because this case lacks a state
       type(solve_options_t) :: options            !! required columns; swept value beyond which no state is required
