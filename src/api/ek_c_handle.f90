@@ -50,8 +50,8 @@ contains
       if (c_associated(model)) call c_f_pointer(model, handle)
    end function handle_of
 
-   !> The handle of a model with a deck; the last message is cleared. Not associated for NULL, or if the deck could not be read. In
-   !> the latter case the message of opening the deck is unchanged.
+   !> The handle of a model with a deck; the last message is cleared. The pointer is not associated for NULL, or if the deck could
+   !> not be read. In the latter case the message of opening the deck is unchanged.
    function open_handle(model) result(handle)
       type(c_ptr), intent(in) :: model
       type(handle_t), pointer :: handle

@@ -14,7 +14,7 @@ module ek_c_numbers
 
 contains
 
-   !> Exit code after computing the key numbers with these names (elastokin.h).
+   !> Exit code after computing key numbers by name (elastokin.h).
    integer(c_int) function ek_numbers(model, n, names, values) bind(c) result(code)
       type(c_ptr), value :: model, names, values
       integer(c_int), value :: n

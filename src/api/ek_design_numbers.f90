@@ -20,8 +20,8 @@ module ek_design_numbers
    type :: path_setting_t
       character(:), allocatable :: path
       type(choice_t), allocatable :: found(:)
-      real(wp) :: value = 0.0_wp           !! in the unit of the deck
-      integer :: turn = 0                  !! order of setting; 0: not set
+      real(wp) :: value = 0.0_wp           !! last value set [unit of the deck]
+      integer :: turn = 0                  !! position in the order of setting; 0: not set
    end type path_setting_t
 
    !> The current numbers of a design, and the settings that changed them.
@@ -30,7 +30,7 @@ module ek_design_numbers
       real(wp), allocatable :: value(:)     !! values of all parameters [units of the deck], as the deck or the caller wrote them
       logical :: is_new = .false.                   !! whether the numbers changed since the workspace took them
       real(wp), allocatable, private :: unit(:), first_x(:), first_value(:)
-      integer, allocatable, private :: turn(:)      !! order of setting of each number set by its position; 0: not set
+      integer, allocatable, private :: turn(:)      !! position of each number in the order of setting; 0: not set by its index
       type(path_setting_t), allocatable, private :: settings(:)
       integer, private :: used = 0, turns = 0
    end type design_numbers_t
@@ -103,7 +103,7 @@ contains
       end do
    end function place_number
 
-   !> Adds a path that is not set yet. `setting` returns the index of its setting, which is the last one.
+   !> Adds a path that is not set yet. `setting` returns the index of the path in the list of settings.
    subroutine add_path(numbers, path, found, setting)
       type(design_numbers_t), intent(inout) :: numbers
       character(*), intent(in) :: path

@@ -11,7 +11,7 @@ module ek_model_remark
    private
    public :: model_remarks_t, find_model_remarks, read_model_remark, doubt_mark
 
-   character(*), parameter :: doubt_mark = 'plausible? '      !! begins the text of a doubt
+   character(*), parameter :: doubt_mark = 'plausible? '      !! start of a message on an implausible value
 
    !> The messages on a model. The commands print notes, warnings and implausible values in this order.
    type :: model_remarks_t

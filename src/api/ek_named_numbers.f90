@@ -32,7 +32,7 @@ module ek_named_numbers
       logical :: is_solved = .false.              !! whether the case is solved for the present design
       logical :: is_missed = .false.              !! whether a number has no value because this case lacks a state
       type(solve_options_t) :: options            !! required columns; swept value beyond which no state is required
-      type(observer_t), allocatable :: observer   !! allocated at the first solution
+      type(observer_t), allocatable :: observer   !! observer of the required columns; allocated at the first solution
       class(case_result_t), allocatable :: result
    end type needed_case_t
 
@@ -131,15 +131,17 @@ contains
       unit = self%numbers(k)%unit
    end function number_unit
 
-   !> Whether each case is solved in any event. These cases must be examined (examine_case) before the preload trim (`balance`).
+   !> Whether each case is solved in any event. Cases that are solved in any event must be examined (examine_case) before the
+   !> preload trim (`balance`).
    pure function needed_tests(numbers) result(is_needed)
       type(named_numbers_t), intent(in) :: numbers
       logical :: is_needed(size(numbers%cases))
       is_needed = numbers%cases%is_first
    end function needed_tests
 
-   !> Reads the key numbers of a design. A key number is NaN if a state that it requires did not converge, because the other states
-   !> would give another value. States beyond the window of the key number do not matter.
+   !> Reads the key numbers of a design. A key number is NaN if the model does not define the number, or if a state that the number
+   !> requires did not converge, because the other states would give another value. States beyond the window of the key number do
+   !> not matter.
    subroutine read_numbers(numbers, suspension, cases, values, is_whole, is_solvable)
       type(named_numbers_t), intent(inout) :: numbers
       type(suspension_t), intent(in) :: suspension       !! the design with trimmed preloads, on no rig

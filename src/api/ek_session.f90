@@ -1,4 +1,4 @@
-!> A deck opened for a program that calls elastokin. Part of the Fortran interface (ek_api, where it is described).
+!> A deck opened for a program that calls elastokin. Part of the Fortran interface (described in ek_api).
 module ek_session
    use ek_kinds, only: wp
    use ek_error, only: error_t
@@ -42,12 +42,12 @@ module ek_session
       type(prepared_t), allocatable :: prepared(:)  !! columns of each case
       class(workspace_t), allocatable :: other  !! workspace of the last solution if `workspace` lacks it: of the deck with its
       !!                                               numbers as strings, or of the deck before set_text or reset
-      real(wp), allocatable :: solved_x(:)          !! the numbers of the last solution
+      real(wp), allocatable :: solved_x(:)          !! values of all parameters at the last solution [SI]
       class(derived_t), allocatable :: derived      !! derivatives requested last (ek_session_derivatives)
       ! ek_session_numbers
       class(named_numbers_t), allocatable :: named  !! key numbers requested last
       character(name_length), allocatable :: names(:)
-      logical :: is_named_ready = .false.           !! the numbers were read before: a further reading creates no strings
+      logical :: is_named_ready = .false.  !! whether these key numbers were read before: a further reading creates no strings
    end type session_t
 
 contains
@@ -152,7 +152,7 @@ contains
       if (allocated(session%derived)) session%derived%derivatives%case = 0      ! of another workspace: kept as room
    end subroutine begin_workspace
 
-   !> Passes the numbers that were changed since the last solution to the workspace.
+   !> Passes the numbers to the workspace if the numbers have changed since the workspace took them.
    subroutine take_new_numbers(session)
       type(session_t), intent(inout) :: session
 

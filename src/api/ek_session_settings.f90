@@ -125,7 +125,7 @@ contains
       if (.not. allocated(error)) session%is_text_changed = .true.
    end subroutine take_text
 
-   !> Returns the number to which a path leads; NaN if the path leads to several different numbers.
+   !> Returns the number to which a path leads; NaN if the path leads to several different numbers, and 0 after an error.
    subroutine get_number(session, path, value, error)
       type(session_t), intent(inout) :: session
       character(*), intent(in) :: path

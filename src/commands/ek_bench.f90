@@ -2,8 +2,8 @@
 !>
 !> The unit is the time of dsysv for the matrices of the sweep (scaled KKT matrices of its equilibrium states) with one right-hand
 !> side. dsysv and the methods are timed in turn in the same run, so that the ratios do not depend on the speed of the machine. All
-!> times are processor times, and the minimum of many rounds counts for each, so that the load of the machine does not change the
-!> ratios.
+!> times are processor times, and the minimum of many rounds counts for each measurement, so that the load of the machine does not
+!> change the ratios.
 module ek_bench
    use ek_kinds, only: wp
    use ek_error, only: error_t, fail, exit_convergence, exit_file

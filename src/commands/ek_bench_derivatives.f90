@@ -241,7 +241,7 @@ contains
       text = text//trim(line)//nl
    end function table_of
 
-   !> Time of the derivatives with respect to one number, relative to the time of the columns.
+   !> Ratio [-] of the time of the derivatives with respect to one number, to the time of the columns themselves.
    pure real(wp) function of_one(use, row)
       type(use_t), intent(in) :: use
       real(wp), intent(in) :: row

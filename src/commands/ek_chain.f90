@@ -1,8 +1,9 @@
-!> A chain of any length: the model by which `bench --growth` measures how the time of an increment grows with the model.
+!> A chain of any length: the model with which `bench --growth` measures the growth of the time of an increment with the size of the
+!> model.
 !>
-!> Equal bodies in a row along x. A spherical joint at its beginning connects each body to the body before it, and the first body to
-!> the chassis. A bushing above each joint prevents rotation. A driver lifts the end of the last body. A body has 6 unknowns and its
-!> joint 3 rows, so that the matrix of b bodies has 9 b + 1 rows.
+!> The chain consists of equal bodies in a row along x. Each body is connected to the body before it, and the first body to the
+!> chassis, by a spherical joint at the beginning of the body. A bushing above each joint prevents rotation. A driver lifts the end
+!> of the last body. A body has 6 unknowns and its joint has 3 rows, so that the matrix of b bodies has 9 b + 1 rows.
 module ek_chain
    use ek_kinds, only: wp
    use ek_error, only: error_t

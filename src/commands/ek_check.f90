@@ -27,8 +27,8 @@ module ek_check
 contains
 
    !> Prints the findings to standard output. The last line is OK, or the counts of errors, warnings and remarks with the first of
-   !> the most severe messages. If the deck cannot be read, nothing is printed here. With --json, prints all messages as one object
-   !> in each case. `error` has the code exit_model if the model cannot be solved.
+   !> the most severe messages. After an error before the examination, as in a deck that cannot be read, nothing is printed here.
+   !> With --json, all messages are always printed, as one object. `error` has the code exit_model if the model cannot be solved.
    subroutine check(line, error)
       type(command_line_t), intent(in) :: line
       type(error_t), allocatable, intent(out) :: error
@@ -56,8 +56,8 @@ contains
       if (allocated(error)) status_of = error%code
    end function status_of
 
-   !> Reads the deck, writes it to deck_path if given, examines its model, and collects findings and messages. If the deck cannot be
-   !> read, only the error messages are collected.
+   !> Reads the deck, writes it to deck_path if given, examines its model, and collects findings and messages. After an error before
+   !> the examination, as in a deck that cannot be read, only the error messages are collected.
    subroutine examine(settings, deck_path, findings, messages, model, checksum, error)
       type(deck_settings_t), intent(in) :: settings
       character(*), intent(in) :: deck_path                !! path for the deck as it was used; '': the deck is not written

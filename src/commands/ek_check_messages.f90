@@ -14,9 +14,9 @@ module ek_check_messages
 
    !> The messages of each severity, in the order in which they were found.
    type :: check_messages_t
-      type(message_list_t) :: errors       !! deck that cannot be read, model that cannot be solved, failed preload trim
-      type(message_list_t) :: warnings     !! results that may be unreliable
-      type(message_list_t) :: remarks      !! implausible values
+      type(message_list_t) :: errors       !! messages: deck cannot be read, model cannot be solved, preload trim failed
+      type(message_list_t) :: warnings     !! messages: results may be unreliable
+      type(message_list_t) :: remarks      !! messages: implausible values
    end type check_messages_t
 
 contains

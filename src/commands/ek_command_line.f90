@@ -19,7 +19,7 @@ module ek_command_line
       character(60) :: summary    !! description in the overview
       character(720) :: text      !! description in the help of the command
       character(230) :: ending    !! last paragraph of the help, after the options
-      integer :: files = 1        !! number of files: 1: one; 2: two or more; 0: one or more
+      integer :: files = 1        !! code for the number of files: 1: one; 2: two or more; 0: one or more
       character(15) :: alone = '' !! option that can replace the files; '' for no such option
    end type command_t
 
@@ -235,7 +235,7 @@ contains
       end do
    end subroutine read_windows
 
-   !> Reads --threshold, a change in percent with or without '%', as a share.
+   !> Reads --threshold, a change in percent with or without '%', as a share. Without the option, `threshold` is unchanged.
    subroutine read_threshold(line, threshold, error)
       type(command_line_t), intent(in) :: line
       real(wp), intent(inout) :: threshold

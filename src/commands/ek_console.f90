@@ -51,7 +51,7 @@ contains
    end subroutine print_text
 
    !> Prints the path of a result to standard output. If standard output is full or closed, the work continues, because the result
-   !> exists. The first such failure is stored. A reader that closes the pipe (`| head`) is not a failure.
+   !> exists. The first failure to print a path is stored. A reader that closes the pipe (`| head`) is not a failure.
    subroutine print_path(path, unprinted)
       character(*), intent(in) :: path
       type(error_t), allocatable, intent(inout) :: unprinted      !! exit_file
@@ -75,7 +75,7 @@ contains
       if (.not. allocated(error)) call print_path(path, unprinted)
    end subroutine write_table
 
-   !> Shows a progress line that overwrites itself, if standard error is a terminal.
+   !> Shows the progress '12 of 400 states' in a line that overwrites itself, if standard error is a terminal.
    subroutine show_progress(done, total)
       integer, intent(in) :: done, total
       if (is_terminal(2)) call write_standard_error(achar(13)//'  '//str(done)//' of '//str(total)//' states')

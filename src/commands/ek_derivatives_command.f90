@@ -25,7 +25,7 @@ module ek_derivatives_command
    public :: derive
 
    character(*), parameter :: nl = new_line('a')
-   integer, parameter :: max_listed = 10      !! numbers listed for each column
+   integer, parameter :: max_listed = 10      !! largest number of numbers listed for each column
    integer, parameter :: max_columns = 8      !! largest number of columns for which numbers are listed
 
 contains

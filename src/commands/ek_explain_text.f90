@@ -1,5 +1,5 @@
-!> The printed output of elastokin explain: the largest contributions to a column with bars, and the value of the column with rigid
-!> elements or an added spring.
+!> The printed output of elastokin explain: the largest contributions to each column with bars, the value of each column with rigid
+!> elements, and the change of each column by an added spring.
 module ek_explain_text
    use ek_kinds, only: wp
    use ek_text, only: str
@@ -62,7 +62,7 @@ contains
          repeat(merge('+', '-', value > 0.0_wp), letters))
    end subroutine add_bar
 
-   !> Adds the value of each requested column, and its value with some laws rigid.
+   !> Adds the value of each requested column, and the value of the same column with some laws rigid.
    subroutine add_rigid(suspension, name, laws, kkt, table, text)
       type(suspension_t), intent(in) :: suspension
       character(*), intent(in) :: name                 !! name of the rigid element or axis

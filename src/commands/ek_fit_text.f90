@@ -19,7 +19,7 @@ module ek_fit_text
    public :: add_fit_findings
 
    real(wp), parameter :: strong = 0.95_wp           !! smallest magnitude of a listed correlation
-   real(wp), parameter :: part_of = 0.15_wp          !! limit, as a share of the largest share: larger ones belong to a combination
+   real(wp), parameter :: part_of = 0.15_wp  !! limit of a share, relative to the largest share: factors above it are combined
    integer, parameter :: most_pairs = 10
    integer, parameter :: name_width = 34
 

@@ -21,7 +21,7 @@ module ek_moment_tables
    private
    public :: take_tolerance, take_sample, write_moments, read_moments
 
-   real(wp), parameter :: normal_95 = 1.959963984540054_wp      !! standard errors in half of a 95 % interval
+   real(wp), parameter :: normal_95 = 1.959963984540054_wp      !! half width of a 95 % interval [standard errors]
    character(*), parameter :: moment_heads = 'response,method,mean,mean_half_95,deviation,deviation_half_95,skewness,p5,p95,'// &
       'lower,upper,within,within_half_95'
    character(*), parameter :: share_heads = 'response,factor,center,deviation,slope,effect,curvature,first,total,nominal,'// &
@@ -102,7 +102,7 @@ contains
       end associate
    end subroutine take_ranges
 
-   !> A row of moments of a nearly normal response.
+   !> The moments, percentiles and share within the limits of a nearly normal response.
    pure function row_of(mean, deviation, skewness, axis) result(row)
       real(wp), intent(in) :: mean, deviation, skewness
       type(study_axis_t), intent(in) :: axis
@@ -113,7 +113,8 @@ contains
          normal_yield(mean, deviation, skewness, axis%lower, axis%upper), 0.0_wp)
    end function row_of
 
-   !> Copies the results computed from the designs of the study for its responses.
+   !> Computes the moments, percentiles and share within the limits of each response from the designs of the study; NaN with fewer
+   !> than two values.
    subroutine take_sample(data)
       type(study_data_t), intent(inout) :: data
       real(wp), allocatable :: values(:)

@@ -27,7 +27,7 @@ module ek_opened_study
       character(:), allocatable :: home, out         !! folder of the study; folder of its results
       type(designer_t) :: designer
       type(study_plan_t) :: plan
-      logical :: has_store = .false.                 !! the results are written to a NetCDF file
+      logical :: has_store = .false.                 !! whether the results are written to a NetCDF file
       type(store_texts_t) :: texts
       character(:), allocatable :: build             !! build of this program; '' if unknown
       type(tolerance_t), allocatable :: tolerance    !! results of a tolerance study by derivatives

@@ -94,7 +94,7 @@ contains
       end do
    end function choices
 
-   !> A string on one line, with one blank between two parts.
+   !> A string on one line: each sequence of blanks and line ends becomes one blank.
    pure function on_one_line(text) result(line)
       character(*), intent(in) :: text
       character(:), allocatable :: line

@@ -41,7 +41,7 @@ contains
       call draw_study(this%study, this%deck, join_path(this%home, ''), this%out, line%values('--kind'), line%has('--quiet'), error)
    end subroutine run_plot_command
 
-   !> Checks that the file is a study. Result files alone do not define the figures.
+   !> Rejects a results file (.nc, .csv) in place of a study, because results alone do not define the figures.
    subroutine check_file(path, error)
       character(*), intent(in) :: path
       type(error_t), allocatable, intent(out) :: error

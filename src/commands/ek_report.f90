@@ -336,9 +336,9 @@ contains
       call add_fact(page, 'Date', date_text())
    end subroutine set_head
 
-   !> Runs one test. If the test does not converge at every state, `error` has the code exit_convergence, the remarks of the test
-   !> contain each failure, and the table has the converged states. If the model cannot be solved, `error` has the code exit_model,
-   !> and the table is empty.
+   !> Runs one test. If the test does not converge at every state, `error` has the code exit_convergence, the messages of the test
+   !> contain each failure, and the table has the converged states. If the test cannot be run, the table is empty; `error` has the
+   !> code exit_model if the model cannot be solved.
    subroutine run_planned(base, case, fault, checksum, test, path, error, compliance, loads, explanations, live)
       type(suspension_t), intent(in) :: base
       type(case_t), intent(in) :: case

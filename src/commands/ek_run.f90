@@ -39,8 +39,8 @@ module ek_run
 contains
 
    !> Runs the chosen cases of a deck. If a case fails part way, its converged states are written, and the other cases are run. If a
-   !> case failed, `error` at the end has the code of the first failure other than lack of convergence; without such a failure, it
-   !> has exit_convergence. With --responses, writes key numbers instead.
+   !> case failed, `error` has the code of the first failure other than lack of convergence; without such a failure, the code is
+   !> exit_convergence. With --responses, writes key numbers instead.
    subroutine run(line, error)
       type(command_line_t), intent(in) :: line
       type(error_t), allocatable, intent(out) :: error

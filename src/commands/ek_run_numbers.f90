@@ -25,7 +25,7 @@ module ek_run_numbers
 contains
 
    !> Writes the requested key numbers of a deck. After an error, the results contain FAIL, for which drivers search, and the
-   !> reason. Examples are a key number without a value, and a required state that did not converge.
+   !> reason. For example, a key number has no value, or a required state did not converge.
    subroutine run_numbers(line, settings, error)
       type(command_line_t), intent(in) :: line
       class(deck_settings_t), intent(in) :: settings

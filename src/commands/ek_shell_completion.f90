@@ -124,7 +124,7 @@ contains
       text = script%text()
    end function zsh_completion
 
-   !> Adds an option: '--out=[output folder (default\\: out)]:DIR:_files -/'.
+   !> Adds an option: '--out=[output folder (default\: out)]:DIR:_files -/'.
    subroutine add_zsh_option(script, options, k)
       type(buffer_t), intent(inout) :: script
       type(option_t), intent(in) :: options(:)
@@ -188,7 +188,7 @@ contains
       text = script%text()
    end function fish_completion
 
-   !> The kind of values that may follow option k.
+   !> Kind of the value that follows option k; `nothing` for an option without a value.
    pure integer function value_kind(options, k) result(kind)
       type(option_t), intent(in) :: options(:)
       integer, intent(in) :: k

@@ -12,7 +12,7 @@ module ek_solve_text
 
    real(wp), parameter :: no_effect = 1.0e-9_wp  !! limit, as a share of the largest effect: a smaller effect counts as no effect
    real(wp), parameter :: share_of_conflict = 0.1_wp !! limit: a condition with a smaller component is no part of a conflict
-   real(wp), parameter :: aligned = 0.9999_wp        !! cosine between the effects on two conditions that change as one
+   real(wp), parameter :: aligned = 0.9999_wp        !! smallest cosine between the effects on two conditions that change as one
 
 contains
 

@@ -28,9 +28,9 @@ module ek_study_command
 contains
 
    !> Runs a study. Tables are written to DIR (default: out, in the folder of the study) when all designs are finished. Until then
-   !> DIR/<study>.parts contains the finished chunks, with which the next run resumes. gnuplot then runs the study's plot script, in
-   !> which the variable `out` is the folder of the tables and figures. Under mpirun all ranks compute; rank 0 prints and writes the
-   !> tables.
+   !> DIR/<study>.parts contains the finished chunks, with which the next run resumes. After the tables, gnuplot runs the study's
+   !> plot script, in which the variable `out` is the folder of the tables and figures. Under mpirun all ranks compute; rank 0
+   !> prints and writes the tables.
    subroutine run_study_command(line, error)
       type(command_line_t), intent(in) :: line
       type(error_t), allocatable, intent(out) :: error

@@ -17,7 +17,7 @@ module ek_study_findings
 
    integer, parameter :: most_ranked = 20000         !! largest number of designs in a rank correlation
    integer, parameter :: most_steps = 120            !! approximate number of steps of the running mean
-   real(wp), parameter :: normal_95 = 1.959963984540054_wp      !! standard errors in half of a 95 % interval
+   real(wp), parameter :: normal_95 = 1.959963984540054_wp      !! half width of a 95 % interval [standard errors]
 
 contains
 

@@ -158,7 +158,7 @@ contains
       if (rig%unit /= '-') data%swept = data%swept//' ['//rig%unit//']'
    end subroutine name_axes
 
-   !> Sets the label and sign convention of a column: 'Toe, left wheel [deg]'.
+   !> Sets the name, unit, label and sign convention of a column. Example of a label: 'Toe, left wheel [deg]'.
    subroutine name_column(column, axis)
       character(*), intent(in) :: column
       type(study_axis_t), intent(inout) :: axis
@@ -251,8 +251,8 @@ contains
       if (unit /= '') axis%label = axis%label//' ['//axis%unit//']'
    end subroutine name_response
 
-   !> Counts a failure. Failures whose messages differ only in numbers are counted together. After the largest number of kinds, the
-   !> last kind counts all further failures as 'other reasons'.
+   !> Counts a failure. Failures whose messages differ only in numbers are counted together. After 12 kinds, the last kind
+   !> counts all further failures as 'other reasons'.
    subroutine count_reason(field, design, reasons)
       character(*), intent(in) :: field              !! of the table, in quotes
       integer, intent(in) :: design

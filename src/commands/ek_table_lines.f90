@@ -21,7 +21,7 @@ module ek_table_lines
 
 contains
 
-   !> Opens a table, compares the deck checksum in its header, and reads the names of its columns.
+   !> Opens a table, rejects a table of another deck (checksum in the header), and reads the names of the columns.
    subroutine open_table(path, deck_sum, lines, names, error)
       character(*), intent(in) :: path
       character(*), intent(in) :: deck_sum           !! '' if it is not to be compared
@@ -63,7 +63,7 @@ contains
       allocate (character(28*size(names) + longest_message) :: lines%content)
    end subroutine open_table
 
-   !> Reads the next line that is not empty; status is not 0 at the end.
+   !> Reads the next line that is not empty; status is not 0 at the end of the file.
    subroutine next_line(lines, status)
       type(lines_t), intent(inout) :: lines
       integer, intent(out) :: status
