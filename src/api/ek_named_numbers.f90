@@ -1,11 +1,11 @@
-!> Key numbers of a deck by their names. Only the required tests are solved, with only the required states and columns. Each
-!> number has the same bits as in key_numbers.csv of the report.
+!> Key numbers of a deck by their names. Only the required tests are solved, with only the required states and columns. Each number
+!> equals, bit for bit, the number in key_numbers.csv of the report.
 !>
 !>     call prepare_numbers(names, suspension, cases, numbers, error)      once per deck
 !>     call read_numbers(numbers, suspension, cases, values, is_whole)     for each design
 !>
-!> `cases` are the cases that the report solves, in its order (standard_tests). read_numbers creates no strings, so that several
-!> threads may read numbers, each with its own variable of type named_numbers_t.
+!> `cases` are the cases that the report solves, in the order of the report (standard_tests). read_numbers creates no strings, so
+!> that several threads may read numbers, each thread with its own variable of type named_numbers_t.
 module ek_named_numbers
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp

@@ -201,8 +201,8 @@ contains
       if (names%count() > enough) text = text//' and '//str(names%count() - enough)//' more'
    end function some_of
 
-   !> The string for standard output: the paths of the results, the changes of the deck, the counts of changes, the changes of
-   !> targets, and the table of gradients.
+   !> The string for standard output: the paths of the results, the changes of the deck, the counts of changes, the values and
+   !> verdicts of the targets, and the table of gradients.
    function text_of(this) result(text)
       type(comparison_t), intent(in) :: this
       character(:), allocatable :: text

@@ -32,7 +32,7 @@ module ek_explain_files
 
 contains
 
-   !> Begins both tables of a case.
+   !> Begins the table of contributions and the table of load paths of a case.
    subroutine begin_explain_files(name, case, header, self, error)
       character(*), intent(in) :: name                 !! path without its extension
       character(*), intent(in) :: case, header         !! its line: program, model, deck

@@ -179,8 +179,8 @@ contains
          size(axle%map%travel), panels)
    end subroutine write_mathworks
 
-   !> Solves the deck of the other axle. The steer range and the driver come from this deck. The options --set, --set-file, --axle,
-   !> --driver, --map and --steer do not apply to the other axle.
+   !> Solves the deck of the other axle. The steer range and the driver come from this deck. The options --set, --axle, --driver,
+   !> --map and --steer do not apply to the other axle.
    subroutine add_other(settings, place, p, error)
       type(export_settings_t), intent(in) :: settings
       integer, intent(in) :: place                       !! 1 front, 2 rear

@@ -74,7 +74,7 @@ contains
       if (present(used_deck)) used_deck = deck
    end subroutine load_deck
 
-   !> Opens a deck with its settings as a session. (load_deck returns a model instead.)
+   !> Opens a deck as a session, with --set-file and --set applied. (load_deck returns a model instead.)
    subroutine load_session(settings, session, error)
       class(deck_settings_t), intent(in) :: settings
       class(session_t), allocatable, intent(out) :: session

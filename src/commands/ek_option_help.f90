@@ -11,7 +11,7 @@ module ek_option_help
 contains
 
    !> Whether an option belongs to a command. An option that every command accepts belongs to each command and to the command '';
-   !> without a help text, such an option belongs to no command.
+   !> without a help string, such an option belongs to no command.
    pure logical function belongs(option, command)
       type(option_t), intent(in) :: option
       character(*), intent(in) :: command

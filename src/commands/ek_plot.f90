@@ -123,7 +123,7 @@ contains
 
    contains
 
-      !> Whether the results have a sheet of a figure.
+      !> Whether a sheet of a figure can be drawn from the results.
       logical function is_drawn(rule, sheet)
          type(figure_rule_t), intent(in) :: rule
          integer, intent(in) :: sheet

@@ -69,7 +69,8 @@ contains
       text = lines%text()
    end function version_text
 
-   !> The instruction set of packs, from the copy of the kernels in use: 'x86-64-v3 (AVX2), 4 designs at a time'.
+   !> The instruction set of packs, from the copy of the kernels in use: 'x86-64-v3 (AVX2), 4 designs at a time'. A phrase that
+   !> begins with 'no' if the compiler does not vectorise packs.
    function pack_text() result(text)
       character(:), allocatable :: text
       character(60) :: name
