@@ -231,8 +231,8 @@ contains
       text = out%text()
    end function text_of
 
-   !> Adds lines such as 'Deck checksum: 12ab → 34cd' or 'point.seat.y: -500 → -520 (-20)'. Of more than 30 values, only the first
-   !> 30 are added.
+   !> Adds lines such as 'Deck checksum: 12ab → 34cd' or 'point.seat.y: -500 → -520 (-20)'. Of more than 30 values, only the
+   !> first 30 are added.
    subroutine add_changes(out, facts, values)
       type(buffer_t), intent(inout) :: out
       type(deck_difference_t), intent(in) :: facts(:), values(:)
