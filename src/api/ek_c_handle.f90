@@ -177,7 +177,7 @@ contains
       type(handle_t), pointer, intent(in) :: handle
       integer(c_int), intent(in) :: k
       integer, intent(in) :: count
-      integer(c_int), intent(inout), optional :: code        !! of the call
+      integer(c_int), intent(inout), optional :: code        !! exit code of the call
 
       is_position = k >= 0 .and. k < count
       if (is_position) return

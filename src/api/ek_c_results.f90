@@ -44,7 +44,7 @@ contains
 
    !> The last solution; not associated if there is no solution.
    function solution_of(handle) result(last)
-      type(handle_t), pointer, intent(in) :: handle          !! of open_handle
+      type(handle_t), pointer, intent(in) :: handle          !! handle of open_handle
       type(case_result_t), pointer :: last
 
       nullify (last)
@@ -53,7 +53,7 @@ contains
 
    !> The last solution, for a call that returns a string. If there is no solution, a message is stored in the handle.
    function described_solution(handle) result(last)
-      type(handle_t), pointer, intent(in) :: handle          !! of open_handle
+      type(handle_t), pointer, intent(in) :: handle          !! handle of open_handle
       type(case_result_t), pointer :: last
       integer(c_int) :: code
 

@@ -107,7 +107,7 @@ contains
    subroutine add_path(numbers, path, found, setting)
       type(design_numbers_t), intent(inout) :: numbers
       character(*), intent(in) :: path
-      type(choice_t), intent(in) :: found(:)              !! the parameters to which it leads
+      type(choice_t), intent(in) :: found(:)              !! parameters to which the path leads
       integer, intent(out) :: setting
 
       if (numbers%used == size(numbers%settings)) numbers%settings = [numbers%settings, numbers%settings]   ! twice the size

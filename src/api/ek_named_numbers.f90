@@ -94,7 +94,7 @@ contains
       type(case_t), intent(in) :: cases(:)
       type(test_result_t), intent(in) :: tests(:)
       type(needed_case_t), intent(inout) :: needed(:)
-      real(wp), intent(inout) :: reach(:)                !! of each source
+      real(wp), intent(inout) :: reach(:)                !! reach of each source
       integer :: k, wheel
 
       do k = 1, size(number%sources)
@@ -147,8 +147,8 @@ contains
       type(suspension_t), intent(in) :: suspension       !! the design with trimmed preloads, on no rig
       type(case_t), intent(in) :: cases(:)               !! as for prepare_numbers, with the numbers of this design
       real(wp), intent(out) :: values(:)                 !! in the units of key_numbers.csv
-      logical, intent(out) :: is_whole                   !! every value is a number
-      logical, intent(in), optional :: is_solvable(:)    !! of each case; a mechanism has no result. Absent: all are
+      logical, intent(out) :: is_whole                   !! whether every value is a number
+      logical, intent(in), optional :: is_solvable(:)    !! whether each case can be solved. Absent: all cases can
       real(wp) :: both(2)
       logical :: is_final
       integer :: k, j, c
@@ -201,7 +201,7 @@ contains
       type(named_numbers_t), intent(inout) :: numbers
       character(*), intent(in) :: names(:)
       real(wp), intent(in) :: values(:)
-      type(message_list_t), intent(in) :: defects           !! of the model in some of the cases
+      type(message_list_t), intent(in) :: defects           !! defects of the model in some of the cases
       type(error_t), allocatable, intent(out) :: error      !! exit_convergence, or exit_model
       type(message_list_t) :: words
       type(buffer_t) :: lost, undefined

@@ -74,7 +74,7 @@ contains
    !> Opens a deck that is given as a string.
    subroutine open_text(text, name, session, error)
       character(*), intent(in) :: text
-      character(*), intent(in) :: name                     !! for messages; its folder contains included files and load tables
+      character(*), intent(in) :: name                     !! name for messages; its folder contains included files and load tables
       type(session_t), intent(inout) :: session
       type(error_t), allocatable, intent(out) :: error     !! exit_deck: every error of the deck
 

@@ -17,7 +17,7 @@ contains
 
    !> Creates a second session of the same deck with the same changes, without a solution.
    subroutine copy_session(from, to, error)
-      type(session_t), intent(in) :: from                  !! with a deck
+      type(session_t), intent(in) :: from                  !! session with a deck
       type(session_t), intent(inout) :: to
       type(error_t), allocatable, intent(out) :: error
 

@@ -214,7 +214,7 @@ contains
    subroutine compliance_at(session, row, c, error)
       type(session_t), intent(inout), target :: session
       integer, intent(in) :: row
-      real(wp), intent(out) :: c(:, :)                     !! 6 × wheels
+      real(wp), intent(out) :: c(:, :)                     !! matrix of 6 × wheels rows and columns
       type(error_t), allocatable, intent(out) :: error     !! exit_usage: no solution, or the model has other numbers since
       type(case_result_t), pointer :: result
       type(compliance_t) :: compliance

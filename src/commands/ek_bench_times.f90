@@ -105,7 +105,7 @@ contains
    subroutine time_packs(suspension, case, kkt, figures)
       type(suspension_t), intent(in), target :: suspension
       type(case_t), intent(in), target :: case
-      type(kkt_t), intent(in) :: kkt             !! with a plan
+      type(kkt_t), intent(in) :: kkt             !! system with a plan
       type(figures_t), intent(inout) :: figures
       type(kkt_t), target :: own(lanes)
       type(path_t), target :: path(lanes)
@@ -144,8 +144,8 @@ contains
    subroutine time_kandc(suspension, case, path, kkt, figures)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
-      type(path_t), intent(in) :: path           !! all its states are reached
-      type(kkt_t), intent(inout) :: kkt          !! with a plan
+      type(path_t), intent(in) :: path           !! path whose states are all reached
+      type(kkt_t), intent(inout) :: kkt          !! system with a plan
       type(figures_t), intent(inout) :: figures
       type(compliance_t) :: compliance
       type(kandc_t) :: kandc

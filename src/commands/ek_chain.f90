@@ -24,7 +24,7 @@ contains
 
    !> The number of bodies of the chain whose number of matrix rows is closest to n.
    pure integer function bodies_of(n)
-      integer, intent(in) :: n            !! 10 or more
+      integer, intent(in) :: n            !! number of matrix rows, at least 10
       bodies_of = max(nint((n - 1)/9.0_wp), 1)
    end function bodies_of
 
@@ -46,7 +46,7 @@ contains
 
    !> The chain as the content of a deck.
    function deck_text(bodies, lift) result(text)
-      integer, intent(in) :: bodies, lift      !! lift: mm
+      integer, intent(in) :: bodies, lift      !! number of bodies; lift of the end [mm]
       character(:), allocatable :: text
       type(buffer_t) :: deck
       character(:), allocatable :: this, ends

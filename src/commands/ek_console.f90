@@ -54,7 +54,7 @@ contains
    !> exists. The first failure to print a path is stored. A reader that closes the pipe (`| head`) is not a failure.
    subroutine print_path(path, unprinted)
       character(*), intent(in) :: path
-      type(error_t), allocatable, intent(inout) :: unprinted      !! exit_file
+      type(error_t), allocatable, intent(inout) :: unprinted      !! first failure to print a path (exit_file)
       type(error_t), allocatable :: error
 
       call log_output(path//new_line('a'))
@@ -68,7 +68,7 @@ contains
    subroutine write_table(table, path, unprinted, error)
       type(table_t), intent(in) :: table
       character(*), intent(in) :: path
-      type(error_t), allocatable, intent(inout) :: unprinted    !! as above
+      type(error_t), allocatable, intent(inout) :: unprinted    !! first failure to print a path (exit_file)
       type(error_t), allocatable, intent(out) :: error          !! exit_file: the table is not written
 
       call write_csv(table, path, error)

@@ -18,7 +18,7 @@ contains
 
    !> The part of a deck that defines a design of a study; '' if a factor is not a number of the design space.
    function deck_fragment(designer, values) result(text)
-      type(designer_t), intent(in) :: designer     !! with the numbers of the deck
+      type(designer_t), intent(in) :: designer     !! designer with the numbers of the deck
       real(wp), intent(in) :: values(:)            !! values of the factors
       character(:), allocatable :: text
       real(wp), allocatable :: x(:)
@@ -91,7 +91,7 @@ contains
       type(design_t), intent(in) :: design
       real(wp), intent(in) :: x(:)
       integer, intent(in) :: number
-      logical, intent(in) :: is_half               !! as in the half deck
+      logical, intent(in) :: is_half               !! whether the line is written as in the half deck
       integer, intent(inout) :: lines
       character(:), allocatable, intent(inout) :: text
       character(:), allocatable :: line, name

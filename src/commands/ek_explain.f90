@@ -161,7 +161,7 @@ contains
    subroutine take_columns(names, table, error)
       character(name_length), intent(in) :: names(:)
       type(contribution_table_t), intent(inout) :: table
-      type(error_t), allocatable, intent(out) :: error       !! exit_usage: all names that mean no column
+      type(error_t), allocatable, intent(out) :: error       !! exit_usage: all names that match no column
       logical, allocatable :: is_wanted(:), is_this(:)
       type(message_list_t) :: mistakes
       integer :: k, j

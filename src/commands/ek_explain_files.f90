@@ -35,7 +35,7 @@ contains
    !> Begins the table of contributions and the table of load paths of a case.
    subroutine begin_explain_files(name, case, header, self, error)
       character(*), intent(in) :: name                 !! path without its extension
-      character(*), intent(in) :: case, header         !! its line: program, model, deck
+      character(*), intent(in) :: case, header         !! name of the case; header: model, case, program, checksum
       type(explain_files_t), intent(inout) :: self
       type(error_t), allocatable, intent(out) :: error
 
@@ -57,7 +57,7 @@ contains
    subroutine add_explain_state(suspension, state, factor, table, self)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: state                     !! index of the state; the first is 0
-      real(wp), intent(in) :: factor                   !! swept value in its unit
+      real(wp), intent(in) :: factor                   !! swept value in the unit of the case
       type(contribution_table_t), intent(in) :: table
       type(explain_files_t), intent(inout) :: self
       type(buffer_t) :: lines
@@ -156,7 +156,7 @@ contains
 
    !> Begins the output of a case: its name, the unit of the swept value, and the list of rows, which does not depend on the state.
    subroutine begin_explain_case(name, unit_name, table, json)
-      character(*), intent(in) :: name, unit_name      !! of the swept value
+      character(*), intent(in) :: name, unit_name      !! name of the case; unit of the swept value
       type(contribution_table_t), intent(in) :: table
       type(json_t), intent(inout) :: json
       integer :: k

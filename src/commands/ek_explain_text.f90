@@ -67,7 +67,7 @@ contains
       type(suspension_t), intent(in) :: suspension
       character(*), intent(in) :: name                 !! name of the rigid element or axis
       integer, intent(in) :: laws(:)
-      type(kkt_t), intent(inout) :: kkt                !! with the factors of the state
+      type(kkt_t), intent(inout) :: kkt                !! system with the factors of the state
       type(contribution_table_t), intent(in) :: table
       type(buffer_t), intent(inout) :: text
       real(wp), allocatable :: self_move(:, :), c(:, :)
@@ -89,7 +89,7 @@ contains
    !> parallel to springs.
    subroutine add_scan(suspension, kkt, table, text)
       type(suspension_t), intent(in) :: suspension
-      type(kkt_t), intent(inout) :: kkt                !! with the factors of the state
+      type(kkt_t), intent(inout) :: kkt                !! system with the factors of the state
       type(contribution_table_t), intent(in) :: table
       type(buffer_t), intent(inout) :: text
       real(wp), allocatable :: self_move(:, :), c(:, :)

@@ -130,7 +130,7 @@ contains
    subroutine make_request(settings, suspension, cases, request, error)
       type(export_settings_t), intent(in) :: settings
       type(suspension_t), intent(in) :: suspension
-      type(case_t), intent(in) :: cases(:)                    !! of the deck
+      type(case_t), intent(in) :: cases(:)                    !! cases of the deck
       type(map_request_t), intent(out) :: request
       type(error_t), allocatable, intent(out) :: error        !! exit_usage
       integer, parameter :: travel_points = 33, steer_points = 17
@@ -208,8 +208,8 @@ contains
    !> Sets the values of a grid: from a range of the command line, otherwise from the range of a test.
    subroutine take(option, range, from, to, points, values, error)
       character(*), intent(in) :: option
-      type(range_t), intent(in) :: range                      !! mm
-      real(wp), intent(in) :: from, to                        !! of the test [m]
+      type(range_t), intent(in) :: range                      !! range of the command line [mm]
+      real(wp), intent(in) :: from, to                        !! range of the test [m]
       integer, intent(in) :: points
       real(wp), allocatable, intent(out) :: values(:)
       type(error_t), allocatable, intent(out) :: error        !! exit_usage: the range of the test excludes design

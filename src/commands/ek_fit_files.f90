@@ -31,13 +31,13 @@ contains
    !> Writes all files and prints their paths. Of the pictures, only the path of the PNG file is printed.
    subroutine write_fit_files(fit, workspace, problem, found, statistics, out, draws, message, error)
       type(fit_t), intent(in) :: fit
-      type(workspace_t), intent(in) :: workspace          !! with the numbers found
+      type(workspace_t), intent(in) :: workspace          !! workspace with the numbers found
       type(fit_problem_t), intent(in) :: problem
       type(fit_result_t), intent(in) :: found
       type(fit_statistics_t), intent(in) :: statistics
       character(*), intent(in) :: out                      !! folder
-      logical, intent(in) :: draws                         !! runs gnuplot
-      character(:), allocatable, intent(out) :: message    !! reason for a missing picture; '' if there is none
+      logical, intent(in) :: draws                         !! whether gnuplot is run
+      character(:), allocatable, intent(out) :: message    !! reason for a missing picture; '' otherwise
       type(error_t), allocatable, intent(out) :: error
       type(error_t), allocatable :: unprinted
       type(message_list_t) :: scripts, pictures

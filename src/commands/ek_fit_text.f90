@@ -28,7 +28,7 @@ contains
    !> Adds all findings of a fit to the printed output.
    subroutine add_fit_findings(fit, workspace, problem, found, statistics, text)
       type(fit_t), intent(in) :: fit
-      type(workspace_t), intent(in) :: workspace          !! with the numbers found
+      type(workspace_t), intent(in) :: workspace          !! workspace with the numbers found
       type(fit_problem_t), intent(in) :: problem
       type(fit_result_t), intent(in) :: found
       type(fit_statistics_t), intent(in) :: statistics
@@ -184,7 +184,7 @@ contains
    subroutine add_group(problem, found, direction, members, text)
       type(fit_problem_t), intent(in) :: problem
       type(fit_result_t), intent(in) :: found
-      real(wp), intent(in) :: direction(:)                 !! along which the targets do not change
+      real(wp), intent(in) :: direction(:)                 !! direction along which the targets do not change
       integer, intent(in) :: members(:)
       type(buffer_t), intent(inout) :: text
       real(wp), parameter :: alike = 0.1_wp

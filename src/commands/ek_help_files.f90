@@ -18,7 +18,7 @@ contains
    subroutine write_help_files(commands, options, exit_status, folder, error)
       type(command_t), intent(in) :: commands(:)
       type(option_t), intent(in) :: options(:)
-      character(*), intent(in) :: exit_status             !! text on the exit status of all commands
+      character(*), intent(in) :: exit_status             !! description of the exit status of all commands
       character(*), intent(in) :: folder
       type(error_t), allocatable, intent(out) :: error    !! exit_file
       integer :: k

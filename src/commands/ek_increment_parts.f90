@@ -48,8 +48,8 @@ contains
    subroutine time_parts(suspension, case, path, kkt, parts)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
-      type(path_t), intent(inout) :: path        !! of time_walk
-      type(kkt_t), intent(inout) :: kkt          !! likewise
+      type(path_t), intent(inout) :: path        !! path of time_walk
+      type(kkt_t), intent(inout) :: kkt          !! system of time_walk
       type(parts_t), intent(inout) :: parts
       type(state_t) :: state
       type(inputs_t) :: inputs

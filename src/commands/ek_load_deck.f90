@@ -56,10 +56,10 @@ contains
    subroutine load_deck(settings, workspace, checksum, error, needs_tables, used_deck)
       class(deck_settings_t), intent(in) :: settings
       class(workspace_t), allocatable, intent(out) :: workspace      !! without cases: the command chooses cases of the design
-      character(:), allocatable, intent(out), optional :: checksum     !! of the deck as it was used
+      character(:), allocatable, intent(out), optional :: checksum     !! checksum of the deck as it was used
       type(error_t), allocatable, intent(out) :: error
       logical, intent(in), optional :: needs_tables          !! if .true., a missing table is an error, also of a case not run
-      type(deck_t), intent(out), optional :: used_deck       !! with the settings made
+      type(deck_t), intent(out), optional :: used_deck       !! deck with the settings applied
       type(deck_t) :: deck
       type(set_file_t), allocatable :: files(:)
       type(error_t), allocatable :: unset
@@ -219,7 +219,7 @@ contains
    !> Examines the cases to run. If no case can be solved, returns an error that lists each defect once.
    subroutine examine_chosen(file, suspension, chosen, found, error)
       character(*), intent(in) :: file                  !! the deck, for messages
-      type(suspension_t), intent(in) :: suspension      !! not balanced
+      type(suspension_t), intent(in) :: suspension      !! model before the preload trim
       type(case_t), intent(in) :: chosen(:)
       type(examination_t), intent(out) :: found
       type(error_t), allocatable, intent(out) :: error  !! exit_model

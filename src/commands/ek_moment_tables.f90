@@ -33,7 +33,7 @@ contains
    !> Copies the results computed from derivatives for the responses and the curves.
    subroutine take_tolerance(found, columns, data)
       type(tolerance_t), intent(in) :: found
-      character(*), intent(in) :: columns(:)         !! of the study; the columns of the data lack the swept value
+      character(*), intent(in) :: columns(:)         !! columns of the study; the columns of the data lack the swept value
       type(study_data_t), intent(inout) :: data
       integer :: c, f, k, r, s
 

@@ -63,7 +63,7 @@ contains
    subroutine plan_study(this, error, shards)
       type(opened_study_t), intent(inout) :: this
       type(error_t), allocatable, intent(out) :: error
-      integer, intent(in), optional :: shards        !! of this run, default 1
+      integer, intent(in), optional :: shards        !! number of shards of this run; default 1
       integer :: n
 
       n = 1

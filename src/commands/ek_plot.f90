@@ -76,7 +76,7 @@ contains
       type(deck_t), intent(in) :: deck
       character(*), intent(in) :: home               !! folder of the study with its slash
       character(*), intent(in) :: out                !! folder of the tables
-      type(message_list_t), intent(in) :: kinds      !! of figures; none: all that apply
+      type(message_list_t), intent(in) :: kinds      !! names of figures; none: all figures that apply
       logical, intent(in) :: is_quiet
       type(error_t), allocatable, intent(out) :: error
       class(study_data_t), allocatable :: data

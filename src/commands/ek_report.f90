@@ -159,7 +159,7 @@ contains
    subroutine write_numbers(workspace, checksum, page, unprinted, error)
       type(workspace_t), intent(in) :: workspace                !! with trimmed preloads
       character(*), intent(in) :: checksum
-      type(report_t), intent(inout) :: page                     !! with the gradients; gets the key numbers
+      type(report_t), intent(inout) :: page                     !! report with the gradients; receives the key numbers
       type(error_t), allocatable, intent(inout) :: unprinted    !! a path could not be printed
       type(error_t), allocatable, intent(out) :: error          !! exit_file
 
@@ -183,7 +183,7 @@ contains
       type(settings_t), intent(in) :: settings
       type(suspension_t), intent(in) :: suspension
       type(report_t), intent(inout) :: page
-      type(error_t), allocatable, intent(out) :: undrawn        !! some pictures are missing; the page says so
+      type(error_t), allocatable, intent(out) :: undrawn        !! error of missing pictures; the page reports it
       type(error_t), allocatable, intent(out) :: error          !! exit_file
       type(message_list_t) :: warnings
       character(:), allocatable :: message
@@ -344,12 +344,12 @@ contains
       type(case_t), intent(in) :: case
       character(*), intent(in) :: fault            !! defect of the model in this test, which is then not run; '' for none
       character(*), intent(in) :: checksum
-      type(test_result_t), intent(inout) :: test   !! as planned
+      type(test_result_t), intent(inout) :: test   !! test as planned; receives its result
       type(path_t), intent(out) :: path            !! states, for pictures
       type(error_t), allocatable, intent(out) :: error
       type(table_t), intent(out), optional :: compliance    !! the compliance matrix at every state; not set if the test is not run
       type(load_record_t), intent(inout), optional :: loads !! receives the loads of the members
-      type(explanation_t), allocatable, intent(out), optional :: explanations(:)      !! with compliance
+      type(explanation_t), allocatable, intent(out), optional :: explanations(:)      !! explanations of the test, with compliance
       type(live_t), intent(inout), optional :: live         !! receives the data for the sliders of --live
       integer, parameter :: topics(7) = [on_case, on_end, on_stability, on_settling, on_rack, on_curve, on_closure]
       type(solve_options_t) :: options

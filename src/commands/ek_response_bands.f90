@@ -16,7 +16,7 @@ contains
    subroutine set_bands(targets, responses, axes)
       type(target_band_t), intent(in) :: targets(:)
       type(response_t), intent(in) :: responses(:)
-      type(study_axis_t), intent(inout) :: axes(:)   !! of the responses
+      type(study_axis_t), intent(inout) :: axes(:)   !! axes of the responses
       character(:), allocatable :: name
       integer :: r, t
 

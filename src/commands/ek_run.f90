@@ -181,7 +181,7 @@ contains
       character(*), intent(in) :: fault                        !! defect of the model in this case; '' for none
       character(*), intent(in) :: checksum
       type(json_t), intent(inout) :: json
-      type(load_record_t), allocatable, intent(inout) :: loads   !! if they are wanted
+      type(load_record_t), allocatable, intent(inout) :: loads   !! loads of all members; allocated if requested
       type(error_t), allocatable, intent(inout) :: unprinted     !! a path could not be printed
       type(error_t), allocatable, intent(out) :: error
       type(error_t), allocatable :: trouble, undrawn

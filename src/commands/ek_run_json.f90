@@ -35,7 +35,7 @@ contains
    !> Adds one case: its outcome, its messages, and its table column by column. A case that was not solved has no columns.
    subroutine add_run_json(result, case, json)
       type(case_result_t), intent(in) :: result
-      type(case_t), intent(in) :: case             !! as in the deck
+      type(case_t), intent(in) :: case             !! case as in the deck
       type(json_t), intent(inout) :: json
       type(remark_t) :: remark
       integer :: k
@@ -74,7 +74,7 @@ contains
    subroutine write_run_json(json, status, folder, model, error)
       type(json_t), intent(inout) :: json
       integer, intent(in) :: status                                !! exit status of the program
-      character(*), intent(in) :: folder, model                    !! - is standard output
+      character(*), intent(in) :: folder, model                    !! output folder, - for standard output; model name
       type(error_t), allocatable, intent(inout) :: error           !! a failure to write; an earlier error is not replaced
       type(error_t), allocatable :: unwritten
       character(:), allocatable :: path

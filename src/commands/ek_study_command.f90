@@ -168,7 +168,7 @@ contains
       type(opened_study_t), intent(inout) :: this
       type(run_options_t), intent(in) :: options
       type(ranks_t), intent(inout) :: ranks
-      type(scratch_t), intent(inout) :: hold               !! of the folder of the chunks
+      type(scratch_t), intent(inout) :: hold               !! lock on the folder of the chunks
       type(error_t), allocatable, intent(out) :: error
       type(run_state_t) :: state
       logical :: is_quiet

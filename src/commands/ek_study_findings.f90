@@ -25,7 +25,7 @@ contains
    !> values within the limits, histogram, and running mean.
    subroutine summarise(axis, all_values, summary)
       type(study_axis_t), intent(in) :: axis
-      real(wp), intent(in) :: all_values(:)          !! in the order of the designs, NaN without a value
+      real(wp), intent(in) :: all_values(:)          !! values in the order of the designs; NaN without a value
       type(summary_t), intent(out) :: summary
       real(wp), allocatable :: values(:), sorted(:)
       integer, allocatable :: order(:)

@@ -66,7 +66,7 @@ contains
    !> processors that Slurm assigned to the task is smaller.
    pure integer function jobs_within(processors, openmp, slurm) result(jobs)
       integer, intent(in) :: processors
-      character(*), intent(in) :: openmp, slurm      !! '' if it is not set; a string that is not a number above 0 is ignored
+      character(*), intent(in) :: openmp, slurm  !! '' if the variable is not set; a string that is not a number above 0 is ignored
       integer :: limit, status, k
 
       jobs = processors

@@ -27,10 +27,10 @@ contains
    subroutine write_results(line, this, hold, tables, is_missing, error)
       type(command_line_t), intent(in) :: line
       type(opened_study_t), intent(in) :: this
-      type(scratch_t), intent(inout) :: hold             !! of the folder of the chunks; ended if the tables were written
+      type(scratch_t), intent(inout) :: hold             !! lock on the folder of the chunks; ended if the tables were written
       type(message_list_t), intent(inout) :: tables
-      logical, intent(out) :: is_missing                 !! a chunk is missing: no table was written
-      type(error_t), allocatable, intent(out) :: error   !! exit_convergence if a design failed, unless that is accepted
+      logical, intent(out) :: is_missing                 !! whether a chunk is missing: no table was written
+      type(error_t), allocatable, intent(out) :: error   !! exit_convergence if a design failed, unless --accept-failed is given
       type(study_counts_t) :: counts
       character(:), allocatable :: list, name
       integer :: user, k, failed

@@ -254,7 +254,7 @@ contains
    !> Counts a failure. Failures whose messages differ only in numbers are counted together. After 12 kinds, the last kind
    !> counts all further failures as 'other reasons'.
    subroutine count_reason(field, design, reasons)
-      character(*), intent(in) :: field              !! of the table, in quotes
+      character(*), intent(in) :: field              !! field of the table, in quotes
       integer, intent(in) :: design
       type(reason_t), allocatable, intent(inout) :: reasons(:)
       type(reason_t) :: new

@@ -24,7 +24,7 @@ contains
    !> Opens a table, rejects a table of another deck (checksum in the header), and reads the names of the columns.
    subroutine open_table(path, deck_sum, lines, names, error)
       character(*), intent(in) :: path
-      character(*), intent(in) :: deck_sum           !! '' if it is not to be compared
+      character(*), intent(in) :: deck_sum           !! checksum of the deck; '': no comparison
       type(lines_t), intent(inout) :: lines
       character(64), allocatable, intent(out) :: names(:)
       type(error_t), allocatable, intent(out) :: error
