@@ -14,10 +14,10 @@
 !>     call copy_session(session, other, error)                                  the same deck and changes, no file is read again
 !>     call find_slopes(session, row, columns, paths, slopes, errors, error)     exact derivatives in a row of the solution
 !>
-!> `error` has the message and the exit status of the program for the same error; check it after every call. Nothing is printed,
-!> nothing is stored outside the session: different sessions may be used by different threads at a time. gfortran stores the
-!> length of a text that a function returns in one location for all threads, so everything that makes texts is done in the
-!> critical section `ek_words`; solutions after the first of a case are numbers only and run at the same time.
+!> `error` has the message and the exit status of the program for the same error; check `error` after every call. Nothing is
+!> printed, and nothing is stored outside the session: different threads may use different sessions at the same time. gfortran
+!> stores the length of a string that a function returns in one location for all threads. All code that creates strings is therefore
+!> in the critical section `ek_words`. Solutions after the first of a case create no strings and run at the same time.
 module ek_api
    use ek_kinds, only: wp
    use ek_error, only: error_t

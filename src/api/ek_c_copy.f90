@@ -15,7 +15,7 @@ contains
    !> Exit code after copying a deck, with its changes, into a new handle (elastokin.h).
    integer(c_int) function ek_copy(model, copy) bind(c) result(code)
       type(c_ptr), value :: model
-      type(c_ptr), value :: copy                   !! where the handle is to be stored
+      type(c_ptr), value :: copy                   !! address at which the handle is stored
       type(handle_t), pointer :: handle, other
       type(error_t), allocatable :: error
 
@@ -30,7 +30,7 @@ contains
       other%is_open = code == ek_ok
    end function ek_copy
 
-   !> Number of files of the deck: the deck and all files that it names.
+   !> Number of files of the deck: the deck and all files that it names. 0 if the deck could not be read.
    integer(c_int) function ek_file_count(model) bind(c) result(count)
       type(c_ptr), value :: model
       type(handle_t), pointer :: handle
@@ -76,7 +76,7 @@ contains
    integer(c_int) function ek_open_files(n, paths, texts, model) bind(c) result(code)
       integer(c_int), value :: n
       type(c_ptr), value :: paths, texts
-      type(c_ptr), value :: model                  !! where the handle is to be stored
+      type(c_ptr), value :: model                  !! address at which the handle is stored
       type(handle_t), pointer :: handle
       type(error_t), allocatable :: error
       type(kept_files_t) :: files

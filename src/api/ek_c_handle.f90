@@ -11,9 +11,9 @@ module ek_c_handle
    public :: handle_t, handle_of, open_handle, take_handle, take_array, take_names, take_text, finish, refuse, say, &
       from_c, is_position
 
-   integer(c_int), parameter, public :: ek_ok = 0_c_int      !! the other codes are the exit_… of ek_error
+   integer(c_int), parameter, public :: ek_ok = 0_c_int      !! code of success; the other codes are the exit_… of ek_error
 
-   integer, parameter :: kept = 16          !! strings that remain valid, so that one call of printf may have several
+   integer, parameter :: kept = 16  !! number of returned strings that remain valid, so that one call of printf may have several
 
    type :: text_t
       character(:), allocatable :: text
@@ -21,13 +21,13 @@ module ek_c_handle
 
    type :: handle_t
       type(session_t) :: session
-      logical :: is_open = .false.                           !! false: the deck could not be read
-      integer(c_int) :: code = ek_ok                         !! of opening
-      character(:), allocatable :: message                   !! of the last call, with its '\0'
-      type(text_t) :: texts(kept)                            !! returned last, with their '\0'
+      logical :: is_open = .false.                           !! whether the deck could be read
+      integer(c_int) :: code = ek_ok                         !! exit code of opening the deck
+      character(:), allocatable :: message                   !! message of the last call, with its '\0'
+      type(text_t) :: texts(kept)                            !! strings returned last, with their '\0'
       integer :: last = 0                                    !! index of the string returned last
-      type(message_list_t) :: number_names, number_units, number_definitions      !! of key numbers, made at the first request
-      type(model_remarks_t) :: remarks                       !! remarks on the model at the last request
+      type(message_list_t) :: number_names, number_units, number_definitions      !! lists of key numbers, made at first request
+      type(model_remarks_t) :: remarks                       !! messages on the model at the last request
    end type handle_t
 
    interface
@@ -50,8 +50,8 @@ contains
       if (c_associated(model)) call c_f_pointer(model, handle)
    end function handle_of
 
-   !> The handle of a model with a deck; the last message is cleared. Not associated for NULL, or if the deck could not be read. In
-   !> the latter case the message of opening the deck is unchanged.
+   !> The handle of a model with a deck; the last message is cleared. The pointer is not associated for NULL, or if the deck could
+   !> not be read. In the latter case the message of opening the deck is unchanged.
    function open_handle(model) result(handle)
       type(c_ptr), intent(in) :: model
       type(handle_t), pointer :: handle
@@ -76,8 +76,8 @@ contains
       if (.not. associated(handle)) code = refuse(handle_of(model), '')
    end subroutine take_handle
 
-   !> Sets a pointer to an array of the caller. If the array does not have `wanted` numbers, stores a message and returns an
-   !> error code.
+   !> Sets a pointer to an array of the caller. If the array is NULL or does not have `wanted` numbers, stores a message and returns
+   !> an error code.
    subroutine take_array(handle, values, n, wanted, message, place, code)
       type(handle_t), pointer, intent(in) :: handle
       type(c_ptr), intent(in) :: values
@@ -147,7 +147,8 @@ contains
       handle%message = error%message//c_null_char
    end function finish
 
-   !> Exit code of a call with wrong arguments. The message is stored in the handle.
+   !> Exit code of a call with wrong arguments. The message is stored in the handle. If the deck could not be read, returns the exit
+   !> code of opening the deck instead, and the message of opening is unchanged.
    integer(c_int) function refuse(handle, message) result(code)
       type(handle_t), pointer, intent(in) :: handle
       character(*), intent(in) :: message
@@ -161,7 +162,7 @@ contains
       end if
    end function refuse
 
-   !> Address of a C copy of a string. The handle stores the copy.
+   !> Address of a C copy of a string. The handle stores the last 16 copies.
    type(c_ptr) function say(handle, text) result(address)
       type(handle_t), pointer, intent(in) :: handle
       character(*), intent(in) :: text
@@ -176,7 +177,7 @@ contains
       type(handle_t), pointer, intent(in) :: handle
       integer(c_int), intent(in) :: k
       integer, intent(in) :: count
-      integer(c_int), intent(inout), optional :: code        !! of the call
+      integer(c_int), intent(inout), optional :: code        !! exit code of the call
 
       is_position = k >= 0 .and. k < count
       if (is_position) return

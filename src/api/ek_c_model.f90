@@ -34,7 +34,7 @@ contains
    !> Exit code after reading a deck from a file into a new handle (elastokin.h).
    integer(c_int) function ek_open_file(path, model) bind(c) result(code)
       type(c_ptr), value :: path
-      type(c_ptr), value :: model                  !! where the handle is to be stored
+      type(c_ptr), value :: model                  !! address at which the handle is stored
       type(handle_t), pointer :: handle
       type(error_t), allocatable :: error
       character(:), allocatable :: name
@@ -56,7 +56,7 @@ contains
    !> Exit code after reading a deck from a string into a new handle (elastokin.h).
    integer(c_int) function ek_open_text(text, name, model) bind(c) result(code)
       type(c_ptr), value :: text, name
-      type(c_ptr), value :: model                  !! where the handle is to be stored
+      type(c_ptr), value :: model                  !! address at which the handle is stored
       type(handle_t), pointer :: handle
       type(error_t), allocatable :: error
       character(:), allocatable :: deck, file

@@ -14,7 +14,7 @@ module ek_c_numbers
 
 contains
 
-   !> Exit code after computing the key numbers with these names (elastokin.h).
+   !> Exit code after computing key numbers by name (elastokin.h).
    integer(c_int) function ek_numbers(model, n, names, values) bind(c) result(code)
       type(c_ptr), value :: model, names, values
       integer(c_int), value :: n
@@ -80,7 +80,7 @@ contains
       !$omp end critical (ek_words)
    end subroutine list
 
-   !> Name, unit or definition of a key number in the list that ek_number_count has created.
+   !> Name, unit or definition of a key number in the list of key numbers. The list is created if it is empty.
    type(c_ptr) function text_of_number(handle, k, what) result(address)
       type(handle_t), pointer, intent(in) :: handle
       integer(c_int), intent(in) :: k

@@ -17,7 +17,7 @@ module ek_c_parameters
 
 contains
 
-   !> The handle of a model that has a parameter with index k, counted from 0; otherwise not associated.
+   !> The handle of a model, if the model has a parameter with index k, counted from 0; otherwise the pointer is not associated.
    function handle_at(model, k, code) result(handle)
       type(c_ptr), intent(in) :: model
       integer(c_int), intent(in) :: k

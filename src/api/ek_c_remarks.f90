@@ -1,4 +1,4 @@
-!> The C interface (include/elastokin.h): remarks on a model.
+!> The C interface (include/elastokin.h): messages on a model.
 module ek_c_remarks
    use, intrinsic :: iso_c_binding, only: c_associated, c_f_pointer, c_int, c_null_ptr, c_ptr
    use ek_error, only: error_t
@@ -11,7 +11,7 @@ module ek_c_remarks
 
 contains
 
-   !> Exit code after examining the model; `count` receives the number of remarks.
+   !> Exit code after examining the model; `count` receives the number of messages.
    integer(c_int) function ek_model_remarks_c(model, count) bind(c, name='ek_model_remarks') result(code)
       type(c_ptr), value :: model, count
       type(handle_t), pointer :: handle
@@ -27,21 +27,21 @@ contains
       code = finish(handle, error)
    end function ek_model_remarks_c
 
-   !> Text of remark k on the model, from 0, as a C string; NULL outside the list.
+   !> Message k on the model, from 0, as a C string; NULL outside the list.
    type(c_ptr) function ek_model_remark_text(model, k) bind(c) result(address)
       type(c_ptr), value :: model
       integer(c_int), value :: k
       address = text_of_remark(open_handle(model), k, is_severity=.false.)
    end function ek_model_remark_text
 
-   !> Severity of remark k on the model, from 0, as a C string: note, warning or failure.
+   !> Severity of message k on the model, from 0, as a C string: note, warning or failure; NULL outside the list.
    type(c_ptr) function ek_model_remark_severity(model, k) bind(c) result(address)
       type(c_ptr), value :: model
       integer(c_int), value :: k
       address = text_of_remark(open_handle(model), k, is_severity=.true.)
    end function ek_model_remark_severity
 
-   !> A remark from the list that ek_model_remarks has created, or the severity of the remark.
+   !> A message from the list that ek_model_remarks has created, or the severity of the message.
    type(c_ptr) function text_of_remark(handle, k, is_severity) result(address)
       type(handle_t), pointer, intent(in) :: handle
       integer(c_int), intent(in) :: k

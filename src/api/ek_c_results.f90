@@ -44,7 +44,7 @@ contains
 
    !> The last solution; not associated if there is no solution.
    function solution_of(handle) result(last)
-      type(handle_t), pointer, intent(in) :: handle          !! of open_handle
+      type(handle_t), pointer, intent(in) :: handle          !! handle of open_handle
       type(case_result_t), pointer :: last
 
       nullify (last)
@@ -53,7 +53,7 @@ contains
 
    !> The last solution, for a call that returns a string. If there is no solution, a message is stored in the handle.
    function described_solution(handle) result(last)
-      type(handle_t), pointer, intent(in) :: handle          !! of open_handle
+      type(handle_t), pointer, intent(in) :: handle          !! handle of open_handle
       type(case_result_t), pointer :: last
       integer(c_int) :: code
 
@@ -219,7 +219,7 @@ contains
       address = text_of_remark(open_handle(model), k, is_severity=.true.)
    end function ek_remark_severity
 
-   !> A remark on the last solution, or the severity of the remark.
+   !> A message on the last solution, or the severity of the message; NULL outside the list.
    type(c_ptr) function text_of_remark(handle, k, is_severity) result(address)
       type(handle_t), pointer, intent(in) :: handle
       integer(c_int), intent(in) :: k

@@ -20,24 +20,24 @@ module ek_design_numbers
    type :: path_setting_t
       character(:), allocatable :: path
       type(choice_t), allocatable :: found(:)
-      real(wp) :: value = 0.0_wp           !! in the unit of the deck
-      integer :: turn = 0                  !! order of setting; 0: not set
+      real(wp) :: value = 0.0_wp           !! last value set [unit of the deck]
+      integer :: turn = 0                  !! position in the order of setting; 0: not set
    end type path_setting_t
 
-   !> The current numbers of a design, with their changes.
+   !> The current numbers of a design, and the settings that changed them.
    type :: design_numbers_t
-      real(wp), allocatable :: x(:)                 !! of all parameters [SI, axes of the deck]
-      real(wp), allocatable :: value(:)             !! the same in the units of the deck, as the deck or the caller wrote them
-      logical :: is_new = .false.                   !! changed since the workspace took them
+      real(wp), allocatable :: x(:)                 !! values of all parameters [SI, axes of the deck]
+      real(wp), allocatable :: value(:)     !! values of all parameters [units of the deck], as the deck or the caller wrote them
+      logical :: is_new = .false.                   !! whether the numbers changed since the workspace took them
       real(wp), allocatable, private :: unit(:), first_x(:), first_value(:)
-      integer, allocatable, private :: turn(:)      !! of numbers set by their position
+      integer, allocatable, private :: turn(:)      !! position of each number in the order of setting; 0: not set by its index
       type(path_setting_t), allocatable, private :: settings(:)
       integer, private :: used = 0, turns = 0
    end type design_numbers_t
 
 contains
 
-   !> Begins with the numbers of a deck.
+   !> Stores the numbers of a deck as the current numbers and as the numbers of a reset.
    subroutine begin_numbers(design, numbers)
       type(design_t), intent(in) :: design
       type(design_numbers_t), intent(out) :: numbers
@@ -103,11 +103,11 @@ contains
       end do
    end function place_number
 
-   !> Adds a path; the setting of the path becomes the last setting.
+   !> Adds a path that is not set yet. `setting` returns the index of the path in the list of settings.
    subroutine add_path(numbers, path, found, setting)
       type(design_numbers_t), intent(inout) :: numbers
       character(*), intent(in) :: path
-      type(choice_t), intent(in) :: found(:)              !! the parameters to which it leads
+      type(choice_t), intent(in) :: found(:)              !! parameters to which the path leads
       integer, intent(out) :: setting
 
       if (numbers%used == size(numbers%settings)) numbers%settings = [numbers%settings, numbers%settings]   ! twice the size
@@ -166,7 +166,7 @@ contains
       if (is_legal_at) is_legal_at = is_inside(parameters%list(k)%range, value*numbers%unit(k))
    end function is_legal_at
 
-   !> Sets one number, given by its index.
+   !> Sets one number, given by its index. An equal value has no effect.
    pure subroutine put_at(numbers, k, value)
       type(design_numbers_t), intent(inout) :: numbers
       integer, intent(in) :: k

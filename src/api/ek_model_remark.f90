@@ -1,5 +1,5 @@
-!> Remarks on a model before its cases are solved. The commands print this list, and a program that calls elastokin
-!> reads it (ek_session_remarks).
+!> Messages on a model before its cases are solved. The commands print these messages, and a program that calls elastokin reads them
+!> (ek_session_remarks).
 module ek_model_remark
    use ek_error, only: message_list_t
    use ek_suspension, only: suspension_t
@@ -11,25 +11,25 @@ module ek_model_remark
    private
    public :: model_remarks_t, find_model_remarks, read_model_remark, doubt_mark
 
-   character(*), parameter :: doubt_mark = 'plausible? '      !! begins the text of a doubt
+   character(*), parameter :: doubt_mark = 'plausible? '      !! start of a message on an implausible value
 
-   !> The remarks on a model, in the order in which they are printed.
+   !> The messages on a model. The commands print notes, warnings and implausible values in this order.
    type :: model_remarks_t
-      type(message_list_t) :: notes        !! preloads found by balance
-      type(message_list_t) :: warnings     !! contact points, springs, drivers excluded by balance
+      type(message_list_t) :: notes        !! preloads found by the preload trim (`balance`)
+      type(message_list_t) :: warnings     !! contact points, missing springs, excluded drivers, preloads that are not unique
       type(message_list_t) :: doubts       !! implausible values: file:line: item: finding
-      type(message_list_t) :: faults       !! why no case can be solved; the commands stop with them
+      type(message_list_t) :: faults       !! reasons why no case can be solved; these errors end a command
    contains
       procedure :: count => count_remarks
    end type model_remarks_t
 
 contains
 
-   !> Finds the remarks on a model. Only one thread at a time may call it.
+   !> Finds the messages on a model, except the failures. Only one thread at a time may call this procedure.
    subroutine find_model_remarks(suspension, cases, chosen, is_balanced, remarks)
-      type(suspension_t), intent(in) :: suspension      !! balanced if possible; on no rig
-      type(case_t), intent(in) :: cases(:), chosen(:)   !! all of the deck; those to be run
-      logical, intent(in) :: is_balanced                !! .false.: no remark on balance
+      type(suspension_t), intent(in) :: suspension      !! with trimmed preloads if possible; on no rig
+      type(case_t), intent(in) :: cases(:), chosen(:)   !! all cases of the deck; cases to be run
+      logical, intent(in) :: is_balanced                !! .false.: no messages on the preload trim
       type(model_remarks_t), intent(out) :: remarks
 
       if (is_balanced) call preload_remarks(suspension, remarks%notes)
@@ -44,7 +44,8 @@ contains
       count_remarks = self%faults%count() + self%notes%count() + self%warnings%count() + self%doubts%count()
    end function count_remarks
 
-   !> Reads remark k: its string, and its severity 'failure', 'note' or 'warning'. Failures come first.
+   !> Reads message k: its string, and its severity 'failure', 'note' or 'warning'. The failures come first, then the notes, the
+   !> warnings and the implausible values, which have the severity 'warning'.
    subroutine read_model_remark(remarks, k, text, severity)
       type(model_remarks_t), intent(in) :: remarks
       integer, intent(in) :: k

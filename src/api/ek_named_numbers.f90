@@ -1,11 +1,11 @@
-!> Key numbers of a deck by their names. Only the required tests are solved, with only the required states and columns. Each
-!> number has the same bits as in key_numbers.csv of the report.
+!> Key numbers of a deck by their names. Only the required tests are solved, with only the required states and columns. Each number
+!> equals, bit for bit, the number in key_numbers.csv of the report.
 !>
 !>     call prepare_numbers(names, suspension, cases, numbers, error)      once per deck
 !>     call read_numbers(numbers, suspension, cases, values, is_whole)     for each design
 !>
-!> `cases` are the cases that the report solves, in its order (standard_tests). read_numbers creates no strings, so that several
-!> threads may read numbers, each with its own variable of type named_numbers_t.
+!> `cases` are the cases that the report solves, in the order of the report (standard_tests). read_numbers creates no strings, so
+!> that several threads may read numbers, each thread with its own variable of type named_numbers_t.
 module ek_named_numbers
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
@@ -28,21 +28,21 @@ module ek_named_numbers
 
    !> One of the cases: its required columns and range, and its last solution.
    type :: needed_case_t
-      logical :: is_first = .false.               !! a number is read here first; other cases only where that gave no value
-      logical :: is_solved = .false.              !! for the present design
-      logical :: is_missed = .false.              !! a number has no value because this case lacks a state
-      type(solve_options_t) :: options            !! required columns, and distance from design
-      type(observer_t), allocatable :: observer   !! allocated at the first solution
+      logical :: is_first = .false.     !! whether a number always needs this case; else only if earlier cases give no value
+      logical :: is_solved = .false.              !! whether the case is solved for the present design
+      logical :: is_missed = .false.              !! whether a number has no value because this case lacks a state
+      type(solve_options_t) :: options            !! required columns; swept value beyond which no state is required
+      type(observer_t), allocatable :: observer   !! observer of the required columns; allocated at the first solution
       class(case_result_t), allocatable :: result
    end type needed_case_t
 
    !> The requested key numbers of the designs of a deck.
    type :: named_numbers_t
       private
-      type(key_number_t), allocatable :: numbers(:)      !! of each wanted name
-      integer, allocatable :: wheel(:)                   !! 1: left or single wheel, or axle; 2: right
-      real(wp), allocatable :: reach(:, :)               !! swept value as far as which a number needs a source: (source, number)
-      logical, allocatable :: is_lost(:)                 !! at the present design a number needs a state that was not found
+      type(key_number_t), allocatable :: numbers(:)      !! key number of each wanted name
+      integer, allocatable :: wheel(:)                   !! side of each wanted name. 1: left or single wheel, or axle; 2: right
+      real(wp), allocatable :: reach(:, :)  !! swept value beyond which a number needs no state of a source: (source, number)
+      logical, allocatable :: is_lost(:)                 !! whether a number needs a state that was not found, at the present design
       type(needed_case_t), allocatable :: cases(:)
    contains
       procedure :: unit => number_unit
@@ -94,7 +94,7 @@ contains
       type(case_t), intent(in) :: cases(:)
       type(test_result_t), intent(in) :: tests(:)
       type(needed_case_t), intent(inout) :: needed(:)
-      real(wp), intent(inout) :: reach(:)                !! of each source
+      real(wp), intent(inout) :: reach(:)                !! reach of each source
       integer :: k, wheel
 
       do k = 1, size(number%sources)
@@ -131,22 +131,24 @@ contains
       unit = self%numbers(k)%unit
    end function number_unit
 
-   !> Whether each case is solved in any event. Such cases must be examined before balance (examine_case).
+   !> Whether each case is solved in any event. Cases that are solved in any event must be examined (examine_case) before the
+   !> preload trim (`balance`).
    pure function needed_tests(numbers) result(is_needed)
       type(named_numbers_t), intent(in) :: numbers
       logical :: is_needed(size(numbers%cases))
       is_needed = numbers%cases%is_first
    end function needed_tests
 
-   !> Reads the key numbers of a design. A key number is NaN if a state that it requires did not converge: its other states would
-   !> give another value. States beyond the window of the key number do not matter.
+   !> Reads the key numbers of a design. A key number is NaN if the model does not define the number, or if a state that the number
+   !> requires did not converge, because the other states would give another value. States beyond the window of the key number do
+   !> not matter.
    subroutine read_numbers(numbers, suspension, cases, values, is_whole, is_solvable)
       type(named_numbers_t), intent(inout) :: numbers
-      type(suspension_t), intent(in) :: suspension       !! the design, balanced, on no rig
+      type(suspension_t), intent(in) :: suspension       !! the design with trimmed preloads, on no rig
       type(case_t), intent(in) :: cases(:)               !! as for prepare_numbers, with the numbers of this design
       real(wp), intent(out) :: values(:)                 !! in the units of key_numbers.csv
-      logical, intent(out) :: is_whole                   !! every value is a number
-      logical, intent(in), optional :: is_solvable(:)    !! of each case; a mechanism has no result. Absent: all are
+      logical, intent(out) :: is_whole                   !! whether every value is a number
+      logical, intent(in), optional :: is_solvable(:)    !! whether each case can be solved. Absent: all cases can
       real(wp) :: both(2)
       logical :: is_final
       integer :: k, j, c
@@ -194,12 +196,12 @@ contains
 
    !> Explains for which key numbers the last read_numbers found no value, and why: states that did not converge, with their cases,
    !> or a quantity that the model does not define. Returns no error if all key numbers have a value. Only one thread at a time may
-   !> call it.
+   !> call this procedure.
    subroutine explain_missing(numbers, names, values, defects, error)
       type(named_numbers_t), intent(inout) :: numbers
       character(*), intent(in) :: names(:)
       real(wp), intent(in) :: values(:)
-      type(message_list_t), intent(in) :: defects           !! of the model in some of the cases
+      type(message_list_t), intent(in) :: defects           !! defects of the model in some of the cases
       type(error_t), allocatable, intent(out) :: error      !! exit_convergence, or exit_model
       type(message_list_t) :: words
       type(buffer_t) :: lost, undefined

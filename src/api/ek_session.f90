@@ -1,4 +1,4 @@
-!> A deck opened for a program that calls elastokin. Part of the Fortran interface (ek_api, where it is described).
+!> A deck opened for a program that calls elastokin. Part of the Fortran interface (described in ek_api).
 module ek_session
    use ek_kinds, only: wp
    use ek_error, only: error_t
@@ -16,38 +16,38 @@ module ek_session
    public :: session_t, prepared_t, derived_t, open_file, open_text, open_deck, take_deck
    public :: take_new_numbers, changed_deck, checksum_of, without_option, begin_opened, begin_again, begin_workspace, empty_session
 
-   !> A case that was solved with these columns. A further solution creates no strings.
+   !> The columns with which a case was solved. A further solution with these columns creates no strings.
    type :: prepared_t
       logical :: is_ready = .false.
-      character(name_length), allocatable :: asked(:)      !! as the caller wrote them; of size 0: all
+      character(name_length), allocatable :: asked(:)      !! columns as the caller wrote them; of size 0: all columns
       type(solve_options_t) :: options
    end type prepared_t
 
    !> The derivatives requested last. Computing them again for another design creates no strings.
    type :: derived_t
       type(derivatives_t) :: derivatives
-      character(name_length), allocatable :: columns(:), paths(:)      !! as the caller wrote them
-      integer, allocatable :: column(:), direction(:)                  !! where each stands in `derivatives`
+      character(name_length), allocatable :: columns(:), paths(:)      !! columns and paths as the caller wrote them
+      integer, allocatable :: column(:), direction(:)                  !! index of each column and each path in `derivatives`
    end type derived_t
 
    !> A deck, its present numbers, and its last solution. A caller may read the components, but must change them through procedures.
    type :: session_t
-      type(deck_t) :: original                      !! as opened
-      type(deck_t) :: deck                          !! with the settings of set_text
-      class(workspace_t), allocatable :: workspace !! of this deck; allocated when opened. A class as in case_work_t
+      type(deck_t) :: original                      !! deck as opened
+      type(deck_t) :: deck                          !! deck with the settings of set_text
+      class(workspace_t), allocatable :: workspace !! workspace of `deck`; allocated when opened. A class as in case_work_t
       type(design_numbers_t) :: numbers             !! numbers as changed since the deck was opened
       logical :: is_text_changed = .false.
       ! ek_session_solution
-      integer :: solved = 0                         !! case of the last solution; 0: there is none
-      type(prepared_t), allocatable :: prepared(:)  !! of each case
-      class(workspace_t), allocatable :: other  !! has the last solution if `workspace` has not: deck with its numbers as text,
-      !!                                               or of the deck before set_text or reset
-      real(wp), allocatable :: solved_x(:)          !! the numbers of the last solution
-      class(derived_t), allocatable :: derived      !! ek_session_derivatives
+      integer :: solved = 0                         !! case of the last solution; 0: no solution
+      type(prepared_t), allocatable :: prepared(:)  !! columns of each case
+      class(workspace_t), allocatable :: other  !! workspace of the last solution if `workspace` lacks it: of the deck with its
+      !!                                               numbers as strings, or of the deck before set_text or reset
+      real(wp), allocatable :: solved_x(:)          !! values of all parameters at the last solution [SI]
+      class(derived_t), allocatable :: derived      !! derivatives requested last (ek_session_derivatives)
       ! ek_session_numbers
       class(named_numbers_t), allocatable :: named  !! key numbers requested last
       character(name_length), allocatable :: names(:)
-      logical :: is_named_ready = .false.           !! the numbers were read before: a further reading creates no strings
+      logical :: is_named_ready = .false.  !! whether these key numbers were read before: a further reading creates no strings
    end type session_t
 
 contains
@@ -74,7 +74,7 @@ contains
    !> Opens a deck that is given as a string.
    subroutine open_text(text, name, session, error)
       character(*), intent(in) :: text
-      character(*), intent(in) :: name                     !! for messages; its folder contains included files and load tables
+      character(*), intent(in) :: name                     !! name for messages; its folder contains included files and load tables
       type(session_t), intent(inout) :: session
       type(error_t), allocatable, intent(out) :: error     !! exit_deck: every error of the deck
 
@@ -152,7 +152,7 @@ contains
       if (allocated(session%derived)) session%derived%derivatives%case = 0      ! of another workspace: kept as room
    end subroutine begin_workspace
 
-   !> Passes the numbers that were changed since the last solution to the workspace.
+   !> Passes the numbers to the workspace if the numbers have changed since the workspace took them.
    subroutine take_new_numbers(session)
       type(session_t), intent(inout) :: session
 
@@ -160,7 +160,7 @@ contains
       session%numbers%is_new = .false.
    end subroutine take_new_numbers
 
-   !> Creates a copy of the deck with the current numbers as settings. Only one thread at a time may call it.
+   !> Creates a copy of the deck with the current numbers as settings. Only one thread at a time may call this procedure.
    subroutine changed_deck(session, deck, error)
       type(session_t), intent(in) :: session
       type(deck_t), intent(out) :: deck

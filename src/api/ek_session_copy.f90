@@ -1,6 +1,7 @@
-!> A deck opened for a program that calls elastokin: copies of it. Part of the Fortran interface (ek_api).
+!> A deck opened for a program that calls elastokin: copies of the session. Part of the Fortran interface (ek_api).
 !>
-!> A copy is the deck as opened. No file is read again. The copy has the same checksum even if the files have changed since.
+!> A copy is made from the deck as opened, and no file is read again. The copy has the same checksum even if the files have changed
+!> since.
 module ek_session_copy
    use ek_error, only: error_t, fail, exit_usage
    use ek_kept_files, only: kept_files_t
@@ -16,7 +17,7 @@ contains
 
    !> Creates a second session of the same deck with the same changes, without a solution.
    subroutine copy_session(from, to, error)
-      type(session_t), intent(in) :: from                  !! with a deck
+      type(session_t), intent(in) :: from                  !! session with a deck
       type(session_t), intent(inout) :: to
       type(error_t), allocatable, intent(out) :: error
 
@@ -59,8 +60,8 @@ contains
       !$omp end critical (ek_words)
    end subroutine open_files
 
-   !> Writes the deck with its present numbers as one string. It contains the included files, hardpoints, property files, both sides
-   !> and all changes.
+   !> Writes the deck with its present numbers as one string. The string contains the included files, hardpoints, property files,
+   !> both sides and all changes.
    subroutine used_deck(session, text, error)
       type(session_t), intent(in) :: session
       character(:), allocatable, intent(out) :: text

@@ -24,8 +24,8 @@ contains
    !> state did not converge, if the column has no value at the state, or if the number cannot be changed.
    subroutine find_slopes(session, row, columns, paths, slopes, errors, error)
       type(session_t), intent(inout), target :: session
-      integer, intent(in) :: row                               !! of the table of the last solution
-      character(*), intent(in) :: columns(:)                   !! of the case (requested or not), or of its compliance matrix
+      integer, intent(in) :: row                               !! row of the table of the last solution
+      character(*), intent(in) :: columns(:)  !! columns of the case (requested or not), or of its compliance matrix
       character(*), intent(in) :: paths(:)                     !! as in set_number, each of one number, or of both sides of an axle
       real(wp), intent(out) :: slopes(:, :), errors(:, :)      !! (column, path)
       type(error_t), allocatable, intent(out) :: error         !! exit_usage: wrong columns and paths; a case without derivatives
@@ -136,7 +136,7 @@ contains
       type(session_t), intent(in) :: session
       character(*), intent(in) :: paths(:)
       type(direction_t), allocatable, intent(out) :: directions(:)
-      integer, allocatable, intent(out) :: place(:)            !! in directions, of each path
+      integer, allocatable, intent(out) :: place(:)            !! index of the direction of each path
       type(message_list_t), intent(inout) :: mistakes
       type(direction_t), allocatable :: these(:)
       type(message_list_t) :: one

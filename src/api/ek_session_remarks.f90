@@ -1,4 +1,4 @@
-!> A deck opened for a program that calls elastokin: remarks on its model. Part of the Fortran interface (ek_api).
+!> A deck opened for a program that calls elastokin: messages on its model. Part of the Fortran interface (ek_api).
 module ek_session_remarks
    use ek_error, only: error_t
    use ek_deck, only: deck_t
@@ -13,9 +13,9 @@ module ek_session_remarks
 
 contains
 
-   !> Finds the remarks on the model at the present numbers, as the command line prints them. Examples: no spring, contact points
-   !> away from the ground, implausible values, preloads found by balance, or the reason why the model cannot be solved. No case is
-   !> solved; the last solution is unchanged.
+   !> Finds the messages on the model at the present numbers, as the command line prints them. Examples: no spring, contact points
+   !> away from the ground, implausible values, preloads found by the preload trim (`balance`), or the reason why the model cannot
+   !> be solved. No case is solved; the last solution is unchanged.
    subroutine find_remarks(session, remarks, error)
       type(session_t), intent(inout) :: session
       type(model_remarks_t), intent(out) :: remarks
@@ -37,7 +37,7 @@ contains
       !$omp end critical (ek_words)
    end subroutine find_remarks
 
-   !> Finds the remarks at the numbers of a workspace. is_done is .false. if the design must be read from the deck's strings.
+   !> Finds the messages at the numbers of a workspace. is_done is .false. if the design must be read from the deck's strings.
    subroutine find_of(workspace, remarks, is_done)
       type(workspace_t), intent(inout) :: workspace
       type(model_remarks_t), intent(out) :: remarks

@@ -125,12 +125,12 @@ contains
       if (.not. allocated(error)) session%is_text_changed = .true.
    end subroutine take_text
 
-   !> Returns the number to which a path leads; NaN if the path leads to several different numbers.
+   !> Returns the number to which a path leads; NaN if the path leads to several different numbers, and 0 after an error.
    subroutine get_number(session, path, value, error)
       type(session_t), intent(inout) :: session
       character(*), intent(in) :: path
       real(wp), intent(out) :: value                       !! in the unit of the deck
-      type(error_t), allocatable, intent(out) :: error     !! exit_usage: it leads to no number that the deck gives
+      type(error_t), allocatable, intent(out) :: error     !! exit_usage: the path leads to no number that the deck gives
       type(choice_t), allocatable :: found(:)
       type(deck_t) :: trial
       real(wp) :: this
@@ -192,7 +192,7 @@ contains
    subroutine refuse_all(session, values, before, error)
       type(session_t), intent(in) :: session
       real(wp), intent(in) :: values(:)
-      integer, intent(in) :: before                        !! numbers before the first
+      integer, intent(in) :: before                        !! number of values before the first
       type(error_t), allocatable, intent(out) :: error
       type(message_list_t) :: lines
       integer :: k

@@ -23,7 +23,7 @@ module ek_session_solution
 contains
 
    !> Solves a case of the deck or a standard test at the present numbers. The table has all columns, or only `state`, `factor`, the
-   !> named columns and the last columns on convergence. The named columns are in the order of the program's tables.
+   !> named columns and, at its end, the columns on convergence. The named columns are in the order of the program's tables.
    subroutine solve(session, name, error, columns)
       type(session_t), intent(inout) :: session
       character(*), intent(in) :: name                         !! '': the first case of the deck
@@ -111,7 +111,7 @@ contains
       call fail(error, exit_usage, 'no case '//quoted(name)//' in '//file//did_you_mean(name, names))
    end subroutine find_case
 
-   !> Prepares the columns that the table of a case shall have. Names with * are replaced by all matching names.
+   !> Prepares the columns of the table of a case. Names with * are replaced by all matching names.
    subroutine prepare(workspace, k, asked, prepared, error)
       type(workspace_t), intent(in) :: workspace
       integer, intent(in) :: k
@@ -137,7 +137,7 @@ contains
       prepared%options%columns = pack(heads, is_wanted)
    end subroutine prepare
 
-   !> Creates the remarks on the last solution. Returns failures as an error.
+   !> Creates the messages on the last solution. Returns failures as an error.
    subroutine end_solution(session, error)
       type(session_t), intent(inout), target :: session
       type(error_t), allocatable, intent(inout) :: error
@@ -170,7 +170,7 @@ contains
       end if
    end function result_of
 
-   !> Reads a remark on a solution: its string, and its severity 'note', 'warning' or 'failure'.
+   !> Reads a message on a solution: its string, and its severity 'note', 'warning' or 'failure'.
    subroutine read_remark(remarks, k, text, severity)
       type(remark_list_t), intent(in) :: remarks
       integer, intent(in) :: k
@@ -191,8 +191,8 @@ contains
       state_of_row = nint(result%table%values(column_index(result%table, 'state'), row)) + 1
    end function state_of_row
 
-   !> Rejects calls on the last solution if key numbers have since been read at changed numbers, because the model then has the
-   !> changed numbers.
+   !> Rejects calls on the last solution if key numbers, or messages on the model, have since been read at changed numbers, because
+   !> the model then has the changed numbers.
    subroutine refuse_other_numbers(session, error)
       type(session_t), intent(in) :: session
       type(error_t), allocatable, intent(out) :: error     !! exit_usage
@@ -208,13 +208,13 @@ contains
          'derivatives are read')
    end subroutine refuse_other_numbers
 
-   !> Computes the compliance matrix at the wheel centres in one row of the last solution: displacements x y z and rotations [m,
-   !> rad] per force and moment [N, N m]. Left is before right; the frame is the frame of the deck. All entries are NaN if the state
-   !> did not converge.
+   !> Computes the compliance matrix at the wheel centres in one row of the last solution: displacements x y z [m] and rotations
+   !> [rad] per force [N] and moment [N m]. The left wheel is first; the frame is the frame of the deck. All entries are NaN if the
+   !> state did not converge or the matrix is singular.
    subroutine compliance_at(session, row, c, error)
       type(session_t), intent(inout), target :: session
       integer, intent(in) :: row
-      real(wp), intent(out) :: c(:, :)                     !! 6 × wheels
+      real(wp), intent(out) :: c(:, :)                     !! matrix of 6 × wheels rows and columns
       type(error_t), allocatable, intent(out) :: error     !! exit_usage: no solution, or the model has other numbers since
       type(case_result_t), pointer :: result
       type(compliance_t) :: compliance

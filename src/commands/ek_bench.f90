@@ -1,9 +1,9 @@
 !> elastokin bench: time per increment, relative to LAPACK's factorisation and solution alone.
 !>
-!> The unit is dsysv on the matrices of the sweep (scaled KKT matrices of its equilibrium states) with one
-!> right-hand side, timed alternately with the methods in the same run: the ratio then does not depend on the
-!> speed of the machine. Times are processor times, and the minimum of many rounds is reported for each: the load of the
-!> machine does not change them either.
+!> The unit is the time of dsysv for the matrices of the sweep (scaled KKT matrices of its equilibrium states) with one right-hand
+!> side. dsysv and the methods are timed in turn in the same run, so that the ratios do not depend on the speed of the machine. All
+!> times are processor times, and the minimum of many rounds counts for each measurement, so that the load of the machine does not
+!> change the ratios.
 module ek_bench
    use ek_kinds, only: wp
    use ek_error, only: error_t, fail, exit_convergence, exit_file
@@ -35,7 +35,8 @@ module ek_bench
 
 contains
 
-   !> Prints the table of ratios to standard output; with --json, prints an object.
+   !> Prints the time ratios of a case to standard output; with --json, prints them as a JSON object. With --growth or
+   !> --derivatives, makes the measurement of ek_growth or ek_bench_derivatives instead.
    subroutine bench(line, error)
       type(command_line_t), intent(in) :: line
       type(error_t), allocatable, intent(out) :: error
@@ -114,7 +115,8 @@ contains
       end if
    end subroutine bench
 
-   !> Puts the first chosen case of a deck on the rig, examined and balanced.
+   !> Reads a deck, examines its model for the first chosen case, applies the preload trim (`balance`), and mounts the case on the
+   !> rig.
    subroutine load_case(settings, suspension, case, error)
       type(deck_settings_t), intent(in) :: settings
       type(suspension_t), intent(out) :: suspension
@@ -137,7 +139,7 @@ contains
       call mount(workspace%suspension, chosen(1), suspension, case)
    end subroutine load_case
 
-   !> The largest distance between the positions of a body in two sweeps [m].
+   !> The largest distance [m] between the positions of a body at one state in two sweeps, over all bodies and states.
    pure real(wp) function largest_distance(a, b, bodies) result(largest)
       type(path_t), intent(in) :: a, b
       integer, intent(in) :: bodies
@@ -149,7 +151,8 @@ contains
       end do
    end function largest_distance
 
-   !> Times all steps from deck to CSV string within this process. The shortest of several rounds counts for each step.
+   !> Prints the times of all steps from deck to CSV string within this process [ms]. The shortest of five rounds counts for each
+   !> step.
    subroutine whole_way(settings, error)
       type(deck_settings_t), intent(in) :: settings
       type(error_t), allocatable, intent(out) :: error

@@ -1,7 +1,8 @@
-!> elastokin bench DECK --derivatives: cost of derivatives, relative to the sweep of the same states and to the columns.
+!> elastokin bench DECK --derivatives: time of derivatives, relative to the sweep of the same states. For the entries of the
+!> compliance matrix, the time is relative to the time of the matrix itself.
 !>
-!> The unit is the sweep of the case by LAPACK. All are timed in turn in the same run, in time of the processor, and the minimum of
-!> several rounds counts, so that a ratio does not depend on the speed or load of the machine.
+!> The sweep is solved by LAPACK. All measurements are made in turn in the same run, in processor time, and the minimum of several
+!> rounds counts, so that a ratio does not depend on the speed or load of the machine.
 module ek_bench_derivatives
    use ek_kinds, only: wp
    use ek_error, only: error_t, fail, exit_usage, exit_model, exit_convergence
@@ -33,18 +34,18 @@ module ek_bench_derivatives
    character(*), parameter :: nl = new_line('a')
    integer, parameter :: rounds = 7
 
-   !> One way to use derivatives.
+   !> A use of derivatives: the columns and the directions (numbers of the deck), and the time of their derivatives.
    type :: use_t
       character(:), allocatable :: name
       character(name_length), allocatable :: columns(:)
       type(direction_t), allocatable :: directions(:)
       type(derivatives_t) :: derivatives
-      real(wp) :: time = huge(1.0_wp)            !! of all states [s]
+      real(wp) :: time = huge(1.0_wp)            !! shortest time of the derivatives at all states [s]
    end type use_t
 
 contains
 
-   !> Prints the ratios to standard output; with --json, prints an object.
+   !> Prints the time of the sweep and the time ratios to standard output; with --json, prints them as a JSON object.
    subroutine bench_derivatives(line, error)
       type(command_line_t), intent(in) :: line
       type(error_t), allocatable, intent(out) :: error
@@ -114,8 +115,8 @@ contains
       end if
    end subroutine time_uses
 
-   !> Lists the uses of derivatives: the motions for all coordinates of points, all columns, the compliance matrix, one response for
-   !> all numbers, and all motions.
+   !> Lists the five uses of derivatives. Three are with respect to all coordinates of points: motion of the states, all columns of
+   !> the state, compliance matrix. Two are with respect to all numbers of the deck: one response, motion of the states.
    subroutine list_uses(workspace, k, uses)
       type(workspace_t), intent(in) :: workspace
       integer, intent(in) :: k
@@ -149,7 +150,7 @@ contains
       end associate
    end subroutine list_uses
 
-   !> Times the sweep of the case by LAPACK.
+   !> Times the sweep of the case by LAPACK, and stores the shortest time so far.
    subroutine time_sweep(workspace, k, time)
       type(workspace_t), intent(in) :: workspace
       integer, intent(in) :: k
@@ -170,7 +171,7 @@ contains
       end associate
    end subroutine time_sweep
 
-   !> Times the computation of columns at all states.
+   !> Times the computation of columns at all states, and stores the shortest time so far.
    subroutine time_columns(workspace, k, columns, time)
       type(workspace_t), intent(inout) :: workspace
       integer, intent(in) :: k
@@ -218,7 +219,7 @@ contains
       type(workspace_t), intent(in) :: workspace
       integer, intent(in) :: k
       type(use_t), intent(in) :: uses(:)
-      real(wp), intent(in) :: walk, row          !! the sweep by LAPACK, the compliance matrix at all its states [s]
+      real(wp), intent(in) :: walk, row          !! sweep by LAPACK; compliance matrix at all states of the sweep [s]
       character(:), allocatable :: text
       character(200) :: line
       integer :: u
@@ -240,14 +241,14 @@ contains
       text = text//trim(line)//nl
    end function table_of
 
-   !> Time of the derivatives with respect to one number, relative to the time of the columns.
+   !> Ratio [-] of the time of the derivatives with respect to one number, to the time of the columns themselves.
    pure real(wp) function of_one(use, row)
       type(use_t), intent(in) :: use
       real(wp), intent(in) :: row
       of_one = use%time/(row*max(1, size(use%directions)))
    end function of_one
 
-   !> The ratios as a JSON object.
+   !> The time of the sweep and the time ratios as a JSON object.
    function json_of(workspace, k, uses, walk, row) result(text)
       type(workspace_t), intent(in) :: workspace
       integer, intent(in) :: k

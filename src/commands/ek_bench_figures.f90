@@ -11,26 +11,26 @@ module ek_bench_figures
 
    character(*), parameter :: nl = new_line('a')
 
-   integer, parameter :: short_sweep = 20     !! increments of a design, as in a study
+   integer, parameter :: short_sweep = 20     !! increments of a timed design, as in a study
 
    !> The measured values. Times are processor times, so that a busy machine does not change them.
    type :: figures_t
       character(:), allocatable :: model, case
-      integer :: increments = 0, n = 0       !! of the case; size of the matrix
-      real(wp) :: unit = 0.0_wp              !! dsysv [s]
-      real(wp) :: increment(2) = huge(1.0_wp)    !! of the methods recursive and corrected, by LAPACK [s]
-      type(parts_t) :: lapack, plan          !! of equilibrium
-      real(wp) :: pack_states = 0.0_wp       !! states per second of four designs at a time; 0: not measured
-      real(wp) :: alone = 0.0_wp             !! share of these states that were found one design at a time
-      integer :: nonzeros = 0, length = 0    !! entries of the matrix; numbers of its factors by plan
-      integer :: fallbacks = 0               !! states that LAPACK had to factorise instead
-      real(wp) :: factorisations = 0.0_wp    !! per state
-      integer :: most = 0                    !! factorisations of one state
-      real(wp) :: distance = 0.0_wp          !! from the exact solution [m]
-      real(wp) :: kandc_row = 0.0_wp         !! the compliance matrix of all wheels at a state, by plan [s]; 0: no wheel
-      real(wp) :: kandc_all = 0.0_wp         !! with all K&C quantities, by plan [s]; 0: no wheel
-      real(wp) :: design = 0.0_wp            !! a design of short_sweep increments, from numbers to a column [s]; 0: not measured
-      real(wp) :: states = 0.0_wp            !! its states and the column alone [s]
+      integer :: increments = 0, n = 0       !! increments of the case; order of the matrix
+      real(wp) :: unit = 0.0_wp              !! time of dsysv [s]
+      real(wp) :: increment(2) = huge(1.0_wp)    !! time per increment of recursive and corrected, by LAPACK [s]
+      type(parts_t) :: lapack, plan          !! times of method equilibrium with each solver
+      real(wp) :: pack_states = 0.0_wp       !! states per second of packs of four designs; 0: not measured
+      real(wp) :: alone = 0.0_wp             !! share of the states of packs that were solved one design at a time
+      integer :: nonzeros = 0, length = 0    !! entries of the lower triangle of the matrix; numbers in its factors by plan
+      integer :: fallbacks = 0               !! factorisations per sweep that LAPACK repeated: the factors by plan were not sound
+      real(wp) :: factorisations = 0.0_wp    !! mean number of factorisations per state
+      integer :: most = 0                    !! largest number of factorisations of a state
+      real(wp) :: distance = 0.0_wp          !! largest distance from the solution at tolerance 1e-13 m [m]
+      real(wp) :: kandc_row = 0.0_wp         !! time of the compliance matrix of all wheels at a state, by plan [s]; 0: no wheel
+      real(wp) :: kandc_all = 0.0_wp         !! time of the compliance matrix and all K&C quantities, by plan [s]; 0: no wheel
+      real(wp) :: design = 0.0_wp  !! time of a design of short_sweep increments, from numbers to a column [s]; 0: not measured
+      real(wp) :: states = 0.0_wp            !! time of the states and the column of this design alone [s]
    end type figures_t
 
 contains

@@ -30,10 +30,10 @@ module ek_bench_times
    private
    public :: rounds, collect_matrices, time_lapack, time_packs, time_kandc, time_designs
 
-   integer, parameter :: rounds = 30          !! each method is timed this often; the minimum counts
-   integer, parameter :: kept_numbers = 2**17 !! size of the matrices stored for the unit: 1 MB fits in the cache
-   integer, parameter :: designs = 10         !! timed together
-   integer, parameter :: rows = 20            !! of K&C quantities, timed together
+   integer, parameter :: rounds = 30          !! rounds of a measurement; the minimum counts
+   integer, parameter :: kept_numbers = 2**17 !! numbers in the matrices stored for the unit: 1 MB fits in the cache
+   integer, parameter :: designs = 10         !! number of designs timed together
+   integer, parameter :: rows = 20            !! number of rows of K&C quantities timed together
 
 contains
 
@@ -65,12 +65,12 @@ contains
       end do
    end subroutine collect_matrices
 
-   !> Times dsysv on one of the matrices including a copy of the matrix, and times the copy alone. The shortest time so far counts
-   !> for each, so that a disturbed round affects neither.
+   !> Times dsysv on all matrices including a copy of each matrix, and times the copies alone, both per matrix. The shortest time so
+   !> far counts for each, so that a disturbed round affects neither.
    subroutine time_lapack(n, matrices, together, copying, error)
       integer, intent(in) :: n
       real(wp), intent(in) :: matrices(:, :, :)
-      real(wp), intent(inout) :: together, copying     !! s
+      real(wp), intent(inout) :: together, copying     !! time of dsysv with copy; time of the copy [s]
       type(error_t), allocatable, intent(out) :: error     !! exit_convergence: a matrix is singular
       real(wp) :: copy(n, n), rhs(n), work(64*n), start
       integer :: pivots(n), k, info
@@ -105,7 +105,7 @@ contains
    subroutine time_packs(suspension, case, kkt, figures)
       type(suspension_t), intent(in), target :: suspension
       type(case_t), intent(in), target :: case
-      type(kkt_t), intent(in) :: kkt             !! with a plan
+      type(kkt_t), intent(in) :: kkt             !! system with a plan
       type(figures_t), intent(inout) :: figures
       type(kkt_t), target :: own(lanes)
       type(path_t), target :: path(lanes)
@@ -140,12 +140,12 @@ contains
    end subroutine time_packs
 
    !> Times the K&C quantities at design by plan: the compliance matrix alone, and the matrix with all quantities that are read from
-   !> it.
+   !> the matrix.
    subroutine time_kandc(suspension, case, path, kkt, figures)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
-      type(path_t), intent(in) :: path           !! all its states are reached
-      type(kkt_t), intent(inout) :: kkt          !! with a plan
+      type(path_t), intent(in) :: path           !! path whose states are all reached
+      type(kkt_t), intent(inout) :: kkt          !! system with a plan
       type(figures_t), intent(inout) :: figures
       type(compliance_t) :: compliance
       type(kandc_t) :: kandc
@@ -181,9 +181,9 @@ contains
       end do
    end subroutine time_kandc
 
-   !> Times complete designs as in a study: numbers to suspension, examination, balance, states and one column. Also times the
-   !> states and the column without the other steps. In each design, the first number that the deck gives is changed in its tenth
-   !> digit.
+   !> Times complete designs as in a study: numbers to suspension, examination, preload trim (`balance`), states and one column.
+   !> Also times the states and the column without the other steps. In each design, the first nonzero number that the deck gives is
+   !> changed in its tenth digit. If a changed model cannot be built from numbers, nothing is measured.
    subroutine time_designs(settings, case_name, figures, error)
       type(deck_settings_t), intent(in) :: settings
       character(*), intent(in) :: case_name

@@ -1,8 +1,9 @@
-!> A chain of any length: the model by which `bench --growth` measures how the time of an increment grows with the model.
+!> A chain of any length: the model with which `bench --growth` measures the growth of the time of an increment with the size of the
+!> model.
 !>
-!> Equal bodies in a row along x. Each is held on the one before it, the first on the chassis, by a spherical joint at its beginning
-!> and by a bushing above that joint, which prevents rotation. A driver lifts the end of the last. A body has 6 unknowns and its
-!> joint 3 rows, so that the matrix of b bodies has 9 b + 1 rows.
+!> The chain consists of equal bodies in a row along x. Each body is connected to the body before it, and the first body to the
+!> chassis, by a spherical joint at the beginning of the body. A bushing above each joint prevents rotation. A driver lifts the end
+!> of the last body. A body has 6 unknowns and its joint has 3 rows, so that the matrix of b bodies has 9 b + 1 rows.
 module ek_chain
    use ek_kinds, only: wp
    use ek_error, only: error_t
@@ -21,16 +22,16 @@ module ek_chain
 
 contains
 
-   !> The number of bodies of the chain whose matrix has nearest to n rows.
+   !> The number of bodies of the chain whose number of matrix rows is closest to n.
    pure integer function bodies_of(n)
-      integer, intent(in) :: n            !! 10 or more
+      integer, intent(in) :: n            !! number of matrix rows, at least 10
       bodies_of = max(nint((n - 1)/9.0_wp), 1)
    end function bodies_of
 
-   !> Reads the chain on the rig of its case.
+   !> Reads the deck of a chain and mounts its case on the rig.
    subroutine read_chain(bodies, lift, suspension, case, error)
       integer, intent(in) :: bodies
-      integer, intent(in) :: lift         !! mm, of the end, with two increments each
+      integer, intent(in) :: lift         !! lift of the end [mm], with two increments per millimetre
       type(suspension_t), intent(out) :: suspension
       type(case_t), intent(out) :: case
       type(error_t), allocatable, intent(out) :: error
@@ -45,7 +46,7 @@ contains
 
    !> The chain as the content of a deck.
    function deck_text(bodies, lift) result(text)
-      integer, intent(in) :: bodies, lift      !! lift: mm
+      integer, intent(in) :: bodies, lift      !! number of bodies; lift of the end [mm]
       character(:), allocatable :: text
       type(buffer_t) :: deck
       character(:), allocatable :: this, ends

@@ -26,8 +26,9 @@ module ek_check
 
 contains
 
-   !> Prints the findings to standard output. The last line is OK, or the number of messages and the worst message. With --json,
-   !> prints the messages as one object. `error` has the code exit_model if the model cannot be solved.
+   !> Prints the findings to standard output. The last line is OK, or the counts of errors, warnings and remarks with the first of
+   !> the most severe messages. After an error before the examination, as in a deck that cannot be read, nothing is printed here.
+   !> With --json, all messages are always printed, as one object. `error` has the code exit_model if the model cannot be solved.
    subroutine check(line, error)
       type(command_line_t), intent(in) :: line
       type(error_t), allocatable, intent(out) :: error
@@ -55,10 +56,11 @@ contains
       if (allocated(error)) status_of = error%code
    end function status_of
 
-   !> Collects the findings. Findings made before an error are included.
+   !> Reads the deck, writes it to deck_path if given, examines its model, and collects findings and messages. After an error before
+   !> the examination, as in a deck that cannot be read, only the error messages are collected.
    subroutine examine(settings, deck_path, findings, messages, model, checksum, error)
       type(deck_settings_t), intent(in) :: settings
-      character(*), intent(in) :: deck_path                !! where the deck as it was used is written; '': nowhere
+      character(*), intent(in) :: deck_path                !! path for the deck as it was used; '': the deck is not written
       type(buffer_t), intent(inout) :: findings
       type(check_messages_t), intent(inout) :: messages
       character(:), allocatable, intent(out) :: model, checksum      !! '' if the deck cannot be read
@@ -126,14 +128,15 @@ contains
       end do
    end subroutine add_lines
 
-   !> Adds the remarks on the model, which is balanced if balance succeeds. The preloads found by balance are results, not findings.
+   !> Adds the warnings and remarks on the model. The preload trim (`balance`) is applied first. If the model cannot be solved or
+   !> the trim fails, the model as read is examined. The preloads that the trim finds are results, not findings.
    subroutine add_remarks(workspace, chosen, is_solvable, has_warnings, findings, messages, error)
       type(workspace_t), intent(inout) :: workspace
       type(case_t), intent(in) :: chosen(:)
       logical, intent(in) :: is_solvable, has_warnings
       type(buffer_t), intent(inout) :: findings
       type(check_messages_t), intent(inout) :: messages
-      type(error_t), allocatable, intent(out) :: error    !! of balance
+      type(error_t), allocatable, intent(out) :: error    !! failure of the preload trim
       type(model_remarks_t) :: remarks
       real(wp) :: tolerance
       integer :: k
@@ -157,7 +160,8 @@ contains
       end do
    end subroutine add_remarks
 
-   !> Adds bodies, unknowns, constraints, degrees of freedom and unused points.
+   !> Adds name and checksum, bodies, unknowns, constraints, matrix size, degrees of freedom with the elements that hold them,
+   !> chosen axes, and unused points.
    subroutine add_model(suspension, diagnosis, checksum, findings)
       type(suspension_t), intent(in) :: suspension
       type(diagnosis_t), intent(in) :: diagnosis
@@ -194,8 +198,8 @@ contains
       call add(findings, 'unused points', unused(3:))
    end subroutine add_model
 
-   !> Size of the system of an increment without the rows of a rig, for LAPACK and for the plan of elimination, as a string. Numbers
-   !> of entries refer to the lower triangle.
+   !> Order and number of entries of the KKT matrix without the rows of a rig, as a string: nonzero entries, entries with the fill
+   !> of the plan of elimination, and entries of a dense matrix. Only the lower triangle is counted.
    function matrix_text(suspension) result(text)
       type(suspension_t), intent(in) :: suspension
       character(:), allocatable :: text
@@ -206,10 +210,11 @@ contains
          str(kkt%plan(1)%length)//' with fill; dense '//str((kkt%n*(kkt%n + 1))/2)
    end function matrix_text
 
-   !> The axis that the program has chosen for a joint, in the frame of the deck: "universal 'outer': axis_2_vector = 0, 1, 0".
+   !> The axis that the program has chosen for a universal joint, in the frame of the deck: "universal 'outer': axis_2_vector = 0,
+   !> 1, 0".
    function axis_text(suspension, k) result(text)
       type(suspension_t), intent(in) :: suspension
-      integer, intent(in) :: k                     !! number of the joint
+      integer, intent(in) :: k                     !! index of the joint
       character(:), allocatable :: text
       real(wp) :: axis(3)
 
@@ -222,7 +227,7 @@ contains
       end associate
    end function axis_text
 
-   !> Adds one case: its test, load or driver, and whether the case can be solved.
+   !> Adds one case: its test, load or driver, its increments and method, and whether the case can be solved.
    subroutine add_case(case, diagnosis, findings)
       type(case_t), intent(in) :: case
       type(diagnosis_t), intent(in) :: diagnosis
@@ -241,7 +246,7 @@ contains
       end if
    end subroutine add_case
 
-   !> Adds a line 'name: text'; adds nothing for an empty text.
+   !> Adds a line 'name: text'; adds nothing for an empty string.
    subroutine add(findings, name, text)
       type(buffer_t), intent(inout) :: findings
       character(*), intent(in) :: name, text

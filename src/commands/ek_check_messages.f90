@@ -14,14 +14,15 @@ module ek_check_messages
 
    !> The messages of each severity, in the order in which they were found.
    type :: check_messages_t
-      type(message_list_t) :: errors       !! the deck cannot be read, or the model cannot be solved
-      type(message_list_t) :: warnings     !! results may be unreliable
-      type(message_list_t) :: remarks      !! implausible values
+      type(message_list_t) :: errors       !! messages: deck cannot be read, model cannot be solved, preload trim failed
+      type(message_list_t) :: warnings     !! messages: results may be unreliable
+      type(message_list_t) :: remarks      !! messages: implausible values
    end type check_messages_t
 
 contains
 
-   !> The last line of check: 'OK', or '1 warning, 3 remarks, the worst: text' with the first message of the worst severity.
+   !> The last line of check: 'OK', or '1 warning, 3 remarks, the worst: text' with the first line of the first message of the worst
+   !> severity, truncated after 240 characters.
    function last_line(messages) result(text)
       type(check_messages_t), intent(in) :: messages
       character(:), allocatable :: text
@@ -103,7 +104,7 @@ contains
 
    end function check_json
 
-   !> Adds one message as a location and a string without the location.
+   !> Adds one message: severity, file, line, group, key, and the message without a location at its start.
    subroutine add_message(json, message, severity)
       type(json_t), intent(inout) :: json
       character(*), intent(in) :: message, severity
@@ -124,7 +125,8 @@ contains
       call json%close('}')
    end subroutine add_message
 
-   !> Splits 'file:41: text' into three parts. `line` is 0 if the message has no location.
+   !> Splits 'file:41: text' into three parts. A location in brackets is read as well, as in "mechanism: body 'arm' (file:41) turns
+   !> freely", and stays in `text`. Without a location, `line` is 0 and `file` is ''.
    pure subroutine split_place(message, file, line, text)
       character(*), intent(in) :: message
       character(:), allocatable, intent(out) :: file, text
@@ -167,7 +169,8 @@ contains
       file = message(first:at - 1)
    end subroutine split_place
 
-   !> Index of the group with which a message begins: "spring 'coil': …" or "&model: …"; 0 if the message begins with no group.
+   !> Index of the group named at the start of a message, after 'mechanism: ' or 'redundant: ' if present: "spring 'coil': …" or
+   !> "&model: …". 0 if no group is named at this position.
    pure integer function group_of(text) result(group)
       character(*), intent(in) :: text
       character(*), parameter :: free = 'mechanism: ', doubled = 'redundant: '
@@ -182,8 +185,9 @@ contains
       if (group > 0 .and. index(text, '&') /= 1 .and. index(text(min(last, len(text)):), " '") /= 1) group = 0
    end function group_of
 
-   !> The key with which a finding begins: 'rate has 1 element', "'rte' in &spring", 'tyre rate 3 N/mm'. '' if the finding begins
-   !> with no key of the group.
+   !> The key with which a finding begins after its first colon: rate in "spring 'coil': rate has 1 element". A key in quotation
+   !> marks is accepted, and a blank in place of an underscore: 'tyre rate' for tyre_rate. '' if the finding does not begin with
+   !> a key of the group.
    function key_of(text, group) result(name)
       character(*), intent(in) :: text
       integer, intent(in) :: group

@@ -1,6 +1,6 @@
-!> The commands and their options as tables, which define the valid command lines and the texts of --help.
+!> The commands and their options as tables, which define the valid command lines and the output of --help.
 !>
-!> A new command: its own file; here its row in `commands`, its rows in `options`, and its call in `obey`.
+!> A new command needs its own file and, in this module, its row in `commands`, its rows in `options`, and its call in `obey`.
 module ek_command
    use ek_error, only: error_t
    use ek_command_line, only: command_t, option_t, command_line_t
@@ -313,7 +313,7 @@ contains
       end select
    end subroutine obey
 
-   !> Help for a command; '' gives the overview.
+   !> Help for a command; the overview for '' or an unknown name.
    pure function help_text(name) result(text)
       character(*), intent(in) :: name
       character(:), allocatable :: text

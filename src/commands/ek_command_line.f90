@@ -1,5 +1,5 @@
-!> The command line: a command, its files and its options. It is checked against the tables of ek_command, so that it contains
-!> only options of its command. Every error message states the expected form.
+!> The command line: a command, its files and its options. Unless help or the version is requested, the options are checked against
+!> the tables of ek_command, so that the command line contains only options of its command.
 module ek_command_line
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t, fail, exit_usage
@@ -14,27 +14,27 @@ module ek_command_line
    !> A command, as --help describes it.
    type :: command_t
       character(11) :: name
-      character(80) :: usage      !! after 'elastokin'; options without a line of help are appended
-      character(18) :: brief      !! the same in the overview
-      character(60) :: summary    !! line of the overview
-      character(720) :: text      !! description
-      character(230) :: ending    !! after the options
-      integer :: files = 1        !! 1: one file; 2: two or more; 0: one or more
-      character(15) :: alone = '' !! option that is given instead of the files
+      character(80) :: usage      !! usage after 'elastokin'; options without a line of help are appended
+      character(18) :: brief      !! usage in the overview
+      character(60) :: summary    !! description in the overview
+      character(720) :: text      !! description in the help of the command
+      character(230) :: ending    !! last paragraph of the help, after the options
+      integer :: files = 1        !! code for the number of files: 1: one; 2: two or more; 0: one or more
+      character(15) :: alone = '' !! option that can replace the files; '' for no such option
    end type command_t
 
    !> An option of a command.
    type :: option_t
-      character(11) :: command    !! '' for every command
-      character(19) :: label      !! '--plot', '--out DIR': the name and its value; N: a number, a=b: may be repeated
-      character(200) :: help      !! its line in the help of the command; '' if the line of usage suffices
+      character(11) :: command    !! name of the command; '' for every command
+      character(19) :: label  !! '--plot', '--out DIR': name and form of the value; N: integer of at least 1; a=b: may be repeated
+      character(200) :: help      !! description in the help of the command; '' if the line of usage suffices
    end type option_t
 
    type :: command_line_t
-      character(:), allocatable :: command        !! '' if there is none
+      character(:), allocatable :: command        !! name of the command; '' without a command
       type(message_list_t) :: files
-      character(:), allocatable :: build          !! of this program, from the main program; not allocated: unknown
-      type(message_list_t), private :: names, texts     !! of the options in order, and their values
+      character(:), allocatable :: build          !! build of this program, set by the main program; not allocated: unknown
+      type(message_list_t), private :: names, texts     !! names of the options in order, and their values
    contains
       procedure :: has, value => last_value, values => all_values, number => number_of
    end type command_line_t
@@ -106,7 +106,8 @@ contains
       name = option%label(:index(option%label, ' ') - 1)
    end function option_name
 
-   !> Reads the command line of this process. If help or the version is requested, nothing is checked against the command.
+   !> Reads the command line of this process. Without arguments, or if help or the version is requested, the files and options are
+   !> not checked against the command.
    subroutine read_command_line(commands, options, line, error)
       type(command_t), intent(in) :: commands(:)
       type(option_t), intent(in) :: options(:)
@@ -156,7 +157,7 @@ contains
    subroutine take_option(options, word, k, line, error)
       type(option_t), intent(in) :: options(:)
       character(*), intent(in) :: word
-      integer, intent(inout) :: k                           !! number of the word, then of its value
+      integer, intent(inout) :: k                           !! index of the option, then of its value
       type(command_line_t), intent(inout) :: line
       type(error_t), allocatable, intent(out) :: error
       character(:), allocatable :: name, value, expected
@@ -234,7 +235,7 @@ contains
       end do
    end subroutine read_windows
 
-   !> Reads --threshold, a change in percent with or without '%', as a share.
+   !> Reads --threshold, a change in percent with or without '%', as a share. Without the option, `threshold` is unchanged.
    subroutine read_threshold(line, threshold, error)
       type(command_line_t), intent(in) :: line
       real(wp), intent(inout) :: threshold
@@ -259,7 +260,7 @@ contains
       end if
    end subroutine read_threshold
 
-   !> The names of all commands as a phrase: 'run, check, report, compare, study, merge, plot, import or bench'.
+   !> The names of all commands as a phrase: 'run, check, … or bench'.
    pure function names_of(commands) result(text)
       type(command_t), intent(in) :: commands(:)
       character(:), allocatable :: text

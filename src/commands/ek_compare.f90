@@ -1,4 +1,4 @@
-!> elastokin compare: changes of the deck between results, their effects, and the overlaid curves.
+!> elastokin compare: differences between the decks of results, changes of key numbers and gradients, and the overlaid curves.
 module ek_compare
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t, fail, exit_usage
@@ -151,7 +151,7 @@ contains
 
    contains
 
-      !> Whether no result before a, other than b, has test t of result b, so that each missing test is listed once.
+      !> Whether no result before a, other than b, has test t of result a, so that each test that b lacks is listed once.
       pure logical function is_first(a, b, t)
          integer, intent(in) :: a, b, t
          integer :: c
@@ -201,7 +201,8 @@ contains
       if (names%count() > enough) text = text//' and '//str(names%count() - enough)//' more'
    end function some_of
 
-   !> The output for standard output: changes of the deck, the number of changed results, and the table of gradients.
+   !> The string for standard output: the paths of the results, the changes of the deck, the counts of changes, the values and
+   !> verdicts of the targets, and the table of gradients.
    function text_of(this) result(text)
       type(comparison_t), intent(in) :: this
       character(:), allocatable :: text
@@ -230,8 +231,8 @@ contains
       text = out%text()
    end function text_of
 
-   !> Adds lines such as 'Deck checksum: 12ab → 34cd' or 'point.seat.y: -500 → -520 (-20)'. Of many values, only the first are
-   !> added.
+   !> Adds lines such as 'Deck checksum: 12ab → 34cd' or 'point.seat.y: -500 → -520 (-20)'. Of more than 30 values, only the
+   !> first 30 are added.
    subroutine add_changes(out, facts, values)
       type(buffer_t), intent(inout) :: out
       type(deck_difference_t), intent(in) :: facts(:), values(:)
@@ -323,7 +324,8 @@ contains
       text = padded(text, width)
    end function number_text
 
-   !> A string with blanks in front to fill a width; with a negative width, the blanks are behind the string.
+   !> A string with blanks in front to fill a width; with a negative width, the blanks follow the string. At least one blank is
+   !> added.
    pure function padded(text, width) result(filled)
       character(*), intent(in) :: text
       integer, intent(in) :: width
@@ -334,12 +336,12 @@ contains
       if (width < 0) filled = text//blanks
    end function padded
 
-   !> Draws all charts in one run of gnuplot.
+   !> Draws all charts in one run of gnuplot. If no charts are wanted, deletes the files of charts drawn earlier.
    subroutine draw(is_wanted, charts, folder, message, is_drawn, error)
       logical, intent(in) :: is_wanted
       type(chart_t), intent(in) :: charts(:)
       character(*), intent(in) :: folder
-      character(:), allocatable, intent(out) :: message    !! why there are no charts
+      character(:), allocatable, intent(out) :: message    !! reason for missing charts; '' if drawn
       logical, intent(out) :: is_drawn
       type(error_t), allocatable, intent(out) :: error
       type(message_list_t) :: scripts, pictures

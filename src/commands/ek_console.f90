@@ -1,5 +1,5 @@
-!> Output on the console: messages on standard error; findings and the paths of results on standard output. All output also goes
-!> into the log of the run.
+!> Output on the console: messages on standard error; findings and the paths of results on standard output. All output except the
+!> progress line is also added to the log of the run.
 module ek_console
    use ek_error, only: error_t, message_list_t
    use ek_text, only: str, plural, printable
@@ -15,7 +15,7 @@ module ek_console
 
 contains
 
-   !> Prints an informational message; suppressed by --quiet.
+   !> Prints an informational message. With --quiet, the message is added to the log only.
    subroutine print_note(quiet, text)
       logical, intent(in) :: quiet
       character(*), intent(in) :: text
@@ -35,14 +35,14 @@ contains
       if (len(text) > 0) call print_message('error: '//text)
    end subroutine print_error
 
-   !> Writes every message to standard error. Control characters from a deck do not reach the terminal.
+   !> Writes a message to standard error and to the log. Control characters from a deck do not reach the terminal.
    subroutine print_message(text)
       character(*), intent(in) :: text
       call write_standard_error(printable(text)//new_line('a'))
       call log_message(printable(text))
    end subroutine print_message
 
-   !> Prints findings to standard output.
+   !> Prints findings to standard output and adds them to the log.
    subroutine print_text(text, error)
       character(*), intent(in) :: text                          !! including its line ends
       type(error_t), allocatable, intent(out) :: error          !! exit_file
@@ -51,10 +51,10 @@ contains
    end subroutine print_text
 
    !> Prints the path of a result to standard output. If standard output is full or closed, the work continues, because the result
-   !> exists. The first such failure is stored. A reader that closes the pipe (`| head`) is not a failure.
+   !> exists. The first failure to print a path is stored. A reader that closes the pipe (`| head`) is not a failure.
    subroutine print_path(path, unprinted)
       character(*), intent(in) :: path
-      type(error_t), allocatable, intent(inout) :: unprinted      !! exit_file
+      type(error_t), allocatable, intent(inout) :: unprinted      !! first failure to print a path (exit_file)
       type(error_t), allocatable :: error
 
       call log_output(path//new_line('a'))
@@ -64,18 +64,18 @@ contains
       if (len(error%message) > 0) call move_alloc(error, unprinted)
    end subroutine print_path
 
-   !> Writes a table as CSV and prints its path.
+   !> Writes a table as CSV and prints the path of the file.
    subroutine write_table(table, path, unprinted, error)
       type(table_t), intent(in) :: table
       character(*), intent(in) :: path
-      type(error_t), allocatable, intent(inout) :: unprinted    !! as above
+      type(error_t), allocatable, intent(inout) :: unprinted    !! first failure to print a path (exit_file)
       type(error_t), allocatable, intent(out) :: error          !! exit_file: the table is not written
 
       call write_csv(table, path, error)
       if (.not. allocated(error)) call print_path(path, unprinted)
    end subroutine write_table
 
-   !> Shows a progress line that overwrites itself, if standard error is a terminal.
+   !> Shows the progress '12 of 400 states' in a line that overwrites itself, if standard error is a terminal.
    subroutine show_progress(done, total)
       integer, intent(in) :: done, total
       if (is_terminal(2)) call write_standard_error(achar(13)//'  '//str(done)//' of '//str(total)//' states')
@@ -86,8 +86,8 @@ contains
       if (is_terminal(2)) call write_standard_error(achar(13)//repeat(' ', 40)//achar(13))
    end subroutine clear_progress
 
-   !> Prints the remarks on a model before its cases are run. Of the remarks on implausible values, only the first is printed, with
-   !> a reference to the others. `page` collects the warnings and all remarks.
+   !> Prints the messages on a model before its cases are run: the notes, the warnings, and the first remark on an implausible
+   !> value, with the number of further remarks. `page` collects the warnings and all remarks, but no notes.
    subroutine print_model_remarks(quiet, remarks, page)
       logical, intent(in) :: quiet
       type(model_remarks_t), intent(in) :: remarks
@@ -112,7 +112,7 @@ contains
       end do
    end subroutine print_model_remarks
 
-   !> Prints the notes and warnings on a case. Its failures are not printed; they become an error.
+   !> Prints the notes and warnings on a case. The failures of the case are not printed here, because they become an error.
    subroutine print_remarks(quiet, remarks)
       logical, intent(in) :: quiet
       type(remark_list_t), intent(in) :: remarks

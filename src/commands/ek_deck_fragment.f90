@@ -12,14 +12,14 @@ module ek_deck_fragment
    public :: deck_fragment, records_with
 
    character(*), parameter :: nl = new_line('a')
-   integer, parameter :: most_lines = 60        !! a study of every number of a model would fill the page
+   integer, parameter :: most_lines = 60        !! largest number of lines; a study of every number of a model would fill the page
 
 contains
 
    !> The part of a deck that defines a design of a study; '' if a factor is not a number of the design space.
    function deck_fragment(designer, values) result(text)
-      type(designer_t), intent(in) :: designer     !! with the numbers of the deck
-      real(wp), intent(in) :: values(:)            !! of the factors
+      type(designer_t), intent(in) :: designer     !! designer with the numbers of the deck
+      real(wp), intent(in) :: values(:)            !! values of the factors
       character(:), allocatable :: text
       real(wp), allocatable :: x(:)
       type(choice_t), allocatable :: found(:)
@@ -37,11 +37,12 @@ contains
    end function deck_fragment
 
    !> Lines such as `&bushing name = 'lca_front', kt = 8000, 2000, 8000 /`: one per key, with all numbers of the key. Where the
-   !> numbers of both sides change together, the record of the half deck is used.
+   !> numbers of both sides change together, the record of the half deck is used. At most 60 lines are given; a comment states the
+   !> number of further lines.
    function records_with(design, x, found) result(text)
       type(design_t), intent(in) :: design
       real(wp), intent(in) :: x(:)                 !! numbers of the new design [SI, axes of the deck]
-      type(choice_t), intent(in) :: found(:)       !! those that change
+      type(choice_t), intent(in) :: found(:)       !! numbers that change
       character(:), allocatable :: text
       integer :: j, lines
 
@@ -90,7 +91,7 @@ contains
       type(design_t), intent(in) :: design
       real(wp), intent(in) :: x(:)
       integer, intent(in) :: number
-      logical, intent(in) :: is_half               !! as in the half deck
+      logical, intent(in) :: is_half               !! whether the line is written as in the half deck
       integer, intent(inout) :: lines
       character(:), allocatable, intent(inout) :: text
       character(:), allocatable :: line, name

@@ -1,4 +1,4 @@
-!> elastokin derivatives: how every column of a case changes with the numbers of the deck.
+!> elastokin derivatives: derivatives of the columns of a case with respect to the numbers of the deck.
 module ek_derivatives_command
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use ek_kinds, only: wp
@@ -25,8 +25,8 @@ module ek_derivatives_command
    public :: derive
 
    character(*), parameter :: nl = new_line('a')
-   integer, parameter :: max_listed = 10      !! numbers listed for each column
-   integer, parameter :: max_columns = 8      !! columns listed on standard output
+   integer, parameter :: max_listed = 10      !! largest number of numbers listed for each column
+   integer, parameter :: max_columns = 8      !! largest number of columns for which numbers are listed
 
 contains
 
@@ -63,7 +63,7 @@ contains
       if (.not. allocated(error)) call move_alloc(unreached, error)
    end subroutine derive
 
-   !> Chooses the case of --case, or the first case.
+   !> Chooses the case of --case; without --case, the first case. An unknown case, or a case without derivatives, is an error.
    subroutine choose_case(settings, workspace, k, error)
       type(deck_settings_t), intent(in) :: settings
       type(workspace_t), intent(in) :: workspace
@@ -152,7 +152,7 @@ contains
       end do
    end subroutine choose_quantities
 
-   !> Solves the case. States that did not converge are reported; the converged states are used.
+   !> Solves the case. States that did not converge are reported; the derivatives of the converged states are still computed.
    subroutine solve(settings, k, workspace, unreached, error)
       type(deck_settings_t), intent(in) :: settings
       integer, intent(in) :: k
@@ -178,7 +178,7 @@ contains
    end subroutine solve
 
    !> Chooses the states of --at: the state nearest to each swept value, or all states. Without --at, chooses the state nearest to
-   !> design.
+   !> the swept value 0 (design).
    subroutine choose_states(line, workspace, k, states, error)
       type(command_line_t), intent(in) :: line
       type(workspace_t), intent(in) :: workspace
@@ -217,7 +217,8 @@ contains
       if (size(states) == 0) call fail(error, exit_usage, '--at: no swept value is given')
    end subroutine choose_states
 
-   !> Writes the table, and prints the numbers with the largest effects on the requested columns.
+   !> Writes the table to a file, or with `--out -` to standard output. With a file and at most max_columns columns of --of, prints
+   !> the numbers with the largest effects on each column.
    subroutine write_results(line, settings, workspace, found, error)
       type(command_line_t), intent(in) :: line
       type(deck_settings_t), intent(in) :: settings
@@ -251,7 +252,7 @@ contains
       call print_text(list%text(), error)
    end subroutine write_results
 
-   !> Adds one row per state, column and number.
+   !> Adds the heading of the table and one row per state, column and number.
    subroutine add_csv(found, csv)
       type(derivatives_t), intent(in) :: found
       type(buffer_t), intent(inout) :: csv
@@ -284,8 +285,8 @@ contains
       end do
    end subroutine add_csv
 
-   !> Adds the numbers with the largest effect on a column. The effects are for changes of 1 mm, of 0.06 deg, or of 1 % of a rate or
-   !> a force (steps of ek_direction).
+   !> Adds the value of a column and its derivatives with respect to the ten numbers with the largest effects. The effects are for
+   !> changes of 1 mm, of 0.06 deg, or of 1 % of a rate or a force (steps of ek_direction).
    subroutine add_list(found, c, s, case, list)
       type(derivatives_t), intent(in) :: found
       integer, intent(in) :: c, s
@@ -312,7 +313,7 @@ contains
       end do
    end subroutine add_list
 
-   !> Warns of columns and numbers without a derivative, with the reason.
+   !> Prints notes on states that did not converge, and on numbers without a derivative, with the reason.
    subroutine warn(settings, workspace, found)
       type(deck_settings_t), intent(in) :: settings
       type(workspace_t), intent(in) :: workspace

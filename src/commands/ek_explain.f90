@@ -30,10 +30,10 @@ module ek_explain
    public :: explain
 
    type, extends(deck_settings_t) :: settings_t
-      character(name_length), allocatable :: columns(:)     !! names or patterns
+      character(name_length), allocatable :: columns(:)     !! names or patterns of columns
       type(message_list_t) :: rigid                         !! names of elements, or element.part
       logical :: has_scan = .false., has_json = .false., has_place = .false.
-      real(wp) :: place = 0.0_wp                            !! swept value that is printed, in its unit
+      real(wp) :: place = 0.0_wp                            !! swept value of --at, in the unit of the case
    end type settings_t
 
 contains
@@ -161,7 +161,7 @@ contains
    subroutine take_columns(names, table, error)
       character(name_length), intent(in) :: names(:)
       type(contribution_table_t), intent(inout) :: table
-      type(error_t), allocatable, intent(out) :: error       !! exit_usage: all names that mean no column
+      type(error_t), allocatable, intent(out) :: error       !! exit_usage: all names that match no column
       logical, allocatable :: is_wanted(:), is_this(:)
       type(message_list_t) :: mistakes
       integer :: k, j

@@ -1,4 +1,5 @@
-!> The files of elastokin explain: contributions and load paths of all states, as tables with one row per contribution, and as JSON.
+!> The files of elastokin explain: the contributions of all states as a table and as JSON, and the load paths of all states as a
+!> table.
 module ek_explain_files
    use ek_kinds, only: wp
    use ek_error, only: error_t
@@ -26,15 +27,15 @@ module ek_explain_files
       type(writer_t) :: shares, paths
       character(:), allocatable :: case
       logical :: has_json = .false.
-      type(json_t) :: json                   !! of all cases
+      type(json_t) :: json                   !! object with the contributions of all cases
    end type explain_files_t
 
 contains
 
-   !> Begins both tables of a case.
+   !> Begins the table of contributions and the table of load paths of a case.
    subroutine begin_explain_files(name, case, header, self, error)
       character(*), intent(in) :: name                 !! path without its extension
-      character(*), intent(in) :: case, header         !! its line: program, model, deck
+      character(*), intent(in) :: case, header         !! name of the case; header: model, case, program, checksum
       type(explain_files_t), intent(inout) :: self
       type(error_t), allocatable, intent(out) :: error
 
@@ -55,8 +56,8 @@ contains
    !> Adds a state to the tables, and to the JSON object.
    subroutine add_explain_state(suspension, state, factor, table, self)
       type(suspension_t), intent(in) :: suspension
-      integer, intent(in) :: state                     !! its number, the first is 0
-      real(wp), intent(in) :: factor                   !! swept value in its unit
+      integer, intent(in) :: state                     !! index of the state; the first is 0
+      real(wp), intent(in) :: factor                   !! swept value in the unit of the case
       type(contribution_table_t), intent(in) :: table
       type(explain_files_t), intent(inout) :: self
       type(buffer_t) :: lines
@@ -153,9 +154,9 @@ contains
       call json%open('[', 'cases')
    end subroutine begin_explain_json
 
-   !> Begins the output of a case with the list of rows, which is equal at every state.
+   !> Begins the output of a case: its name, the unit of the swept value, and the list of rows, which does not depend on the state.
    subroutine begin_explain_case(name, unit_name, table, json)
-      character(*), intent(in) :: name, unit_name      !! of the swept value
+      character(*), intent(in) :: name, unit_name      !! name of the case; unit of the swept value
       type(contribution_table_t), intent(in) :: table
       type(json_t), intent(inout) :: json
       integer :: k

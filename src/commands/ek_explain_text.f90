@@ -1,5 +1,5 @@
-!> The printed output of elastokin explain: the largest contributions to a column with bars, and the value of the column with rigid
-!> elements or an added spring.
+!> The printed output of elastokin explain: the largest contributions to each column with bars, the value of each column with rigid
+!> elements, and the change of each column by an added spring.
 module ek_explain_text
    use ek_kinds, only: wp
    use ek_text, only: str
@@ -17,9 +17,9 @@ module ek_explain_text
    private
    public :: add_largest, add_rigid, add_scan
 
-   integer, parameter :: shown = 10            !! rows of a column
-   integer, parameter :: longest_bar = 30      !! letters
-   real(wp), parameter :: added_rate = 1.0e6_wp      !! N/m: 1 kN/mm
+   integer, parameter :: shown = 10            !! largest number of rows per column
+   integer, parameter :: longest_bar = 30      !! length of the longest bar [letters]
+   real(wp), parameter :: added_rate = 1.0e6_wp      !! rate of the added spring [N/m]: 1 kN/mm
 
 contains
 
@@ -62,12 +62,12 @@ contains
          repeat(merge('+', '-', value > 0.0_wp), letters))
    end subroutine add_bar
 
-   !> Adds the value of each requested column with some laws rigid, or with a stiffness of 1 kN/mm added to one law.
+   !> Adds the value of each requested column, and the value of the same column with some laws rigid.
    subroutine add_rigid(suspension, name, laws, kkt, table, text)
       type(suspension_t), intent(in) :: suspension
       character(*), intent(in) :: name                 !! name of the rigid element or axis
       integer, intent(in) :: laws(:)
-      type(kkt_t), intent(inout) :: kkt                !! with the factors of the state
+      type(kkt_t), intent(inout) :: kkt                !! system with the factors of the state
       type(contribution_table_t), intent(in) :: table
       type(buffer_t), intent(inout) :: text
       real(wp), allocatable :: self_move(:, :), c(:, :)
@@ -85,11 +85,11 @@ contains
       end do
    end subroutine add_rigid
 
-   !> Adds the locations at which an added spring of 1 kN/mm changes a column most. The locations are along axes of bushings and
+   !> Adds the ten locations at which an added spring of 1 kN/mm changes a column most. The locations are along axes of bushings and
    !> parallel to springs.
    subroutine add_scan(suspension, kkt, table, text)
       type(suspension_t), intent(in) :: suspension
-      type(kkt_t), intent(inout) :: kkt                !! with the factors of the state
+      type(kkt_t), intent(inout) :: kkt                !! system with the factors of the state
       type(contribution_table_t), intent(in) :: table
       type(buffer_t), intent(inout) :: text
       real(wp), allocatable :: self_move(:, :), c(:, :)

@@ -27,7 +27,7 @@ module ek_export
    private
    public :: export
 
-   !> A deck, the cases to be solved for it, and its map.
+   !> The model of a deck, the requested map, the solved map, the checksum of the deck, and whether the axle is the front axle.
    type :: axle_map_t
       type(suspension_t) :: suspension
       type(map_request_t) :: request
@@ -85,7 +85,7 @@ contains
       if (allocated(unprinted)) call move_alloc(unprinted, error)
    end subroutine export
 
-   !> Reads, balances and solves the deck of the settings.
+   !> Reads the deck of the settings, applies the preload trim (`balance`), and solves the map.
    subroutine solve_axle(settings, axle, error)
       type(export_settings_t), intent(in) :: settings
       type(axle_map_t), intent(out) :: axle
@@ -147,7 +147,7 @@ contains
       call carsim_panels(axle%map, sources, axle%map%model//'_carsim.par', text, panels)
    end subroutine write_carsim
 
-   !> Writes both files of the axle, and the files of the other axle if its deck is given.
+   !> Writes the script and the JSON file. If the deck of the other axle is given, both files contain both axles.
    subroutine write_mathworks(settings, axle, sources, panels, unprinted, error)
       type(export_settings_t), intent(in) :: settings
       type(axle_map_t), intent(in) :: axle
@@ -179,7 +179,8 @@ contains
          size(axle%map%travel), panels)
    end subroutine write_mathworks
 
-   !> Solves the deck of the other axle. The steer range of this axle comes from its own deck; --set and --axle do not apply to it.
+   !> Solves the deck of the other axle. The steer range and the driver come from this deck. The options --set, --axle, --driver,
+   !> --map and --steer do not apply to the other axle.
    subroutine add_other(settings, place, p, error)
       type(export_settings_t), intent(in) :: settings
       integer, intent(in) :: place                       !! 1 front, 2 rear
@@ -210,7 +211,7 @@ contains
       p%checksums(place) = other%checksum
    end subroutine add_other
 
-   !> Writes three tables, and the JSON file of all tables.
+   !> Writes the tables of kinematics, loads and compliance as CSV files, and all three tables as one JSON file.
    subroutine write_tables(settings, axle, sources, panels, unprinted, error)
       type(export_settings_t), intent(in) :: settings
       type(axle_map_t), intent(in) :: axle

@@ -16,7 +16,7 @@ module ek_export_settings
    private
    public :: export_settings_t, range_t, read_export_settings, make_request, front_of
 
-   !> A range of the command line, from:to:points.
+   !> A range of the command line, from:to:points; for --loads, force:moment:points.
    type :: range_t
       logical :: is_given = .false.
       real(wp) :: from = 0.0_wp, to = 0.0_wp
@@ -130,7 +130,7 @@ contains
    subroutine make_request(settings, suspension, cases, request, error)
       type(export_settings_t), intent(in) :: settings
       type(suspension_t), intent(in) :: suspension
-      type(case_t), intent(in) :: cases(:)                    !! of the deck
+      type(case_t), intent(in) :: cases(:)                    !! cases of the deck
       type(map_request_t), intent(out) :: request
       type(error_t), allocatable, intent(out) :: error        !! exit_usage
       integer, parameter :: travel_points = 33, steer_points = 17
@@ -170,7 +170,7 @@ contains
       call choose_lengths(suspension, settings%lengths, request%choices, error)
    end subroutine make_request
 
-   !> Decides whether the map has steering as its second input, and chooses the driver.
+   !> Chooses the second input of the map (steering, travel of the other wheel, or none), and the driver that steers.
    subroutine choose_kind(settings, suspension, request, error)
       type(export_settings_t), intent(in) :: settings
       type(suspension_t), intent(in) :: suspension
@@ -205,14 +205,14 @@ contains
          '--steer: this export has no steer; the deck has no &steering: name the driver joint with --driver NAME')
    end subroutine choose_kind
 
-   !> Reads the grid of a range: from the command line, otherwise from a test.
+   !> Sets the values of a grid: from a range of the command line, otherwise from the range of a test.
    subroutine take(option, range, from, to, points, values, error)
       character(*), intent(in) :: option
-      type(range_t), intent(in) :: range                      !! mm
-      real(wp), intent(in) :: from, to                        !! of the test [m]
+      type(range_t), intent(in) :: range                      !! range of the command line [mm]
+      real(wp), intent(in) :: from, to                        !! range of the test [m]
       integer, intent(in) :: points
       real(wp), allocatable, intent(out) :: values(:)
-      type(error_t), allocatable, intent(out) :: error        !! exit_usage: the range of the test leaves design out
+      type(error_t), allocatable, intent(out) :: error        !! exit_usage: the range of the test excludes design
 
       if (range%is_given) then
          values = grid_values(range%from*millimetre, range%to*millimetre, range%points)

@@ -1,4 +1,4 @@
-!> elastokin fit: finds the factors of a deck at which curves, values and limits are met best, with confidence intervals.
+!> elastokin fit: finds the factors of a deck that fit curves, values and limits best, with confidence intervals.
 module ek_fit_command
    use ek_error, only: error_t, fail, exit_usage, exit_convergence
    use ek_buffer, only: buffer_t

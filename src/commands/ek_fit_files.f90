@@ -1,4 +1,5 @@
-!> The files of a fit: its factors, its points, settings for --set-file, and a figure of start, target and result.
+!> The files of a fit: its factors, its points, settings for --set-file, and the script and pictures of a figure of start, target
+!> and result.
 module ek_fit_files
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
@@ -27,16 +28,16 @@ module ek_fit_files
 
 contains
 
-   !> Writes all files and prints their paths.
+   !> Writes all files and prints their paths. Of the pictures, only the path of the PNG file is printed.
    subroutine write_fit_files(fit, workspace, problem, found, statistics, out, draws, message, error)
       type(fit_t), intent(in) :: fit
-      type(workspace_t), intent(in) :: workspace          !! with the numbers found
+      type(workspace_t), intent(in) :: workspace          !! workspace with the numbers found
       type(fit_problem_t), intent(in) :: problem
       type(fit_result_t), intent(in) :: found
       type(fit_statistics_t), intent(in) :: statistics
       character(*), intent(in) :: out                      !! folder
-      logical, intent(in) :: draws                         !! runs gnuplot
-      character(:), allocatable, intent(out) :: message    !! '' or why there is no picture
+      logical, intent(in) :: draws                         !! whether gnuplot is run
+      character(:), allocatable, intent(out) :: message    !! reason for a missing picture; '' otherwise
       type(error_t), allocatable, intent(out) :: error
       type(error_t), allocatable :: unprinted
       type(message_list_t) :: scripts, pictures
@@ -110,7 +111,8 @@ contains
       end if
    end subroutine add_number
 
-   !> The table of points as CSV, one row per point: target, value at the start, value of the result.
+   !> The table of points as CSV, one row per point: target, case, quantity, abscissa, wanted value, limits, value at the start,
+   !> value of the result, deviation, and difference.
    function points_csv(fit, workspace, problem, found) result(text)
       type(fit_t), intent(in) :: fit
       type(workspace_t), intent(in) :: workspace
@@ -196,7 +198,8 @@ contains
 
    end function settings
 
-   !> The script of the figure: a panel for each curve with start, target and result, from the file of the points.
+   !> The script of the figure: a panel for each of the first 12 curves with start, target and result, from the file of the points.
+   !> Without curves, one plot shows the differences of all points.
    function script(fit, workspace, problem) result(text)
       type(fit_t), intent(in) :: fit
       type(workspace_t), intent(in) :: workspace
@@ -251,7 +254,7 @@ contains
 
    contains
 
-      !> Label of the abscissa: the swept value with its unit, or the column over which the curve is given.
+      !> Label of the abscissa: the case and 'swept value', or the column over which the curve is given.
       function abscissa(t) result(label)
          integer, intent(in) :: t
          character(:), allocatable :: label

@@ -18,17 +18,17 @@ module ek_fit_text
    private
    public :: add_fit_findings
 
-   real(wp), parameter :: strong = 0.95_wp           !! a correlation that is listed
-   real(wp), parameter :: part_of = 0.15_wp          !! of the largest share: a factor belongs to a combination
+   real(wp), parameter :: strong = 0.95_wp           !! smallest magnitude of a listed correlation
+   real(wp), parameter :: part_of = 0.15_wp  !! limit of a share, relative to the largest share: factors above it are combined
    integer, parameter :: most_pairs = 10
    integer, parameter :: name_width = 34
 
 contains
 
-   !> Adds all findings of a fit to the printed text.
+   !> Adds all findings of a fit to the printed output.
    subroutine add_fit_findings(fit, workspace, problem, found, statistics, text)
       type(fit_t), intent(in) :: fit
-      type(workspace_t), intent(in) :: workspace          !! with the numbers found
+      type(workspace_t), intent(in) :: workspace          !! workspace with the numbers found
       type(fit_problem_t), intent(in) :: problem
       type(fit_result_t), intent(in) :: found
       type(fit_statistics_t), intent(in) :: statistics
@@ -72,7 +72,8 @@ contains
          str(maxval([0.0_wp, statistics%singular]), 4)//' to '//str(minval([huge(1.0_wp), statistics%singular]), 4))
    end subroutine add_ending
 
-   !> Adds the root mean squares of the differences, and the limits that are exceeded.
+   !> Adds for each target the root mean square of the differences at the start and of the result, and the number of points at which
+   !> a limit is exceeded.
    subroutine add_targets(fit, problem, found, text)
       type(fit_t), intent(in) :: fit
       type(fit_problem_t), intent(in) :: problem
@@ -163,7 +164,7 @@ contains
       if (pairs > most_pairs) call text%line(str(pairs - most_pairs)//' more correlations above '//str(strong))
    end subroutine add_doubts
 
-   !> The 95 % half width of a factor, and whether the prior of the factor determines the result.
+   !> The 95 % half width of a factor from the targets alone, and whether the prior of the factor determines the result.
    function remains(problem, statistics, f) result(words)
       type(fit_problem_t), intent(in) :: problem
       type(fit_statistics_t), intent(in) :: statistics
@@ -179,11 +180,11 @@ contains
       if (is_given(problem%variables(f)%deviation)) words = words//'; the result is that of its prior'
    end function remains
 
-   !> Adds the factors of which the targets determine only combinations.
+   !> Adds a line on factors of which the targets determine only combinations.
    subroutine add_group(problem, found, direction, members, text)
       type(fit_problem_t), intent(in) :: problem
       type(fit_result_t), intent(in) :: found
-      real(wp), intent(in) :: direction(:)                 !! along which the targets do not change
+      real(wp), intent(in) :: direction(:)                 !! direction along which the targets do not change
       integer, intent(in) :: members(:)
       type(buffer_t), intent(inout) :: text
       real(wp), parameter :: alike = 0.1_wp
@@ -218,7 +219,7 @@ contains
       end associate
    end subroutine add_group
 
-   !> Whether two factors are rates with the same unit.
+   !> Whether two factors are rates with the same unit and positive start values.
    pure logical function are_rates(problem, a, b)
       type(fit_problem_t), intent(in) :: problem
       integer, intent(in) :: a, b

@@ -1,8 +1,8 @@
-!> elastokin bench --growth N: how the time of an increment and the memory grow with the model.
+!> elastokin bench --growth N: growth of the time of an increment and of the memory with the size of the model.
 !>
-!> Chains (ek_chain) with matrices of some 100, 200, 400, 1000 and 2000 rows, as far as N, are lifted at their end: all of them by
-!> plan, then all by LAPACK, so that the peak memory of the process shows the memory of each solver. No model is examined
-!> (`check`), as that costs a singular value decomposition, which grows as LAPACK does.
+!> Chains (ek_chain) with matrices of about 100, 200, 400, 1000 and 2000 rows, but at most N, are lifted at their end. All chains
+!> are solved by plan first and then by LAPACK, so that the peak memory of the process shows the memory of each solver. The models
+!> are not examined (`check`): the time of this examination grows as the time of LAPACK does.
 module ek_growth
    use ek_kinds, only: wp, i8
    use ek_error, only: error_t, fail, exit_usage, exit_convergence
@@ -23,26 +23,26 @@ module ek_growth
    public :: bench_growth
 
    character(*), parameter :: nl = new_line('a')
-   integer, parameter :: rows(*) = [100, 200, 400, 1000, 2000]     !! of the matrices, but for a few
-   integer, parameter :: lift = 25                !! mm, of the end of each chain: 50 increments
+   integer, parameter :: rows(*) = [100, 200, 400, 1000, 2000]     !! approximate number of rows of the matrices
+   integer, parameter :: lift = 25                !! lift of the end of each chain [mm]: 50 increments
    integer, parameter :: rounds = 15              !! walks of each chain; the shortest counts
-   real(wp), parameter :: patience = 1.0_wp       !! s: a chain that took so long is not walked again
+   real(wp), parameter :: patience = 1.0_wp       !! elapsed time after which a chain is not walked again [s]
 
    !> The times and the memory for one size of the chain.
    type :: size_t
       integer :: n = 0, bodies = 0
-      integer :: nonzeros = 0, length = 0         !! entries of the matrix; numbers of its factors by plan
-      integer :: fallbacks = 0                    !! factorisations that LAPACK had to do instead
-      real(wp) :: analysis = 0.0_wp               !! to find both plans [s]
-      real(wp) :: peak(2) = 0.0_wp                !! memory of the process by then [MB]; 0: not known
-      type(parts_t) :: parts(2)                   !! by plan, by LAPACK
+      integer :: nonzeros = 0, length = 0         !! entries of the lower triangle; numbers in the factors by plan
+      integer :: fallbacks = 0                    !! factorisations repeated by LAPACK
+      real(wp) :: analysis = 0.0_wp               !! time to find the plans [s]
+      real(wp) :: peak(2) = 0.0_wp                !! peak memory of the process after each solver [MB]; 0: not known
+      type(parts_t) :: parts(2)                   !! times by plan, times by LAPACK
    end type size_t
 
    integer, parameter :: by_plan = 1, by_lapack = 2
 
 contains
 
-   !> Prints the table to standard output; with --json, prints an object.
+   !> Times all chains and prints the results to standard output as a table; with --json, as an object.
    subroutine bench_growth(line, error)
       type(command_line_t), intent(in) :: line
       type(error_t), allocatable, intent(out) :: error
@@ -73,7 +73,7 @@ contains
       end if
    end subroutine bench_growth
 
-   !> Times a chain with one of the solvers.
+   !> Times a chain with one of the solvers, and stores the peak memory.
    subroutine time_chain(n, solver, this, error)
       integer, intent(in) :: n, solver
       type(size_t), intent(inout) :: this
@@ -175,7 +175,7 @@ contains
 
    end function table_of
 
-   !> The sizes as a JSON object.
+   !> The results of all sizes as a JSON object.
    function json_of(sizes) result(text)
       type(size_t), intent(in) :: sizes(:)
       character(:), allocatable :: text

@@ -1,6 +1,6 @@
 !> Man pages, and completion for bash, zsh and fish, from the tables of commands and options that --help prints (ek_command).
 !>
-!> `elastokin --help-files DIR` writes them in the folders of a share folder; the build calls it.
+!> `elastokin --help-files DIR` writes these files into subfolders of DIR; the build runs this command.
 module ek_help_files
    use ek_error, only: error_t
    use ek_file, only: join_path, make_folder, write_whole
@@ -18,7 +18,7 @@ contains
    subroutine write_help_files(commands, options, exit_status, folder, error)
       type(command_t), intent(in) :: commands(:)
       type(option_t), intent(in) :: options(:)
-      character(*), intent(in) :: exit_status             !! text on the exit status of all commands
+      character(*), intent(in) :: exit_status             !! description of the exit status of all commands
       character(*), intent(in) :: folder
       type(error_t), allocatable, intent(out) :: error    !! exit_file
       integer :: k

@@ -13,8 +13,8 @@ module ek_increment_parts
    private
    public :: parts_t, time_walk, time_parts
 
-   integer, parameter :: rounds = 30             !! the minimum counts
-   integer, parameter :: most = 20               !! states on which the parts are timed
+   integer, parameter :: rounds = 30             !! rounds of a measurement; the minimum counts
+   integer, parameter :: most = 20               !! largest number of states at which the parts are timed
 
    ! Work at a state; each of the last three needs the one before. The clock of the processor counts microseconds, so the times of
    ! many states are compared, not single steps.
@@ -22,7 +22,7 @@ module ek_increment_parts
 
    !> Processor times per increment [s].
    type :: parts_t
-      real(wp) :: increment = huge(1.0_wp)       !! all of it
+      real(wp) :: increment = huge(1.0_wp)       !! time of the whole increment
       real(wp) :: assembly = 0.0_wp, factor = 0.0_wp, solve = 0.0_wp, rest = 0.0_wp
    end type parts_t
 
@@ -43,13 +43,13 @@ contains
       parts%increment = min(parts%increment, (processor_seconds() - start)/(path%states - 1))
    end subroutine time_walk
 
-   !> Times the parts of an increment: assembly, factorisation and solution at states of the path, each as often as in an
-   !> increment.
+   !> Times the parts of an increment: assembly, factorisation and solution, measured at states of the path. Each time is multiplied
+   !> by the mean number of these operations per increment.
    subroutine time_parts(suspension, case, path, kkt, parts)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
-      type(path_t), intent(inout) :: path        !! of time_walk
-      type(kkt_t), intent(inout) :: kkt          !! likewise
+      type(path_t), intent(inout) :: path        !! path of time_walk
+      type(kkt_t), intent(inout) :: kkt          !! system of time_walk
       type(parts_t), intent(inout) :: parts
       type(state_t) :: state
       type(inputs_t) :: inputs

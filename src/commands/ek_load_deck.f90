@@ -1,4 +1,4 @@
-!> From a path and settings to a model: the first step of every command.
+!> Reads a deck with the settings of a command and builds its model: the first step of each command with a deck.
 module ek_load_deck
    use ek_error, only: error_t, message_list_t, fail, exit_usage, exit_deck, exit_model
    use ek_text, only: str, quoted, suggestion
@@ -22,15 +22,15 @@ module ek_load_deck
    !> Options of a command with a deck. A command extends the type by its own settings. An option that the command does not accept
    !> has the value of an option that is not given.
    type :: deck_settings_t
-      character(:), allocatable :: file          !! '-' is standard input
-      character(:), allocatable :: case          !! '' for all
-      character(:), allocatable :: method        !! '': as in the deck
-      character(:), allocatable :: solver        !! '': as in the deck
-      character(:), allocatable :: out           !! the folder, or - for standard output
-      integer :: increments = 0                  !! 0: as in the deck
+      character(:), allocatable :: file          !! path of the deck; '-' is standard input
+      character(:), allocatable :: case          !! name of the case; '' for all cases
+      character(:), allocatable :: method        !! method of the cases; '': as in the deck
+      character(:), allocatable :: solver        !! solver of the cases; '': as in the deck
+      character(:), allocatable :: out           !! output folder, or - for standard output
+      integer :: increments = 0                  !! increments of the cases; 0: as in the deck
       logical :: is_quiet = .false.
-      type(message_list_t) :: changes            !! --set path=value
-      type(message_list_t) :: set_files          !! --set-file FILE: settings applied before the settings of --set
+      type(message_list_t) :: changes            !! settings of --set: path=value
+      type(message_list_t) :: set_files          !! files of --set-file: settings applied before the settings of --set
    end type deck_settings_t
 
 contains
@@ -51,15 +51,15 @@ contains
       settings%set_files = line%values('--set-file')
    end subroutine read_deck_settings
 
-   !> Reads a deck, applies --set, builds the model, and checks the tables and targets of its cases. All errors are reported
-   !> together.
+   !> Reads a deck, applies --set-file and --set, builds the model, and checks the tables and targets of its cases. All errors in
+   !> the deck are reported together.
    subroutine load_deck(settings, workspace, checksum, error, needs_tables, used_deck)
       class(deck_settings_t), intent(in) :: settings
       class(workspace_t), allocatable, intent(out) :: workspace      !! without cases: the command chooses cases of the design
-      character(:), allocatable, intent(out), optional :: checksum     !! of the deck as it was used
+      character(:), allocatable, intent(out), optional :: checksum     !! checksum of the deck as it was used
       type(error_t), allocatable, intent(out) :: error
       logical, intent(in), optional :: needs_tables          !! if .true., a missing table is an error, also of a case not run
-      type(deck_t), intent(out), optional :: used_deck       !! with the settings made
+      type(deck_t), intent(out), optional :: used_deck       !! deck with the settings applied
       type(deck_t) :: deck
       type(set_file_t), allocatable :: files(:)
       type(error_t), allocatable :: unset
@@ -74,7 +74,7 @@ contains
       if (present(used_deck)) used_deck = deck
    end subroutine load_deck
 
-   !> Opens a deck with its settings as a session. (load_deck returns a model instead.)
+   !> Opens a deck as a session, with --set-file and --set applied. (load_deck returns a model instead.)
    subroutine load_session(settings, session, error)
       class(deck_settings_t), intent(in) :: settings
       class(session_t), allocatable, intent(out) :: session
@@ -219,7 +219,7 @@ contains
    !> Examines the cases to run. If no case can be solved, returns an error that lists each defect once.
    subroutine examine_chosen(file, suspension, chosen, found, error)
       character(*), intent(in) :: file                  !! the deck, for messages
-      type(suspension_t), intent(in) :: suspension      !! not balanced
+      type(suspension_t), intent(in) :: suspension      !! model before the preload trim
       type(case_t), intent(in) :: chosen(:)
       type(examination_t), intent(out) :: found
       type(error_t), allocatable, intent(out) :: error  !! exit_model

@@ -1,4 +1,5 @@
-!> The files of --loads. loads.csv contains all members at all states of all cases; peak-loads.csv contains the largest values.
+!> The files of --loads. loads.csv contains the loads of all members at all states of all cases; peak-loads.csv contains the largest
+!> loads.
 module ek_load_files
    use ek_error, only: error_t
    use ek_buffer, only: buffer_t

@@ -13,7 +13,7 @@ module ek_man_page
 
 contains
 
-   !> The man page elastokin(1): purpose of the program, commands, options of every command, exit status.
+   !> The man page elastokin(1): purpose of the program, commands, options that every command accepts, exit status.
    function main_page(commands, options, exit_status) result(text)
       type(command_t), intent(in) :: commands(:)
       type(option_t), intent(in) :: options(:)
@@ -96,7 +96,8 @@ contains
       if (index(usage, '[options]') == 0) call page%line('[options]')
    end subroutine add_usage
 
-   !> Adds the options of a command; the options of every command are last.
+   !> Adds the options of a command; the options that every command accepts are last. For the command '', only these options are
+   !> added.
    subroutine add_options(page, command, options)
       type(buffer_t), intent(inout) :: page
       character(*), intent(in) :: command
@@ -113,8 +114,8 @@ contains
       end do
    end subroutine add_options
 
-   !> A string as roff source. Line ends become breaks; backslashes, hyphens, dots at the beginning of lines and the ellipsis are
-   !> escaped.
+   !> A string as roff source. Line ends become breaks. Backslashes, hyphens, the ellipsis, and dots and apostrophes at the
+   !> beginning of lines are escaped.
    pure function roff(text) result(source)
       character(*), intent(in) :: text
       character(:), allocatable :: source

@@ -1,4 +1,5 @@
-!> The moments of a tolerance study: converts its expansion to tables, and reads the tables back for figures and page.
+!> The moments of a tolerance study: takes them from its expansion and from its designs, writes them as tables, and reads the tables
+!> back for figures and page.
 !>
 !>     <study>_moments.csv   one row per response and method: mean, deviation, skewness, percentiles, share within the limits
 !>     <study>_shares.csv    one row per response and factor: derivatives and shares of the variance
@@ -20,7 +21,7 @@ module ek_moment_tables
    private
    public :: take_tolerance, take_sample, write_moments, read_moments
 
-   real(wp), parameter :: normal_95 = 1.959963984540054_wp      !! standard errors in half of a 95 % interval
+   real(wp), parameter :: normal_95 = 1.959963984540054_wp      !! half width of a 95 % interval [standard errors]
    character(*), parameter :: moment_heads = 'response,method,mean,mean_half_95,deviation,deviation_half_95,skewness,p5,p95,'// &
       'lower,upper,within,within_half_95'
    character(*), parameter :: share_heads = 'response,factor,center,deviation,slope,effect,curvature,first,total,nominal,'// &
@@ -32,7 +33,7 @@ contains
    !> Copies the results computed from derivatives for the responses and the curves.
    subroutine take_tolerance(found, columns, data)
       type(tolerance_t), intent(in) :: found
-      character(*), intent(in) :: columns(:)         !! of the study; the columns of the data lack the swept value
+      character(*), intent(in) :: columns(:)         !! columns of the study; the columns of the data lack the swept value
       type(study_data_t), intent(inout) :: data
       integer :: c, f, k, r, s
 
@@ -87,8 +88,8 @@ contains
 
    end subroutine take_tolerance
 
-   !> Copies the data that the figures of one factor at a time and of the indices need in addition to the values at the ends of the
-   !> ranges.
+   !> Sets the smallest and largest value of a response, and errors of 0 for its indices. The figures of one factor at a time and
+   !> the figures of the indices need these data.
    pure subroutine take_ranges(data, r)
       type(study_data_t), intent(inout) :: data
       integer, intent(in) :: r
@@ -101,7 +102,7 @@ contains
       end associate
    end subroutine take_ranges
 
-   !> A row of moments of a nearly normal response.
+   !> The moments, percentiles and share within the limits of a nearly normal response.
    pure function row_of(mean, deviation, skewness, axis) result(row)
       real(wp), intent(in) :: mean, deviation, skewness
       type(study_axis_t), intent(in) :: axis
@@ -112,7 +113,8 @@ contains
          normal_yield(mean, deviation, skewness, axis%lower, axis%upper), 0.0_wp)
    end function row_of
 
-   !> Copies the results computed from the designs of the study for its responses.
+   !> Computes the moments, percentiles and share within the limits of each response from the designs of the study; NaN with fewer
+   !> than two values.
    subroutine take_sample(data)
       type(study_data_t), intent(inout) :: data
       real(wp), allocatable :: values(:)
@@ -202,7 +204,7 @@ contains
 
    end subroutine write_moments
 
-   !> Adds the remaining cells of a row; nan for a limit that is not given.
+   !> Adds the remaining cells of a row; nan for a limit that is not given and for an unknown value.
    subroutine add_numbers(csv, values)
       type(buffer_t), intent(inout) :: csv
       real(wp), intent(in) :: values(:)
@@ -221,7 +223,8 @@ contains
       call csv%line('')
    end subroutine add_numbers
 
-   !> Reads the tables of a finished study. Components without a table, or whose table does not match, stay unallocated.
+   !> Reads the tables of a finished study. If the tables of moments and shares are missing or do not match, `moments` stays
+   !> unallocated, and no bands are read. If the table of bands is missing or does not match, `expected` has no columns.
    subroutine read_moments(out, data)
       character(*), intent(in) :: out
       type(study_data_t), intent(inout) :: data

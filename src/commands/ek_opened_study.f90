@@ -20,17 +20,17 @@ module ek_opened_study
    private
    public :: opened_study_t, open_study, plan_study, results_name
 
-   !> A study that was read, with its folders.
+   !> An opened study: the study and its deck, the folders, the designer, and the plan of its designs.
    type :: opened_study_t
-      type(study_t) :: study                         !! factors with each = .true. are replaced
+      type(study_t) :: study                         !! study; factors with each = .true. and columns with * are expanded
       type(deck_t) :: deck
-      character(:), allocatable :: home, out         !! folder of the study; of its results
+      character(:), allocatable :: home, out         !! folder of the study; folder of its results
       type(designer_t) :: designer
       type(study_plan_t) :: plan
-      logical :: has_store = .false.                 !! the results go into a NetCDF file
+      logical :: has_store = .false.                 !! whether the results are written to a NetCDF file
       type(store_texts_t) :: texts
-      character(:), allocatable :: build             !! of this program
-      type(tolerance_t), allocatable :: tolerance    !! of a tolerance study, by derivatives
+      character(:), allocatable :: build             !! build of this program; '' if unknown
+      type(tolerance_t), allocatable :: tolerance    !! results of a tolerance study by derivatives
    end type opened_study_t
 
 contains
@@ -59,11 +59,11 @@ contains
          join_path(this%home, this%study%deck), line%values('--set'), this%texts)
    end subroutine open_study
 
-   !> Plans the study: creates the design of the deck, checks the study against it, and creates the plan.
+   !> Plans the study: creates the design of the deck, checks the study against the deck, and creates the plan.
    subroutine plan_study(this, error, shards)
       type(opened_study_t), intent(inout) :: this
       type(error_t), allocatable, intent(out) :: error
-      integer, intent(in), optional :: shards        !! of this run, default 1
+      integer, intent(in), optional :: shards        !! number of shards of this run; default 1
       integer :: n
 
       n = 1

@@ -10,7 +10,8 @@ module ek_option_help
 
 contains
 
-   !> Whether an option belongs to a command and has a help text. The command '' has the options of every command.
+   !> Whether an option belongs to a command. An option that every command accepts belongs to each command and to the command '';
+   !> without a help string, such an option belongs to no command.
    pure logical function belongs(option, command)
       type(option_t), intent(in) :: option
       character(*), intent(in) :: command
@@ -93,7 +94,7 @@ contains
       end do
    end function choices
 
-   !> A string on one line, with one blank between two parts.
+   !> A string on one line: each sequence of blanks and line ends becomes one blank.
    pure function on_one_line(text) result(line)
       character(*), intent(in) :: text
       character(:), allocatable :: line

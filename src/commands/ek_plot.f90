@@ -41,7 +41,7 @@ contains
       call draw_study(this%study, this%deck, join_path(this%home, ''), this%out, line%values('--kind'), line%has('--quiet'), error)
    end subroutine run_plot_command
 
-   !> Checks that the file is a study. Result files alone do not define the figures.
+   !> Rejects a results file (.nc, .csv) in place of a study, because results alone do not define the figures.
    subroutine check_file(path, error)
       character(*), intent(in) :: path
       type(error_t), allocatable, intent(out) :: error
@@ -76,7 +76,7 @@ contains
       type(deck_t), intent(in) :: deck
       character(*), intent(in) :: home               !! folder of the study with its slash
       character(*), intent(in) :: out                !! folder of the tables
-      type(message_list_t), intent(in) :: kinds      !! of figures; none: all that apply
+      type(message_list_t), intent(in) :: kinds      !! names of figures; none: all figures that apply
       logical, intent(in) :: is_quiet
       type(error_t), allocatable, intent(out) :: error
       class(study_data_t), allocatable :: data
@@ -123,7 +123,7 @@ contains
 
    contains
 
-      !> Whether the results have a sheet of a figure.
+      !> Whether a sheet of a figure can be drawn from the results.
       logical function is_drawn(rule, sheet)
          type(figure_rule_t), intent(in) :: rule
          integer, intent(in) :: sheet

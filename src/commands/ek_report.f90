@@ -57,15 +57,15 @@ module ek_report
    integer, parameter :: most_live = 24      ! rates: more make the page slow and large
 
    type, extends(deck_settings_t) :: settings_t
-      type(windows_t) :: windows                     !! of gradients
+      type(windows_t) :: windows                     !! windows of the gradients
       logical :: has_plots = .true., is_animated = .false., is_static = .false., has_loads = .false.
-      integer :: live = 0                            !! rates that the page can change
+      integer :: live = 0                            !! number of rates that the page can change; 0: no sliders
    end type settings_t
 
 contains
 
-   !> Runs the tests of a deck and writes all files. If a test fails part way, its converged states are written, and `error` has the
-   !> code exit_convergence at the end.
+   !> Runs the tests of a deck and writes all files. If a test fails part way, its converged states are written. `error` then has
+   !> the code exit_convergence at the end, or the code of a test that could not be run.
    subroutine report(line, error)
       type(command_line_t), intent(in) :: line
       type(error_t), allocatable, intent(out) :: error
@@ -157,9 +157,9 @@ contains
 
    !> Writes the gradients, the key numbers with their targets, and the list of tests.
    subroutine write_numbers(workspace, checksum, page, unprinted, error)
-      type(workspace_t), intent(in) :: workspace                !! balanced
+      type(workspace_t), intent(in) :: workspace                !! with trimmed preloads
       character(*), intent(in) :: checksum
-      type(report_t), intent(inout) :: page                     !! with the gradients; gets the key numbers
+      type(report_t), intent(inout) :: page                     !! report with the gradients; receives the key numbers
       type(error_t), allocatable, intent(inout) :: unprinted    !! a path could not be printed
       type(error_t), allocatable, intent(out) :: error          !! exit_file
 
@@ -183,7 +183,7 @@ contains
       type(settings_t), intent(in) :: settings
       type(suspension_t), intent(in) :: suspension
       type(report_t), intent(inout) :: page
-      type(error_t), allocatable, intent(out) :: undrawn        !! some pictures are missing; the page says so
+      type(error_t), allocatable, intent(out) :: undrawn        !! error of missing pictures; the page reports it
       type(error_t), allocatable, intent(out) :: error          !! exit_file
       type(message_list_t) :: warnings
       character(:), allocatable :: message
@@ -240,8 +240,8 @@ contains
       end if
    end subroutine read_live
 
-   !> Runs the tests and writes their tables. Also writes the compliance matrix at every state of the first test that was run, for a
-   !> suspension with wheels.
+   !> Runs the tests, writes their tables and the envelopes of grid tests, and collects gradients and charts. Also writes the
+   !> compliance matrix at every state of the first test that was run, for a suspension with wheels.
    subroutine run_tests(windows, suspension, chosen, found, checksum, page, unprinted, incomplete, error)
       type(windows_t), intent(in) :: windows
       type(suspension_t), intent(in) :: suspension
@@ -336,19 +336,20 @@ contains
       call add_fact(page, 'Date', date_text())
    end subroutine set_head
 
-   !> Runs one test. The remarks of the test report every failure to converge. `error` then has the code exit_convergence (or
-   !> exit_model if the model cannot be solved), and the table has the states before the failure.
+   !> Runs one test. If the test does not converge at every state, `error` has the code exit_convergence, the messages of the test
+   !> contain each failure, and the table has the converged states. If the test cannot be run, the table is empty; `error` has the
+   !> code exit_model if the model cannot be solved.
    subroutine run_planned(base, case, fault, checksum, test, path, error, compliance, loads, explanations, live)
       type(suspension_t), intent(in) :: base
       type(case_t), intent(in) :: case
       character(*), intent(in) :: fault            !! defect of the model in this test, which is then not run; '' for none
       character(*), intent(in) :: checksum
-      type(test_result_t), intent(inout) :: test   !! as planned
+      type(test_result_t), intent(inout) :: test   !! test as planned; receives its result
       type(path_t), intent(out) :: path            !! states, for pictures
       type(error_t), allocatable, intent(out) :: error
       type(table_t), intent(out), optional :: compliance    !! the compliance matrix at every state; not set if the test is not run
       type(load_record_t), intent(inout), optional :: loads !! receives the loads of the members
-      type(explanation_t), allocatable, intent(out), optional :: explanations(:)      !! with compliance
+      type(explanation_t), allocatable, intent(out), optional :: explanations(:)      !! explanations of the test, with compliance
       type(live_t), intent(inout), optional :: live         !! receives the data for the sliders of --live
       integer, parameter :: topics(7) = [on_case, on_end, on_stability, on_settling, on_rack, on_curve, on_closure]
       type(solve_options_t) :: options

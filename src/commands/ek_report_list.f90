@@ -63,7 +63,8 @@ contains
       end do
    end subroutine list_files
 
-   !> Removes the files of an earlier list that this report did not write. If the list cannot be read, no file is removed.
+   !> Removes the files of an earlier list that this report did not write and that have not been changed since. If the list cannot
+   !> be read, no file is removed.
    subroutine remove_earlier(folder, files, is_quiet)
       character(*), intent(in) :: folder
       type(message_list_t), intent(in) :: files

@@ -16,7 +16,7 @@ contains
    subroutine set_bands(targets, responses, axes)
       type(target_band_t), intent(in) :: targets(:)
       type(response_t), intent(in) :: responses(:)
-      type(study_axis_t), intent(inout) :: axes(:)   !! of the responses
+      type(study_axis_t), intent(inout) :: axes(:)   !! axes of the responses
       character(:), allocatable :: name
       integer :: r, t
 
@@ -33,8 +33,8 @@ contains
       end do
    end subroutine set_bands
 
-   !> Name of the key number that a response equals: a gradient with the window of the report, or a column at design. '' if there is
-   !> none.
+   !> Name of the key number that a response equals: a gradient with the window of the report, or a column at design. '' if the
+   !> response does not equal a key number.
    pure function key_number_of(response) result(name)
       type(response_t), intent(in) :: response
       character(:), allocatable :: name

@@ -1,4 +1,5 @@
-!> elastokin run: builds the model of a deck, and for each case solves the sweep and writes the table as CSV and the figures.
+!> elastokin run: builds the model of a deck. For each case, solves the sweep and writes the table as CSV and, if requested, the
+!> figures.
 module ek_run
    use ek_kinds, only: wp
    use ek_error, only: error_t, fail, exit_usage, exit_convergence
@@ -30,15 +31,16 @@ module ek_run
 
    type, extends(deck_settings_t) :: settings_t
       logical :: has_plots = .false., has_compliance = .false., has_json = .false., has_loads = .false.
-      character(name_length), allocatable :: columns(:)     !! of the tables; not allocated: all
+      character(name_length), allocatable :: columns(:)     !! columns of the tables; not allocated: all
    end type settings_t
 
    character(*), parameter :: compliance_ending = '_compliance.csv'
 
 contains
 
-   !> Runs the chosen cases of a deck. If a case fails part way, its converged states are written, and the other cases are run. At
-   !> the end, `error` has the code of the first failure other than lack of convergence; otherwise exit_convergence.
+   !> Runs the chosen cases of a deck. If a case fails part way, its converged states are written, and the other cases are run. If a
+   !> case failed, `error` has the code of the first failure other than lack of convergence; without such a failure, the code is
+   !> exit_convergence. With --responses, writes key numbers instead.
    subroutine run(line, error)
       type(command_line_t), intent(in) :: line
       type(error_t), allocatable, intent(out) :: error
@@ -170,7 +172,8 @@ contains
       end do
    end subroutine refuse_double_files
 
-   !> Runs one case: solves it, reports its remarks, and writes its table and figures.
+   !> Runs one case: solves the case, prints its messages, and writes its table. If requested, also writes its figures, its
+   !> compliance matrix, and the state that meets its target, and adds its loads and its JSON object.
    subroutine run_case(settings, base, wanted, fault, checksum, json, loads, unprinted, error)
       type(settings_t), intent(in) :: settings
       type(suspension_t), intent(in) :: base
@@ -178,7 +181,7 @@ contains
       character(*), intent(in) :: fault                        !! defect of the model in this case; '' for none
       character(*), intent(in) :: checksum
       type(json_t), intent(inout) :: json
-      type(load_record_t), allocatable, intent(inout) :: loads   !! if they are wanted
+      type(load_record_t), allocatable, intent(inout) :: loads   !! loads of all members; allocated if requested
       type(error_t), allocatable, intent(inout) :: unprinted     !! a path could not be printed
       type(error_t), allocatable, intent(out) :: error
       type(error_t), allocatable :: trouble, undrawn
@@ -219,8 +222,8 @@ contains
       call move_alloc(trouble, error)
    end subroutine run_case
 
-   !> Finds the swept value that meets the target of a case, reports it, and writes the state to a separate file (unless results go
-   !> to standard output). The linear methods are excluded, because their states are not equilibria.
+   !> Finds the swept value that meets the target of a case, prints a note, and writes the state to a separate file (unless results
+   !> go to standard output). The linear methods are excluded, because their states are not equilibria.
    subroutine aim(settings, result, checksum, path, unprinted, error)
       type(settings_t), intent(in) :: settings
       type(case_result_t), intent(inout) :: result

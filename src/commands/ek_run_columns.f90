@@ -15,15 +15,15 @@ module ek_run_columns
 
 contains
 
-   !> Chooses the columns of the results to which names, or patterns with *, refer, and the columns of targets. All
-   !> quantities may be named, regardless of the settings of the cases.
+   !> Chooses the result columns that match a list of names or patterns with *, and the columns of the targets of the cases. All
+   !> quantities may be named, regardless of the settings of the cases: the cases are set to compute all of them.
    subroutine choose_columns(list, suspension, cases, columns, error, option, others)
       character(*), intent(in) :: list                  !! names with commas between them
-      type(suspension_t), intent(in) :: suspension      !! on no rig
+      type(suspension_t), intent(in) :: suspension      !! model on no rig
       type(case_t), intent(inout) :: cases(:)
       character(name_length), allocatable, intent(out) :: columns(:)
-      type(error_t), allocatable, intent(out) :: error  !! exit_usage: all names that mean no column
-      character(*), intent(in), optional :: option      !! that gives the names, for messages; default --columns
+      type(error_t), allocatable, intent(out) :: error  !! exit_usage: all names that match no column
+      character(*), intent(in), optional :: option      !! name of the option with the list, for messages; default --columns
       character(*), intent(in), optional :: others(:)   !! further columns that may be named
       type(suspension_t) :: on_rig
       type(case_t) :: this

@@ -1,4 +1,4 @@
-!> run --json: the tables, remarks and status of a run as one object (schema/run.schema.json).
+!> run --json: the tables, messages (key `remarks`) and status of a run as one object (schema/run.schema.json).
 module ek_run_json
    use ek_error, only: error_t
    use ek_text, only: str
@@ -32,10 +32,10 @@ contains
       call json%open('[', 'cases')
    end subroutine begin_run_json
 
-   !> Adds one case: its status, its remarks, and its table column by column. A case that was not solved has no columns.
+   !> Adds one case: its outcome, its messages, and its table column by column. A case that was not solved has no columns.
    subroutine add_run_json(result, case, json)
       type(case_result_t), intent(in) :: result
-      type(case_t), intent(in) :: case             !! as in the deck
+      type(case_t), intent(in) :: case             !! case as in the deck
       type(json_t), intent(inout) :: json
       type(remark_t) :: remark
       integer :: k
@@ -74,7 +74,7 @@ contains
    subroutine write_run_json(json, status, folder, model, error)
       type(json_t), intent(inout) :: json
       integer, intent(in) :: status                                !! exit status of the program
-      character(*), intent(in) :: folder, model                    !! - is standard output
+      character(*), intent(in) :: folder, model                    !! output folder, - for standard output; model name
       type(error_t), allocatable, intent(inout) :: error           !! a failure to write; an earlier error is not replaced
       type(error_t), allocatable :: unwritten
       character(:), allocatable :: path

@@ -5,7 +5,7 @@
 !>      "folder": "/data/batch", "arguments": ["run", "front.nml", …], "decks": [{"file": "front.nml", "checksum": "…"}],
 !>      "messages": ["warning: …"], "output": ["out/front_bump.csv"]}
 !>
-!> Printed text is recorded here: the state of this module is one run of the program, and only commands use it.
+!> This module records the printed output: its state is one run of the program, and only commands use it.
 module ek_run_log
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t, fail, exit_usage
@@ -24,9 +24,9 @@ module ek_run_log
    !> The record of the run.
    type :: log_t
       character(20) :: time
-      real(wp) :: start = 0.0_wp                     !! of a clock [s]
-      type(message_list_t) :: files, checksums       !! of the decks that were read
-      type(message_list_t) :: messages, output       !! standard error and standard output, in order
+      real(wp) :: start = 0.0_wp                     !! time of a clock when the log was opened [s]
+      type(message_list_t) :: files, checksums       !! names and checksums of the decks that were read
+      type(message_list_t) :: messages, output       !! messages; output on standard output, in order
    end type log_t
 
    type(append_file_t), save :: file

@@ -1,5 +1,5 @@
-!> elastokin run --responses: evaluates a deck as a black box for optimisers and drivers. It prints key numbers by name, one `value
-!> name` line each, and writes no other file.
+!> elastokin run --responses: evaluates a deck as a black box for optimisers and drivers. Writes key numbers by name, one line
+!> `value name` each, to standard output or to one file.
 module ek_run_numbers
    use ek_kinds, only: wp
    use ek_error, only: error_t, exit_convergence
@@ -24,8 +24,8 @@ module ek_run_numbers
 
 contains
 
-   !> Writes the requested key numbers of a deck. If a key number has no value or a required state did not converge, the results
-   !> contain FAIL, for which drivers search, and the reason.
+   !> Writes the requested key numbers of a deck. After an error, the results contain FAIL, for which drivers search, and the
+   !> reason. For example, a key number has no value, or a required state did not converge.
    subroutine run_numbers(line, settings, error)
       type(command_line_t), intent(in) :: line
       class(deck_settings_t), intent(in) :: settings
@@ -71,7 +71,7 @@ contains
       end if
    end subroutine write_results
 
-   !> Solves the tests that the key numbers need, in a session.
+   !> Solves the tests that the key numbers need in a session, reads the values, and prints the warnings on the model.
    subroutine find_values(settings, names, values, error)
       class(deck_settings_t), intent(in) :: settings
       character(*), intent(in) :: names(:)

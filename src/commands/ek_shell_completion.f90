@@ -1,5 +1,5 @@
-!> Completion of command lines by bash, zsh and fish, from the tables of commands and options. Completed are commands, the options
-!> of a command, folders after `--out`, the names of a list after `--method`, and otherwise files.
+!> Completion of command lines by bash, zsh and fish, from the tables of commands and options: commands, the options of a command,
+!> folders after `--out`, the choices of an option such as `--method`, and otherwise files.
 module ek_shell_completion
    use ek_buffer, only: buffer_t
    use ek_command_line, only: command_t, option_t, option_name
@@ -124,7 +124,7 @@ contains
       text = script%text()
    end function zsh_completion
 
-   !> Adds an option: '--out[output folder]:DIR:_files -/'.
+   !> Adds an option: '--out=[output folder (default\: out)]:DIR:_files -/'.
    subroutine add_zsh_option(script, options, k)
       type(buffer_t), intent(inout) :: script
       type(option_t), intent(in) :: options(:)
@@ -188,7 +188,7 @@ contains
       text = script%text()
    end function fish_completion
 
-   !> The kind of values that may follow option k.
+   !> Kind of the value that follows option k; `nothing` for an option without a value.
    pure integer function value_kind(options, k) result(kind)
       type(option_t), intent(in) :: options(:)
       integer, intent(in) :: k

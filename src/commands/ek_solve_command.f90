@@ -24,7 +24,7 @@ module ek_solve_command
    private
    public :: solve_for
 
-   integer, parameter :: max_sweeps = 40      !! Newton's method needs some five
+   integer, parameter :: max_sweeps = 40      !! largest number of sweeps; Newton's method needs about five
 
 contains
 

@@ -10,13 +10,13 @@ module ek_solve_text
    private
    public :: add_findings
 
-   real(wp), parameter :: no_effect = 1.0e-9_wp      !! of the largest effect
-   real(wp), parameter :: share_of_conflict = 0.1_wp !! a condition with less is no part of a conflict
-   real(wp), parameter :: aligned = 0.9999_wp        !! cosine between the effects on two conditions that change as one
+   real(wp), parameter :: no_effect = 1.0e-9_wp  !! limit, as a share of the largest effect: a smaller effect counts as no effect
+   real(wp), parameter :: share_of_conflict = 0.1_wp !! limit: a condition with a smaller component is no part of a conflict
+   real(wp), parameter :: aligned = 0.9999_wp        !! smallest cosine between the effects on two conditions that change as one
 
 contains
 
-   !> Adds all findings of `solve` to the printed text.
+   !> Adds all findings of `solve` to the printed output.
    subroutine add_findings(workspace, unknowns, wanted, targets, found, text)
       type(workspace_t), intent(in) :: workspace
       type(unknown_t), intent(in) :: unknowns(:)
@@ -54,7 +54,7 @@ contains
 
    end subroutine add_findings
 
-   !> Label of a condition: 'left_toe_deg of parallel_travel at 20 mm'.
+   !> Label of a condition: 'left_toe_deg of parallel_travel at 20 mm'. The label of a key number is its name.
    function label_of(workspace, wanted) result(label)
       type(workspace_t), intent(in) :: workspace
       type(wanted_number_t), intent(in) :: wanted
@@ -77,7 +77,7 @@ contains
       if (unit /= '') text = text//' '//unit
    end function quantity
 
-   !> Adds the unknowns that were not needed, if all conditions are met.
+   !> Adds the unknowns without effect, and whether other solutions exist, for numbers that meet all conditions.
    subroutine add_freedom(unknowns, found, text)
       type(unknown_t), intent(in) :: unknowns(:)
       type(findings_t), intent(in) :: found

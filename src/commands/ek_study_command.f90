@@ -28,9 +28,9 @@ module ek_study_command
 contains
 
    !> Runs a study. Tables are written to DIR (default: out, in the folder of the study) when all designs are finished. Until then
-   !> DIR/<study>.parts contains the finished chunks, with which the next run resumes. gnuplot then runs the study's plot script;
-   !> its variable `out` is the folder of the tables and figures. Under mpirun all ranks compute; rank 0 prints and writes the
-   !> tables.
+   !> DIR/<study>.parts contains the finished chunks, with which the next run resumes. After the tables, gnuplot runs the study's
+   !> plot script, in which the variable `out` is the folder of the tables and figures. Under mpirun all ranks compute; rank 0
+   !> prints and writes the tables.
    subroutine run_study_command(line, error)
       type(command_line_t), intent(in) :: line
       type(error_t), allocatable, intent(out) :: error
@@ -79,7 +79,7 @@ contains
       call show_results(line, this, tables, error)
    end subroutine run_as_rank
 
-   !> Prints the remarks on the factors, and the warnings and remarks on the deck's own design.
+   !> Prints the warnings on the factors, and the warnings and remarks on the deck's own design.
    subroutine print_doubts(this)
       type(opened_study_t), intent(in) :: this
       type(model_remarks_t) :: remarks
@@ -96,7 +96,7 @@ contains
       call print_model_remarks(.true., remarks)            ! no preloads
    end subroutine print_doubts
 
-   !> Merges the chunks of a study into its tables.
+   !> Merges the chunks of a study into its tables, and draws the figures.
    subroutine run_merge_command(line, error)
       type(command_line_t), intent(in) :: line
       type(error_t), allocatable, intent(out) :: error
@@ -162,13 +162,13 @@ contains
       call end_scratch(hold)
    end subroutine run_designs
 
-   !> Runs the missing designs. All ranks must call it.
+   !> Runs the missing designs. All ranks must call this procedure.
    subroutine compute(line, this, options, ranks, hold, error)
       type(command_line_t), intent(in) :: line
       type(opened_study_t), intent(inout) :: this
       type(run_options_t), intent(in) :: options
       type(ranks_t), intent(inout) :: ranks
-      type(scratch_t), intent(inout) :: hold               !! of the folder of the chunks
+      type(scratch_t), intent(inout) :: hold               !! lock on the folder of the chunks
       type(error_t), allocatable, intent(out) :: error
       type(run_state_t) :: state
       logical :: is_quiet

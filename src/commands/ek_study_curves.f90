@@ -11,7 +11,7 @@ module ek_study_curves
    private
    public :: read_curves, curve_step
 
-   integer, parameter :: most_curves = 5000          !! designs whose curves are stored
+   integer, parameter :: most_curves = 5000          !! largest number of designs whose curves are stored
 
 contains
 
@@ -21,7 +21,7 @@ contains
       curve_step = max(1, (designs + most_curves - 1)/most_curves)
    end function curve_step
 
-   !> Reads the curves of every n-th design, and their bands.
+   !> Reads the curves of the designs that curve_step selects, and finds their bands and the label of the swept value.
    subroutine read_curves(path, data, error)
       character(*), intent(in) :: path
       type(study_data_t), intent(inout) :: data
@@ -64,7 +64,8 @@ contains
       call close_table(lines)
    end subroutine read_curves
 
-   !> Places the states of each design at the swept values of the design that has the most swept values.
+   !> Places the states of each design at the swept values of the design that has the most swept values. States at other swept
+   !> values are omitted.
    subroutine sort_curves(rows, data)
       real(wp), intent(in) :: rows(:, :)             !! (design, swept value, columns; state)
       type(study_data_t), intent(inout) :: data
@@ -105,7 +106,7 @@ contains
       end do
    end subroutine sort_curves
 
-   !> Finds percentiles at each state over the designs that have a value there.
+   !> Finds percentiles at each state over the designs that have a value at this state.
    subroutine find_bands(data)
       type(study_data_t), intent(inout) :: data
       real(wp), allocatable :: values(:)
@@ -129,8 +130,8 @@ contains
       end do
    end subroutine find_bands
 
-   !> Sets the label of the swept value. If the swept value is a column of the curves, its label is used, and the column is not
-   !> drawn over itself.
+   !> Removes each column that equals the swept value from the curves, and uses the label of this column for the swept value. If all
+   !> columns equal the swept value, none is removed.
    subroutine name_sweep(data)
       type(study_data_t), intent(inout) :: data
       logical :: is_drawn(size(data%columns))

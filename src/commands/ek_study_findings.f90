@@ -15,16 +15,17 @@ module ek_study_findings
    private
    public :: summarise, find_effects, find_extremes
 
-   integer, parameter :: most_ranked = 20000         !! designs of a rank correlation
-   integer, parameter :: most_steps = 120            !! of the running mean
-   real(wp), parameter :: normal_95 = 1.959963984540054_wp      !! standard errors in half of a 95 % interval
+   integer, parameter :: most_ranked = 20000         !! largest number of designs in a rank correlation
+   integer, parameter :: most_steps = 120            !! approximate number of steps of the running mean
+   real(wp), parameter :: normal_95 = 1.959963984540054_wp      !! half width of a 95 % interval [standard errors]
 
 contains
 
-   !> Computes the mean, deviation, percentiles, histogram and running mean of a response.
+   !> Computes the statistics of a response: number of values, mean, deviation, smallest and largest value, percentiles, number of
+   !> values within the limits, histogram, and running mean.
    subroutine summarise(axis, all_values, summary)
       type(study_axis_t), intent(in) :: axis
-      real(wp), intent(in) :: all_values(:)          !! in the order of the designs, NaN without a value
+      real(wp), intent(in) :: all_values(:)          !! values in the order of the designs; NaN without a value
       type(summary_t), intent(out) :: summary
       real(wp), allocatable :: values(:), sorted(:)
       integer, allocatable :: order(:)
@@ -75,7 +76,7 @@ contains
       end do
    end subroutine summarise
 
-   !> Finds the effects of the factors on a response by the method of the study's kind.
+   !> Finds the rank correlations of the factors with a response, and the effects of the factors by the method of the study's kind.
    subroutine find_effects(study, sampler, data, r, effects)
       type(study_t), intent(in) :: study
       type(sampler_t), intent(in) :: sampler
@@ -138,8 +139,8 @@ contains
       end select
    end subroutine find_effects
 
-   !> Finds the best and the worst design of a response. Designs are judged by the limits of the response; without limits, the
-   !> designs with the smallest and the largest value are found.
+   !> Finds the best and the worst design of a response. Designs are judged by the limits of the response. Without limits, the
+   !> designs with the smallest and the largest value are found; for a response of type `rms`, the smallest value is best.
    subroutine find_extremes(study, designer, data, r)
       type(study_t), intent(in) :: study
       type(designer_t), intent(in) :: designer

@@ -14,8 +14,8 @@ module ek_study_options
 
 contains
 
-   !> Reads --jobs, --shard and --time-limit. The default of --jobs is one thread per processor; with several ranks, one thread per
-   !> rank.
+   !> Reads --jobs, --shard and --time-limit. The default of --jobs is one thread per processor, but no more than the environment
+   !> allows; with several ranks, one thread per rank.
    subroutine read_options(line, ranks, options, error)
       type(command_line_t), intent(in) :: line
       type(ranks_t), intent(in) :: ranks
@@ -66,7 +66,7 @@ contains
    !> processors that Slurm assigned to the task is smaller.
    pure integer function jobs_within(processors, openmp, slurm) result(jobs)
       integer, intent(in) :: processors
-      character(*), intent(in) :: openmp, slurm      !! '' if it is not set; a string that is not a number above 0 is ignored
+      character(*), intent(in) :: openmp, slurm  !! '' if the variable is not set; a string that is not a number above 0 is ignored
       integer :: limit, status, k
 
       jobs = processors

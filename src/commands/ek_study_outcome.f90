@@ -23,14 +23,14 @@ module ek_study_outcome
 
 contains
 
-   !> Writes the tables, removes the chunks, and counts the designs that failed.
+   !> Writes the tables or the store, removes the chunks, and reports the designs that failed.
    subroutine write_results(line, this, hold, tables, is_missing, error)
       type(command_line_t), intent(in) :: line
       type(opened_study_t), intent(in) :: this
-      type(scratch_t), intent(inout) :: hold             !! of the folder of the chunks; ended if the tables were written
+      type(scratch_t), intent(inout) :: hold             !! lock on the folder of the chunks; ended if the tables were written
       type(message_list_t), intent(inout) :: tables
-      logical, intent(out) :: is_missing                 !! a chunk is missing: no table was written
-      type(error_t), allocatable, intent(out) :: error   !! exit_convergence if a design failed, unless that is accepted
+      logical, intent(out) :: is_missing                 !! whether a chunk is missing: no table was written
+      type(error_t), allocatable, intent(out) :: error   !! exit_convergence if a design failed, unless --accept-failed is given
       type(study_counts_t) :: counts
       character(:), allocatable :: list, name
       integer :: user, k, failed
@@ -91,7 +91,7 @@ contains
       if (.not. allocated(error)) call tables%add(study%name//'.csv')
    end subroutine write_step_size
 
-   !> Prints the paths of the tables and draws the figures.
+   !> Prints the paths of the tables, writes the moments of a tolerance study, and draws the figures unless --no-plots is given.
    subroutine show_results(line, this, tables, error)
       type(command_line_t), intent(in) :: line
       type(opened_study_t), intent(in) :: this

@@ -14,7 +14,7 @@ module ek_study_progress
    private
    public :: show_state, end_state, print_status
 
-   real(wp), parameter :: pause = 60.0_wp            !! s, between two lines of a log
+   real(wp), parameter :: pause = 60.0_wp            !! time between two lines of a log [s]
 
 contains
 

@@ -1,7 +1,7 @@
 !> The results of a finished study for its figures and its page. The tables are read line by line.
 !>
-!> All factors and responses of a table are stored (8 bytes each), but the curves of at most 5,000 designs. A NetCDF store is first
-!> written as tables into a scratch folder (ek_store).
+!> All values of factors and responses are stored (8 bytes each). Curves are stored for at most 5,000 designs. A NetCDF store is
+!> first written as tables into a scratch folder (ek_store).
 module ek_study_results
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t, fail, exit_file
@@ -29,7 +29,7 @@ module ek_study_results
    private
    public :: read_results_of
 
-   integer, parameter :: most_reasons = 12           !! kinds of failures
+   integer, parameter :: most_reasons = 12           !! largest number of kinds of failures
 
    !> Failures whose messages differ only in numbers.
    type :: reason_t
@@ -158,7 +158,7 @@ contains
       if (rig%unit /= '-') data%swept = data%swept//' ['//rig%unit//']'
    end subroutine name_axes
 
-   !> Sets the label and sign convention of a column: 'Toe, left wheel [deg]'.
+   !> Sets the name, unit, label and sign convention of a column. Example of a label: 'Toe, left wheel [deg]'.
    subroutine name_column(column, axis)
       character(*), intent(in) :: column
       type(study_axis_t), intent(inout) :: axis
@@ -235,7 +235,7 @@ contains
 
    end subroutine read_rows
 
-   !> Sets the label of a response: its column heading and its unit.
+   !> Sets the name of a response (its column heading), its unit, and its label: the response name and the unit.
    subroutine name_response(study, number, head, axis)
       type(study_t), intent(in) :: study
       integer, intent(in) :: number
@@ -251,9 +251,10 @@ contains
       if (unit /= '') axis%label = axis%label//' ['//axis%unit//']'
    end subroutine name_response
 
-   !> Counts a failure. Failures with the same message are counted together.
+   !> Counts a failure. Failures whose messages differ only in numbers are counted together. After 12 kinds, the last kind
+   !> counts all further failures as 'other reasons'.
    subroutine count_reason(field, design, reasons)
-      character(*), intent(in) :: field              !! of the table, in quotes
+      character(*), intent(in) :: field              !! field of the table, in quotes
       integer, intent(in) :: design
       type(reason_t), allocatable, intent(inout) :: reasons(:)
       type(reason_t) :: new
@@ -280,7 +281,7 @@ contains
       reasons = [reasons, new]
    end subroutine count_reason
 
-   !> Lists the reasons for failures: "12 designs, for instance design 7: case 'sweep': no equilibrium".
+   !> Lists the reasons for failures: "12 designs, the first design 7: case 'sweep': no equilibrium".
    subroutine list_reasons(reasons, list)
       type(reason_t), intent(in) :: reasons(:)
       type(message_list_t), intent(inout) :: list

@@ -8,8 +8,8 @@ module ek_table_lines
    private
    public :: lines_t, open_table, next_line, take_numbers, close_table
 
-   integer, parameter :: longest_line = 200000       !! characters, of the column names
-   integer, parameter :: longest_message = 1000      !! stored characters of a reason
+   integer, parameter :: longest_line = 200000       !! length of the longest line of column names [characters]
+   integer, parameter :: longest_message = 1000      !! characters stored of the message on a failed design
 
    !> A table that is read line by line.
    type :: lines_t
@@ -21,10 +21,10 @@ module ek_table_lines
 
 contains
 
-   !> Opens a table, and reads its header and the names of its columns.
+   !> Opens a table, rejects a table of another deck (checksum in the header), and reads the names of the columns.
    subroutine open_table(path, deck_sum, lines, names, error)
       character(*), intent(in) :: path
-      character(*), intent(in) :: deck_sum           !! '' if it is not to be compared
+      character(*), intent(in) :: deck_sum           !! checksum of the deck; '': no comparison
       type(lines_t), intent(inout) :: lines
       character(64), allocatable, intent(out) :: names(:)
       type(error_t), allocatable, intent(out) :: error
@@ -63,7 +63,7 @@ contains
       allocate (character(28*size(names) + longest_message) :: lines%content)
    end subroutine open_table
 
-   !> Reads the next line that is not empty; status is not 0 at the end.
+   !> Reads the next line that is not empty; status is not 0 at the end of the file.
    subroutine next_line(lines, status)
       type(lines_t), intent(inout) :: lines
       integer, intent(out) :: status

@@ -1,5 +1,5 @@
-!> Results of a tolerance study in addition to its designs: the moments of its responses by derivatives, as tables and as printed
-!> lines.
+!> Results of a tolerance study in addition to its designs: the moments of its responses by derivatives and from the designs, as
+!> tables and as printed lines.
 module ek_tolerance_outcome
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
@@ -18,8 +18,8 @@ module ek_tolerance_outcome
    private
    public :: expand_study, write_tolerance
 
-   integer, parameter :: most_listed = 8             !! factors of a response
-   real(wp), parameter :: least_listed = 0.005_wp    !! share of the variance of a factor that is listed
+   integer, parameter :: most_listed = 8             !! largest number of listed factors of a response
+   real(wp), parameter :: least_listed = 0.005_wp    !! smallest share of the variance of a listed factor
    integer, parameter :: width = 13
 
 contains
@@ -62,7 +62,8 @@ contains
       if (.not. allocated(error)) call print_text(text%text(), error)
    end subroutine write_tolerance
 
-   !> Adds the moments of a response by each method, and the factors with the largest shares.
+   !> Adds the moments of a response by each method, the factors with the largest shares of the variance, and the shares of the
+   !> interactions and of the nonlinear terms.
    subroutine add_response(data, r, text)
       type(study_data_t), intent(in) :: data
       integer, intent(in) :: r

@@ -16,7 +16,7 @@ module ek_version_text
    !> The facts of a build from CMake (src/ek_build_facts.f90.in). The main program passes these facts, so that after a new commit
    !> no other file is compiled again.
    type :: build_t
-      character(60) :: commit       !! '' if it is unknown
+      character(60) :: commit       !! '' if the commit is unknown
       character(100) :: compiler
       character(400) :: options     !! build type and flags
       logical :: has_openmp, has_ipo
@@ -69,7 +69,8 @@ contains
       text = lines%text()
    end function version_text
 
-   !> The instruction set of packs, from the copy of the kernels in use: 'x86-64-v3 (AVX2), 4 designs at a time'.
+   !> The instruction set of packs, from the copy of the kernels in use: 'x86-64-v3 (AVX2), 4 designs at a time'. A phrase that
+   !> begins with 'no' if the compiler does not vectorise packs.
    function pack_text() result(text)
       character(:), allocatable :: text
       character(60) :: name
@@ -84,7 +85,7 @@ contains
       text = trim(name)//', '//text
    end function pack_text
 
-   !> The path of the library that contains a symbol.
+   !> The path of the library that contains a symbol, or 'part of the program (static)'.
    function library_text(symbol) result(text)
       character(*), intent(in) :: symbol
       character(:), allocatable :: text, program
@@ -94,7 +95,7 @@ contains
       if (text == '' .or. text == program) text = 'part of the program (static)'
    end function library_text
 
-   !> Phrase about whether a program that elastokin runs is installed.
+   !> Phrase about whether a program is in the folder of this program: 'yes' and the path, or 'no' and the reason.
    function beside(name) result(text)
       character(*), intent(in) :: name
       character(:), allocatable :: text
