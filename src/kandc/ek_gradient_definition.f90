@@ -15,13 +15,13 @@ module ek_gradient_definition
 
    !> Definition of a gradient, for the equation at the top of ek_gradient.
    type :: definition_t
-      integer :: set                      !! of a test: of_travel, of_roll, …
+      integer :: set                      !! set of tests: of_travel, of_roll, …
       character(52) :: quantity = ''
       character(28) :: column = ''
       character(72) :: sign = ''
       character(1) :: y_turn = ' '        !! 's': times side (toe → steer); 'd': x of the deck, reported forward;
-      !!                                     'i': outward, reported to the right; 'o': x is positive towards the side of the
-      !!                                     wheel, mirrored on the right one
+      !!                                     'i': outward, reported to the right; 'o': x is mirrored on the right wheel,
+      !!                                     positive towards the side of each wheel
       character(18) :: over = ''          !! column of x; '': abscissa of the test, or `factor` in units of the case (N, N m, mm)
    end type definition_t
 

@@ -33,8 +33,8 @@ module ek_kandc_columns
    private
    public :: observe_kandc, fill_kandc
 
-   real(wp), parameter :: min_rack_rate = 1.0e-6_wp              !! rad/m: a rack that does not steer
-   integer, parameter :: most = size(all_quantities)             !! values of a section, at most
+   real(wp), parameter :: min_rack_rate = 1.0e-6_wp              !! rad/m: a rack with a smaller rate does not steer
+   integer, parameter :: most = size(all_quantities)             !! greatest number of values of a section
 
 contains
 
@@ -88,7 +88,7 @@ contains
       end do
    end subroutine fill_kandc
 
-   !> Sets the positions of both wheels of an axle.
+   !> Sets the positions of both wheels of an axle, and the axle roll.
    pure subroutine set_stand(wheels, self)
       type(attitude_t), intent(in) :: wheels(:)
       type(kandc_t), intent(inout) :: self
@@ -160,7 +160,7 @@ contains
       type(state_t), intent(in) :: state
       type(attitude_t), intent(in) :: wheels(:)
       integer, intent(in) :: section
-      integer, intent(in) :: item             !! of a wheel its index in the compliance matrix, of an element its number
+      integer, intent(in) :: item             !! index of the wheel in the compliance matrix, or of the element
       type(kandc_t), intent(in) :: self
       real(wp), intent(inout) :: values(most) !! the first are set
       real(wp) :: lift(6), length(2)
@@ -238,7 +238,7 @@ contains
 
    end subroutine section_values
 
-   !> Computes the values of of_turn, with &axle and a rack.
+   !> Computes the values of the section of_turn, for a model with &axle and a rack.
    pure subroutine turn_values(left_now, right_now, wheelbase, self, values)
       type(attitude_t), intent(in) :: left_now, right_now
       real(wp), intent(in) :: wheelbase
@@ -256,7 +256,7 @@ contains
       values(3) = ackermann_error(left, right, wheelbase, self%stand%track)
    end subroutine turn_values
 
-   !> Computes the values of of_steering.
+   !> Computes the values of the section of_steering: steering ratio and steering-wheel angle.
    pure subroutine steering_values(suspension, state, wheels, self, values)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
@@ -278,8 +278,8 @@ contains
       values(2) = sign(per_rack, rate)*row_change(suspension, state, self%steer_row)
    end subroutine steering_values
 
-   !> Change of the prescribed value of a driver's row from design to a state [m, rad]: the value of its measure minus the
-   !> deflection of its compliance.
+   !> Change of the prescribed value of a driver's row from design to a state [m, rad]: the change of the measures of the row, minus
+   !> the deflection of the compliance of the row.
    pure real(wp) function row_change(suspension, state, row) result(change)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
