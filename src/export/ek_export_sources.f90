@@ -19,9 +19,9 @@ module ek_export_sources
    type :: sources_t
       type(table_t) :: travel, steer            !! results of the tests
       logical :: has_steer = .false.
-      character(:), allocatable :: prefix       !! of the columns of the wheel that is drawn
-      integer :: side = 1                       !! its side
-      real(wp) :: frame(3) = 1.0_wp             !! from the deck to ISO
+      character(:), allocatable :: prefix       !! prefix of the columns of the drawn wheel
+      integer :: side = 1                       !! side of the drawn wheel: 1 left, 2 right
+      real(wp) :: frame(3) = 1.0_wp             !! signs of x, y, z from the deck to ISO
       type(load_table_result_t) :: loads
    end type sources_t
 

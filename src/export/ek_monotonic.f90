@@ -1,5 +1,5 @@
 !> Checks that the columns of a map rise or fall everywhere. A simulator that inverts columns or uses them as an abscissa requires
-!> this.
+!> such columns.
 module ek_monotonic
    use ek_kinds, only: wp, millimetre
    use ek_error, only: error_t, message_list_t, fail, exit_model

@@ -24,7 +24,7 @@ module ek_characteristics
    private
    public :: wheel_characteristics_t, response_t, wheel_characteristics, motion_ratio
 
-   real(wp), parameter :: min_rotation = 1.0e-13_wp         !! least compliance in rotation [rad/(N m)]; 1e13 N m/rad exceeds any part
+   real(wp), parameter :: min_rotation = 1.0e-13_wp         !! least compliance in rotation [rad/(N m)]; no part is as stiff as this
    real(wp), parameter :: longest_arm = 1.0e3_wp          !! longest swing arm that has a length and a centre [m]
    real(wp), parameter :: gravity = 9.80665_wp            !! m/s², the g of "per g"
    real(wp), parameter, public :: trail = 0.030_wp        !! m: distance of a lateral force aft of the contact point; typical tyre
@@ -58,7 +58,7 @@ module ek_characteristics
       type(response_t) :: lateral(2, 2), lateral_trail(2, 2)             !! (phase, held), per N to the right
       type(response_t) :: aligning(2, 2)                                 !! (phase, held), per N m to the left
       type(response_t) :: braking(2), traction(2)                        !! (held), per N rearward, forward
-      real(wp) :: jacking(2) = 0.0_wp          !! (phase): vertical per lateral force on this wheel [-], contact points held in height
+      real(wp) :: jacking(2) = 0.0_wp          !! (phase): vertical per lateral force on this wheel [-], contact heights held
       real(wp) :: anti_brake = 0.0_wp, anti_drive = 0.0_wp    !! [-] anti-dive, anti-lift (front); anti-lift, anti-squat (rear)
       real(wp) :: brake_travel = 0.0_wp, drive_travel = 0.0_wp           !! wheel travel per g [m]
       real(wp) :: stiffness(6) = 0.0_wp        !! load per displacement at the wheel centre, loads in phase [N/m, N m/rad]
@@ -278,8 +278,8 @@ contains
    !> wheel centre under the longitudinal force and under the load transfer, per unit of the whole force on the vehicle.
    !>
    !> Braking is a force of 1 rearward. Each wheel of this axle carries half the share of the axle, at the contact point, and the
-   !> load transfer h/2L, added (front) or removed (rear). Driving is a force of 1 forward, at the wheel centre or the contact point;
-   !> all signs are opposite. The travel per g is Zf + Zw times the weight of the car.
+   !> load transfer h/2L, added (front) or removed (rear). Driving is a force of 1 forward, at the wheel centre or the contact
+   !> point; all signs are opposite. The travel per g is Zf + Zw times the weight of the car.
    !> Equations (S.11), (S.12), (S.13) of docs/theory/suspension.md.
    pure subroutine anti_features(loaded, place, axle, is)
       type(loaded_t), intent(in) :: loaded

@@ -212,8 +212,8 @@ contains
       text = text//'; the others are there. Use a shorter range, or more increments'
    end function grid_text
 
-   !> Adds one warning if a matrix is nearly singular, one warning per limit point and per bifurcation of the path, and one if states
-   !> have a negative stiffness. For method 'recursive', only a nearly singular matrix gives a warning.
+   !> Adds one warning if a matrix is nearly singular, one warning per limit point and per bifurcation of the path, and one if
+   !> states have a negative stiffness. For method 'recursive', only a nearly singular matrix gives a warning.
    subroutine stability_remarks(case, path, remarks)
       type(case_t), intent(in) :: case
       type(path_t), intent(in) :: path

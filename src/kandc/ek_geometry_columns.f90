@@ -21,9 +21,9 @@ module ek_geometry_columns
       locked_twists, instant_axis, axis_distances, ride_frequency
 
    real(wp), parameter :: standard_gravity = 9.80665_wp      !! m/s²
-   real(wp), parameter :: min_ratio = 1.0e-6_wp            !! a stop with a smaller ratio of length to travel does not depend on the wheels
+   real(wp), parameter :: min_ratio = 1.0e-6_wp            !! length per travel below which a stop does not depend on the wheels
 
-   real(wp), parameter :: parallel = 1.0e-9_wp           !! sine of the angle between spin axis and steering axis up to which both are parallel
+   real(wp), parameter :: parallel = 1.0e-9_wp           !! sine of the angle up to which spin and steering axis are parallel
 
    ! Below these a carrier does not rotate: stiffer than any steel about z, or a rack that steers 1e-6 rad per metre
    real(wp), parameter :: min_rotation = 1.0e-12_wp        !! rotation per moment [rad/(N m)]; also least divisor of slopes
@@ -159,12 +159,13 @@ contains
    !> heights of all wheel centres held (`lock`).
    !>
    !> With a steering driver (a rack), the rack is moved by a unit. A steer moment would move a free rack without limit, so the
-   !> elastic response of the other parts to the moment is negligible. Without a rack, a unit steer moment about z on the wheel gives
-   !> the elastic axis (fixed tie rods, rear axles).
+   !> elastic response of the other parts to the moment is negligible. Without a rack, a unit steer moment about z on the wheel
+   !> gives the elastic axis (fixed tie rods, rear axles).
    !>
-   !> Springs are locked by pairs of forces μ along them. A small system of known responses gives these forces: lengths(0) + A μ = 0,
-   !> with the changes of length lengths(0) without μ and A per unit of μ. Without springs, the heights of the wheel centres are held
-   !> instead. They are also held for the steering ratio, which is measured on a rig with the wheels at fixed heights.
+   !> Springs are locked by pairs of forces μ along them. A small system of known responses gives these forces:
+   !> lengths(0) + A μ = 0, with the changes of length lengths(0) without μ, and A per unit of μ. Without springs, the heights of
+   !> the wheel centres are held instead. These heights are also held for the steering ratio, which is measured on a rig with the
+   !> wheels at fixed heights.
    !> Equation (S.8) of docs/theory/suspension.md.
    pure subroutine locked_twists(compliance, lock, moves, twists)
       type(compliance_t), intent(in) :: compliance   !! known
@@ -201,10 +202,10 @@ contains
       axis = steer_axis_of(now%axes%side, point, turn, now%at_centre, now%at_contact)
    end function instant_axis
 
-   !> Distances of a wheel from a steering axis, the line through `point` along `direction` [m]. `centre` and `patch` are the distances
-   !> of wheel centre and contact point from the line, never negative. `along` is the distance along the spin axis from the common
-   !> perpendicular to the wheel centre, positive outboard. `across` is the length of the common perpendicular, positive: spin axis
-   !> aft of the line.
+   !> Distances of a wheel from a steering axis, the line through `point` along `direction` [m]. `centre` and `patch` are the
+   !> distances of wheel centre and contact point from the line, never negative. `along` is the distance along the spin axis from
+   !> the common perpendicular to the wheel centre, positive outboard. `across` is the length of the common perpendicular,
+   !> positive: spin axis aft of the line.
    !>
    !> With d = centre − point, k the unit direction upward, w the spin axis outboard, n = side w×k/|w×k|:
    !>

@@ -165,7 +165,8 @@ contains
 
    end subroutine add_wheel
 
-   !> Adds the column of a stop (remaining travel), or of a spring on a length measure (motion ratio). Other elements have no column.
+   !> Adds the column of a stop (remaining travel), or of a spring on a length measure (motion ratio). Other elements do not have a
+   !> column.
    subroutine add_element(suspension, k, self)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: k

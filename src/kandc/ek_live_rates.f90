@@ -32,7 +32,7 @@ module ek_live_rates
    !> All selected rates, and the laws that have these rates.
    type :: live_rates_t
       type(live_rate_t), allocatable :: rate(:)
-      integer, allocatable :: of_law(:)                !! index of the rate of each law; a rate of both sides has two laws, left first
+      integer, allocatable :: of_law(:)                !! index of the rate of each law; two laws for a rate of both sides, left first
    end type live_rates_t
 
 contains
@@ -120,8 +120,8 @@ contains
       at = 0
    end function other_side
 
-   !> Finds the indices of the laws with live rates among the contributions of a test, in the order of `of_law`; 0 for a law that the
-   !> test does not have.
+   !> Finds the indices of the laws with live rates among the contributions of a test, in the order of `of_law`; 0 for a law that
+   !> the test does not have.
    subroutine find_laws(suspension, shares, rates, laws)
       type(suspension_t), intent(in) :: suspension          !! on the rig of the test
       type(contribution_t), intent(in) :: shares            !! of the test

@@ -1,6 +1,6 @@
 !> Data of a state from which a page computes its columns for other rates, exactly and without the model.
 !>
-!> Each of the m laws acts along a deflection gᵀu; let s = √rate. G is s gᵀu per unit load at the wheel centres, and G_v the same for
+!> Each of the m laws acts along a deflection gᵀu; let s = √rate. G is s gᵀu per unit load at the wheel centres, and G_v is G of
 !> the transpose. A is s gᵀu per load s on each law itself. E contains the relative changes of the rates (0.1: 10 % more). The
 !> formula of ek_what_if then has no unit:
 !>
@@ -69,8 +69,8 @@ module ek_live_state
 
 contains
 
-   !> Chooses the columns of a test that match `names`, and the laws of the rates. Stiffnesses and columns at held heights are chosen
-   !> only for a single wheel or an axle. No column is chosen if the test does not have all laws of the rates.
+   !> Chooses the columns of a test that match `names`, and the laws of the rates. Stiffnesses and columns at held heights are
+   !> chosen only for a single wheel or an axle. No column is chosen if the test does not have all laws of the rates.
    subroutine start_live(suspension, rates, names, self)
       type(suspension_t), intent(in) :: suspension          !! on the rig
       type(live_rates_t), intent(in) :: rates

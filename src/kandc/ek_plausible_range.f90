@@ -20,10 +20,10 @@ module ek_plausible_range
    type :: unit_t
       integer :: dimension
       character(8) :: name
-      real(wp) :: size          !! SI
+      real(wp) :: size          !! SI value of the unit
    end type unit_t
 
-   real(wp), parameter :: pound = 4.4482216_wp      !! N
+   real(wp), parameter :: pound = 4.4482216_wp      !! pound-force [N]
 
    !> The units to which a value may belong, in order of likelihood.
    type(unit_t), parameter :: units_tried(*) = [ &
@@ -39,11 +39,11 @@ module ek_plausible_range
       unit_t(mass, 'g', 1.0e-3_wp), unit_t(mass, 't', 1.0e3_wp), unit_t(share, 'per cent', 0.01_wp), &
       unit_t(acceleration, 'mm/s²', 1.0e-3_wp), unit_t(acceleration, 'g', 9.80665_wp)]
 
-   !> The range of one quantity. It applies to the magnitude unless `low` is negative.
+   !> The usual range of one quantity. The range applies to the magnitude unless `low` is negative.
    type :: range_t
       character(28) :: quantity
       integer :: dimension
-      real(wp) :: low, high     !! mm, N/mm, N mm/deg, N, N m, deg, kg, 1, m/s², Hz, deg/m
+      real(wp) :: low, high     !! limits, by dimension in mm, N/mm, N mm/deg, N, N m, deg, kg, 1, m/s², Hz, deg/m
       logical :: may_be_zero
       character(100) :: suspect  !! likely cause or hint if no other unit fits
    end type range_t
@@ -120,8 +120,8 @@ module ek_plausible_range
    !> The remarks without repetition. Both sides of a mirrored deck have the same line and give one remark.
    type :: doubts_t
       type(message_list_t) :: remarks
-      type(units_t) :: units = units_t()               !! of the deck
-      character(:), allocatable, private :: where, thing   !! of the item that is examined: file:line, "spring 'coil'"
+      type(units_t) :: units = units_t()               !! units of the deck
+      character(:), allocatable, private :: where, thing   !! location and name of the examined item: file:line, "spring 'coil'"
       type(message_list_t), private :: seen
    contains
       procedure :: examine
@@ -254,7 +254,7 @@ contains
       if (dimension /= share) text = text//' '//deck_name(dimension, self%units)
    end function speak
 
-   !> A number with five digits; from 1e5 to 1e9 with all digits.
+   !> A number with five significant digits; with nine from 1e5 to 1e9.
    pure function short(x) result(text)
       real(wp), intent(in) :: x
       character(:), allocatable :: text

@@ -36,12 +36,12 @@ module ek_rig
       type(suspension_t) :: suspension             !! on the rig
       type(case_t) :: case                         !! with its actuations, unit and name of the swept value
       type(kkt_t) :: kkt                           !! work space
-      type(walk_t) :: space                        !! of its paths
+      type(walk_t) :: space                        !! work space of the paths of the case
       logical, private :: is_mounted = .false.
-      type(rig_t), private :: rig                  !! on which it stands
+      type(rig_t), private :: rig                  !! rig of the case
    end type mounted_case_t
 
-   character(*), parameter :: heights(2) = [character(16) :: 'rig_left_height', 'rig_right_height']   !! no name of a deck begins so
+   character(*), parameter :: heights(2) = [character(16) :: 'rig_left_height', 'rig_right_height']   !! deck names do not begin so
    real(wp), parameter :: nothing(3) = 0.0_wp
 
 contains
@@ -244,7 +244,8 @@ contains
       rig%unit = trim(driver_unit(suspension, case%drive))
    end subroutine follow_deck
 
-   !> Adds heights that follow the swept value; with vertical = 'force', adds vertical forces instead.
+   !> Adds the actuations that move the heights of the wheels with the swept value. With vertical = 'force', adds vertical forces
+   !> instead.
    pure subroutine move_heights(test, suspension, case, wheels, control, rig)
       type(rig_test_t), intent(in) :: test
       type(suspension_t), intent(in) :: suspension
@@ -296,7 +297,7 @@ contains
       end do
    end subroutine load_wheels
 
-   !> Adds the loads and drivers of the columns of a table; its rows become the path of the case.
+   !> Adds the loads and drivers of the columns of a load table. The rows of the table become the path of the case.
    pure subroutine take_rows(suspension, case, control, rig)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
@@ -328,9 +329,9 @@ contains
       rig%is_table = .true.
    end subroutine take_rows
 
-   !> Adds a driver of Σ sign × height relative to the vehicle body, of wheel centres, contact points, or of the road under the
-   !> tyres. Its value is the change from design [m]. The tyres on the road deflect under the loads at the contact points, so that
-   !> Σ sign × height = value + λ Σ sign²/rate.
+   !> Adds a driver of Σ sign × height relative to the vehicle body, with the heights of wheel centres, of contact points, or of the
+   !> road under the tyres. The value of the driver is the change from design [m]. The tyres on the road deflect under the loads at
+   !> the contact points, so that Σ sign × height = value + λ Σ sign²/rate.
    pure subroutine add_height(rig, suspension, name, where, wheels, signs, control)
       type(rig_t), intent(inout) :: rig        !! its numbers still without a meaning
       type(suspension_t), intent(in) :: suspension

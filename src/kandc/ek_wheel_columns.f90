@@ -59,7 +59,7 @@ contains
       end select
    end subroutine wheel_values
 
-   !> Computes the responses to roll: steer, camber, caster, steer in percent, and rotations.
+   !> Computes the responses to roll: steer, camber and caster per roll, steer in per cent of roll, and rotations.
    pure subroutine roll_values(roll, frame, values)
       type(response_t), intent(in) :: roll
       real(wp), intent(in) :: frame(3)

@@ -25,25 +25,25 @@ module ek_key_number
       integer :: test = 0                               !! index in the list of tests
       character(name_length) :: column(2) = ''          !! '': this wheel does not have the number
       character(name_length) :: over(2) = ''            !! the abscissa of a gradient; the column that has a given value
-      real(wp) :: wanted(2) = 0.0_wp                    !! that value, in the unit of the column
-      real(wp) :: half = 0.0_wp                         !! window of a gradient, in the unit of `over`
-      real(wp) :: size(2) = 1.0_wp                      !! unit and sign of a gradient: times the slope of the columns
+      real(wp) :: wanted(2) = 0.0_wp                    !! given value of the column `over`, in the unit of this column
+      real(wp) :: half = 0.0_wp                         !! half width of the window of a gradient, in the unit of `over`
+      real(wp) :: size(2) = 1.0_wp                      !! factor on the slope of the columns: unit and sign of a gradient
       real(wp) :: factor_size = 1.0_wp                  !! load or displacement at `factor` = 1
    end type key_source_t
 
    !> One key number of a report, with its values for the axle, a single wheel or both wheels.
    type :: key_number_t
       character(:), allocatable :: group, quantity, unit, sign
-      character(:), allocatable :: name           !! for programs, without left_ or right_: 'bump_toe', 'toe_deg'
+      character(:), allocatable :: name           !! name for programs, without left_ or right_: 'bump_toe', 'toe_deg'
       character(:), allocatable :: condition      !! test and window of the number: 'parallel_travel, within ±15 mm of design'
-      character(:), allocatable :: definition     !! from which columns, and its sign
+      character(:), allocatable :: definition     !! columns of the number, and its sign
       character(48) :: held = ''                  !! condition of the wheels of a loaded axle: 'vertical force held'
       logical :: has_target = .false.
       real(wp) :: target(2) = 0.0_wp              !! lower and upper limit that the deck gives, in `unit`
-      real(wp) :: left = 0.0_wp, right = 0.0_wp      !! NaN if missing
+      real(wp) :: left = 0.0_wp, right = 0.0_wp      !! values of the wheels; NaN if missing
       logical :: is_of_axle = .false.                !! one number, in `left`
       integer :: how = at_design                     !! one of the constants above
-      type(key_source_t), allocatable :: sources(:)  !! tests that may have it; the first that has a value counts
+      type(key_source_t), allocatable :: sources(:)  !! tests that may have the number, in the order of reading
    end type key_number_t
 
 contains
