@@ -1,9 +1,9 @@
 !> A map as a file of suspension kinematics and compliance for CarMaker (.skc): an "infofile" of keys and tables.
 !>
-!> The file has the frame of ek_wheel_motion. Units are SI, so all factors to SI are 1. Kinematics are of kind MapNL: a table for the
-!> left and for the right wheel, over the wheel's own travel (Arg0) and over steer or the travel of the other wheel (Arg1, which
-!> varies fastest). Compliance is of kind CoeffConstFr1: one row per load on the wheel and on the opposite wheel. The vertical force
-!> does not have a row, because the springs carry it.
+!> The file has the frame of ek_wheel_motion. Units are SI, so all factors to SI are 1. Kinematics are of kind MapNL: a table for
+!> the left and for the right wheel, over the wheel's own travel (Arg0) and over steer or the travel of the other wheel (Arg1,
+!> which varies fastest). Compliance is of kind CoeffConstFr1: one row per load on the wheel and on the opposite wheel. The vertical
+!> force does not have a row, because the springs carry it.
 module ek_carmaker
    use ek_kinds, only: wp
    use ek_error, only: error_t
@@ -23,7 +23,7 @@ module ek_carmaker
 
    character(1), parameter :: sides(2) = ['L', 'R']
    integer, parameter :: columns = 10                     !! number of quantities in the tables, tx to lStabi
-   character(5), parameter :: load_names(5) = [character(5) :: 'Frc.x', 'Frc.y', 'Trq.x', 'Trq.y', 'Trq.z']      !! keys of load_parts
+   character(5), parameter :: load_names(5) = [character(5) :: 'Frc.x', 'Frc.y', 'Trq.x', 'Trq.y', 'Trq.z']  !! of load_parts
 
 contains
 

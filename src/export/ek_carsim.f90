@@ -20,7 +20,7 @@ module ek_carsim
    private
    public :: carsim_text, par_table_lines, carsim_tables
 
-   !> A table over jounce: keyword, quantity of ek_wheel_motion, unit of the quantity in SI, signs on the left and on the right side.
+   !> A table over jounce: keyword, quantity of ek_wheel_motion, unit in SI, signs on the left and on the right side, meaning.
    type :: par_table_t
       character(16) :: keyword
       integer :: quantity

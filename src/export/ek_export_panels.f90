@@ -186,8 +186,8 @@ contains
       if (at > 0) read (text(at + len(key):), *, iostat=status) values
    end function numbers_behind
 
-   !> Adds panels of four tables over jounce (toe, camber, x, lateral), and of the coefficients of steer under Fy and Mz, camber and x
-   !> under Fx, and spring compression. Without a spring length, the panel of spring compression is omitted.
+   !> Adds panels of four tables over jounce (toe, camber, x, lateral), and of the coefficients of steer under Fy and Mz, camber and
+   !> x under Fx, and spring compression. Without a spring length, the panel of spring compression is omitted.
    subroutine carsim_panels(map, sources, file, text, list)
       type(kandc_map_t), intent(in) :: map
       type(sources_t), intent(in) :: sources

@@ -17,7 +17,7 @@ module ek_export_sources
    public :: sources_t, solve_sources, source_values
 
    type :: sources_t
-      type(table_t) :: travel, steer            !! results of the tests
+      type(table_t) :: travel, steer            !! tables of the travel and the steering test
       logical :: has_steer = .false.
       character(:), allocatable :: prefix       !! prefix of the columns of the drawn wheel
       integer :: side = 1                       !! side of the drawn wheel: 1 left, 2 right

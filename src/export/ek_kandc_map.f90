@@ -28,7 +28,7 @@ module ek_kandc_map
       real(wp), allocatable :: travel(:), second(:)
       real(wp) :: driver_sign = 1.0_wp        !! 1 or −1: value of the driver for steer 1
       character(:), allocatable :: driver, vertical, held
-      real(wp), allocatable :: value(:, :, :, :)   !! (quantity, second, travel, side)
+      real(wp), allocatable :: value(:, :, :, :)   !! (quantity of ek_wheel_motion, second, travel, side)
       !> Compliance of each side at design, at the wheel centre, with wheels held: own loads, then loads on the other wheel
       real(wp) :: compliance(6, 12, 2) = 0.0_wp
       real(wp) :: free(12, 12) = 0.0_wp            !! compliance of both wheels, vertical loads held; ISO; left before right

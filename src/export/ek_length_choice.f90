@@ -1,10 +1,10 @@
 !> The elements of a model that are spring, damper, bump stop and bar of a wheel.
 !>
-!> Without a choice of the user, these are the only spring, damper and bump stop of the wheel. On an axle, the names of these elements
-!> begin with left_ or right_, as &mirror creates them. A missing damper has the length of the spring, a missing stop the length of
-!> the damper. A missing spring on two points is replaced by the travel of the wheel with the opposite sign: a spring of ratio 1,
-!> which shortens in bump. A bar that was not chosen is replaced by the travel tz. The rates in the simulator are then the rates at
-!> the wheel.
+!> Without a choice of the user, these are the only spring, damper and bump stop of the wheel. On an axle, the names of these
+!> elements begin with left_ or right_, as &mirror creates them. A missing damper has the length of the spring, a missing stop the
+!> length of the damper. A missing spring on two points is replaced by the travel of the wheel with the opposite sign: a spring of
+!> ratio 1, which shortens in bump. A bar that was not chosen is replaced by the travel tz. The rates of these two in the simulator
+!> are then the rates at the wheel.
 module ek_length_choice
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t, fail, exit_usage

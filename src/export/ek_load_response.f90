@@ -21,7 +21,7 @@ module ek_load_response
    !> The response to loads: one row per state.
    type :: load_table_result_t
       real(wp), allocatable :: load(:, :)          !! (component of left, then right wheel: Fx, Fy, Mx, My, Mz; row), ISO [N, N m]
-      real(wp), allocatable :: value(:, :, :)      !! (quantity, row, side)
+      real(wp), allocatable :: value(:, :, :)      !! (quantity of ek_wheel_motion, row, side)
    end type load_table_result_t
 
 contains

@@ -45,7 +45,7 @@ module ek_wheel_motion
       type(measure_t) :: measure
       integer :: same_as = 0              !! index of another length; 0: the travel of the wheel
       real(wp) :: sign = 1.0_wp           !! sign of the travel as a length
-      character(:), allocatable :: label   !! for descriptions: 'left_coil', 'lSpring', 'tz'
+      character(:), allocatable :: label   !! name for descriptions: 'left_coil', 'lSpring', 'tz'
    end type length_choice_t
 
 contains
@@ -91,7 +91,8 @@ contains
       end do
    end function wheel_motion
 
-   !> The rotation of a wheel from zero camber and toe to its spin axis at design, without a rotation about this axis: Rz Rx, in ISO.
+   !> The rotation of a wheel from zero camber and toe to the spin axis at design, without a rotation about this axis: Rz Rx, in
+   !> ISO.
    pure function static_attitude(spin) result(r)
       real(wp), intent(in) :: spin(3)      !! unit, outboard, frame of the program
       real(wp) :: r(3, 3)

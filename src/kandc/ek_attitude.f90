@@ -48,8 +48,8 @@ module ek_attitude
 
    !> The attitude of one wheel at one state. Changes are relative to design.
    type :: attitude_t
-      real(wp) :: centre(3) = 0.0_wp     !! wheel centre, change [m]; z is the wheel travel, bump positive
-      real(wp) :: contact(3) = 0.0_wp    !! contact point, change [m]
+      real(wp) :: centre(3) = 0.0_wp     !! displacement of the wheel centre [m]; z is the wheel travel, bump positive
+      real(wp) :: contact(3) = 0.0_wp    !! displacement of the contact point [m]
       real(wp) :: toe = 0.0_wp           !! rad, positive: front edges inward
       real(wp) :: camber = 0.0_wp        !! rad, positive: top outward
       real(wp) :: track_change = 0.0_wp       !! lateral displacement of the contact point [m], positive outward

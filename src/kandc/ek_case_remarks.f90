@@ -27,7 +27,7 @@ module ek_case_remarks
    !> The range of the deflection of one law over the states of a path, and the states at both ends of this range.
    type :: reach_t
       real(wp) :: least = 0.0_wp, most = 0.0_wp      !! least and greatest deflection [m or rad]
-      integer :: at_least = 0, at_most = 0           !! index of the state with each; 0: no state was evaluated
+      integer :: at_least = 0, at_most = 0           !! indices of the states with these deflections; 0: no state was evaluated
    end type reach_t
 
 contains

@@ -38,9 +38,9 @@ module ek_case_result
       logical :: is_compared = .true.              !! a linear method is compared with equilibrium at the ends of the path
       real(wp) :: min_settling = 1.0e-8_wp       !! a larger displacement of a wheel under the constant loads gives a note [m]
       character(name_length), allocatable :: columns(:)   !! quantities that are computed; not allocated: all
-      logical :: defers_kandc = .false.            !! the caller fills the K&C quantities at the states that it reads (read_states)
-      real(wp) :: reach = huge(1.0_wp)             !! swept value beyond which, on either side of design, no state is needed
-      character(:), allocatable :: checksum        !! of the deck, for the header of the table; not allocated: no header
+      logical :: defers_kandc = .false.            !! the caller fills the K&C quantities at the states that are read (ek_read_states)
+      real(wp) :: reach = huge(1.0_wp)             !! swept value [SI] beyond which, on either side of design, no state is needed
+      character(:), allocatable :: checksum        !! checksum of the deck, for the header of the table; not allocated: no header
    end type solve_options_t
 
    !> The solution of a case. Its work space serves further solutions at the states of the path.

@@ -26,8 +26,8 @@ module ek_characteristics
 
    real(wp), parameter :: min_rotation = 1.0e-13_wp         !! least compliance in rotation [rad/(N m)]; no part is as stiff as this
    real(wp), parameter :: longest_arm = 1.0e3_wp          !! longest swing arm that has a length and a centre [m]
-   real(wp), parameter :: gravity = 9.80665_wp            !! m/s², the g of "per g"
-   real(wp), parameter, public :: trail = 0.030_wp        !! m: distance of a lateral force aft of the contact point; typical tyre
+   real(wp), parameter :: gravity = 9.80665_wp            !! the g of "per g" [m/s²]
+   real(wp), parameter, public :: trail = 0.030_wp        !! distance of a lateral force aft of the contact point [m], typical tyre
    integer, parameter, public :: in_phase = 1, anti_phase = 2
    integer, parameter, public :: load_held = 1, height_held = 2
 
@@ -47,17 +47,17 @@ module ek_characteristics
    type :: wheel_characteristics_t
       real(wp) :: wheel_rate = 0.0_wp, ride_rate = 0.0_wp, hop_rate = 0.0_wp      !! N/m
       real(wp) :: single_rate(2) = 0.0_wp      !! rate under load on this wheel only; other wheel: (load, height) held [N/m]
-      type(response_t) :: bump                 !! per m of wheel travel
-      type(response_t) :: wheel_roll           !! per rad of axle roll
-      type(response_t) :: roll                 !! per rad of axle roll including tyre deflection
+      type(response_t) :: bump                 !! response per m of wheel travel
+      type(response_t) :: wheel_roll           !! response per rad of axle roll
+      type(response_t) :: roll                 !! response per rad of axle roll including tyre deflection
       real(wp) :: side_arm_length = 0.0_wp, front_arm_length = 0.0_wp    !! swing arms in side and front view [m]
       real(wp) :: side_arm_angle = 0.0_wp      !! rad, positive: the arm rises rearward
       real(wp) :: front_arm_angle = 0.0_wp     !! rad, positive: the arm rises inward
       real(wp) :: side_arm_centre(2) = 0.0_wp  !! centre of the side view swing arm: x, z [m]
       real(wp) :: front_arm_centre(2) = 0.0_wp !! centre of the front view swing arm: y, z [m]
-      type(response_t) :: lateral(2, 2), lateral_trail(2, 2)             !! (phase, held), per N to the right
-      type(response_t) :: aligning(2, 2)                                 !! (phase, held), per N m to the left
-      type(response_t) :: braking(2), traction(2)                        !! (held), per N rearward, forward
+      type(response_t) :: lateral(2, 2), lateral_trail(2, 2)             !! (phase, held): response per N to the right
+      type(response_t) :: aligning(2, 2)                                 !! (phase, held): response per N m to the left
+      type(response_t) :: braking(2), traction(2)                        !! (held): response per N rearward, forward
       real(wp) :: jacking(2) = 0.0_wp          !! (phase): vertical per lateral force on this wheel [-], contact heights held
       real(wp) :: anti_brake = 0.0_wp, anti_drive = 0.0_wp    !! [-] anti-dive, anti-lift (front); anti-lift, anti-squat (rear)
       real(wp) :: brake_travel = 0.0_wp, drive_travel = 0.0_wp           !! wheel travel per g [m]

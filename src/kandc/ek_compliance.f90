@@ -42,7 +42,7 @@ module ek_compliance
       integer, allocatable :: spring(:)         !! element of the suspension at each index of an axial spring
       logical :: is_known = .false.             !! false: the matrix was singular, `response` is NaN
       logical :: has_drive = .false.            !! the last load is a unit displacement of the steering driver
-      real(wp), allocatable :: response(:, :)   !! (port, load), see above; NaN if it was not requested
+      real(wp), allocatable :: response(:, :)   !! (port, load): displacement of the port per load; NaN if not requested
       ! the loads that are solved, and the ports that are read
       integer, private :: solved = 0
       integer, allocatable, private :: load(:)          !! index of the load of each solved column
@@ -54,7 +54,7 @@ module ek_compliance
       integer, allocatable, private :: at_spring(:, :)  !! number of unknowns before those of both bodies; negative: chassis
       real(wp), allocatable, private :: gradient(:, :)  !! gradient of the length of each spring
       real(wp), allocatable, private :: columns(:, :)   !! (unknown, column): loads, after the solution [u; μ]
-      type(skew_system_t), private :: skew_system       !! used only if a load requires it
+      type(skew_system_t), private :: skew_system       !! used only if a load has no potential
       logical :: is_skew = .false.                      !! the matrix of the last state is not symmetric
    end type compliance_t
 

@@ -44,11 +44,11 @@ module ek_contribution_table
       type(linear_columns_t) :: columns
       type(contribution_t) :: shares
       type(row_name_t), allocatable :: row(:)
-      real(wp), allocatable :: values(:)        !! of the requested columns, in their units
+      real(wp), allocatable :: values(:)        !! values of the requested columns, in their units
       real(wp), allocatable :: parts(:, :)      !! (requested column, row): contributions, which add up to the value
       type(load_path_t) :: paths
       real(wp), allocatable :: arm(:, :)        !! from each wheel centre to its contact point at the state [m], global axes
-      real(wp), allocatable :: energy(:, :)     !! (load of the paths, row): share of the strain energy; they add up to 1
+      real(wp), allocatable :: energy(:, :)     !! (load of the paths, row): share of the strain energy; the rows add up to 1
       logical :: is_known = .false.             !! whether the matrix of the state is not singular
    end type contribution_table_t
 

@@ -24,7 +24,7 @@ module ek_examination
    !> Data from a design of a case that was examined before. One variable serves all designs of a case.
    type :: known_case_t
       logical :: is_known = .false.          !! a design of the case had no defect
-      integer :: unknowns = 0, constraints = 0   !! of the examined design
+      integer :: unknowns = 0, constraints = 0   !! numbers of the examined design
       integer :: negative = 0                !! number of negative eigenvalues of the KKT matrix of the examined design
       integer :: diagnoses = 0               !! number of full diagnoses so far
    end type known_case_t

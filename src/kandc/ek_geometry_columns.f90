@@ -26,8 +26,8 @@ module ek_geometry_columns
    real(wp), parameter :: parallel = 1.0e-9_wp           !! sine of the angle up to which spin and steering axis are parallel
 
    ! Below these a carrier does not rotate: stiffer than any steel about z, or a rack that steers 1e-6 rad per metre
-   real(wp), parameter :: min_rotation = 1.0e-12_wp        !! rotation per moment [rad/(N m)]; also least divisor of slopes
-   real(wp), parameter :: min_by_rack = 1.0e-6_wp      !! rotation per rack travel [rad/m]
+   real(wp), parameter :: min_rotation = 1.0e-12_wp        !! least rotation per moment [rad/(N m)]; also least divisor of slopes
+   real(wp), parameter :: min_by_rack = 1.0e-6_wp      !! least rotation per rack travel [rad/m]
 
 contains
 

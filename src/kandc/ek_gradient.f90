@@ -35,14 +35,14 @@ module ek_gradient
    !> One gradient of the report.
    type :: gradient_t
       character(:), allocatable :: test        !! name of the case
-      character(:), allocatable :: quantity    !! 'bump toe (fitted)'
+      character(:), allocatable :: quantity    !! name of the gradient: 'bump toe (fitted)'
       character(:), allocatable :: side        !! 'left', 'right', or '' for the axle and for a single wheel
-      character(:), allocatable :: unit, sign  !! 'deg/m'; meaning of a positive value
+      character(:), allocatable :: unit, sign  !! unit: 'deg/m'; sign: meaning of a positive value
       character(:), allocatable :: column, over   !! columns of y and of x in the table
-      character(:), allocatable :: window      !! '±15 mm'
+      character(:), allocatable :: window      !! window with unit: '±15 mm'
       real(wp) :: window_half = 0.0_wp         !! half width of the window [mm, deg, N or N m]
-      real(wp) :: value = 0.0_wp               !! in `unit`; NaN if there is a note
-      real(wp) :: turn = 1.0_wp                !! s_y/s_x
+      real(wp) :: value = 0.0_wp               !! value in `unit`; NaN if there is a note
+      real(wp) :: turn = 1.0_wp                !! sign s_y/s_x of the wheel, see above
       real(wp) :: size = 1.0_wp                !! factor that converts the slope to `unit`
       integer :: points = 0                    !! number of states in the window at which y is a number
       character(:), allocatable :: note        !! reason of a missing value, otherwise ''

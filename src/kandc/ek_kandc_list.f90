@@ -34,7 +34,7 @@ module ek_kandc_list
    type, extends(column_list_t) :: kandc_t
       integer :: steer_row = 0                 !! row of Φ of the steering driver, 0: none
       integer, allocatable :: has(:)           !! sum of the conditions of ek_quantity: (k) for wheel k, (0) without a wheel
-      real(wp), allocatable :: values(:)       !! of the columns, in their units; columns that are not requested are not set
+      real(wp), allocatable :: values(:)       !! values of the columns, in their units; not set for columns that are not requested
       type(compliance_t) :: compliance
       ! what the asked columns need
       logical :: is_asked(sections) = .false.

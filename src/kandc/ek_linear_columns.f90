@@ -35,7 +35,7 @@ module ek_linear_columns
    !> The columns of a model, and the data from which their values at a state are computed.
    type :: linear_columns_t
       integer :: used = 0
-      character(name_length), allocatable :: names(:)     !! of all columns
+      character(name_length), allocatable :: names(:)     !! names of all columns
       integer, allocatable :: asked(:)                    !! indices of the columns that are computed
       type(kandc_t) :: kandc                              !! K&C quantities of the state, with its compliance matrix
       integer, allocatable, private :: column(:)          !! index in kandc; columns after these are entries of the matrix

@@ -23,7 +23,7 @@ module ek_live_rates
    type :: live_rate_t
       character(share_length) :: group = ''            !! group of the deck: 'bushing', 'spring', 'torsion'
       character(share_length) :: element(2) = ''       !! names of the elements, left and right; (2) is '' for one element
-      character(10) :: part = ''                       !! 'x' to 'rz', 'rate'
+      character(10) :: part = ''                       !! name of the law: 'x' to 'rz' of a bushing, 'rate'
       integer :: number = 0                            !! index of the law in the element, 1 to 6
       real(wp) :: rate = 0.0_wp                        !! rate of the law [N/m, N m/rad]
       logical :: is_of_angle = .false.
@@ -32,7 +32,7 @@ module ek_live_rates
    !> All selected rates, and the laws that have these rates.
    type :: live_rates_t
       type(live_rate_t), allocatable :: rate(:)
-      integer, allocatable :: of_law(:)                !! index of the rate of each law; two laws for a rate of both sides, left first
+      integer, allocatable :: of_law(:)                !! index of the rate of each law; a rate of both sides has two, left first
    end type live_rates_t
 
 contains

@@ -50,7 +50,7 @@ module ek_live_state
    type :: live_columns_t
       integer :: used = 0
       character(name_length), allocatable :: name(:)
-      logical, allocatable :: is_held(:)              !! whether the heights of the wheel centres are held
+      logical, allocatable :: is_held(:)              !! whether each column is at held heights of the wheel centres
       logical, allocatable :: is_inverse(:)
       integer, allocatable, private :: wheel(:), axis(:)      ! of an inverse: index in the matrix
       type(linear_columns_t), private :: columns

@@ -26,7 +26,7 @@ module ek_load_path
 
    !> The load paths of all items of a model: first its elements, then its joints.
    type :: load_path_t
-      real(wp), allocatable :: force(:, :, :)       !! (axis, load, item): global axes [N/N]
+      real(wp), allocatable :: force(:, :, :)       !! (axis, load, item): on the second body, global axes [N/N]
       real(wp), allocatable :: moment(:, :, :)      !! (axis, load, item): at the point of the second body [N m/N]
       real(wp) :: unbalanced = 0.0_wp               !! largest unbalanced force [N/N] or moment [N m/N] on a body
    end type load_path_t
@@ -34,7 +34,7 @@ module ek_load_path
    !> The generalised force of an element or joint on its two bodies, and the change of this force under a motion u.
    type :: change_t
       real(wp) :: now(12) = 0.0_wp                  !! dV/dz at the state
-      real(wp) :: more(12) = 0.0_wp                 !! T_e u
+      real(wp) :: more(12) = 0.0_wp                 !! change T_e u of dV/dz
    end type change_t
 
 contains

@@ -33,7 +33,7 @@ module ek_member_loads
       integer :: first_term = 0, last_term = 0     !! indices of the first and last term of a joint
       integer :: side = 1                !! 1: first body, 2: second body
       integer :: number = 0              !! index of the body; 0: chassis
-      real(wp) :: arm(3) = 0.0_wp        !! from the reference point of the body, body axes [m]
+      real(wp) :: arm(3) = 0.0_wp        !! end from the reference point of the body, body axes [m]
    end type member_end_t
 
    !> The loads of several cases: a table with one row per load as a string, and the peaks, each with its state, factor and case.
@@ -48,7 +48,7 @@ module ek_member_loads
    end type load_record_t
 
    ! what is larger by less is the same: the first state stays, on both sides of an axle
-   real(wp), parameter :: rounding = 1.0e-9_wp, tiny_load = 1.0e-9_wp      !! of the value; N, N m
+   real(wp), parameter :: rounding = 1.0e-9_wp, tiny_load = 1.0e-9_wp      !! limits up to which two peaks are equal: share of the value; N, N m
 
    !> Components of a load. The last three are the force of a bushing in its own axes x, y, z, which move with its first body.
    character(*), parameter :: components(11) = [character(6) :: 'fx', 'fy', 'fz', 'f', 'mx', 'my', 'mz', 'm', 'own_fx', 'own_fy', &

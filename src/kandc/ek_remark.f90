@@ -27,8 +27,8 @@ module ek_remark
    type :: remark_t
       integer :: severity = note, topic = on_case
       character(:), allocatable :: case      !! name of the case
-      character(:), allocatable :: head      !! "case 'x'", "case 'x', method recursive"; '' for on_case
-      character(:), allocatable :: text      !! one or more lines
+      character(:), allocatable :: head      !! heading: "case 'x'", "case 'x', method recursive"; '' for on_case
+      character(:), allocatable :: text      !! text of the message, one or more lines
       logical :: has_place = .false.
       real(wp) :: place = 0.0_wp             !! swept value to which the message applies, SI
    contains

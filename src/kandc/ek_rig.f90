@@ -33,8 +33,8 @@ module ek_rig
 
    !> A case on the rig, ready to be solved.
    type :: mounted_case_t
-      type(suspension_t) :: suspension             !! on the rig
-      type(case_t) :: case                         !! with its actuations, unit and name of the swept value
+      type(suspension_t) :: suspension             !! suspension on the rig
+      type(case_t) :: case                         !! case with its actuations, and unit and name of the swept value
       type(kkt_t) :: kkt                           !! work space
       type(walk_t) :: space                        !! work space of the paths of the case
       logical, private :: is_mounted = .false.

@@ -12,7 +12,7 @@ module ek_steer_angle
    ! Below one degree the static toe, not the linkage, determines the difference of the two wheels: (δA − δo) is then
    ! 0.01 deg, a toe of 0.1 deg ten times that
    real(wp), parameter :: min_steer = degree
-   real(wp), parameter :: widest_circle = 1000.0_wp   !! m: beyond this the car drives straight ahead
+   real(wp), parameter :: widest_circle = 1000.0_wp   !! limit of the turning circle [m]: beyond, the car drives straight ahead
 
 contains
 

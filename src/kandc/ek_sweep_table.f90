@@ -23,13 +23,13 @@ module ek_sweep_table
    public :: observer_t, make_observer, observe, observe_kandc_at, observe_state, quantity_columns, reads_matrix, &
       is_kandc_column, reads_poses_of_wheels, nearly_singular, sweep_table, sweep_columns, open_states, sweep_bytes
 
-   real(wp), parameter :: nearly_singular = 1.0e-12_wp   !! smallest over largest pivot, below which four digits remain
+   real(wp), parameter :: nearly_singular = 1.0e-12_wp   !! ratio of smallest to largest pivot; at this limit, four digits remain
    real(wp), parameter :: open_joints = 1.0e-2_wp   !! |Φ| [m, rad] above which a state of a linear method is marked converged = 0
 
    !> Layout of a table of states: its columns, and the work space to fill them.
    type :: observer_t
       character(name_length), allocatable :: columns(:)     !! column headings of the table
-      integer, private :: shown = 0, reported = 0, ended = 0    !! last column of the state, of the quantities, of the table
+      integer, private :: shown = 0, reported = 0, ended = 0    !! index of the last column of the state, the quantities, the table
       integer, allocatable, private :: kept(:)              !! indices of the columns of the table among all columns
       type(column_list_t), private :: list                  !! columns of the state
       type(kandc_t), private :: kandc                       !! K&C columns, if the case requests them

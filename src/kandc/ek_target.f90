@@ -24,9 +24,9 @@ module ek_target
    type :: target_t
       character(:), allocatable :: column    !! full name of the column, with unit
       real(wp) :: wanted = 0.0_wp            !! target value, in the unit of the column
-      real(wp) :: place = 0.0_wp             !! swept value, SI
+      real(wp) :: place = 0.0_wp             !! swept value at which the column has the target value, SI
       integer :: crossings = 0               !! number of crossings of the value in the sweep; the nearest to design is used
-      type(table_t) :: table                 !! the state at the found swept value, one row
+      type(table_t) :: table                 !! table of the state at this swept value, one row
    end type target_t
 
 contains

@@ -24,7 +24,7 @@ module ek_key_number
    type :: key_source_t
       integer :: test = 0                               !! index in the list of tests
       character(name_length) :: column(2) = ''          !! '': this wheel does not have the number
-      character(name_length) :: over(2) = ''            !! the abscissa of a gradient; the column that has a given value
+      character(name_length) :: over(2) = ''            !! abscissa of a gradient; or column that has a given value
       real(wp) :: wanted(2) = 0.0_wp                    !! given value of the column `over`, in the unit of this column
       real(wp) :: half = 0.0_wp                         !! half width of the window of a gradient, in the unit of `over`
       real(wp) :: size(2) = 1.0_wp                      !! factor on the slope of the columns: unit and sign of a gradient

@@ -19,9 +19,9 @@ module ek_key_numbers
    !> One key number: its group, its column or gradient, and the way in which it is read.
    type :: entry_t
       character(32) :: group = ''
-      character(44) :: name = ''        !! a column, or a gradient without its suffix
+      character(44) :: name = ''        !! name of a column, or of a gradient without the suffix ' (fitted)'
       character(15) :: kind = ''        !! kind of the test; '': any test that has the column
-      integer :: how = at_design        !! at_design to anti_phase of ek_key_number
+      integer :: how = at_design        !! source: at_design to anti_phase of ek_key_number
       character(38) :: title = ''       !! title of an extreme; '': the title of the column or gradient
    end type entry_t
 

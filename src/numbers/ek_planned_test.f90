@@ -39,8 +39,8 @@ contains
       end do
    end subroutine planned_tests
 
-   !> Finds the kind of test to which a case of a deck corresponds, from the driver or load of the case; 'other' if it corresponds to
-   !> no test.
+   !> Finds the kind of test to which a case of a deck corresponds, from the driver or load of the case; 'other' if the case does
+   !> not correspond to a test.
    subroutine kind_of_case(suspension, case, kind, factor_size)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
