@@ -48,11 +48,12 @@ contains
       end associate
    end subroutine add_panel
 
-   !> Writes the script folder/name.gp and draws name.png and name.svg. `message` reports that gnuplot is missing.
+   !> Writes the script folder/name.gp and draws name.png and name.svg. If gnuplot is missing, `message` reports the missing
+   !> program.
    subroutine draw_export(list, folder, name, title, separator, message, error)
       type(panel_list_t), intent(in) :: list
       character(*), intent(in) :: folder, name, title
-      character(1), intent(in) :: separator                !! of the columns of the file: ',' or ' '
+      character(1), intent(in) :: separator                !! separator of the columns of the file: ',' or ' '
       character(:), allocatable, intent(out) :: message    !! '' if the pictures were drawn
       type(error_t), allocatable, intent(out) :: error     !! exit_file
       type(message_list_t) :: scripts, pictures

@@ -233,7 +233,7 @@ contains
       type(sources_t), intent(in) :: sources
       character(*), intent(in) :: file, text
       character(2), intent(in) :: corner                !! of the drawn wheel
-      integer, intent(in) :: points                     !! of the tables over travel
+      integer, intent(in) :: points                     !! number of points of the tables over travel
       type(panel_list_t), intent(out) :: list
       character(*), parameter :: words(5) = [character(16) :: 'BumpSteer', 'BumpCamber', 'BumpCaster', 'LatWhlCtrDisp', &
          'LngWhlCtrDisp']

@@ -32,7 +32,7 @@ contains
       type(suspension_t), intent(in) :: suspension
       type(map_request_t), intent(in) :: request
       type(kandc_map_t), intent(in) :: map
-      logical, intent(in) :: is_at_patch               !! of the forces of the loads
+      logical, intent(in) :: is_at_patch               !! the forces of the loads act at the contact points
       type(sources_t), intent(out) :: sources
       type(error_t), allocatable, intent(out) :: error
       integer, parameter :: increments = 97

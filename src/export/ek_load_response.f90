@@ -30,8 +30,8 @@ contains
    subroutine solve_loads(suspension, request, force, moment, count, is_at_patch, loads, error)
       type(suspension_t), intent(in) :: suspension
       type(map_request_t), intent(in) :: request
-      real(wp), intent(in) :: force, moment            !! largest [N, N m]
-      integer, intent(in) :: count                     !! of values of a load, odd
+      real(wp), intent(in) :: force, moment            !! greatest force and moment [N, N m]
+      integer, intent(in) :: count                     !! number of values of a load, odd
       logical, intent(in) :: is_at_patch               !! forces at the contact point, otherwise at the wheel centre
       type(load_table_result_t), intent(out) :: loads
       type(error_t), allocatable, intent(out) :: error

@@ -4,7 +4,7 @@
 !> Arrays of wheels are [FL FR RL RR], arrays of axles [F R]. The values of an axle without a deck are NaN (null in JSON). Gradients
 !> are slopes at design.
 !> Signs of ISO 8855: steer positive to the left, camber positive top outward, caster positive top rearward, x forward, y to the
-!> left, z and travel up; forces and Mz act on the wheel in these directions. mm, deg, N, N m; the loaded radius in m.
+!> left, z and travel up; forces and Mz act on the wheel in these directions. Units are mm, deg, N, N m; the loaded radius is in m.
 module ek_mathworks
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan, ieee_is_finite
    use ek_kinds, only: wp, degree, millimetre
@@ -66,7 +66,7 @@ contains
 
    !> Fills the arrays of the parameters from the maps of the axles that have a map.
    subroutine find_parameters(p)
-      type(kandc_parameters_t), intent(inout) :: p      !! with maps, has and checksums
+      type(kandc_parameters_t), intent(inout) :: p      !! its maps, has and checksums are set
       character(*), parameter :: brake = 'first row braking (Fx < 0 at the patch), second driving (Fx > 0 at the wheel centre)'
 
       p%used = 0

@@ -3,8 +3,8 @@
 !>
 !> Frame x rearward, y right, z up; side = −1 left, +1 right. All in SI and radians.
 !>
-!> Derivatives of the angles with respect to a small rotation θ of the carrier about global axes: the spin axis w and the steer
-!> axis k are fixed to it, so δw = θ×w and δk = θ×k. By the chain rule, exact for any attitude (h² = w_x² + w_y²):
+!> Derivatives of the angles with respect to a small rotation θ of the carrier about global axes: the spin axis w and the steering
+!> axis k are fixed to the carrier, so δw = θ×w and δk = θ×k. The chain rule gives, exact for any attitude (h² = w_x² + w_y²):
 !>
 !>     steer  = side·atan2(−w_x, side·w_y):   δsteer  = θ_z − w_z (θ_x w_x + θ_y w_y)/h²,   δtoe = side δsteer
 !>     camber = asin(−w_z):                   δcamber = (θ_y w_x − θ_x w_y)/h
@@ -116,7 +116,7 @@ contains
    !> Equation (S.7) of docs/theory/suspension.md.
    pure function steer_axis_of(side, point, direction, centre, contact) result(axis)
       integer, intent(in) :: side                           !! −1 left, +1 right
-      real(wp), intent(in) :: point(3), direction(3)        !! of the line; any length, up or down
+      real(wp), intent(in) :: point(3), direction(3)        !! point and direction of the line; any length, up or down
       real(wp), intent(in) :: centre(3), contact(3)         !! m
       type(steer_axis_t) :: axis
       real(wp), parameter :: level = 1.0e-9_wp              ! of its length: such a line intersects the ground too far away
@@ -199,7 +199,7 @@ contains
    !> rearward].
    !> Equation (C.11) of docs/theory/compliance.md.
    pure function caster_gradient(axis) result(gradient)
-      real(wp), intent(in) :: axis(3)         !! of any length
+      real(wp), intent(in) :: axis(3)         !! direction of any length
       real(wp) :: gradient(3), lean
 
       lean = axis(2)/(axis(1)**2 + axis(3)**2)
@@ -245,7 +245,7 @@ contains
       !> Share of a load at a point of a body that counts for the wheel [-]: 1, 0 or ½.
       pure real(wp) function share_of(body, arm)
          integer, intent(in) :: body
-         real(wp), intent(in) :: arm(3)      !! from the reference point, body axes [m]
+         real(wp), intent(in) :: arm(3)      !! point from the reference point of the body, body axes [m]
          real(wp), parameter :: middle = 1.0e-9_wp      ! m: tolerance of equal distance
          real(wp) :: nearer
          integer :: other

@@ -23,8 +23,9 @@ contains
    !> difference in height Δ of the contact points (roll_compliance). The slope of the moment over axle roll φ is t²/(cos²φ Δ).
    !>
    !> Force-based roll centre (W. C. Mitchell, "Asymmetric roll centers", SAE 983085; Milliken, Race Car Vehicle Dynamics, ch. 17):
-   !> the height at which the lateral forces do not roll the body. With the contact points held at their heights, a unit force to
-   !> the right at each of them causes the vertical forces V of the ground: 2 h + y_left V_left + y_right V_right = 0.
+   !> the height h above the contact points at which the lateral forces do not roll the body. With the contact points held at their
+   !> heights, a unit force to the right at each contact point causes the vertical forces V of the ground. With the lateral
+   !> positions y of the contact points, 2 h + y_left V_left + y_right V_right = 0.
    !> Equation (C.12) of docs/theory/compliance.md.
    !> Equation (S.6) of docs/theory/suspension.md.
    pure subroutine axle_characteristics(loaded, stand, has_centres, is)

@@ -38,7 +38,7 @@ module ek_case_result
       logical :: is_compared = .true.              !! a linear method is compared with equilibrium at the ends of the path
       real(wp) :: min_settling = 1.0e-8_wp       !! a larger displacement of a wheel under the constant loads gives a note [m]
       character(name_length), allocatable :: columns(:)   !! quantities that are computed; not allocated: all
-      logical :: defers_kandc = .false.            !! the caller fills the K&C quantities at the states that are read (ek_read_states)
+      logical :: defers_kandc = .false.            !! the caller fills the K&C quantities at the states that are read
       real(wp) :: reach = huge(1.0_wp)             !! swept value [SI] beyond which, on either side of design, no state is needed
       character(:), allocatable :: checksum        !! checksum of the deck, for the header of the table; not allocated: no header
    end type solve_options_t
@@ -61,10 +61,11 @@ contains
       is_run = self%outcome == solved .or. self%outcome == partly_solved
    end function is_run
 
-   !> Puts a suspension on the rig for a case, solves the path of the case, and creates its table.
+   !> Puts a suspension on the rig for a case, solves the path of the case, and creates the table of the case. If the model has a
+   !> fault in this case, or if the case cannot be mounted, only the outcome and the case are set.
    subroutine solve_case(base, case, options, result, progress, observer)
-      type(suspension_t), intent(in) :: base           !! balanced; it is not changed
-      type(case_t), intent(in) :: case                 !! of the deck; it is not changed
+      type(suspension_t), intent(in) :: base           !! after the preload trim (`balance`); not changed
+      type(case_t), intent(in) :: case                 !! case of the deck; not changed
       type(solve_options_t), intent(in) :: options
       type(case_result_t), intent(out) :: result
       procedure(progress_procedure), optional :: progress
@@ -82,7 +83,8 @@ contains
       call solve_mounted(options, result, progress, observer)
    end subroutine solve_case
 
-   !> Solves the path of a case that was put on the rig (mount_case), and creates its table.
+   !> Solves the path of a case that was put on the rig (mount_case), and creates the table of the case. If the states do not fit
+   !> into memory, only the outcome is set.
    subroutine solve_mounted(options, result, progress, observer, is_walked)
       type(solve_options_t), intent(in) :: options     !! without a fault
       type(case_result_t), intent(inout) :: result     !! all but the case on the rig (and the path, if is_walked) is replaced

@@ -311,7 +311,7 @@ contains
    !> Equation (C.13) of docs/theory/compliance.md.
    pure real(wp) function motion_ratio(c, length) result(ratio)
       real(wp), intent(in) :: c(:, :)        !! 6×6 or 12×12
-      real(wp), intent(in) :: length(:)      !! of one spring per unit of the vertical load on each wheel [m/N]
+      real(wp), intent(in) :: length(:)      !! length of one spring per unit of the vertical load on each wheel [m/N]
       real(wp) :: determinant
 
       if (size(c, 1) == 12) then

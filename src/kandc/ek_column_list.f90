@@ -47,7 +47,7 @@ contains
       type(quantity_t), intent(in) :: section(:)
       character(*), intent(in) :: prefix               !! 'left_', 'right_' or ''
       integer, intent(in) :: has                       !! sum of the conditions that the model meets
-      integer, intent(in), optional :: condition       !! of held_name; absent: names without '*'
+      integer, intent(in), optional :: condition       !! 1 load held, 2 height held (held_name); absent: names without '*'
       integer :: k, held, first
 
       held = 1
@@ -108,7 +108,7 @@ contains
       integer, intent(in) :: block
       real(wp), intent(in) :: vector(*)                !! values of all quantities of the sections of the block, SI
       logical, intent(in) :: is_known                  !! the compliance matrix
-      real(wp), intent(inout) :: values(*)             !! of all columns, in their units
+      real(wp), intent(inout) :: values(*)             !! values of all columns, in their units
       integer :: k, j, first
 
       first = 1
@@ -149,9 +149,9 @@ contains
    !> Finds which of the conditions of ek_quantity a model satisfies.
    subroutine conditions_of(suspension, order, has_rack, has)
       type(suspension_t), intent(in) :: suspension
-      integer, intent(in) :: order(:)      !! of the wheels in the compliance matrix
+      integer, intent(in) :: order(:)      !! order of the wheels in the compliance matrix
       logical, intent(in) :: has_rack      !! a rack steers
-      integer, intent(out) :: has(0:)      !! of each wheel in the order of the compliance matrix; 0: without a wheel
+      integer, intent(out) :: has(0:)      !! conditions of each wheel, in the order of the compliance matrix; (0) without a wheel
       integer :: both, k
 
       both = 0

@@ -98,7 +98,7 @@ contains
    subroutine ask(self, is_asked, reads_springs)
       type(compliance_t), intent(inout) :: self
       logical, intent(in) :: is_asked(:)          !! of each load
-      logical, intent(in) :: reads_springs        !! also the lengths of the springs are requested
+      logical, intent(in) :: reads_springs        !! the lengths of the springs are also requested
       integer :: k
 
       self%reads_springs = reads_springs
@@ -171,7 +171,7 @@ contains
       type(state_t), intent(in) :: state
       type(inputs_t), intent(in) :: inputs
       integer, intent(in) :: steer_row            !! row of the steering driver, 0: none
-      type(kkt_t), intent(inout) :: kkt           !! assembled; its matrix is then factorised
+      type(kkt_t), intent(inout) :: kkt           !! assembled; on return, with the factorised matrix
       type(compliance_t), intent(inout) :: self   !! of new_compliance
       integer :: j
 
@@ -325,14 +325,14 @@ contains
    pure real(wp) function move_of(self, load, gradient, body_i, body_j) result(change)
       type(compliance_t), intent(in) :: self
       integer, intent(in) :: load
-      real(wp), intent(in) :: gradient(12)        !! of the measure
-      integer, intent(in) :: body_i, body_j       !! its bodies, 0: the chassis
+      real(wp), intent(in) :: gradient(12)        !! gradient of the measure
+      integer, intent(in) :: body_i, body_j       !! bodies of the measure; 0: the chassis
 
       if (are_checked) call require(self%column(load) > 0, 'move_of: the load was not asked')
       change = along(gradient, 6*(body_i - 1), 6*(body_j - 1), self%columns(:, self%column(load)))
    end function move_of
 
-   !> The product of a gradient and the displacements of its two bodies. A negative index is the chassis.
+   !> The product of a gradient and the displacements of its two bodies. A negative at_i or at_j stands for the chassis.
    pure real(wp) function along(gradient, at_i, at_j, moves) result(change)
       real(wp), intent(in) :: gradient(12)
       integer, intent(in) :: at_i, at_j           !! unknowns before the unknowns of the body

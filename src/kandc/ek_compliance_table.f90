@@ -65,7 +65,7 @@ contains
       type(suspension_t), intent(in) :: suspension      !! on the rig
       type(schedule_t), intent(in) :: schedule          !! of the case
       type(path_t), intent(in) :: path
-      integer, intent(in) :: k                          !! the state
+      integer, intent(in) :: k                          !! index of the state
       type(kkt_t), intent(inout) :: kkt                 !! work space
       type(compliance_t), intent(inout) :: compliance   !! work space, of new_compliance
       real(wp), intent(out) :: c(:, :)                  !! 6 rows and columns per wheel, left before right

@@ -56,7 +56,7 @@ contains
    !> A list of the contributions of a model on the rig, with memory for their values.
    function new_contribution(suspension, wheels) result(self)
       type(suspension_t), intent(in) :: suspension
-      integer, intent(in) :: wheels                !! of the compliance matrix
+      integer, intent(in) :: wheels                !! number of wheels of the compliance matrix
       type(contribution_t) :: self
       integer :: k, part, n, rows
 
@@ -293,7 +293,7 @@ contains
    pure function block_product(blocks, body_i, body_j, u) result(y)
       real(wp), intent(in) :: blocks(6, 6, 3)
       integer, intent(in) :: body_i, body_j
-      real(wp), intent(in) :: u(:)                  !! of all unknowns
+      real(wp), intent(in) :: u(:)                  !! motions of all unknowns
       real(wp) :: y(12)
 
       y = 0.0_wp

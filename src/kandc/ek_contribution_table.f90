@@ -119,8 +119,8 @@ contains
       type(suspension_t), intent(in) :: suspension          !! on the rig
       type(schedule_t), intent(in) :: schedule              !! of the case
       type(path_t), intent(in) :: path
-      integer, intent(in) :: k                              !! the state
-      type(kkt_t), intent(inout) :: kkt                     !! work space; then with the factors of the state
+      integer, intent(in) :: k                              !! index of the state
+      type(kkt_t), intent(inout) :: kkt                     !! work space; on return, with the factors of the state
       type(contribution_table_t), intent(inout) :: self
       type(state_t) :: state
       type(inputs_t) :: inputs

@@ -40,7 +40,7 @@ contains
 
    !> Examines all cases. A defect that several cases share is described only in the first of these cases.
    subroutine examine_cases(base, cases, found)
-      type(suspension_t), intent(in) :: base       !! not balanced
+      type(suspension_t), intent(in) :: base       !! before the preload trim (`balance`)
       type(case_t), intent(in) :: cases(:)
       type(examination_t), intent(out) :: found
       type(diagnosis_t) :: diagnosis
@@ -94,7 +94,7 @@ contains
    !> number of unknowns and rows and the same inertia; `diagnosis` then contains no message and no rank. A case that cannot be
    !> mounted has no defect here: the run reports the reason.
    subroutine examine_case(base, case, diagnosis, known, mounted)
-      type(suspension_t), intent(in) :: base       !! not balanced
+      type(suspension_t), intent(in) :: base       !! before the preload trim (`balance`)
       type(case_t), intent(in) :: case
       type(diagnosis_t), intent(out) :: diagnosis
       type(known_case_t), intent(inout), optional :: known
@@ -127,10 +127,10 @@ contains
    !> Puts a later design of a case on the rig, and finds whether the design is certainly sound, as an earlier design was. Otherwise
    !> examine_case must diagnose the design. No string is created.
    subroutine recognise_case(base, case, known, mounted, is_sound)
-      type(suspension_t), intent(in) :: base       !! not balanced
+      type(suspension_t), intent(in) :: base       !! before the preload trim (`balance`)
       type(case_t), intent(in) :: case             !! is_mountable
       type(known_case_t), intent(in) :: known
-      type(mounted_case_t), intent(inout) :: mounted       !! of this case of an earlier design, or empty
+      type(mounted_case_t), intent(inout) :: mounted       !! an earlier design of this case on the rig, or empty
       logical, intent(out) :: is_sound
 
       call mount_again(base, case, mounted)
@@ -171,7 +171,7 @@ contains
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: cases(:)
       type(error_t), allocatable, intent(out) :: error     !! exit_deck; exit_file if only files are at fault
-      logical, intent(in), optional :: is_whole            !! the suspension is complete; default .true., else tables alone
+      logical, intent(in), optional :: is_whole            !! the suspension is complete (default); .false.: only tables are checked
       type(message_list_t) :: mistakes
       integer :: k, unread
       logical :: has_model

@@ -82,7 +82,8 @@ contains
    end function arc_text
 
    !> Phrase about the singularity at the last equilibrium. If no singularity is found, the phrase names the body that the last
-   !> attempt moved most, and the joint with the largest constraint residual. It ends with the stops in contact and the diagnosis.
+   !> attempt moved most, and the joint with the largest constraint residual. Then follow the stops in contact and, unless joints
+   !> lock, the mechanism or the diagnosis.
    function reason_text(suspension, case, path, failure, kkt) result(text)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case

@@ -34,7 +34,7 @@ contains
    !> Computes the values of wheel_axis: side view, distances from the deck's steering axis, and spin axis.
    pure subroutine axis_geometry(now, frame, values)
       type(attitude_t), intent(in) :: now
-      real(wp), intent(in) :: frame(3)              !! from the program's frame to the deck's frame
+      real(wp), intent(in) :: frame(3)              !! signs of x, y, z from the program's frame to the deck's frame
       real(wp), intent(inout) :: values(size(wheel_axis))
 
       values(1) = now%side_view
@@ -59,8 +59,8 @@ contains
 
    !> Computes the values of wheel_slopes: recession, camber per steer, ride frequency.
    pure subroutine slope_values(lift, twist, tyre_rate, mass, now, values)
-      real(wp), intent(in) :: lift(6)       !! of the wheel centre per vertical force on every wheel [m/N, rad/N]
-      real(wp), intent(in) :: twist(6)      !! while it steers with the wheels held; 0 without a rack
+      real(wp), intent(in) :: lift(6)       !! twist at the wheel centre per vertical force on every wheel [m/N, rad/N]
+      real(wp), intent(in) :: twist(6)      !! twist during steering with the wheel heights held; 0 without a rack
       real(wp), intent(in) :: tyre_rate     !! N/m, 0: not given
       real(wp), intent(in) :: mass          !! sprung mass of the wheel [kg], 0: not known
       type(attitude_t), intent(in) :: now
@@ -76,8 +76,8 @@ contains
    pure subroutine axle_geometry_values(axle, tyre_width, has_turn, static, left, right, values)
       type(axle_t), intent(in) :: axle
       real(wp), intent(in) :: tyre_width(2)        !! m
-      logical, intent(in) :: has_turn              !! there are &axle and &steering
-      real(wp), intent(in) :: static(2)            !! steer at design [rad]
+      logical, intent(in) :: has_turn              !! the deck has &axle and &steering
+      real(wp), intent(in) :: static(2)            !! steer of both wheels at design [rad]
       type(attitude_t), intent(in) :: left, right
       real(wp), intent(inout) :: values(size(axle_geometry))
       real(wp) :: track, steer(2), inner, outer
@@ -104,7 +104,7 @@ contains
       type(suspension_t), intent(in) :: suspension
       type(compliance_t), intent(in) :: compliance
       type(state_t), intent(in) :: state
-      integer, intent(in) :: k                     !! number of the element
+      integer, intent(in) :: k                     !! index of the element
       real(wp) :: ratio
 
       ratio = length_ratio(suspension, compliance, state, k)
@@ -128,7 +128,7 @@ contains
       type(suspension_t), intent(in) :: suspension
       type(compliance_t), intent(in) :: compliance
       type(state_t), intent(in) :: state
-      integer, intent(in) :: k                     !! number of the element
+      integer, intent(in) :: k                     !! index of the element
       type(evaluation_t) :: evaluation
       real(wp) :: length(2)                        ! per unit of the vertical load on each wheel [m/N]
       integer :: n, w
@@ -170,8 +170,8 @@ contains
    pure subroutine locked_twists(compliance, lock, moves, twists)
       type(compliance_t), intent(in) :: compliance   !! known
       type(lock_t), intent(in) :: lock               !! holds the springs, or the heights
-      real(wp), contiguous, intent(inout) :: moves(:)      !! work space: of all ports
-      real(wp), intent(inout) :: twists(:, :)        !! of each wheel in the order of the compliance matrix
+      real(wp), contiguous, intent(inout) :: moves(:)      !! work space: displacements of all ports
+      real(wp), intent(inout) :: twists(:, :)        !! twist of each wheel, in the order of the compliance matrix
       integer :: k, steer
 
       do k = 1, compliance%wheels
@@ -186,12 +186,12 @@ contains
    end subroutine locked_twists
 
    !> The instant steering axis of a wheel: the line about which the wheel carrier rotates during steering with the springs at
-   !> constant length. For the twist (v, ω) at the wheel centre p, it has the direction ω/|ω| and passes through p + ω×v/|ω|² (the
-   !> pitch of the screw is ignored). is_known is false if the carrier does not rotate, or if the axis is horizontal.
+   !> constant length. For the twist (v, ω) at the wheel centre p, the line has the direction ω/|ω| and passes through p + ω×v/|ω|²
+   !> (the pitch of the screw is ignored). is_known is false if the carrier does not rotate, or if the axis is horizontal.
    !> Equation (S.9) of docs/theory/suspension.md.
    pure type(steer_axis_t) function instant_axis(twist, has_drive, now) result(axis)
-      real(wp), intent(in) :: twist(6)                 !! of locked_twists
-      logical, intent(in) :: has_drive                 !! per metre of rack, not per moment
+      real(wp), intent(in) :: twist(6)                 !! twist from locked_twists
+      logical, intent(in) :: has_drive                 !! the twist is per metre of rack, not per moment
       type(attitude_t), intent(in) :: now
       real(wp) :: point(3), turn(3), least
 

@@ -137,9 +137,9 @@ contains
    !> strings.
    subroutine fit_slope(table, place, over, factor_size, half, slope, points, undefined)
       type(table_t), intent(in) :: table
-      integer, intent(in) :: place, over           !! of the columns
+      integer, intent(in) :: place, over           !! indices of the columns of y and x
       real(wp), intent(in) :: factor_size          !! load or displacement at `factor` = 1, if that is the abscissa
-      real(wp), intent(in) :: half                 !! of the window
+      real(wp), intent(in) :: half                 !! half width of the window
       real(wp), intent(out) :: slope               !! NaN if the window has too few states, or a value is undefined
       integer, intent(out) :: points               !! states in the window at which the column is defined
       integer, intent(out), optional :: undefined  !! states in the window at which y is not a number

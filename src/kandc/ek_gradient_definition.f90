@@ -1,6 +1,6 @@
 !> The gradients of each set of tests: column over column, with unit and sign; their windows around design, by the abscissa.
 !>
-!> A new gradient is one line below; ek_gradient computes its value, slope_unit of ek_quantity its unit.
+!> A new gradient needs one line in `definitions`. ek_gradient computes its value, and slope_unit of ek_quantity gives its unit.
 module ek_gradient_definition
    use ek_kinds, only: wp
    use ek_rig_test, only: rig_test_t, rig_test, steers, of_travel, of_tilt, of_roll, of_steer, of_lateral, of_braking, &

@@ -62,8 +62,8 @@ contains
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
       type(inputs_t), intent(in) :: inputs
-      type(attitude_t), intent(in) :: wheels(:)  !! of the suspension, if self%has_wheels
-      type(kkt_t), intent(inout) :: kkt          !! its matrix is then factorised
+      type(attitude_t), intent(in) :: wheels(:)  !! attitude of each wheel of the suspension, if self%has_wheels
+      type(kkt_t), intent(inout) :: kkt          !! on return, with the factorised matrix
       type(kandc_t), intent(inout) :: self
       real(wp) :: values(most)
       integer :: b, k
@@ -154,7 +154,7 @@ contains
       end associate
    end subroutine characterise
 
-   !> Computes the values of a section that is not a section of a wheel's characteristics, in SI.
+   !> Computes the values of a section that is not a section of a wheel's characteristics, in SI; the travel to a stop is in mm.
    subroutine section_values(suspension, state, wheels, section, item, self, values)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state

@@ -96,7 +96,7 @@ contains
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
       type(inputs_t), intent(in) :: inputs
-      type(kkt_t), intent(inout) :: kkt                     !! work space; then with the factors of the state
+      type(kkt_t), intent(inout) :: kkt                     !! work space; on return, with the factors of the state
       type(linear_columns_t), intent(inout) :: self
       real(wp), intent(out) :: values(:)                    !! of the requested columns, in their units
       integer :: k
@@ -112,7 +112,7 @@ contains
    !> Equation (C.15) of docs/theory/compliance.md.
    subroutine fill_linear_columns(suspension, share, self, values)
       type(suspension_t), intent(in) :: suspension
-      real(wp), intent(in) :: share(:, :)                   !! at the wheel centres, SI, global axes
+      real(wp), intent(in) :: share(:, :)                   !! matrix at the wheel centres, SI, global axes
       type(linear_columns_t), intent(in) :: self            !! of find_linear_columns
       real(wp), intent(out) :: values(:)
       type(wheel_characteristics_t) :: is(size(self%wheels))
@@ -152,7 +152,7 @@ contains
    !> Fills the requested columns for another compliance matrix at this state. Heights are held according to that matrix.
    subroutine fill_changed_columns(suspension, c, self, values)
       type(suspension_t), intent(in) :: suspension
-      real(wp), intent(in) :: c(:, :)                       !! at the wheel centres, SI, global axes
+      real(wp), intent(in) :: c(:, :)                       !! matrix at the wheel centres, SI, global axes
       type(linear_columns_t), intent(in) :: self            !! of find_linear_columns
       real(wp), intent(out) :: values(:)
       type(linear_columns_t) :: changed

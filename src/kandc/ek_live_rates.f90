@@ -41,8 +41,8 @@ contains
    !> matrix of the state is singular.
    subroutine choose_rates(result, k, many, rates)
       type(case_result_t), intent(inout) :: result         !! is_run
-      integer, intent(in) :: k                             !! the state: reached
-      integer, intent(in) :: many                          !! largest number of rates
+      integer, intent(in) :: k                             !! index of the state, which was reached
+      integer, intent(in) :: many                          !! greatest number of rates
       type(live_rates_t), intent(out) :: rates
       type(contribution_table_t) :: table
       type(live_rate_t), allocatable :: all(:)

@@ -137,8 +137,8 @@ contains
       type(suspension_t), intent(in) :: suspension          !! on the rig
       type(schedule_t), intent(in) :: schedule              !! of the case
       type(path_t), intent(in) :: path
-      integer, intent(in) :: k                              !! the state
-      type(kkt_t), intent(inout) :: kkt                     !! work space; then with the factors of the state
+      integer, intent(in) :: k                              !! index of the state
+      type(kkt_t), intent(inout) :: kkt                     !! work space; on return, with the factors of the state
       type(live_columns_t), intent(inout) :: columns        !! of start_live
       type(live_state_t), intent(out) :: self
       type(state_t) :: state
@@ -211,7 +211,7 @@ contains
    subroutine hold_heights(compliance, move, left, self)
       type(compliance_t), intent(in) :: compliance
       real(wp), intent(in) :: move(:, :), left(:, :)        !! (load, law)
-      type(live_state_t), intent(inout) :: self             !! with A
+      type(live_state_t), intent(inout) :: self             !! contains A
       real(wp), allocatable :: response(:, :)
       type(lock_t) :: lock
       integer :: n, m, j

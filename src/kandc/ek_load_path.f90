@@ -156,7 +156,7 @@ contains
    subroutine place(state, body_i, body_j, arm_j, u, change, force, moment)
       type(state_t), intent(in) :: state
       integer, intent(in) :: body_i, body_j
-      real(wp), intent(in) :: arm_j(3)              !! of the point, body axes [m]
+      real(wp), intent(in) :: arm_j(3)              !! point from the reference point of the body, body axes [m]
       real(wp), intent(in) :: u(:)
       type(change_t), intent(in) :: change
       real(wp), intent(out) :: force(3), moment(3)

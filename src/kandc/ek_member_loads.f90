@@ -47,8 +47,8 @@ module ek_member_loads
       character(64), allocatable :: cases(:)       !! names of the cases
    end type load_record_t
 
-   ! what is larger by less is the same: the first state stays, on both sides of an axle
-   real(wp), parameter :: rounding = 1.0e-9_wp, tiny_load = 1.0e-9_wp      !! limits up to which two peaks are equal: share of the value; N, N m
+   ! a load that exceeds a peak by less does not replace this peak: the first state stays, on both sides of an axle
+   real(wp), parameter :: rounding = 1.0e-9_wp, tiny_load = 1.0e-9_wp      !! tolerances of a peak: share of the value; N, N m
 
    !> Components of a load. The last three are the force of a bushing in its own axes x, y, z, which move with its first body.
    character(*), parameter :: components(11) = [character(6) :: 'fx', 'fy', 'fz', 'f', 'mx', 'my', 'mz', 'm', 'own_fx', 'own_fy', &
@@ -134,7 +134,7 @@ contains
    pure subroutine end_loads(suspension, state, gradients, ends, loads)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
-      real(wp), intent(in) :: gradients(:, :)       !! of the terms, assembled at this state
+      real(wp), intent(in) :: gradients(:, :)       !! gradients of the terms, assembled at this state
       type(member_end_t), intent(in) :: ends(:)
       real(wp), intent(out) :: loads(:, :)          !! (6, end)
       type(element_evaluation_t) :: evaluation

@@ -28,7 +28,7 @@ contains
    !>
    !> In a model without a wheel, which is not a suspension, connections, points and response are not checked.
    subroutine doubt(suspension, cases, remarks)
-      type(suspension_t), intent(in) :: suspension       !! balanced if possible; not on a rig
+      type(suspension_t), intent(in) :: suspension       !! after the preload trim (`balance`) if possible; not on a rig
       type(case_t), intent(in) :: cases(:)               !! of the deck
       type(message_list_t), intent(out) :: remarks
       type(doubts_t) :: doubts

@@ -168,7 +168,7 @@ contains
    !> Compares a value with the usual range of its quantity, and adds a remark if the value is outside this range.
    pure subroutine judge(self, quantity, value, detail)
       class(doubts_t), intent(inout) :: self
-      character(*), intent(in) :: quantity     !! of a row of `ranges`
+      character(*), intent(in) :: quantity     !! quantity of a row of `ranges`
       real(wp), intent(in) :: value            !! SI
       character(*), intent(in), optional :: detail   !! follows the likely cause of the table
       type(range_t) :: row
@@ -205,7 +205,7 @@ contains
 
    !> Whether a value is in the range of its quantity.
    pure logical function is_usual(quantity, value)
-      character(*), intent(in) :: quantity     !! of a row of `ranges`
+      character(*), intent(in) :: quantity     !! quantity of a row of `ranges`
       real(wp), intent(in) :: value            !! SI
       integer :: k
 
@@ -217,9 +217,9 @@ contains
    !> Returns the usual range of a quantity in the unit of the table (N/mm, Hz, deg/m, …). The range applies to the magnitude if
    !> `low` is not negative.
    pure subroutine usual_range(quantity, low, high, is_known)
-      character(*), intent(in) :: quantity     !! of a row of `ranges`
+      character(*), intent(in) :: quantity     !! quantity of a row of `ranges`
       real(wp), intent(out) :: low, high
-      logical, intent(out) :: is_known         !! there is such a row
+      logical, intent(out) :: is_known         !! `ranges` has such a row
       integer :: k
 
       k = findloc(ranges%quantity, quantity, dim=1)

@@ -30,7 +30,7 @@ contains
 
    !> Adds the remarks on the response of a model that can be solved.
    subroutine doubt_response(suspension, kkt, doubts)
-      type(suspension_t), intent(in) :: suspension     !! balanced if possible; not on a rig
+      type(suspension_t), intent(in) :: suspension     !! after the preload trim (`balance`) if possible; not on a rig
       type(kkt_t), intent(inout) :: kkt                !! work space
       type(doubts_t), intent(inout) :: doubts
       type(kandc_t) :: kandc

@@ -82,8 +82,8 @@ contains
    !> Equation (S.8) of docs/theory/suspension.md.
    pure subroutine find_lock(c, ports, lock)
       real(wp), intent(in) :: c(:, :)           !! response of all ports to the loads of all ports
-      integer, intent(in) :: ports(:)           !! to be held
-      type(lock_t), intent(inout) :: lock       !! allocated at its first use
+      integer, intent(in) :: ports(:)           !! indices of the ports to be held
+      type(lock_t), intent(inout) :: lock       !! allocated at the first use
       real(wp) :: compliance, most, factor
       integer :: k, j, i, next, n
 
@@ -132,7 +132,7 @@ contains
    !> Equation (C.6) of docs/theory/compliance.md.
    pure subroutine keep_locked(lock, moves)
       type(lock_t), intent(in) :: lock                      !! of find_lock
-      real(wp), contiguous, intent(inout) :: moves(:)       !! of the first ports, with all that are held among them
+      real(wp), contiguous, intent(inout) :: moves(:)       !! displacements of the first ports, which include all held ports
       real(wp) :: factor
       integer :: k, i
 

@@ -30,7 +30,7 @@ contains
    subroutine split_wheel_rate(suspension, table, place, shares, is_known)
       type(suspension_t), intent(in) :: suspension              !! on the rig
       type(contribution_table_t), intent(in) :: table           !! of a state
-      integer, intent(in) :: place                              !! of the wheel in the compliance matrix
+      integer, intent(in) :: place                              !! index of the wheel in the compliance matrix
       real(wp), intent(out) :: shares(size(classes))
       logical, intent(out) :: is_known                          !! the wheel is not held by joints
       real(wp) :: parts(size(table%row))

@@ -53,7 +53,7 @@ contains
    !> Sets the numbers of a rig for a design of the suspension and of the case. Memory is allocated only for the first values of a
    !> grid.
    pure subroutine set_rig_numbers(suspension, case, rig)
-      type(suspension_t), intent(in) :: suspension       !! completed, on no rig
+      type(suspension_t), intent(in) :: suspension       !! completed, not on a rig
       type(case_t), intent(in) :: case
       type(rig_t), intent(inout) :: rig
       real(wp) :: arm(3)

@@ -60,7 +60,7 @@ contains
    !> Equation (C.4) of docs/theory/compliance.md.
    pure function skew_part(load, pose, factor) result(part)
       type(load_t), intent(in) :: load
-      type(pose_t), intent(in) :: pose              !! of its body
+      type(pose_t), intent(in) :: pose              !! pose of the body of the load
       real(wp), intent(in) :: factor
       real(wp) :: part(6, 6), force(3), moment(3), arm(3)
 

@@ -24,7 +24,7 @@ contains
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: own(:)             !! cases of the deck
       type(case_t), allocatable, intent(out) :: tests(:)
-      character(*), intent(in), optional :: asked    !! name of a test that runs on request only; '*': all of them
+      character(*), intent(in), optional :: asked    !! name of a test that runs on request only; '*': all such tests
       logical :: is_taken(size(own))
       integer :: wheels(2), place, trails, phase, k, t
 

@@ -173,8 +173,8 @@ contains
       values(9:11) = frame*now%contact
    end subroutine position_values
 
-   !> Computes the value of an element with one measure (length, angle, cosine, or the clearance of a stop), and the force or moment
-   !> of the element, positive in compression, in the units of the columns.
+   !> Computes the value of an element with one measure (length, angle, cosine, or the clearance of a stop), and its force (positive
+   !> in compression) or moment, in the units of the columns.
    pure subroutine element_values(suspension, state, k, values)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
@@ -215,7 +215,7 @@ contains
    pure subroutine joint_values(suspension, state, gradients, frame, k, values)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
-      real(wp), intent(in) :: gradients(:, :)    !! of the terms of rows
+      real(wp), intent(in) :: gradients(:, :)    !! gradients of the terms of rows
       real(wp), intent(in) :: frame(3)
       integer, intent(in) :: k
       real(wp), intent(inout) :: values(most)

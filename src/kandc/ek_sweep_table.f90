@@ -235,7 +235,7 @@ contains
    !> Whether a column of the table is a K&C quantity (ek_kandc_list).
    pure logical function is_kandc_column(observer, column)
       type(observer_t), intent(in) :: observer              !! of make_observer
-      integer, intent(in) :: column                         !! of its table
+      integer, intent(in) :: column                         !! index of a column of the table
       is_kandc_column = observer%kept(column) > observer%shown .and. observer%kept(column) <= observer%reported
    end function is_kandc_column
 

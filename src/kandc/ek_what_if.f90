@@ -44,7 +44,7 @@ contains
       real(wp), intent(in) :: c(:, :)                       !! at the wheel centres
       real(wp), intent(in) :: left_move(:, :), move(:, :)   !! (load, law): G_vᵀ, Gᵀ
       real(wp), intent(in) :: self_move(:, :)               !! A
-      real(wp), intent(in) :: change(:)                     !! of each rate [N/m, N m/rad]
+      real(wp), intent(in) :: change(:)                     !! change of each rate [N/m, N m/rad]
       real(wp), allocatable, intent(out) :: changed(:, :)   !! C'
       logical, intent(out) :: is_known                      !! .false.: singular
       real(wp) :: matrix(size(change), size(change)), forces(size(change), size(c, 2))

@@ -14,7 +14,7 @@ contains
    pure subroutine wheel_values(group, is, frame, values)
       integer, intent(in) :: group
       type(wheel_characteristics_t), intent(in) :: is
-      real(wp), intent(in) :: frame(3)              !! from the program's frame to the deck's frame
+      real(wp), intent(in) :: frame(3)              !! signs of x, y, z from the program's frame to the deck's frame
       real(wp), intent(inout) :: values(:)          !! the first are set
 
       select case (group)

@@ -1,5 +1,5 @@
-!> Key numbers at particular states of a test: ratio and Ackermann with the inner wheel at 20 deg, wheel travel to the contact of a
-!> stop, and the largest force on the rack over all tests.
+!> Key numbers at particular states of a test: steering ratio and Ackermann percentage with the inner wheel at 20 deg, wheel travel
+!> to the contact of a stop, and the largest force on the rack over all tests.
 module ek_place_numbers
    use ek_kinds, only: wp
    use ek_text, only: spaced
@@ -79,7 +79,7 @@ contains
    !> the inner wheel.
    subroutine add_at_steer(test, place, column, quantity, name, unit, numbers)
       type(test_result_t), intent(in) :: test
-      integer, intent(in) :: place                 !! of the test
+      integer, intent(in) :: place                 !! index of the test
       character(*), intent(in) :: column, quantity, name, unit
       type(number_list_t), intent(inout) :: numbers
       type(key_number_t) :: number
@@ -107,7 +107,7 @@ contains
    !> the side of the stop.
    subroutine add_stops(test, place, numbers)
       type(test_result_t), intent(in) :: test
-      integer, intent(in) :: place                 !! of the test
+      integer, intent(in) :: place                 !! index of the test
       type(number_list_t), intent(inout) :: numbers
       type(key_number_t) :: number
       type(key_source_t) :: source
