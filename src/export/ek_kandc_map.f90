@@ -165,7 +165,7 @@ contains
       type(suspension_t), intent(in) :: suspension
       type(map_request_t), intent(in) :: request
       real(wp), intent(in) :: heights(:, :)      !! (side, row) [m]
-      real(wp), intent(in) :: steer(:)           !! value of the driver [m, rad]
+      real(wp), intent(in) :: steer(:)           !! value of the driver [m]
       type(case_result_t), intent(out) :: result
       type(error_t), allocatable, intent(out) :: error
       type(load_table_t) :: table

@@ -12,7 +12,7 @@ module ek_map_request
    !> The definition of the map to be computed.
    type :: map_request_t
       real(wp), allocatable :: travel(:)      !! wheel travels from design, increasing, including 0 [m]
-      real(wp), allocatable :: second(:)      !! steer (positive to the left), increasing, including 0 [m, rad]; only over_steer
+      real(wp), allocatable :: second(:)      !! steer (positive to the left), increasing, including 0 [m]; only over_steer
       integer :: kind = over_none
       character(:), allocatable :: driver     !! joint that steers
       character(:), allocatable :: vertical   !! point whose height is the travel: wheel 'centre', 'patch' or 'road'

@@ -50,7 +50,8 @@ contains
       curve = map%value(quantity, :, zero_of(map%travel), side)
    end function steer_curve
 
-   !> Slope dy/dx at the point where x is nearest to 0, from the parabola through this point and its neighbours.
+   !> Slope dy/dx at the inner point where x is nearest to 0, from the parabola through this point and its neighbours. With two
+   !> points, the slope of the line through both.
    pure real(wp) function slope_at_zero(x, y) result(slope)
       real(wp), intent(in) :: x(:), y(:)        !! at least 2 points
       integer :: k

@@ -31,7 +31,7 @@ module ek_geometry_columns
 
 contains
 
-   !> Computes the values of wheel_axis: side view, distances from the deck's steering axis, and spin axis.
+   !> Computes the values of the section wheel_axis: side-view rotation, distances from the deck's steering axis, and spin axis.
    pure subroutine axis_geometry(now, frame, values)
       type(attitude_t), intent(in) :: now
       real(wp), intent(in) :: frame(3)              !! signs of x, y, z from the program's frame to the deck's frame
@@ -43,7 +43,8 @@ contains
       values(6:8) = frame*now%axes%spin
    end subroutine axis_geometry
 
-   !> Computes the values of instant_distances, from the twist of the carrier during steering with locked springs.
+   !> Computes the values of the section instant_distances, from the twist of the carrier during steering with locked springs. NaN
+   !> if the carrier does not rotate.
    pure subroutine instant_geometry(twist, now, values)
       real(wp), intent(in) :: twist(6)
       type(attitude_t), intent(in) :: now
@@ -57,7 +58,7 @@ contains
       values = axis_distances(now%axes%side, point, turn, now%at_centre, now%at_contact, now%axes%spin)
    end subroutine instant_geometry
 
-   !> Computes the values of wheel_slopes: recession, camber per steer, ride frequency.
+   !> Computes the values of the section wheel_slopes: recession, camber per steer, ride frequency.
    pure subroutine slope_values(lift, twist, tyre_rate, mass, now, values)
       real(wp), intent(in) :: lift(6)       !! twist at the wheel centre per vertical force on every wheel [m/N, rad/N]
       real(wp), intent(in) :: twist(6)      !! twist during steering with the wheel heights held; 0 without a rack
@@ -72,7 +73,8 @@ contains
       if (mass > 0.0_wp) values(3) = ride_frequency(1.0_wp/(lift(3) + 1.0_wp/tyre_rate), mass)
    end subroutine slope_values
 
-   !> Computes the values of axle_geometry: track; with &axle and &steering also the quantities of a turn.
+   !> Computes the values of the section axle_geometry: track and its change; with &axle and &steering also the quantities of a
+   !> turn.
    pure subroutine axle_geometry_values(axle, tyre_width, has_turn, static, left, right, values)
       type(axle_t), intent(in) :: axle
       real(wp), intent(in) :: tyre_width(2)        !! m

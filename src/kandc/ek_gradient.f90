@@ -2,7 +2,8 @@
 !>
 !>     slope = Σ (x − x̄)(y − ȳ) / Σ (x − x̄)²       over the rows with converged = 1 and |x| ≤ window
 !>
-!> x is the travel, roll, force or torque of the test, y a column. The reported value is
+!> If a path turns back, only the rows of the branch through design are used (unfolded_rows). x is the travel, roll, steering
+!> input, force or torque of the test, y a column. The reported value is
 !>
 !>     value = size · s_y/s_x · slope
 !>

@@ -36,7 +36,8 @@ module ek_member_loads
       real(wp) :: arm(3) = 0.0_wp        !! end from the reference point of the body, body axes [m]
    end type member_end_t
 
-   !> The loads of several cases: a table with one row per load as a string, and the peaks, each with its state, factor and case.
+   !> The loads of several cases: a table with one row per load as a string, and the peaks, each with its state, swept value (column
+   !> `factor`) and case.
    type :: load_record_t
       type(member_end_t), allocatable :: ends(:)
       type(buffer_t) :: text                       !! content of loads.csv

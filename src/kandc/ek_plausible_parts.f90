@@ -19,7 +19,7 @@ module ek_plausible_parts
 
 contains
 
-   !> Examines springs, dampers, stops, torsion springs, bushings, drivers with a stiffness.
+   !> Examines springs on two points, dampers, stops, torsion springs, bushings, and drivers with a stiffness.
    subroutine doubt_elements(suspension, doubts)
       type(suspension_t), intent(in) :: suspension
       type(doubts_t), intent(inout) :: doubts

@@ -28,7 +28,7 @@ module ek_remark
       integer :: severity = note, topic = on_case
       character(:), allocatable :: case      !! name of the case
       character(:), allocatable :: head      !! heading: "case 'x'", "case 'x', method recursive"; '' for on_case
-      character(:), allocatable :: text      !! text of the message, one or more lines
+      character(:), allocatable :: text      !! message without its heading, one or more lines
       logical :: has_place = .false.
       real(wp) :: place = 0.0_wp             !! swept value to which the message applies, SI
    contains
@@ -56,7 +56,7 @@ contains
       if (case%unit_name /= '-') text = text//' '//case%unit_name
    end function swept_text
 
-   !> The string of a message with its heading: "case 'x': text"; without a heading, the text alone.
+   !> The string of a message with its heading: "case 'x': message"; '' as heading gives the message alone.
    pure function whole(self) result(text)
       class(remark_t), intent(in) :: self
       character(:), allocatable :: text

@@ -25,11 +25,11 @@ module ek_rig_numbers
       logical :: is_road = .false.                       !! height of the road under the tyre at the contact point
    end type height_t
 
-   !> The point of application of a load, and its value at factor 1.
+   !> The point of application of a load of the rig, and the force and moment of this load at the load factor 1.
    type :: acting_t
       integer :: wheel = 0
       logical :: is_at_patch = .false.                   !! at the contact point; otherwise at the wheel centre
-      real(wp) :: force(3) = 0.0_wp, moment(3) = 0.0_wp  !! at factor 1 [N, N m]
+      real(wp) :: force(3) = 0.0_wp, moment(3) = 0.0_wp  !! at the load factor 1 [N, N m]
       logical :: has_trail = .false.                     !! the offset of the case gives a moment
    end type acting_t
 

@@ -158,7 +158,7 @@ contains
       end do
    end subroutine state_values
 
-   !> Computes the values of wheel_position, in SI.
+   !> Computes the values of the section wheel_position, in SI.
    pure subroutine position_values(now, frame, values)
       type(attitude_t), intent(in) :: now
       real(wp), intent(in) :: frame(3)

@@ -70,8 +70,9 @@ contains
       is_slope = how >= slope .and. how <= anti_phase
    end function is_slope
 
-   !> Reads a key number from one of its tests. `values` contains the values from earlier tests: first for the left wheel, the
-   !> single wheel or the axle, then for the right wheel. `is_final`: no further test needs to be read.
+   !> Reads a key number from one of its tests: first for the left wheel, the single wheel or the axle, then for the right wheel.
+   !> For the largest magnitude over all tests, `values` contains the values from earlier tests. `is_final`: no further test needs
+   !> to be read.
    subroutine read_source(how, source, table, values, is_final)
       integer, intent(in) :: how
       type(key_source_t), intent(in) :: source
@@ -117,7 +118,8 @@ contains
       if (row > 0) value = table%values(place, row)
    end function design_value
 
-   !> Finds the maximum or minimum of a column over the converged states. For the largest magnitude, earlier tests are included.
+   !> Finds the maximum or minimum of a column over the usable states (is_good), or the largest magnitude, which includes the value
+   !> from earlier tests.
    subroutine take_extreme(how, table, place, value)
       integer, intent(in) :: how
       type(table_t), intent(in) :: table
@@ -165,7 +167,7 @@ contains
       end do
    end function value_where
 
-   !> Whether each state converged and has a finite value in a column.
+   !> Whether each state converged, is on the branch through design (unfolded_rows), and has a finite value in a column.
    pure function is_good(table, place)
       type(table_t), intent(in) :: table
       integer, intent(in) :: place
