@@ -3,8 +3,8 @@
 !> Without a choice of the user, these are the only spring, damper and bump stop of the wheel. On an axle, the names of these
 !> elements begin with left_ or right_, as &mirror creates them. A missing damper has the length of the spring, a missing stop the
 !> length of the damper. A missing spring on two points is replaced by the travel of the wheel with the opposite sign: a spring of
-!> ratio 1, which shortens in bump. A bar that was not chosen is replaced by the travel tz. The rates of these two in the simulator
-!> are then the rates at the wheel.
+!> ratio 1, which shortens in bump. A bar that was not chosen is replaced by the travel tz. The rate of such a spring or bar in the
+!> simulator is then the rate at the wheel.
 module ek_length_choice
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t, fail, exit_usage

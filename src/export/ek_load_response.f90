@@ -1,4 +1,4 @@
-!> The response of both wheels of an axle to loads on one of them, as a table of states.
+!> The response of both wheels of an axle to loads on one wheel at a time, as a table of states.
 module ek_load_response
    use ek_kinds, only: wp
    use ek_error, only: error_t

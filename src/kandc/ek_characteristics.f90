@@ -305,7 +305,7 @@ contains
       is%drive_travel = axle%mass*gravity*(-transfer*upward(3) - 0.5_wp*axle%drive_share*lever)
    end subroutine anti_features
 
-   !> Motion ratio d(length)/d(wheel travel) with equal travel of all wheels. The loads f that lift each wheel by one follow from
+   !> Motion ratio d(length)/d(wheel travel) with equal travel of all wheels. The loads f that lift each wheel by 1 m follow from
    !> C_zz f = 1; the change of length is the response of the spring to these loads. Wheels that can only move together (C_zz
    !> singular) carry equal loads.
    !> Equation (C.13) of docs/theory/compliance.md.

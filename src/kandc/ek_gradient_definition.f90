@@ -114,7 +114,7 @@ contains
       where (names == word) windows%half = half
    end subroutine set_window
 
-   !> Finds the window of a gradient. Over `factor`, it is the window of the quantity that the test scales.
+   !> Finds the window of a gradient. Over `factor`, this is the window of the quantity that the test scales: force, torque or rack.
    pure subroutine window_of(kind, over, windows, half, unit)
       character(*), intent(in) :: kind, over    !! kind of the test; column, without the wheel's name
       type(windows_t), intent(in) :: windows

@@ -1,8 +1,8 @@
 !> The values of the K&C quantities at a state.
 !>
-!> The sections of ek_quantity give names, units and conditions; the values of each section are computed in SI, in the same order,
-!> if one of its columns is requested: here, in ek_wheel_columns and in ek_geometry_columns. A quantity
-!> without a value at a state is NaN.
+!> The sections of ek_quantity give names, units and conditions. The values of a section are computed in SI, in the same order, if
+!> one of its columns is requested: in this module, in ek_wheel_columns or in ek_geometry_columns. A quantity without a value at a
+!> state is NaN.
 !>
 !> The suffix of a column names the quantity whose slope the column is: `…_steer`, `…_toe`, `…_camber`, `…_caster` are the
 !> derivatives of the columns steer_deg, toe_deg, camber_deg and caster_deg; `…_rotation_x`, `…_y`, `…_z` are the

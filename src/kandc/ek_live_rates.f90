@@ -1,7 +1,7 @@
 !> The rates that contribute most to the key compliances of a suspension. A reader of the report may change them on the page.
 !>
-!> A rate is the constant of one law: an axis of a bushing, a spring, a bar. The same law on both sides of an axle is one rate if it
-!> is equal on both. Laws with a curve or a clearance have no rate.
+!> A rate is the constant of one law: an axis of a bushing, a spring, a bar. Corresponding laws of the left and the right side with
+!> equal constants are one rate. Laws with a curve or a clearance have no rate.
 module ek_live_rates
    use ek_kinds, only: wp
    use ek_largest, only: largest

@@ -113,9 +113,9 @@ module ek_plausible_range
    ! 1.5 Hz of passenger cars, 1.5 to 2 Hz of touring cars, 3 to 5 Hz and more of race cars with downforce (M. Giaraffa, OptimumG,
    ! Springs & Dampers, part 1; Milliken & Milliken, Race Car Vehicle Dynamics, chapter 16), widened by a factor of two. Motion
    ! ratio: 0.5 to 1 (from these sources), widened by two. Wheel rate: from the spring rates above with these motion ratios. Bump
-   ! camber: the inverse of the length of the front-view swing arm, no shorter than 0.3 m, three quarters of the narrowest half track
-   ! of the table. Bump toe: 30 mm of travel, about the least that a Formula Student car must have, would use the range of the
-   ! static toe. Compliances have no range: no source covers both trucks and race cars.
+   ! camber: the inverse of the length of the front-view swing arm, no shorter than 0.3 m, three quarters of the narrowest half
+   ! track of the table. Bump toe: 30 mm of travel, about the least that a Formula Student car must have, would use the range of
+   ! the static toe. Compliances have no range: no source covers both trucks and race cars.
 
    !> The remarks without repetition. Both sides of a mirrored deck have the same line and give one remark.
    type :: doubts_t

@@ -96,9 +96,9 @@ contains
    !> reached; for a load table, all rows. A state that was not reached has converged = 0 and NaN values. A state of a linear method
    !> that violates the joint constraints has converged = 0.
    !>
-   !> If the case requests all columns, the K&C quantities precede the last columns. They come from the compliance matrix at every
-   !> state, which is solved only if one of the columns of the observer needs it. With defers_kandc the K&C quantities are NaN;
-   !> observe_kandc_at computes them at the states where they are read.
+   !> If the case requests all columns, the K&C quantities precede the last columns. The compliance matrix of a state is solved only
+   !> if a column of the observer needs it. With defers_kandc, the K&C quantities are NaN; observe_kandc_at computes them at the
+   !> states that are read.
    subroutine observe(suspension, case, path, kkt, observer, table, defers_kandc)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case

@@ -5,8 +5,8 @@
 !>
 !>     C' = C − G_vᵀ (I + D A)⁻¹ D G
 !>
-!> and, with the laws rigid, C' = C − G_vᵀ A⁻¹ G. G_v is G of the transpose. An added law has the rate 0 before; this gives the
-!> effect of an added spring. With preload the state would also move; the result is exact for the unchanged state.
+!> and, with the laws rigid, C' = C − G_vᵀ A⁻¹ G. G_v is G of the transpose. For an added spring, the rate before the change is 0.
+!> With preload the state would also move; the result is exact for the unchanged state.
 module ek_what_if
    use ek_kinds, only: wp
    use ek_contract, only: are_checked, require

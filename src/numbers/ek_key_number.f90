@@ -1,7 +1,7 @@
 !> A key number of a suspension: its definition, the columns and tests that contain it, and the way in which its value is read.
 !>
 !> ek_key_numbers lists the key numbers that tests can have, from the headings of their tables alone. read_source reads one key
-!> number when the tests are solved. It creates no strings, so that several threads can read at the same time.
+!> number when the tests are solved. read_source creates no strings, so that several threads can call it at the same time.
 module ek_key_number
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp

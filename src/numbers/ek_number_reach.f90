@@ -18,9 +18,9 @@ module ek_number_reach
 
 contains
 
-   !> The swept value beyond which a key number does not need a state of a source [SI]. For a key number that is read at design, it
-   !> is 0. For a gradient, it is the end of the window, if the abscissa of the test is the swept value times a factor. In all other
-   !> cases all states are needed (huge).
+   !> The swept value beyond which a key number does not need a state of a source [SI]: 0 for a key number that is read at design,
+   !> and the end of the window for a gradient if the abscissa of the test is the swept value times a constant. In all other cases
+   !> all states are needed, and the result is huge.
    pure real(wp) function reach_of(how, suspension, case, source, test) result(reach)
       integer, intent(in) :: how                        !! of ek_key_number
       type(suspension_t), intent(in) :: suspension

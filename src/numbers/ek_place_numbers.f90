@@ -103,8 +103,8 @@ contains
       call append(number, numbers)
    end subroutine add_at_steer
 
-   !> Adds the wheel travel from design to the contact of each stop, with both wheels in parallel travel. The wheel is the wheel on
-   !> the side of the stop.
+   !> Adds the wheel travel from design to the contact of each stop, in parallel travel: the travel of the wheel on the side
+   !> of the stop, or of the first wheel if the name of the stop gives no side.
    subroutine add_stops(test, place, numbers)
       type(test_result_t), intent(in) :: test
       integer, intent(in) :: place                 !! index of the test
