@@ -1,8 +1,9 @@
 !> A map as a file of suspension kinematics and compliance for CarMaker (.skc): an "infofile" of keys and tables.
 !>
-!> Frame of ek_wheel_motion, which is also the frame of the file. SI units, so all factors to SI are 1. Kinematics are of kind
-!> MapNL: left and right table over the wheel's own travel (Arg0) and steer or the travel of the other wheel (Arg1), Arg1 fastest.
-!> Compliance is of kind CoeffConstFr1: a row per load, own and opposite wheel; the vertical force has no row, as springs carry it.
+!> The file has the frame of ek_wheel_motion. Units are SI, so all factors to SI are 1. Kinematics are of kind MapNL: a table for
+!> the left and for the right wheel, over the wheel's own travel (Arg0) and over steer or the travel of the other wheel (Arg1,
+!> which varies fastest). Compliance is of kind CoeffConstFr1: one row per load on the wheel and on the opposite wheel. The vertical
+!> force does not have a row, because the springs carry it.
 module ek_carmaker
    use ek_kinds, only: wp
    use ek_error, only: error_t
@@ -21,12 +22,12 @@ module ek_carmaker
    public :: carmaker_text, skc_table_lines, load_names
 
    character(1), parameter :: sides(2) = ['L', 'R']
-   integer, parameter :: columns = 10                     !! tx to lStabi
-   character(5), parameter :: load_names(5) = [character(5) :: 'Frc.x', 'Frc.y', 'Trq.x', 'Trq.y', 'Trq.z']      !! of load_parts
+   integer, parameter :: columns = 10                     !! number of quantities in the tables, tx to lStabi
+   character(5), parameter :: load_names(5) = [character(5) :: 'Frc.x', 'Frc.y', 'Trq.x', 'Trq.y', 'Trq.z']  !! of load_parts
 
 contains
 
-   !> Writes the file as a string.
+   !> Writes the .skc file of a map as a string.
    subroutine carmaker_text(map, is_front, checksum, text, error)
       type(kandc_map_t), intent(in) :: map
       logical, intent(in) :: is_front

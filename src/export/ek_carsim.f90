@@ -20,7 +20,7 @@ module ek_carsim
    private
    public :: carsim_text, par_table_lines, carsim_tables
 
-   !> The tables over jounce: keyword, quantity of ek_wheel_motion, its unit, sign on the left and on the right side.
+   !> A table over jounce: keyword, quantity of ek_wheel_motion, unit in SI, signs on the left and on the right side, meaning.
    type :: par_table_t
       character(16) :: keyword
       integer :: quantity
@@ -40,7 +40,7 @@ module ek_carsim
 
 contains
 
-   !> Writes the file as a string.
+   !> Writes the .par file of a map as a string.
    subroutine carsim_text(map, checksum, text, error)
       type(kandc_map_t), intent(in) :: map
       character(*), intent(in) :: checksum                  !! of the deck

@@ -17,7 +17,7 @@ module ek_export_figure
    type :: panel_t
       character(:), allocatable :: title, x_label, y_label
       character(:), allocatable :: points        !! plot element of the points: file, lines, columns
-      real(wp), allocatable :: x(:), y(:)        !! of the curve
+      real(wp), allocatable :: x(:), y(:)        !! values of the curve
    end type panel_t
 
    type :: panel_list_t
@@ -29,7 +29,7 @@ module ek_export_figure
 
 contains
 
-   !> Adds a panel if the curve has values.
+   !> Adds a panel. Adds nothing if the curve has no values, if x and y differ in number, or if the list already has 12 panels.
    subroutine add_panel(list, title, x_label, y_label, points, x, y)
       type(panel_list_t), intent(inout) :: list
       character(*), intent(in) :: title, x_label, y_label, points
@@ -48,11 +48,12 @@ contains
       end associate
    end subroutine add_panel
 
-   !> Writes the script folder/name.gp and draws name.png and name.svg. Without gnuplot, `message` reports this.
+   !> Writes the script folder/name.gp and draws name.png and name.svg. If gnuplot is missing, `message` reports the missing
+   !> program.
    subroutine draw_export(list, folder, name, title, separator, message, error)
       type(panel_list_t), intent(in) :: list
       character(*), intent(in) :: folder, name, title
-      character(1), intent(in) :: separator                !! of the columns of the file: ',' or ' '
+      character(1), intent(in) :: separator                !! separator of the columns of the file: ',' or ' '
       character(:), allocatable, intent(out) :: message    !! '' if the pictures were drawn
       type(error_t), allocatable, intent(out) :: error     !! exit_file
       type(message_list_t) :: scripts, pictures

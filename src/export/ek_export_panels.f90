@@ -1,5 +1,5 @@
-!> The panels of the figure of each kind of exported file. The lines and slopes of a panel are positioned by the content of the file
-!> that was written.
+!> The panels of the figure of each kind of exported file. The line numbers of the plotted rows and the plotted slopes are read from
+!> the content of the written file.
 module ek_export_panels
    use ek_kinds, only: wp, degree, millimetre
    use ek_text, only: str
@@ -25,7 +25,7 @@ module ek_export_panels
 
 contains
 
-   !> Adds panels of the kinematics of one side over travel and steer, and of the five diagonal compliances.
+   !> Adds panels of the kinematics of one side over travel, over steer if the map has steer, and of the five diagonal compliances.
    subroutine carmaker_panels(map, sources, file, text, list)
       type(kandc_map_t), intent(in) :: map
       type(sources_t), intent(in) :: sources
@@ -120,7 +120,7 @@ contains
       values = sources%steer%values(2, :)       ! state, factor, …
    end function source_factor
 
-   !> The length of an element given by its full name.
+   !> The values of a length column in the travel test, given by its full name; no values if the test does not have the column.
    function length_values(sources, name) result(values)
       type(sources_t), intent(in) :: sources
       character(*), intent(in) :: name
@@ -144,7 +144,7 @@ contains
       values = sources%loads%load(5*(sources%side - 1) + part, first:first + count - 1)
    end function load_values
 
-   !> The change of a quantity under this load, relative to no load [mm, deg].
+   !> The change of a quantity of the drawn wheel under one load on it, relative to the state without load [mm, deg].
    function load_changes(sources, part, quantity) result(values)
       type(sources_t), intent(in) :: sources
       integer, intent(in) :: part, quantity
@@ -174,7 +174,7 @@ contains
       first = (block - 1)*count + 1
    end subroutine rows_of_load
 
-   !> The numbers that follow a key in a string.
+   !> The numbers that follow a key in a string; 0 if the string does not contain the key.
    function numbers_behind(text, key, count) result(values)
       character(*), intent(in) :: text, key
       integer, intent(in) :: count
@@ -186,7 +186,8 @@ contains
       if (at > 0) read (text(at + len(key):), *, iostat=status) values
    end function numbers_behind
 
-   !> Adds panels of the tables over jounce, and panels of two of the coefficients.
+   !> Adds panels of four tables over jounce (toe, camber, x, lateral), and of the coefficients of steer under Fy and Mz, camber and
+   !> x under Fx, and spring compression. Without a spring length, the panel of spring compression is omitted.
    subroutine carsim_panels(map, sources, file, text, list)
       type(kandc_map_t), intent(in) :: map
       type(sources_t), intent(in) :: sources
@@ -227,12 +228,12 @@ contains
          decimal(slope(1))//'*x'//line_style, x, -(y - y(minloc(abs(x), dim=1))))
    end subroutine carsim_panels
 
-   !> Adds panels of the tables of the script, with the gradients as lines through design.
+   !> Adds panels of the tables over travel of the script. Each has its gradient as a line through design, except NrmlWhlRates.
    subroutine mathworks_panels(sources, file, text, corner, points, list)
       type(sources_t), intent(in) :: sources
       character(*), intent(in) :: file, text
       character(2), intent(in) :: corner                !! of the drawn wheel
-      integer, intent(in) :: points                     !! of the tables over travel
+      integer, intent(in) :: points                     !! number of points of the tables over travel
       type(panel_list_t), intent(out) :: list
       character(*), parameter :: words(5) = [character(16) :: 'BumpSteer', 'BumpCamber', 'BumpCaster', 'LatWhlCtrDisp', &
          'LngWhlCtrDisp']

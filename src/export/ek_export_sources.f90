@@ -17,11 +17,11 @@ module ek_export_sources
    public :: sources_t, solve_sources, source_values
 
    type :: sources_t
-      type(table_t) :: travel, steer            !! results of the tests
+      type(table_t) :: travel, steer            !! tables of the travel and the steering test
       logical :: has_steer = .false.
-      character(:), allocatable :: prefix       !! of the columns of the wheel that is drawn
-      integer :: side = 1                       !! its side
-      real(wp) :: frame(3) = 1.0_wp             !! from the deck to ISO
+      character(:), allocatable :: prefix       !! prefix of the columns of the drawn wheel
+      integer :: side = 1                       !! side of the drawn wheel: 1 left, 2 right
+      real(wp) :: frame(3) = 1.0_wp             !! signs of x, y, z from the deck to ISO
       type(load_table_result_t) :: loads
    end type sources_t
 
@@ -32,7 +32,7 @@ contains
       type(suspension_t), intent(in) :: suspension
       type(map_request_t), intent(in) :: request
       type(kandc_map_t), intent(in) :: map
-      logical, intent(in) :: is_at_patch               !! of the forces of the loads
+      logical, intent(in) :: is_at_patch               !! the forces of the loads act at the contact points
       type(sources_t), intent(out) :: sources
       type(error_t), allocatable, intent(out) :: error
       integer, parameter :: increments = 97

@@ -1,8 +1,8 @@
-!> The compliance of wheels that are held, which a simulator adds to kinematics.
+!> The compliance of wheels that are held. A simulator adds this compliance to the kinematics.
 !>
-!> The travel of a wheel is a coordinate of the simulator, whose springs act along it, so a compliance must not contain it. The
-!> wheels are held as on the rig: at the height of their centres ('centre'), on the road through their tyres ('road'), or not at
-!> all ('force': their vertical loads stay constant).
+!> The travel of a wheel is a coordinate of the simulator, and the springs of the simulator act along this coordinate. The
+!> compliance must therefore not contain the travel. The wheels are held as on the rig: at the height of their centres ('centre'),
+!> on the road through their tyres ('road'), or not at all ('force': the vertical loads are constant).
 module ek_held_compliance
    use ek_kinds, only: wp
    use ek_port_response, only: hold, load_at_patch, read_at_patch
@@ -14,8 +14,8 @@ contains
 
    !> The response at the wheel centres to loads at the wheel centres, with the wheels held.
    !>
-   !> On the road the tyre of a wheel pushes its contact point up with F = −kt·(its height): with B the unit vertical loads on the
-   !> contact points, C − C B (Bᵀ C B + 1/kt)⁻¹ Bᵀ C.
+   !> On the road, the tyre of rate kt pushes the contact point up with F = −kt·(rise of the contact point). With the unit vertical
+   !> loads B on the contact points, the response is C − C B (Bᵀ C B + 1/kt)⁻¹ Bᵀ C.
    pure function held_compliance(c, arm, tyre_rate, held) result(response)
       real(wp), intent(in) :: c(:, :)          !! at the wheel centres, vertical loads held; six rows and columns per wheel
       real(wp), intent(in) :: arm(:, :)        !! contact point less wheel centre of each wheel [m]

@@ -1,5 +1,5 @@
 !> Kinematics of an axle as a table over wheel travel and steer, or over the travels of both wheels, with its compliance at
-!> design. Every number comes from an equilibrium of the rig (a test 'table'), or from the tangent at it.
+!> design. Every number comes from an equilibrium on the rig (a test 'table'), or from the tangent at an equilibrium.
 !>
 !> Frame ISO 8855, SI and radians: see ek_wheel_motion. A deck with one wheel gives the other side as its mirror image.
 module ek_kandc_map
@@ -26,22 +26,22 @@ module ek_kandc_map
       character(:), allocatable :: model, title
       integer :: kind = over_none
       real(wp), allocatable :: travel(:), second(:)
-      real(wp) :: driver_sign = 1.0_wp        !! the driver's value is this times steer
+      real(wp) :: driver_sign = 1.0_wp        !! 1 or −1: value of the driver for steer 1
       character(:), allocatable :: driver, vertical, held
-      real(wp), allocatable :: value(:, :, :, :)   !! (quantity, second, travel, side)
+      real(wp), allocatable :: value(:, :, :, :)   !! (quantity of ek_wheel_motion, second, travel, side)
       !> Compliance of each side at design, at the wheel centre, with wheels held: own loads, then loads on the other wheel
       real(wp) :: compliance(6, 12, 2) = 0.0_wp
-      real(wp) :: free(12, 12) = 0.0_wp            !! of both wheels, vertical loads held; ISO; left before right
+      real(wp) :: free(12, 12) = 0.0_wp            !! compliance of both wheels, vertical loads held; ISO; left before right
       real(wp) :: arm(3, 2) = 0.0_wp               !! contact point less wheel centre at design, ISO [m]
       real(wp) :: spin(3, 2) = 0.0_wp              !! spin axes at design, outboard, ISO
       logical :: is_mirrored(2) = .false.          !! the deck has no wheel on this side
-      real(wp) :: track = 0.0_wp                   !! of the contact points at design [m]
+      real(wp) :: track = 0.0_wp                   !! distance of the contact points at design [m]
       character(63) :: length_labels(lengths, 2) = ''
    end type kandc_map_t
 
 contains
 
-   !> Solves a map. `suspension` must be balanced and not on a rig.
+   !> Solves a map. `suspension` must have its preload trim (`balance`) applied, and must not be on a rig.
    subroutine solve_map(suspension, request, map, error)
       type(suspension_t), intent(in) :: suspension
       type(map_request_t), intent(in) :: request
@@ -105,7 +105,7 @@ contains
       allocate (map%value(quantities, size(map%second), size(map%travel), 2), source=0.0_wp)
    end subroutine describe
 
-   !> Finds the sign of the driver displacement that turns the wheels to the left.
+   !> Finds the sign of the driver displacement that turns the wheels to the left. A driver that does not steer is an error.
    subroutine find_sign(suspension, request, map, error)
       type(suspension_t), intent(in) :: suspension
       type(map_request_t), intent(in) :: request
@@ -165,7 +165,7 @@ contains
       type(suspension_t), intent(in) :: suspension
       type(map_request_t), intent(in) :: request
       real(wp), intent(in) :: heights(:, :)      !! (side, row) [m]
-      real(wp), intent(in) :: steer(:)           !! of the driver [m, rad]
+      real(wp), intent(in) :: steer(:)           !! value of the driver [m]
       type(case_result_t), intent(out) :: result
       type(error_t), allocatable, intent(out) :: error
       type(load_table_t) :: table
@@ -209,7 +209,7 @@ contains
       if (size(suspension%wheels) == 0) map%value = 0.0_wp
    end subroutine take_values
 
-   !> Copies the compliance at design, which is the first row.
+   !> Computes the compliance at the design state, which is the first row of the result.
    subroutine take_compliance(result, wheels, map, error)
       type(case_result_t), intent(inout) :: result
       integer, intent(in) :: wheels(2)
@@ -264,7 +264,7 @@ contains
       end do
    end subroutine take_compliance
 
-   !> Mirrors the side that the deck defines to the other side.
+   !> Fills the other side of a map with the mirror image of the side that the deck defines.
    subroutine mirror_map(map, to, error)
       type(kandc_map_t), intent(inout) :: map
       integer, intent(in) :: to                            !! 1 left, 2 right

@@ -1,9 +1,10 @@
 !> The elements of a model that are spring, damper, bump stop and bar of a wheel.
 !>
-!> Without a choice of the user: the only spring, damper and bump stop of the wheel, by its name left_… or right_…, as &mirror makes
-!> them; with one wheel the only element. A damper that a deck does not have is as long as its spring, a stop as its
-!> damper. A wheel without a spring on two points, or without a bar, has the travel of the wheel instead: the length of a spring
-!> of ratio 1 (which shortens in bump), and for the bar tz itself: its rate in the simulator is then that at the wheel.
+!> Without a choice of the user, these are the only spring, damper and bump stop of the wheel. On an axle, the names of these
+!> elements begin with left_ or right_, as &mirror creates them. A missing damper has the length of the spring, a missing stop the
+!> length of the damper. A missing spring on two points is replaced by the travel of the wheel with the opposite sign: a spring of
+!> ratio 1, which shortens in bump. A bar that was not chosen is replaced by the travel tz. The rate of such a spring or bar in the
+!> simulator is then the rate at the wheel.
 module ek_length_choice
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t, fail, exit_usage
@@ -55,7 +56,7 @@ contains
       if (mistakes%count() > 0) call fail(error, exit_usage, mistakes%text())
    end subroutine choose_lengths
 
-   !> Chooses the only element of a kind, or its replacement.
+   !> Chooses the only element of a kind, or the replacement of a missing element. Several elements are an error.
    subroutine choose_itself(suspension, wheel, side, j, choice, mistakes)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: wheel, side, j
@@ -142,7 +143,8 @@ contains
       choice%label = label
    end subroutine take
 
-   !> Whether an element on two points can be this length. Of the stops, only bump stops can: a rebound stop acts in tension.
+   !> Whether an element gives length j without a choice of the user: springs on two points, dampers, and bump stops. A rebound stop
+   !> does not, because it acts in tension. No element gives the length of the bar.
    pure logical function is_kind(element, j)
       type(element_t), intent(in) :: element
       integer, intent(in) :: j

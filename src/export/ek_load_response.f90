@@ -1,4 +1,4 @@
-!> The response of both wheels of an axle to loads on one of them, as a table of states.
+!> The response of both wheels of an axle to loads on one wheel at a time, as a table of states.
 module ek_load_response
    use ek_kinds, only: wp
    use ek_error, only: error_t
@@ -21,7 +21,7 @@ module ek_load_response
    !> The response to loads: one row per state.
    type :: load_table_result_t
       real(wp), allocatable :: load(:, :)          !! (component of left, then right wheel: Fx, Fy, Mx, My, Mz; row), ISO [N, N m]
-      real(wp), allocatable :: value(:, :, :)      !! (quantity, row, side)
+      real(wp), allocatable :: value(:, :, :)      !! (quantity of ek_wheel_motion, row, side)
    end type load_table_result_t
 
 contains
@@ -30,8 +30,8 @@ contains
    subroutine solve_loads(suspension, request, force, moment, count, is_at_patch, loads, error)
       type(suspension_t), intent(in) :: suspension
       type(map_request_t), intent(in) :: request
-      real(wp), intent(in) :: force, moment            !! largest [N, N m]
-      integer, intent(in) :: count                     !! of values of a load, odd
+      real(wp), intent(in) :: force, moment            !! greatest force and moment [N, N m]
+      integer, intent(in) :: count                     !! number of values of a load, odd
       logical, intent(in) :: is_at_patch               !! forces at the contact point, otherwise at the wheel centre
       type(load_table_result_t), intent(out) :: loads
       type(error_t), allocatable, intent(out) :: error

@@ -9,20 +9,20 @@ module ek_map_request
    ! what the second argument of a map is
    integer, parameter :: over_none = 0, over_steer = 1, over_opposite = 2
 
-   !> The map to be computed.
+   !> The definition of the map to be computed.
    type :: map_request_t
-      real(wp), allocatable :: travel(:)      !! above design, increasing, with 0 [m]
-      real(wp), allocatable :: second(:)      !! steer (positive: to the left) or travel of the other wheel, likewise [m, rad]
+      real(wp), allocatable :: travel(:)      !! wheel travels from design, increasing, including 0 [m]
+      real(wp), allocatable :: second(:)      !! steer (positive to the left), increasing, including 0 [m]; only over_steer
       integer :: kind = over_none
       character(:), allocatable :: driver     !! joint that steers
-      character(:), allocatable :: vertical   !! travel is the height of the wheel 'centre', the 'patch', or the 'road'
+      character(:), allocatable :: vertical   !! point whose height is the travel: wheel 'centre', 'patch' or 'road'
       character(:), allocatable :: held       !! how the wheels are held in the compliance: 'road', 'centre' or 'force'
       type(length_choice_t) :: choices(lengths, 2)
    end type map_request_t
 
 contains
 
-   !> A list of values from `from` to `to` that contains 0, as equally spaced as this allows.
+   !> A list of values from `from` to `to` that contains 0. On each side of 0 the values are equally spaced.
    pure function grid_values(from, to, count) result(values)
       real(wp), intent(in) :: from, to        !! from ≤ 0 ≤ to
       integer, intent(in) :: count            !! at least 2

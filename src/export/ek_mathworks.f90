@@ -1,9 +1,10 @@
 !> Maps of one or both axles as parameters of the block "Independent Suspension - K and C" of the Vehicle Dynamics Blockset: a
-!> script (.m) and the same in JSON.
+!> script (.m), and the same parameters in JSON.
 !>
-!> Arrays are [FL FR RL RR], of an axle [F R]; of an axle without a deck NaN (null in JSON). Gradients are slopes at design.
+!> Arrays of wheels are [FL FR RL RR], arrays of axles [F R]. The values of an axle without a deck are NaN (null in JSON). Gradients
+!> are slopes at design.
 !> Signs of ISO 8855: steer positive to the left, camber positive top outward, caster positive top rearward, x forward, y to the
-!> left, z and travel up; forces and Mz act on the wheel in these directions. mm, deg, N, N m; the loaded radius in m.
+!> left, z and travel up; forces and Mz act on the wheel in these directions. Units are mm, deg, N, N m; the loaded radius is in m.
 module ek_mathworks
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan, ieee_is_finite
    use ek_kinds, only: wp, degree, millimetre
@@ -37,9 +38,9 @@ module ek_mathworks
    type :: kandc_table_t
       character(20) :: name = ''
       character(34) :: units = ''
-      integer :: abscissa = 0, quantity = 0      !! of ek_wheel_motion; over steer: at_rz
+      integer :: abscissa = 0, quantity = 0      !! quantities of ek_wheel_motion; abscissa at_rz: over steer
       real(wp) :: abscissa_unit = 1.0_wp, unit = 1.0_wp
-      logical :: is_change = .true.              !! from the value at design
+      logical :: is_change = .true.              !! the quantity is a change from the value at design
    end type kandc_table_t
 
    type(kandc_table_t), parameter :: tables(8) = [ &
@@ -63,9 +64,9 @@ module ek_mathworks
 
 contains
 
-   !> Fills the arrays from the maps of the axles that are given.
+   !> Fills the arrays of the parameters from the maps of the axles that have a map.
    subroutine find_parameters(p)
-      type(kandc_parameters_t), intent(inout) :: p      !! with maps, has and checksums
+      type(kandc_parameters_t), intent(inout) :: p      !! its maps, has and checksums are set
       character(*), parameter :: brake = 'first row braking (Fx < 0 at the patch), second driving (Fx > 0 at the wheel centre)'
 
       p%used = 0
@@ -176,7 +177,7 @@ contains
       end select
    end function of_wheel
 
-   !> The value of the parameter `name` for an axle.
+   !> The value of an axle in the array `name`, in the unit of the array.
    function of_axle(map, name) result(value)
       type(kandc_map_t), intent(in) :: map
       character(*), intent(in) :: name
@@ -218,7 +219,8 @@ contains
       value = slope_at_zero(x, y)
    end function slope
 
-   !> Extracts the two columns of a table in its units. A column is a change from design if the block adds the static value.
+   !> Extracts the two columns of a table of one side in the units of the table. The quantity is a change from design if the block
+   !> adds the static value; steer as abscissa always is.
    subroutine curve_of(map, side, table, x, y)
       type(kandc_map_t), intent(in) :: map
       integer, intent(in) :: side

@@ -1,5 +1,5 @@
 !> Checks that the columns of a map rise or fall everywhere. A simulator that inverts columns or uses them as an abscissa requires
-!> this.
+!> such columns.
 module ek_monotonic
    use ek_kinds, only: wp, millimetre
    use ek_error, only: error_t, message_list_t, fail, exit_model
@@ -18,7 +18,7 @@ contains
    !> first position at which it reverses.
    subroutine check_monotonic(map, target, has_lengths, error)
       type(kandc_map_t), intent(in) :: map
-      character(*), intent(in) :: target                    !! of the export, for the message
+      character(*), intent(in) :: target                    !! name of the export, for the message
       logical, intent(in) :: has_lengths                    !! the target inverts lengths too
       type(error_t), allocatable, intent(out) :: error      !! exit_model: every column that is not strictly monotonic
       integer, parameter :: columns(5) = [at_tz, at_lengths + 1, at_lengths + 2, at_lengths + 3, at_lengths + 4]
@@ -65,7 +65,7 @@ contains
    !> tables.
    subroutine check_steer(map, target, error)
       type(kandc_map_t), intent(in) :: map
-      character(*), intent(in) :: target                    !! of the export, for the message
+      character(*), intent(in) :: target                    !! name of the export, for the message
       type(error_t), allocatable, intent(out) :: error      !! exit_model
       integer :: side, i, j
 

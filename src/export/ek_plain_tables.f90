@@ -97,7 +97,7 @@ contains
    end subroutine wheel_columns
 
    !> The table of loads, one row per state: the loads on the left and on the right wheel, then the quantities of both wheels. For a
-   !> deck with one wheel, only this wheel has columns.
+   !> deck with one wheel, the table has the quantities of this wheel only.
    function loads_table(map, loads, is_sae, checksum) result(table)
       type(kandc_map_t), intent(in) :: map
       type(load_table_result_t), intent(in) :: loads

@@ -50,7 +50,7 @@ contains
       table%columns = [table%columns, column]
    end subroutine add_column
 
-   !> Solves the rows of a table. The first row that does not converge is returned as the error.
+   !> Solves the rows of a table. If rows do not converge, the error gives their number and the first of these rows.
    subroutine solve_table(suspension, table, vertical, result, error)
       type(suspension_t), intent(in) :: suspension
       type(load_table_t), intent(in) :: table
@@ -94,7 +94,7 @@ contains
          '. Use a shorter range (--travel, --steer, --loads), or more points'//new_line('a')//result%remarks%failures())
    end subroutine solve_table
 
-   !> Reads the motions of one wheel in all rows: (quantity, row).
+   !> Computes the quantities of ek_wheel_motion of one wheel in all rows: (quantity, row). All rows must have converged.
    subroutine motions(result, wheel, choices, values)
       type(case_result_t), intent(in) :: result
       integer, intent(in) :: wheel

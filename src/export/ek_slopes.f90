@@ -15,9 +15,9 @@ module ek_slopes
 
    !> Slopes of one wheel under a unit of one load on this wheel [per N, per N m].
    type :: load_response_t
-      real(wp) :: shift(3) = 0.0_wp      !! of the wheel centre [m]
+      real(wp) :: shift(3) = 0.0_wp      !! displacement of the wheel centre, ISO [m]
       real(wp) :: toe = 0.0_wp, camber = 0.0_wp   !! rad; toe positive: front edge inward, camber positive: top outward
-      real(wp) :: spin = 0.0_wp          !! rotation about y (to the left): top forward [rad]
+      real(wp) :: spin = 0.0_wp          !! rotation about y, positive: top forward [rad]
    end type load_response_t
 
 contains
@@ -50,7 +50,8 @@ contains
       curve = map%value(quantity, :, zero_of(map%travel), side)
    end function steer_curve
 
-   !> Slope dy/dx at the point where x is nearest to 0, from the parabola through this point and its neighbours.
+   !> Slope dy/dx at the inner point where x is nearest to 0, from the parabola through this point and its neighbours. With two
+   !> points, the slope of the line through both.
    pure real(wp) function slope_at_zero(x, y) result(slope)
       real(wp), intent(in) :: x(:), y(:)        !! at least 2 points
       integer :: k
@@ -96,8 +97,8 @@ contains
       wheel_rate = slope_at_zero(x, y)
    end function wheel_rate
 
-   !> Roll stiffness of the axle at design [N m/rad]: with the bar, from equal and opposite vertical forces on the contact points;
-   !> without the bar, from the wheel rates in parallel travel, in which a bar is not loaded.
+   !> Roll stiffness of the axle at design [N m/rad]: (1) with the bar, from equal and opposite vertical forces on the contact
+   !> points; (2) without the bar, from the wheel rates in parallel travel, in which a bar is not loaded.
    pure function roll_rates(map) result(rates)
       type(kandc_map_t), intent(in) :: map
       real(wp) :: rates(2)

@@ -1,10 +1,12 @@
-!> The motion of a wheel for simulators: translations and rotations of the wheel centre, lengths of spring and damper.
+!> The motion of a wheel for simulators: translations and rotations at the wheel centre, lengths of spring, damper, stop and bar,
+!> angles, translations of the contact point, and wheel load.
 !>
 !> Frame ISO 8855: x forward, y to the left, z up, regardless of the deck's axes. SI and radians.
 !>
-!> The rotation of the wheel from "upright and straight ahead" to its attitude is R = Rz(rz) Rx(rx) Ry(ry): it contains the static
-!> angles. rx and rz then are the attitude of the spin axis, independent of the spin ry of the carrier: on the left wheel camber =
-!> −rx and toe = −rz, on the right wheel camber = rx and toe = rz (camber positive: top outward; toe positive: front edge inward).
+!> The rotation of the wheel from zero camber and toe to the attitude at a state is R = Rz(rz) Rx(rx) Ry(ry); this rotation
+!> contains the static angles. rx and rz are the attitude of the spin axis, independent of the rotation ry of the carrier. On the
+!> left wheel camber = −rx and toe = −rz, on the right wheel camber = rx and toe = rz (camber positive: top outward; toe positive:
+!> front edge inward).
 module ek_wheel_motion
    use ek_kinds, only: wp
    use ek_measure, only: measure_t, measure_value
@@ -27,7 +29,7 @@ module ek_wheel_motion
       at_camber = 12, at_caster = 13, at_patch = 13, at_load = 17, quantities = 17
 
    !> Names of the quantities: translations [m] of the wheel centre, rotations [rad], lengths [m], toe, camber and caster [rad],
-   !> translations of the contact point [m], wheel load [N].
+   !> translations of the contact point [m], wheel load [N]. Without a steering axis, caster is the side-view rotation.
    character(8), parameter :: quantity_names(quantities) = [character(8) :: 'tx', 'ty', 'tz', 'rx', 'ry', 'rz', &
       'lSpring', 'lDamp', 'lBuf', 'lStabi', 'toe', 'camber', 'caster', 'px', 'py', 'pz', 'load']
 
@@ -41,9 +43,9 @@ module ek_wheel_motion
    type :: length_choice_t
       logical :: has_measure = .false.
       type(measure_t) :: measure
-      integer :: same_as = 0              !! number of another length; 0: the travel of the wheel
-      real(wp) :: sign = 1.0_wp           !! of the travel
-      character(:), allocatable :: label   !! for descriptions: 'left_coil', 'lSpring', 'tz'
+      integer :: same_as = 0              !! index of another length; 0: the travel of the wheel
+      real(wp) :: sign = 1.0_wp           !! sign of the travel as a length
+      character(:), allocatable :: label   !! name for descriptions: 'left_coil', 'lSpring', 'tz'
    end type length_choice_t
 
 contains
@@ -89,7 +91,8 @@ contains
       end do
    end function wheel_motion
 
-   !> The rotation from a wheel that is upright and straight ahead to its spin axis at design, without spin: Rz Rx, in ISO.
+   !> The rotation of a wheel from zero camber and toe to the spin axis at design, without a rotation about this axis: Rz Rx, in
+   !> ISO.
    pure function static_attitude(spin) result(r)
       real(wp), intent(in) :: spin(3)      !! unit, outboard, frame of the program
       real(wp) :: r(3, 3)

@@ -1,9 +1,10 @@
-!> The attitude of a wheel from the pose of its carrier: toe, camber, steering axis, displacements; vertical force of the ground.
+!> The attitude of a wheel from the pose of its carrier: toe, camber, steering axis and displacements. Also the vertical force on
+!> a wheel.
 !>
 !> Frame x rearward, y right, z up; side = −1 left, +1 right. All in SI and radians.
 !>
-!> Derivatives of the angles with respect to a small rotation θ of the carrier about global axes: the spin axis w and the steer
-!> axis k are fixed to it, so δw = θ×w and δk = θ×k. By the chain rule, exact for any attitude (h² = w_x² + w_y²):
+!> Derivatives of the angles with respect to a small rotation θ of the carrier about global axes: the spin axis w and the steering
+!> axis k are fixed to the carrier, so δw = θ×w and δk = θ×k. The chain rule gives, exact for any attitude (h² = w_x² + w_y²):
 !>
 !>     steer  = side·atan2(−w_x, side·w_y):   δsteer  = θ_z − w_z (θ_x w_x + θ_y w_y)/h²,   δtoe = side δsteer
 !>     camber = asin(−w_z):                   δcamber = (θ_y w_x − θ_x w_y)/h
@@ -29,9 +30,9 @@ module ek_attitude
    !> The directions of a wheel at a state, global axes.
    type :: axes_t
       integer :: side = -1                                     !! −1 left, +1 right
-      real(wp) :: spin(3) = [0.0_wp, -1.0_wp, 0.0_wp]          !! unit, outboard
+      real(wp) :: spin(3) = [0.0_wp, -1.0_wp, 0.0_wp]          !! unit vector of the spin axis, outboard
       logical :: has_steer_axis = .false.                      !! the deck gives two points of the steering axis
-      real(wp) :: steer_axis(3) = [0.0_wp, 0.0_wp, 1.0_wp]     !! of any length
+      real(wp) :: steer_axis(3) = [0.0_wp, 0.0_wp, 1.0_wp]     !! from first to second point of the steering axis, any length
    end type axes_t
 
    !> A steering axis relative to wheel centre and contact point.
@@ -41,23 +42,23 @@ module ek_attitude
       real(wp) :: kingpin_inclination = 0.0_wp  !! rad, positive: top inward
       real(wp) :: scrub_radius = 0.0_wp         !! m, positive: axis meets the ground inboard of the contact point
       real(wp) :: caster_trail = 0.0_wp         !! m, positive: axis meets the ground ahead of the contact point
-      real(wp) :: spindle_length = 0.0_wp       !! m, wheel centre to steering axis, lateral at its height, positive outboard
-      real(wp) :: spindle_offset = 0.0_wp       !! m, likewise longitudinal, positive: centre aft of the axis
+      real(wp) :: spindle_length = 0.0_wp       !! m, axis to wheel centre, lateral at the height of the centre, positive outboard
+      real(wp) :: spindle_offset = 0.0_wp       !! m, axis to wheel centre, longitudinal at this height, positive: centre aft
    end type steer_axis_t
 
    !> The attitude of one wheel at one state. Changes are relative to design.
    type :: attitude_t
-      real(wp) :: centre(3) = 0.0_wp     !! wheel centre, change [m]; z is the wheel travel, bump positive
-      real(wp) :: contact(3) = 0.0_wp    !! contact point, change [m]
+      real(wp) :: centre(3) = 0.0_wp     !! displacement of the wheel centre [m]; z is the wheel travel, bump positive
+      real(wp) :: contact(3) = 0.0_wp    !! displacement of the contact point [m]
       real(wp) :: toe = 0.0_wp           !! rad, positive: front edges inward
       real(wp) :: camber = 0.0_wp        !! rad, positive: top outward
-      real(wp) :: track_change = 0.0_wp       !! m, positive outward
-      real(wp) :: wheelbase_change = 0.0_wp   !! m, positive rearward
-      type(steer_axis_t) :: axis         !! of the two points of the deck, if any
+      real(wp) :: track_change = 0.0_wp       !! lateral displacement of the contact point [m], positive outward
+      real(wp) :: wheelbase_change = 0.0_wp   !! longitudinal displacement of the contact point [m], positive rearward
+      type(steer_axis_t) :: axis         !! steering axis through the two points of the deck; unknown without these points
       type(axes_t) :: axes = axes_t()    !! spin axis, and the direction of the steering axis
       real(wp) :: at_centre(3) = 0.0_wp, at_contact(3) = 0.0_wp   !! wheel centre and contact point at the state [m]
       real(wp) :: axis_point(3) = 0.0_wp !! first point of the steering axis at the state [m]
-      real(wp) :: side_view = 0.0_wp     !! rotation in the side view: atan2(e_x, e_z), e vertical at design; + top rearward [rad]
+      real(wp) :: side_view = 0.0_wp     !! side-view rotation [rad], positive top rearward: atan2(e_x, e_z), e vertical at design
    end type attitude_t
 
 contains
@@ -67,8 +68,8 @@ contains
    !>     toe = atan2(−w_x, side·w_y)       camber = asin(−w_z)        w: spin axis, outboard
    !>     caster = atan2(k_x, k_z)          kingpin = atan2(−side·k_y, k_z)    k: steering axis, upward
    !>
-   !> The ground is the horizontal plane through the contact point. A horizontal steering axis (k_z = 0)
-   !> does not intersect it: scrub radius and trail are then NaN.
+   !> The ground is the horizontal plane through the contact point. A horizontal steering axis (k_z = 0) does not intersect the
+   !> ground: attitude%axis%is_known is then false, and the distances of this axis remain 0.
    !> Equation (C.9) of docs/theory/compliance.md.
    pure function attitude_of(wheel, origin, now) result(attitude)
       type(wheel_t), intent(in) :: wheel
@@ -79,12 +80,12 @@ contains
       call find_attitude(wheel, origin, now, attitude)
    end function attitude_of
 
-   !> Finds the attitude of a wheel into an existing variable; attitude_of returns the attitude as a function value.
+   !> Stores the attitude of a wheel in an existing variable; attitude_of returns the attitude as a function value.
    pure subroutine find_attitude(wheel, origin, now, attitude)
       type(wheel_t), intent(in) :: wheel
       real(wp), intent(in) :: origin(3)
       type(pose_t), intent(in) :: now
-      type(attitude_t), intent(inout) :: attitude     !! as it is by default, or of this wheel
+      type(attitude_t), intent(inout) :: attitude     !! default values, or an earlier attitude of this wheel
 
       attitude%at_centre = now%r + rotated(now%a, wheel%centre)
       attitude%at_contact = now%r + rotated(now%a, wheel%contact)
@@ -104,19 +105,18 @@ contains
          attitude%at_contact)
    end subroutine find_attitude
 
-   !> Toe of a wheel in the design position [rad].
+   !> Toe of a wheel in the design position [rad], positive: front edges inward.
    pure real(wp) function static_toe(wheel)
       type(wheel_t), intent(in) :: wheel
       static_toe = atan2(-wheel%spin(1), wheel%side*wheel%spin(2))
    end function static_toe
 
-   !> Angles of a line, and its distances from contact point and wheel centre, each in the horizontal plane through the point.
-   !>
-   !> is_known is false for a horizontal line (the angles are set nevertheless).
+   !> Angles of a line, and the distances of contact point and wheel centre from the line. Each distance is measured in the
+   !> horizontal plane through that point. For a horizontal line, is_known is false: the angles are set, the distances remain 0.
    !> Equation (S.7) of docs/theory/suspension.md.
    pure function steer_axis_of(side, point, direction, centre, contact) result(axis)
       integer, intent(in) :: side                           !! −1 left, +1 right
-      real(wp), intent(in) :: point(3), direction(3)        !! of the line; any length, up or down
+      real(wp), intent(in) :: point(3), direction(3)        !! point and direction of the line; any length, up or down
       real(wp), intent(in) :: centre(3), contact(3)         !! m
       type(steer_axis_t) :: axis
       real(wp), parameter :: level = 1.0e-9_wp              ! of its length: such a line intersects the ground too far away
@@ -168,7 +168,7 @@ contains
       if (wheel%has_steer_axis) axes%steer_axis = rotated(pose%a, wheel%steer_axis(:, 2) - wheel%steer_axis(:, 1))
    end function axes_of
 
-   !> Change of toe [rad, positive inward].
+   !> Change of toe under a small rotation of the carrier about global axes [rad, positive: front edges inward].
    !> Equation (C.10) of docs/theory/compliance.md.
    pure real(wp) function toe_rate(axes, turn) result(rate)
       type(axes_t), intent(in) :: axes
@@ -176,14 +176,14 @@ contains
       rate = axes%side*steer_rate(axes%spin, turn)
    end function toe_rate
 
-   !> Change of camber [rad, positive: top outward].
+   !> Change of camber under a small rotation of the carrier about global axes [rad, positive: top outward].
    pure real(wp) function camber_rate(axes, turn) result(rate)
       type(axes_t), intent(in) :: axes
       real(wp), intent(in) :: turn(3)
       rate = dot_product(camber_gradient(axes%spin), turn)
    end function camber_rate
 
-   !> The factors of the rotations about x, y, z in the change of camber.
+   !> The weights of the rotations about x, y, z in the change of camber [rad/rad, positive: top outward].
    !> Equation (C.11) of docs/theory/compliance.md.
    pure function camber_gradient(spin) result(gradient)
       real(wp), intent(in) :: spin(3)         !! unit, outboard
@@ -195,10 +195,11 @@ contains
       gradient(3) = 0.0_wp
    end function camber_gradient
 
-   !> The weights of the rotations in the change of caster of the geometric steering axis [rad, positive: top rearward].
+   !> The weights of the rotations about x, y, z in the change of caster of the geometric steering axis [rad/rad, positive: top
+   !> rearward].
    !> Equation (C.11) of docs/theory/compliance.md.
    pure function caster_gradient(axis) result(gradient)
-      real(wp), intent(in) :: axis(3)         !! of any length
+      real(wp), intent(in) :: axis(3)         !! direction of any length
       real(wp) :: gradient(3), lean
 
       lean = axis(2)/(axis(1)**2 + axis(3)**2)
@@ -207,9 +208,9 @@ contains
       gradient(3) = -lean*axis(3)
    end function caster_gradient
 
-   !> Vertical force on wheel `wheel` [N], upward: the constant and the scaled loads on its carrier, and the force of a rig that
-   !> holds its height. Weights of bodies are not included. If one body carries both wheels, a load counts for the nearer wheel; a
-   !> load in the middle counts half for each wheel.
+   !> Vertical force on wheel `wheel` [N], upward: the constant and the scaled loads on the carrier of this wheel, and the force of
+   !> a rig that holds the height of this wheel. Weights of bodies are not included. If one body carries both wheels, a load counts
+   !> for the wheel that is laterally nearer; a load in the middle counts half for each wheel.
    pure real(wp) function vertical_force(suspension, state, inputs, wheel) result(force)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
@@ -244,7 +245,7 @@ contains
       !> Share of a load at a point of a body that counts for the wheel [-]: 1, 0 or ½.
       pure real(wp) function share_of(body, arm)
          integer, intent(in) :: body
-         real(wp), intent(in) :: arm(3)      !! from the reference point, body axes [m]
+         real(wp), intent(in) :: arm(3)      !! point from the reference point of the body, body axes [m]
          real(wp), parameter :: middle = 1.0e-9_wp      ! m: tolerance of equal distance
          real(wp) :: nearer
          integer :: other

@@ -1,5 +1,5 @@
-!> The characteristics of an axle, from the responses of both wheels: roll rates, roll centres, the vertical forces of the ground
-!> under lateral forces.
+!> The characteristics of an axle, from the responses of both wheels: roll rates, roll centres, and the vertical forces of the
+!> ground under lateral forces.
 module ek_axle_characteristics
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
@@ -8,23 +8,24 @@ module ek_axle_characteristics
    private
    public :: axle_characteristics_t, axle_characteristics, jacking_forces, roll_compliance
 
-   !> Quantities of both wheels together.
+   !> Quantities of both wheels together. Without tyre rates, total_roll_rate, tramp_rate and tyre_roll_centre are 0.
    type :: axle_characteristics_t
       real(wp) :: suspension_roll_rate = 0.0_wp, total_roll_rate = 0.0_wp, tramp_rate = 0.0_wp   !! N m/rad
-      real(wp) :: roll_centre(2) = 0.0_wp, tyre_roll_centre(2) = 0.0_wp     !! y, z [m]
-      real(wp) :: force_roll_centre = 0.0_wp                                !! height above the contact points [m]
+      real(wp) :: roll_centre(2) = 0.0_wp, tyre_roll_centre(2) = 0.0_wp     !! without and with tyre deflection: y, z [m]
+      real(wp) :: force_roll_centre = 0.0_wp                !! height of the force-based roll centre above the contact points [m]
    end type axle_characteristics_t
 
 contains
 
    !> Computes axle quantities: roll rates and roll centres.
    !>
-   !> The roll moment is ½ t (F left − F right), so the pair of unit forces makes the moment t, and its slope over axle roll is
-   !> t²/(cos²φ Δ), Δ as in in_roll.
+   !> The roll moment is ½ t (F left − F right), with the track t. The unit forces +1 left and −1 right cause the moment t and the
+   !> difference in height Δ of the contact points (roll_compliance). The slope of the moment over axle roll φ is t²/(cos²φ Δ).
    !>
    !> Force-based roll centre (W. C. Mitchell, "Asymmetric roll centers", SAE 983085; Milliken, Race Car Vehicle Dynamics, ch. 17):
-   !> the height at which the lateral forces do not roll the body. With the contact points held at their heights, a unit force to
-   !> the right at each of them causes the vertical forces V of the ground: 2 h + y_left V_left + y_right V_right = 0.
+   !> the height h above the contact points at which the lateral forces do not roll the body. With the contact points held at their
+   !> heights, a unit force to the right at each contact point causes the vertical forces V of the ground. With the lateral
+   !> positions y of the contact points, 2 h + y_left V_left + y_right V_right = 0.
    !> Equation (C.12) of docs/theory/compliance.md.
    !> Equation (S.6) of docs/theory/suspension.md.
    pure subroutine axle_characteristics(loaded, stand, has_centres, is)
@@ -61,9 +62,9 @@ contains
       end associate
    end subroutine axle_characteristics
 
-   !> Vertical forces of the ground [N] on the left and the right contact point that hold the heights of these points under lateral
-   !> forces. The lateral force is 1 N to the right on the left contact point and `right` on the right contact point: V = −CP_zz⁻¹
-   !> CP_zy F. NaN if the wheels cannot move independently in height.
+   !> Vertical forces V of the ground [N] on the left and the right contact point that hold the heights of these points under the
+   !> lateral forces F. F is 1 N to the right on the left contact point and `right` on the right contact point. Then
+   !> V = −CP_zz⁻¹ CP_zy F; NaN if the wheels cannot move independently in height.
    !> Equation (S.5) of docs/theory/suspension.md.
    pure function jacking_forces(patch, right) result(lift)
       real(wp), intent(in) :: patch(2:3, 2, 2:3, 2)
@@ -87,9 +88,9 @@ contains
       roll_compliance = patch(3, 1, 3, 1) - patch(3, 1, 3, 2) - patch(3, 2, 3, 1) + patch(3, 2, 3, 2)
    end function roll_compliance
 
-   !> Intersection of the normals to the paths of both contact points in the front view: dz (z − z0) + dy (y − y0) = 0 through each,
-   !> (dy, dz) the displacement of the contact point in roll, plus the deflection of the tyre. Not a number if the two
-   !> displacements are parallel to 1e-8.
+   !> Intersection of the normals to the paths of both contact points in the front view [m]. The normal at the contact point
+   !> (y0, z0) is dz (z − z0) + dy (y − y0) = 0, with the displacement (dy, dz) of the contact point in roll; dz includes the
+   !> deflection of the tyre. NaN if the two displacements are parallel to 1e-8, or vanish.
    !> Equations (S.3), (S.4) of docs/theory/suspension.md.
    pure function roll_centre(patch, at, tyre) result(centre)
       real(wp), intent(in) :: patch(2:3, 2, 2:3, 2)

@@ -1,5 +1,5 @@
-!> Remarks on the results of a case: displacement under constant loads, drift, large travel, the rack, open joints, curves used
-!> beyond their points.
+!> Messages on the results of a case: displacement under constant loads, drift of linear methods, large travel, rack beyond its
+!> travel, violated joint constraints, curves used beyond their points.
 module ek_case_remarks
    use ek_kinds, only: wp, degree, millimetre
    use ek_text, only: str, quoted, plural
@@ -24,15 +24,15 @@ module ek_case_remarks
    private
    public :: settling_remarks, drift_remarks, travel_remarks, rack_remarks, closure_remarks, curve_reach_remarks
 
-   !> The range of one curve that was used, and the states at its ends.
+   !> The range of the deflection of one law over the states of a path, and the states at both ends of this range.
    type :: reach_t
-      real(wp) :: least = 0.0_wp, most = 0.0_wp      !! m or rad
-      integer :: at_least = 0, at_most = 0           !! 0: no state was evaluated
+      real(wp) :: least = 0.0_wp, most = 0.0_wp      !! least and greatest deflection [m or rad]
+      integer :: at_least = 0, at_most = 0           !! indices of the states with these deflections; 0: no state was evaluated
    end type reach_t
 
 contains
 
-   !> Adds one note per wheel that the constant loads have displaced by more than `least`.
+   !> Adds one note per wheel whose centre the constant loads have displaced by more than `least`; none for method 'recursive'.
    subroutine settling_remarks(suspension, case, path, least, remarks)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
@@ -74,8 +74,9 @@ contains
          ' mm, beyond its travel of '//str(suspension%steering%travel/millimetre, 4)//' mm in &steering', furthest)
    end subroutine rack_remarks
 
-   !> Compares the linear methods with equilibria at the first wheel: one equilibrium at each end of the sweep, solved from the
-   !> state at this end. An end without an equilibrium nearby is a failure, because the states before it are unreliable.
+   !> Warns of a linear method whose states are off equilibrium, compared at the first wheel. At each end of the sweep, an
+   !> equilibrium is solved from the state of the linear method. If this solution does not converge, adds a failure, because the
+   !> states before this end are unreliable.
    subroutine drift_remarks(suspension, case, path, kkt, remarks)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
@@ -128,7 +129,7 @@ contains
       without_rounding = merge(0.0_wp, value, abs(value) < rounding)
    end function without_rounding
 
-   !> Adds a remark on states of a linear method that are marked converged = 0 because they violate the joint constraints.
+   !> Adds a failure if states of a linear method are marked converged = 0 because they violate the joint constraints.
    subroutine closure_remarks(case, table, remarks)
       type(case_t), intent(in) :: case
       type(table_t), intent(in) :: table         !! of sweep_table
@@ -146,8 +147,8 @@ contains
          table%values(2, findloc(is_open, .true., dim=1))*case%unit, is_of_method=.true.)
    end subroutine closure_remarks
 
-   !> Warns of a load that moves a wheel further than any suspension travels. The likely cause is a missing rate, or a rate in the
-   !> wrong unit.
+   !> Warns of a load that, at an end of the path, moves a wheel further than any suspension travels. The likely cause is a missing
+   !> rate, or a rate in the wrong unit.
    subroutine travel_remarks(suspension, case, path, remarks)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
@@ -182,8 +183,8 @@ contains
    !> Warns of curves used beyond their first or last point. Beyond these points, curves are extrapolated linearly, without data of
    !> the deck.
    !>
-   !> One message for each end of a curve that was exceeded by more than a thousandth of its span. Elements from one line of
-   !> the deck (the two sides of a mirrored one) with the same curve give one message, for the largest excess.
+   !> Adds one message for each end of a curve that was exceeded by more than a thousandth of the span of the curve. Elements from
+   !> one line of the deck (both sides of a mirrored element) with the same curve give one message, for the largest excess.
    subroutine curve_reach_remarks(suspension, case, path, remarks)
       type(suspension_t), intent(in) :: suspension       !! on the rig
       type(case_t), intent(in) :: case                   !! on the rig
@@ -239,7 +240,7 @@ contains
       end do
    end subroutine curve_reach_remarks
 
-   !> Includes the deflection of a law at a state in its range. A stop without contact has no deflection.
+   !> Includes the deflection of a law at a state in a range. The deflection of a stop without contact is 0.
    subroutine extend(reach, law, value, state)
       type(reach_t), intent(inout) :: reach
       type(law_t), intent(in) :: law
@@ -259,8 +260,8 @@ contains
       end if
    end subroutine extend
 
-   !> Whether another curve of the same line of the deck has a larger excess, below and above. If two excesses are equal, the first
-   !> is reported.
+   !> Whether another element of the same line of the deck has a larger excess: (1) below the curve, (2) above. If two excesses are
+   !> equal, the result is .true. for the later element, so that only the first is reported.
    pure function further(other, own, is_before) result(is_further)
       type(reach_t), intent(in) :: other, own
       logical, intent(in) :: is_before
@@ -272,7 +273,7 @@ contains
       is_further(2) = other%most > own%most + slack .or. (is_before .and. other%most > own%most - slack)
    end function further
 
-   !> Adds the messages on one curve.
+   !> Adds the warnings on one curve: used before its first point, used beyond its last point.
    subroutine report(case, path, curve, reach, thing, is_angle, is_reported, remarks)
       type(case_t), intent(in) :: case
       type(path_t), intent(in) :: path

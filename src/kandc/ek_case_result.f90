@@ -1,7 +1,7 @@
-!> Solves one case of a deck: its path of states, their table, and how it ended.
+!> Solves one case of a deck: the path of its states, the table of the states, and the outcome.
 !>
-!> Every command and every study solves its cases here; they choose options and print or write the result. A solution is numbers
-!> and a code, its outcome. add_remarks describes both in messages, on request.
+!> Every command and every study chooses options, solves its cases with this module, and prints or writes the result. A solution
+!> consists of numbers and of a code, the outcome. On request, add_remarks describes both in messages.
 module ek_case_result
    use ek_kinds, only: wp, i8, millimetre
    use ek_error, only: error_t, fail, exit_model, exit_convergence, exit_file
@@ -31,27 +31,27 @@ module ek_case_result
    integer, parameter :: not_mountable = 3    !! the load table of the case cannot be read
    integer, parameter :: out_of_memory = 4    !! the states would not fit into memory
 
-   !> The requested results of a solution.
+   !> Options of a solution: the requested results, and a known defect of the model.
    type :: solve_options_t
-      character(:), allocatable :: fault           !! defect of the model in this case, which is then not solved; '' for none
-      logical :: has_violation = .true.            !! otherwise constraint_error of equilibria is NaN
+      character(:), allocatable :: fault           !! defect of the model in this case; such a case is not solved. '': no defect
+      logical :: has_violation = .true.            !! constraint_error of equilibria is computed; otherwise NaN
       logical :: is_compared = .true.              !! a linear method is compared with equilibrium at the ends of the path
-      real(wp) :: min_settling = 1.0e-8_wp       !! displacement of a wheel under the constant loads that is noted [m]
+      real(wp) :: min_settling = 1.0e-8_wp       !! a larger displacement of a wheel under the constant loads gives a note [m]
       character(name_length), allocatable :: columns(:)   !! quantities that are computed; not allocated: all
-      logical :: defers_kandc = .false.            !! the caller fills the K&C quantities at the states that it reads (read_states)
-      real(wp) :: reach = huge(1.0_wp)             !! on either side of design, swept value beyond which no state is needed
-      character(:), allocatable :: checksum        !! of the deck, for the header of the table; not allocated: no header
+      logical :: defers_kandc = .false.            !! the caller fills the K&C quantities at the states that are read
+      real(wp) :: reach = huge(1.0_wp)             !! swept value [SI] beyond which, on either side of design, no state is needed
+      character(:), allocatable :: checksum        !! checksum of the deck, for the header of the table; not allocated: no header
    end type solve_options_t
 
-   !> The solution of a case. Its work space is used again for further solutions at its states.
+   !> The solution of a case. Its work space serves further solutions at the states of the path.
    type, extends(mounted_case_t) :: case_result_t
       integer :: outcome = solved                  !! one of the constants above
-      integer(i8) :: bytes = 0                     !! that its states need
-      type(path_t) :: path                         !! its states
+      integer(i8) :: bytes = 0                     !! memory that the states need
+      type(path_t) :: path                         !! states of the case
       type(table_t) :: table                       !! observations: one row per state; only if the case was run
-      type(remark_list_t) :: remarks               !! of add_remarks
+      type(remark_list_t) :: remarks               !! messages, from add_remarks
    contains
-      procedure :: is_run                          !! there are a path and a table
+      procedure :: is_run                          !! whether the case has a path and a table
    end type case_result_t
 
 contains
@@ -61,10 +61,11 @@ contains
       is_run = self%outcome == solved .or. self%outcome == partly_solved
    end function is_run
 
-   !> Puts a suspension on the rig for a case, solves the path of the case, and creates its table.
+   !> Puts a suspension on the rig for a case, solves the path of the case, and creates the table of the case. If the model has a
+   !> fault in this case, or if the case cannot be mounted, only the outcome and the case are set.
    subroutine solve_case(base, case, options, result, progress, observer)
-      type(suspension_t), intent(in) :: base           !! balanced; it is not changed
-      type(case_t), intent(in) :: case                 !! of the deck; it is not changed
+      type(suspension_t), intent(in) :: base           !! after the preload trim (`balance`); not changed
+      type(case_t), intent(in) :: case                 !! case of the deck; not changed
       type(solve_options_t), intent(in) :: options
       type(case_result_t), intent(out) :: result
       procedure(progress_procedure), optional :: progress
@@ -82,13 +83,14 @@ contains
       call solve_mounted(options, result, progress, observer)
    end subroutine solve_case
 
-   !> Solves the path of a case that was put on the rig (mount_case), and creates its table.
+   !> Solves the path of a case that was put on the rig (mount_case), and creates the table of the case. If the states do not fit
+   !> into memory, only the outcome is set.
    subroutine solve_mounted(options, result, progress, observer, is_walked)
       type(solve_options_t), intent(in) :: options     !! without a fault
-      type(case_result_t), intent(inout) :: result     !! everything except the case on the rig is replaced
+      type(case_result_t), intent(inout) :: result     !! all but the case on the rig (and the path, if is_walked) is replaced
       procedure(progress_procedure), optional :: progress
       type(observer_t), intent(inout), optional, target :: observer   !! reused for all designs of a deck
-      logical, intent(in), optional :: is_walked       !! .true.: its path is complete
+      logical, intent(in), optional :: is_walked       !! .true.: the path of `result` is complete
       type(observer_t), allocatable, target :: own
       type(observer_t), pointer :: tells
       type(remark_list_t) :: none
@@ -116,7 +118,7 @@ contains
       if (allocated(options%checksum)) call add_header(result%table, result%suspension, result%case, options%checksum)
    end subroutine solve_mounted
 
-   !> The description of a result's case as a test of the report.
+   !> A result as a test of the report: name, kind, settings and table of its case, with the wheels found in the table.
    function test_of(result) result(test)
       type(case_result_t), intent(in) :: result
       type(test_result_t) :: test
@@ -130,11 +132,12 @@ contains
       if (size(result%suspension%wheels) > 0) call find_wheels(test, result%suspension%wheels(1)%side)
    end function test_of
 
-   !> Adds the remarks (notes, warnings, failures) on a solution, including the remark on a case that was not run. Creates strings,
-   !> so that only one thread at a time may call it.
+   !> Replaces the messages (notes, warnings, failures) on a solution. A case that was not run has one message, the reason. If there
+   !> is a failure on a solved case, the outcome becomes partly_solved. Only one thread at a time may call add_remarks, because it
+   !> creates strings.
    subroutine add_remarks(options, result)
       type(solve_options_t), intent(in) :: options     !! of the solution
-      type(case_result_t), intent(inout) :: result     !! its remarks are replaced
+      type(case_result_t), intent(inout) :: result     !! its messages are replaced
       type(remark_list_t) :: none
 
       result%remarks = none
@@ -167,7 +170,7 @@ contains
       end associate
    end function reason
 
-   !> Adds remarks on the states of a path.
+   !> Adds the messages on the states of a path.
    subroutine remark_on_path(options, result)
       type(solve_options_t), intent(in) :: options
       type(case_result_t), intent(inout) :: result
@@ -187,9 +190,9 @@ contains
       end associate
    end subroutine remark_on_path
 
-   !> Returns the failures of a result as an error; no error if all states converged.
+   !> Returns the failures of a result as an error; no error if the case was solved.
    subroutine failure_of(result, error)
-      type(case_result_t), intent(in) :: result             !! with its remarks
+      type(case_result_t), intent(in) :: result             !! with its messages
       type(error_t), allocatable, intent(out) :: error      !! exit_convergence, exit_model or exit_file
       integer, parameter :: codes(partly_solved:out_of_memory) = [exit_convergence, exit_model, exit_file, exit_file]
 

@@ -1,16 +1,17 @@
 !> The characteristics of a wheel, from the compliance matrix: rates, steer and camber in ride and
 !> roll, swing arms, compliances, anti features.
 !>
-!> C(i,j): displacement i per unit load j, 1–6 the wheel centre of this wheel (x y z, rotations about them), global axes. M is C
-!> with the loads at the contact points, CP with the displacements at the contact points as well (ek_loaded_wheels). In phase:
-!> both wheels carry the load. Anti-phase: the other wheel carries the opposite load. The slopes of steer, toe, camber and caster
-!> are the slopes of the columns of this name, by the chain rule of ek_attitude.
+!> C(i,j) is displacement i per unit load j at the wheel centres, global axes: x, y, z and the rotations about x, y, z are 1–6 for
+!> the left wheel or a single wheel, 7–12 for the right wheel. M is C with the loads at the contact points. CP has the loads and
+!> the displacements at the contact points (ek_loaded_wheels). In phase: both wheels carry the load. Anti-phase: the other wheel
+!> carries the opposite load. The slopes of steer, toe, camber and caster are the slopes of the columns of these names, by the
+!> chain rule of ek_attitude.
 !>
-!> Two conditions in the vertical direction: vertical force held (the unchanged matrix), or heights of the wheel centres held
-!> (ek_port_response).
+!> There are two conditions in the vertical direction: vertical force held (the unchanged matrix), or heights of the wheel centres
+!> held (ek_port_response).
 !>
 !> Everything is SI and radians. A quotient with a vanishing denominator is NaN (ek_loaded_wheels). A swing arm longer than
-!> one kilometre is equivalent to parallel guidance.
+!> one kilometre counts as parallel guidance: its length and its centre are NaN.
 module ek_characteristics
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
@@ -23,10 +24,10 @@ module ek_characteristics
    private
    public :: wheel_characteristics_t, response_t, wheel_characteristics, motion_ratio
 
-   real(wp), parameter :: min_rotation = 1.0e-13_wp         !! rad/(N m): its inverse is stiffer than any block of steel
-   real(wp), parameter :: longest_arm = 1.0e3_wp          !! m
-   real(wp), parameter :: gravity = 9.80665_wp            !! m/s², the g of "per g"
-   real(wp), parameter, public :: trail = 0.030_wp        !! m: distance of a lateral force aft of the contact point; typical tyre
+   real(wp), parameter :: min_rotation = 1.0e-13_wp         !! least compliance in rotation [rad/(N m)]; no part is as stiff as this
+   real(wp), parameter :: longest_arm = 1.0e3_wp          !! longest swing arm that has a length and a centre [m]
+   real(wp), parameter :: gravity = 9.80665_wp            !! the g of "per g" [m/s²]
+   real(wp), parameter, public :: trail = 0.030_wp        !! distance of a lateral force aft of the contact point [m], typical tyre
    integer, parameter, public :: in_phase = 1, anti_phase = 2
    integer, parameter, public :: load_held = 1, height_held = 2
 
@@ -37,42 +38,42 @@ module ek_characteristics
    !> Response of a wheel per unit of an input (m, rad, N or N m).
    type :: response_t
       real(wp) :: patch(3) = 0.0_wp          !! displacement of the contact point [m]
-      real(wp) :: centre(3) = 0.0_wp         !! of the wheel centre [m]
-      real(wp) :: rotation(3) = 0.0_wp       !! of the carrier about global axes [rad]
-      real(wp) :: steer = 0.0_wp, toe = 0.0_wp, camber = 0.0_wp, caster = 0.0_wp   !! rad; caster only of a geometric axis
+      real(wp) :: centre(3) = 0.0_wp         !! displacement of the wheel centre [m]
+      real(wp) :: rotation(3) = 0.0_wp       !! rotation of the carrier about global axes [rad]
+      real(wp) :: steer = 0.0_wp, toe = 0.0_wp, camber = 0.0_wp, caster = 0.0_wp   !! changes [rad]; caster 0 without axis points
    end type response_t
 
    !> Quantities of one wheel. Roll: per angle of the axle, positive left wheel up.
    type :: wheel_characteristics_t
       real(wp) :: wheel_rate = 0.0_wp, ride_rate = 0.0_wp, hop_rate = 0.0_wp      !! N/m
-      real(wp) :: single_rate(2) = 0.0_wp      !! load on this wheel only; (load, height) of the other wheel held [N/m]
-      type(response_t) :: bump                 !! per m of wheel travel
-      type(response_t) :: wheel_roll           !! per rad of axle roll
-      type(response_t) :: roll                 !! per rad of axle roll including tyre deflection
-      real(wp) :: side_arm_length = 0.0_wp, front_arm_length = 0.0_wp    !! m
+      real(wp) :: single_rate(2) = 0.0_wp      !! rate under load on this wheel only; other wheel: (load, height) held [N/m]
+      type(response_t) :: bump                 !! response per m of wheel travel
+      type(response_t) :: wheel_roll           !! response per rad of axle roll
+      type(response_t) :: roll                 !! response per rad of axle roll including tyre deflection
+      real(wp) :: side_arm_length = 0.0_wp, front_arm_length = 0.0_wp    !! swing arms in side and front view [m]
       real(wp) :: side_arm_angle = 0.0_wp      !! rad, positive: the arm rises rearward
       real(wp) :: front_arm_angle = 0.0_wp     !! rad, positive: the arm rises inward
-      real(wp) :: side_arm_centre(2) = 0.0_wp  !! x, z [m]
-      real(wp) :: front_arm_centre(2) = 0.0_wp !! y, z [m]
-      type(response_t) :: lateral(2, 2), lateral_trail(2, 2)             !! (phase, held), per N to the right
-      type(response_t) :: aligning(2, 2)                                 !! (phase, held), per N m to the left
-      type(response_t) :: braking(2), traction(2)                        !! (held), per N rearward, forward
-      real(wp) :: jacking(2) = 0.0_wp          !! (phase): vertical force per lateral force, contact points held in height
-      real(wp) :: anti_brake = 0.0_wp, anti_drive = 0.0_wp    !! −: anti-dive, anti-lift (drive) or anti-lift (brake), anti-squat
+      real(wp) :: side_arm_centre(2) = 0.0_wp  !! centre of the side view swing arm: x, z [m]
+      real(wp) :: front_arm_centre(2) = 0.0_wp !! centre of the front view swing arm: y, z [m]
+      type(response_t) :: lateral(2, 2), lateral_trail(2, 2)             !! (phase, held): response per N to the right
+      type(response_t) :: aligning(2, 2)                                 !! (phase, held): response per N m to the left
+      type(response_t) :: braking(2), traction(2)                        !! (held): response per N rearward, forward
+      real(wp) :: jacking(2) = 0.0_wp          !! (phase): vertical per lateral force on this wheel [-], contact heights held
+      real(wp) :: anti_brake = 0.0_wp, anti_drive = 0.0_wp    !! [-] anti-dive, anti-lift (front); anti-lift, anti-squat (rear)
       real(wp) :: brake_travel = 0.0_wp, drive_travel = 0.0_wp           !! wheel travel per g [m]
-      real(wp) :: stiffness(6) = 0.0_wp        !! 1/C(i,i), parallel loads, at the wheel centre [N/m, N m/rad]
+      real(wp) :: stiffness(6) = 0.0_wp        !! load per displacement at the wheel centre, loads in phase [N/m, N m/rad]
    end type wheel_characteristics_t
 
-   !> The contact point of a wheel, and the slopes of its angles under small rotations of its carrier about x, y, z.
+   !> The geometry of a wheel, and the slopes of its angles under small rotations of its carrier about x, y, z.
    type :: reader_t
-      real(wp) :: arm(3) = 0.0_wp
+      real(wp) :: arm(3) = 0.0_wp            !! contact point less wheel centre [m]
       integer :: side = -1
       real(wp) :: steer(3) = 0.0_wp, camber(3) = 0.0_wp, caster(3) = 0.0_wp
    end type reader_t
 
 contains
 
-   !> Data that all loads need to read the rotations of a carrier.
+   !> The geometry of wheel `place` and the slopes of its angles, from which `respond` computes responses under any load.
    pure type(reader_t) function reader_of(stand, place) result(reader)
       type(stand_t), intent(in) :: stand
       integer, intent(in) :: place
@@ -101,7 +102,7 @@ contains
       is%caster = reader%caster(1)*twist(4) + reader%caster(2)*twist(5) + reader%caster(3)*twist(6)
    end subroutine respond
 
-   !> Computes the response per unit of the denominator `divisor`; NaN where the denominator vanishes.
+   !> Computes the response per unit of the denominator `divisor`; NaN if the denominator is at most `least` in magnitude.
    pure subroutine respond_per(reader, twist, divisor, least, is)
       type(reader_t), intent(in) :: reader
       real(wp), intent(in) :: twist(6), divisor, least
@@ -113,8 +114,9 @@ contains
       call respond(reader, slope, is)
    end subroutine respond_per
 
-   !> Computes the groups of quantities of one wheel that are requested. Ride and hop rate and the roll with tyres are defined only
-   !> with tyre rates, roll only with two wheels, anti-dive, anti-lift and anti-squat only with data of the axle.
+   !> Computes the groups of quantities of one wheel that are requested. Ride rate, hop rate and the roll with tyres are defined
+   !> only with tyre rates. Roll is defined only with two wheels. Anti-dive, anti-lift and anti-squat are defined only with data of
+   !> the axle.
    !> Equation (C.12) of docs/theory/compliance.md.
    pure subroutine wheel_characteristics(loaded, stand, place, axle, is_asked, is)
       type(loaded_t), intent(in) :: loaded
@@ -202,7 +204,7 @@ contains
          quotient(1.0_wp, c(own, own) - c(own, other)*c(other, own)/c(other, other), min_compliance)
    end subroutine single_rates
 
-   !> Computes the responses to roll.
+   !> Computes the responses of a wheel to roll, without tyres and, if both tyre rates are given, with tyres.
    !>
    !>     axle roll φ = atan(Δz/t), Δz the difference in height of the contact points: dφ = cos²φ dΔz/t
    !>
@@ -226,7 +228,7 @@ contains
       call respond_per(reader, twist, height*per_height, min_compliance*per_height, is%roll)
    end subroutine in_roll
 
-   !> Computes the vertical force of a wheel per lateral force on this wheel, in phase and anti-phase [-].
+   !> Computes the vertical force of the ground on a wheel per lateral force on the same wheel, in phase and anti-phase [-].
    pure subroutine jacking(patch, place, is)
       real(wp), intent(in) :: patch(2:3, 2, 2:3, 2)
       integer, intent(in) :: place
@@ -253,8 +255,9 @@ contains
       if (abs(dz) > min_compliance) angle = atan(-dh/dz)
    end subroutine swing_arm
 
-   !> The centre (h, z) about which a point swings in a plane: it moves by (dh, dz) while the carrier rotates by ω about the
-   !> normal; `hand` is 1 if (h, z, normal) is right-handed as (y, z, x), −1 as (x, z, y).
+   !> The centre (h0, z0) about which the point (h, z) swings in a plane [m]; NaN if it is more than one kilometre away. The point
+   !> moves by (dh, dz) while the carrier rotates by ω (`turn`) about the normal. `hand` is 1 if (h, z, normal) is right-handed
+   !> as (y, z, x), −1 if it is left-handed as (x, z, y).
    !>
    !>     dh = −hand ω (z − z0),  dz = hand ω (h − h0)
    !>
@@ -271,12 +274,12 @@ contains
       end if
    end function arm_centre
 
-   !> Computes −Zf/Zw of brakes and of drive, per unit of the whole force on the vehicle, and the wheel travel per g.
+   !> Computes the ratio −Zf/Zw of braking and of driving, and the wheel travel per g. Zf and Zw are the upward displacements of a
+   !> wheel centre under the longitudinal force and under the load transfer, per unit of the whole force on the vehicle.
    !>
-   !> Braking with a force 1 rearward: this axle's wheels carry half its share each, at the contact point, and the load
-   !> transfer h/2L more (front) or less (rear). Driving with a force 1 forward: with opposite signs, at the
-   !> centre or the contact point. Zf, Zw: upward displacement of the wheel centres under the force and under the load transfer;
-   !> their sum times the weight of the car is the travel per g.
+   !> Braking is a force of 1 rearward. Each wheel of this axle carries half the share of the axle, at the contact point, and the
+   !> load transfer h/2L, added (front) or removed (rear). Driving is a force of 1 forward, at the wheel centre or the contact
+   !> point; all signs are opposite. The travel per g is Zf + Zw times the weight of the car.
    !> Equations (S.11), (S.12), (S.13) of docs/theory/suspension.md.
    pure subroutine anti_features(loaded, place, axle, is)
       type(loaded_t), intent(in) :: loaded
@@ -302,13 +305,13 @@ contains
       is%drive_travel = axle%mass*gravity*(-transfer*upward(3) - 0.5_wp*axle%drive_share*lever)
    end subroutine anti_features
 
-   !> Motion ratio d(length)/d(wheel travel) with equal travel of all wheels. The loads f that lift each wheel by one follow from
+   !> Motion ratio d(length)/d(wheel travel) with equal travel of all wheels. The loads f that lift each wheel by 1 m follow from
    !> C_zz f = 1; the change of length is the response of the spring to these loads. Wheels that can only move together (C_zz
    !> singular) carry equal loads.
    !> Equation (C.13) of docs/theory/compliance.md.
    pure real(wp) function motion_ratio(c, length) result(ratio)
       real(wp), intent(in) :: c(:, :)        !! 6×6 or 12×12
-      real(wp), intent(in) :: length(:)      !! of one spring per unit of the vertical load on each wheel [m/N]
+      real(wp), intent(in) :: length(:)      !! length of one spring per unit of the vertical load on each wheel [m/N]
       real(wp) :: determinant
 
       if (size(c, 1) == 12) then

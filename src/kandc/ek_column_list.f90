@@ -1,6 +1,6 @@
 !> The columns of a model, block by block, and their values at a state. A block (a wheel, the axle, …) consists of several
-!> sections of the table of quantities. Their values come from one kernel and are computed only if one of their columns is
-!> requested.
+!> sections of the table of quantities. The values of a block come from one kernel. They are computed only if a column of the
+!> block is requested.
 module ek_column_list
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
@@ -18,15 +18,15 @@ module ek_column_list
       integer :: used = 0                              !! number of columns
       character(name_length), allocatable :: names(:)
       logical, allocatable :: is_of_matrix(:)          !! the value of this column comes from the compliance matrix
-      logical :: is_matrix_wanted = .true.             !! a column that is wanted needs the compliance matrix
-      integer, allocatable :: place(:)                 !! of the value of each column in the vector of its block
-      real(wp), allocatable :: unit(:)                 !! of each column, in SI; of a quantity 0 until it is requested
+      logical :: is_matrix_wanted = .true.             !! a requested column needs the compliance matrix
+      integer, allocatable :: place(:)                 !! index of the value of each column in the vector of its block
+      real(wp), allocatable :: unit(:)                 !! unit of each column in SI; 0 for a quantity not yet requested
       integer :: offered = 0                           !! length of the vector of the block that is being added
       integer, allocatable :: last(:)                  !! last column of each block
-      integer, allocatable :: section(:), item(:)      !! of each block: its section, and the index of its wheel, element, …
-      integer, allocatable :: asked(:)                 !! the wanted columns
-      integer, allocatable :: last_asked(:)            !! last of them of each block
-      integer, allocatable :: blocks(:)                !! blocks with wanted columns
+      integer, allocatable :: section(:), item(:)      !! section of each block, and index of its wheel, element, …
+      integer, allocatable :: asked(:)                 !! indices of the requested columns
+      integer, allocatable :: last_asked(:)            !! number of requested columns up to the end of each block
+      integer, allocatable :: blocks(:)                !! indices of the blocks with requested columns
    end type column_list_t
 
 contains
@@ -40,13 +40,14 @@ contains
          list%item(0))
    end subroutine begin_list
 
-   !> Adds the quantities of a section that a model defines to the current block.
+   !> Adds to the current block the quantities of a section that the model defines. A quantity that the model does not define has an
+   !> entry in the vector of the block, but no column.
    pure subroutine add_quantities(list, section, prefix, has, condition)
       class(column_list_t), intent(inout) :: list
       type(quantity_t), intent(in) :: section(:)
       character(*), intent(in) :: prefix               !! 'left_', 'right_' or ''
       integer, intent(in) :: has                       !! sum of the conditions that the model meets
-      integer, intent(in), optional :: condition       !! of held_name; absent: names without '*'
+      integer, intent(in), optional :: condition       !! 1 load held, 2 height held (held_name); absent: names without '*'
       integer :: k, held, first
 
       held = 1
@@ -66,7 +67,7 @@ contains
       end do
    end subroutine add_quantities
 
-   !> Adds a column to the current block, with its value in the unit of the column.
+   !> Adds a column to the current block. The vector of the block gives its value in the unit of the column.
    pure subroutine add_column(list, name, is_of_matrix)
       class(column_list_t), intent(inout) :: list
       character(*), intent(in) :: name
@@ -90,7 +91,7 @@ contains
       list%unit(n) = 1.0_wp
    end subroutine add_column
 
-   !> Ends a block.
+   !> Ends the current block, and stores its section and the index of its wheel, element, …
    pure subroutine end_block(list, section, item)
       class(column_list_t), intent(inout) :: list
       integer, intent(in) :: section, item
@@ -107,7 +108,7 @@ contains
       integer, intent(in) :: block
       real(wp), intent(in) :: vector(*)                !! values of all quantities of the sections of the block, SI
       logical, intent(in) :: is_known                  !! the compliance matrix
-      real(wp), intent(inout) :: values(*)             !! of all columns, in their units
+      real(wp), intent(inout) :: values(*)             !! values of all columns, in their units
       integer :: k, j, first
 
       first = 1
@@ -148,9 +149,9 @@ contains
    !> Finds which of the conditions of ek_quantity a model satisfies.
    subroutine conditions_of(suspension, order, has_rack, has)
       type(suspension_t), intent(in) :: suspension
-      integer, intent(in) :: order(:)      !! of the wheels in the compliance matrix
+      integer, intent(in) :: order(:)      !! order of the wheels in the compliance matrix
       logical, intent(in) :: has_rack      !! a rack steers
-      integer, intent(out) :: has(0:)      !! of each wheel in the order of the compliance matrix; 0: without a wheel
+      integer, intent(out) :: has(0:)      !! conditions of each wheel, in the order of the compliance matrix; (0) without a wheel
       integer :: both, k
 
       both = 0

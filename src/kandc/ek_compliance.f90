@@ -5,14 +5,14 @@
 !> global axes, then the length of every axial spring (not of dampers, stops, torsion springs). Loads are the unit
 !> loads of the same ports (virtual work: B = P; for a spring a pair of forces that pushes its ends apart), then a
 !> unit displacement of the steering driver. The first 6 × wheels rows and columns are the compliance matrix C
-!> [m/N, rad/N, m/(N m), rad/(N m)], body fixed.
+!> [m/N, rad/N, m/(N m), rad/(N m)], car body fixed.
 !>
 !> Rows of Φ that belong to a rig (a jack that holds a wheel's height) are released: their reaction remains on
-!> the wheel as a constant force, with its geometric stiffness λ·Hess(φ), but the row no longer constrains. Its gradient
-!> is cleared and its diagonal set to −1 of the scaled matrix: Δλ = 0, one negative eigenvalue as before.
+!> the wheel as a constant force, with its geometric stiffness λ·Hess(φ), but the row no longer constrains. The gradient of the
+!> row is cleared and its diagonal entry set to −1 in the scaled matrix: Δλ = 0, one negative eigenvalue as before.
 !>
-!> Under a constant moment or a load that rotates with its body the matrix is not symmetric, and is factorised in full
-!> (ek_skew_system); the responses read from the left are then the responses of the transpose.
+!> Under a constant moment or a load that rotates with its body, the matrix is not symmetric and is factorised in full
+!> (ek_skew_system). The left responses of unit_responses are then solutions with the transpose.
 !>
 !> The contact point given by the deck is fixed to the carrier at the arm a from the wheel centre: a force F there equals the same
 !> force at the centre with the moment a×F, and the point moves by δ + θ×a. Moments and rotations do not depend on the point.
@@ -33,28 +33,28 @@ module ek_compliance
    public :: compliance_t, new_compliance, ask, wheel_compliance, wheel_compliance_nearby, respond, keep_responses, move_of, &
       unit_responses, solve_further
 
-   real(wp), parameter :: singular = 1.0e-14_wp   !! pivot ratio at which the scaled matrix is singular to rounding
+   real(wp), parameter :: singular = 1.0e-14_wp   !! pivot ratio up to which the scaled matrix counts as singular
 
    !> The responses at one state, and the work space for them, allocated once for a model.
    type :: compliance_t
       integer :: wheels = 0, springs = 0
       integer, allocatable :: order(:)          !! wheel of the suspension at each index of C: left before right
-      integer, allocatable :: spring(:)         !! axial spring of the suspension at each index
+      integer, allocatable :: spring(:)         !! element of the suspension at each index of an axial spring
       logical :: is_known = .false.             !! false: the matrix was singular, `response` is NaN
       logical :: has_drive = .false.            !! the last load is a unit displacement of the steering driver
-      real(wp), allocatable :: response(:, :)   !! (port, load), see above; NaN if it was not requested
+      real(wp), allocatable :: response(:, :)   !! (port, load): displacement of the port per load; NaN if not requested
       ! the loads that are solved, and the ports that are read
       integer, private :: solved = 0
-      integer, allocatable, private :: load(:)          !! of each solved column
-      integer, allocatable, private :: column(:)        !! of each load, 0: it is not solved
+      integer, allocatable, private :: load(:)          !! index of the load of each solved column
+      integer, allocatable, private :: column(:)        !! solved column of each load; 0: the load is not solved
       logical, private :: reads_springs = .true.
       ! a port touches the unknowns of one body, or two
-      integer, allocatable, private :: at_wheel(:)      !! unknowns before the unknowns of the carrier
-      real(wp), allocatable, private :: arm(:, :)       !! from its reference point to the wheel centre [m]
-      integer, allocatable, private :: at_spring(:, :)  !! unknowns before the unknowns of both bodies; negative: the chassis
-      real(wp), allocatable, private :: gradient(:, :)  !! of the length of each spring
-      real(wp), allocatable, private :: columns(:, :)   !! (unknown, column): loads, then displacements
-      type(skew_system_t), private :: skew_system       !! used only if a load requires it
+      integer, allocatable, private :: at_wheel(:)      !! number of unknowns before the unknowns of the carrier
+      real(wp), allocatable, private :: arm(:, :)       !! reference point of the carrier to wheel centre [m], global axes
+      integer, allocatable, private :: at_spring(:, :)  !! number of unknowns before those of both bodies; negative: chassis
+      real(wp), allocatable, private :: gradient(:, :)  !! gradient of the length of each spring
+      real(wp), allocatable, private :: columns(:, :)   !! (unknown, column): loads, after the solution [u; μ]
+      type(skew_system_t), private :: skew_system       !! used only if a load has no potential
       logical :: is_skew = .false.                      !! the matrix of the last state is not symmetric
    end type compliance_t
 
@@ -98,7 +98,7 @@ contains
    subroutine ask(self, is_asked, reads_springs)
       type(compliance_t), intent(inout) :: self
       logical, intent(in) :: is_asked(:)          !! of each load
-      logical, intent(in) :: reads_springs        !! also the lengths of the springs are requested
+      logical, intent(in) :: reads_springs        !! the lengths of the springs are also requested
       integer :: k
 
       self%reads_springs = reads_springs
@@ -128,7 +128,7 @@ contains
       call respond(suspension, state, inputs, steer_row, kkt, self)
    end subroutine wheel_compliance
 
-   !> Stores the motions of all bodies under the loads at the wheel centres at the last state, for wheel_compliance_nearby.
+   !> Stores the solutions [u; μ] for the loads at the wheel centres at the last state (wheel_compliance_nearby); NaN if singular.
    pure subroutine keep_responses(self, kept)
       type(compliance_t), intent(in) :: self
       real(wp), intent(out) :: kept(:, :)         !! (load, unknown)
@@ -136,8 +136,8 @@ contains
       if (self%is_known) kept(:, :) = transpose(self%columns(:, :size(kept, 1)))
    end subroutine keep_responses
 
-   !> Computes the compliance of the wheels alone, without factorising, close to the state and design of stored responses X:
-   !> C ≈ PᵀX + XᵀP − XᵀKX, with K (symmetric) and P of this state. The error is even, and of second order in the distance.
+   !> Computes the compliance of the wheels alone, without factorising, close to the state and design of the stored responses X:
+   !> C ≈ PᵀX + XᵀP − XᵀKX, with K (symmetric) and P of the nearby state. The error is of second order in the distance, and even.
    !> Equation (E.8) of docs/theory/derivatives.md.
    subroutine wheel_compliance_nearby(suspension, state, inputs, kept, kkt, self)
       type(suspension_t), intent(in) :: suspension
@@ -171,7 +171,7 @@ contains
       type(state_t), intent(in) :: state
       type(inputs_t), intent(in) :: inputs
       integer, intent(in) :: steer_row            !! row of the steering driver, 0: none
-      type(kkt_t), intent(inout) :: kkt           !! assembled; its matrix is then factorised
+      type(kkt_t), intent(inout) :: kkt           !! assembled; on return, with the factorised matrix
       type(compliance_t), intent(inout) :: self   !! of new_compliance
       integer :: j
 
@@ -198,7 +198,7 @@ contains
       end do
    end subroutine respond
 
-   !> Factorises the assembled matrix and solves for the columns. Input and output are not scaled.
+   !> Factorises the assembled matrix and, unless it is singular, solves for the columns. Input and output are not scaled.
    !> Equation (C.3) of docs/theory/compliance.md.
    subroutine solve_symmetric(kkt, self)
       type(kkt_t), intent(inout) :: kkt
@@ -260,7 +260,7 @@ contains
       end do
    end subroutine set_ports
 
-   !> Sets the loads as columns of generalised forces: a unit load at a point is [e; s×e] on its body, a moment [0; e].
+   !> Sets the loads as columns of generalised forces: a unit force e at a wheel centre of arm s is [e; s×e], a moment [0; e].
    !> Equation (C.2) of docs/theory/compliance.md.
    pure subroutine set_loads(driven, self)
       integer, intent(in) :: driven               !! equation of the steering driver
@@ -321,18 +321,18 @@ contains
       end associate
    end subroutine read_ports
 
-   !> Change of a measure of two bodies under a load that was requested and solved, in the unit of the measure.
+   !> Change of a measure of two bodies per unit of a load that was requested and solved, in the unit of the measure.
    pure real(wp) function move_of(self, load, gradient, body_i, body_j) result(change)
       type(compliance_t), intent(in) :: self
       integer, intent(in) :: load
-      real(wp), intent(in) :: gradient(12)        !! of the measure
-      integer, intent(in) :: body_i, body_j       !! its bodies, 0: the chassis
+      real(wp), intent(in) :: gradient(12)        !! gradient of the measure
+      integer, intent(in) :: body_i, body_j       !! bodies of the measure; 0: the chassis
 
       if (are_checked) call require(self%column(load) > 0, 'move_of: the load was not asked')
       change = along(gradient, 6*(body_i - 1), 6*(body_j - 1), self%columns(:, self%column(load)))
    end function move_of
 
-   !> The product of a gradient and the displacements of its two bodies. A negative index is the chassis.
+   !> The product of a gradient and the displacements of its two bodies. A negative at_i or at_j stands for the chassis.
    pure real(wp) function along(gradient, at_i, at_j, moves) result(change)
       real(wp), intent(in) :: gradient(12)
       integer, intent(in) :: at_i, at_j           !! unknowns before the unknowns of the body
@@ -343,9 +343,9 @@ contains
       if (at_j >= 0) change = change + dot_product(gradient(7:12), moves(at_j + 1:at_j + 6))
    end function along
 
-   !> Returns the motions of all bodies and the changes of all reactions [u; μ] under the unit loads at the wheel centres; also
-   !> returns both for the transpose (equal if the matrix is symmetric). Must be called after `respond`, with all these loads
-   !> requested. The responses to these loads are refined.
+   !> Returns the motions of all bodies and the changes of all reactions [u; μ] under the unit loads at the wheel centres (right),
+   !> and the solutions with the transpose (left; equal if the matrix is symmetric). The call must follow `respond`, with all these
+   !> loads requested. The responses to these loads are refined.
    !> Equation (C.14) of docs/theory/compliance.md.
    subroutine unit_responses(kkt, self, right, left)
       type(kkt_t), intent(inout) :: kkt                     !! with the factors of `respond`

@@ -24,11 +24,11 @@ contains
 
    !> Builds a table of the compliance matrix at every converged state of a sweep: one row per state, one column per entry.
    !>
-   !> A column is called <point>_<displacement>_by_<load>_<unit>: displacement and load begin with the wheel (`left_`, `right_`),
-   !> then x, y, z (displacements), rx, ry, rz (rotations), fx, fy, fz (forces), mx, my, mz (moments), in the frame of the deck.
-   !> `centre`: loads and displacements at the wheel centres; `patch`: at the contact points of the deck. Loads keep their
-   !> direction; the vertical force on all wheels is held, heights held by the rig are released (ek_compliance). Without a
-   !> wheel there are no columns.
+   !> A column is called <point>_<displacement>_by_<load>_<unit>. With two wheels, displacement and load begin with the wheel
+   !> (`left_`, `right_`). Then follow x, y, z (displacements), rx, ry, rz (rotations), fx, fy, fz (forces), mx, my, mz (moments),
+   !> in the frame of the deck. `centre`: loads and displacements at the wheel centres; `patch`: at the contact points of the deck.
+   !> The direction of the loads does not change. The vertical force on all wheels is held; heights held by the rig are released
+   !> (ek_compliance). Without a wheel, the table has the columns state and factor only.
    subroutine compliance_table(suspension, case, path, kkt, table)
       type(suspension_t), intent(in) :: suspension      !! on the rig
       type(case_t), intent(in) :: case
@@ -65,11 +65,11 @@ contains
       type(suspension_t), intent(in) :: suspension      !! on the rig
       type(schedule_t), intent(in) :: schedule          !! of the case
       type(path_t), intent(in) :: path
-      integer, intent(in) :: k                          !! the state
+      integer, intent(in) :: k                          !! index of the state
       type(kkt_t), intent(inout) :: kkt                 !! work space
       type(compliance_t), intent(inout) :: compliance   !! work space, of new_compliance
-      real(wp), intent(out) :: c(:, :)                  !! 6 × wheels, left before right
-      real(wp), intent(out) :: arm(:, :)                !! from each centre to the contact point of the deck [m]
+      real(wp), intent(out) :: c(:, :)                  !! 6 rows and columns per wheel, left before right
+      real(wp), intent(out) :: arm(:, :)                !! from each centre to the contact point [m], global axes
       type(state_t) :: state
       type(inputs_t) :: inputs
 
@@ -138,7 +138,7 @@ contains
       end do
    end subroutine put_compliance
 
-   !> Lists the column names of all entries of both matrices, row by row.
+   !> Lists the column names of all entries of the matrix at the wheel centres, then at the contact points, row by row.
    subroutine compliance_columns(suspension, names)
       type(suspension_t), intent(in) :: suspension
       character(name_length), allocatable, intent(out) :: names(:)

@@ -1,13 +1,15 @@
 !> Contributions to the compliance matrix of a state: the share of each law of each element, of the geometric stiffness of
 !> each element, joint and load, and of each driver with a stiffness.
 !>
-!> With T u_j + Φᵀμ_j = b_j and Φ u_j = C μ_j, and v_i, ν_i the solutions with the transpose,
+!> Let T u_j + Φᵀμ_j = b_j and Φ u_j = D μ_j for the unit load b_j, with the compliances D of the drivers on the diagonal. Let v_i
+!> and ν_i be the solutions with the transpose. Then exactly
 !>
-!>     C_ij = v_iᵀ T u_j + ν_iᵀ C μ_j
+!>     C_ij = v_iᵀ T u_j + ν_iᵀ D μ_j
 !>
-!> exactly, and T is a sum: c g gᵀ of a law with slope c and gradient g, F Hess of its force, λ Hess of a row of Φ, the stiffness of
-!> loads that turn with their arms, and the unbalanced force of a state that is not an equilibrium. The shares add up to C: no
-!> term is omitted. The derivative of C_ij with the logarithm of a rate is the share of that rate with the sign turned.
+!> T is a sum: c g gᵀ of a law with slope c and gradient g, F Hess of the force F of an element, λ Hess of a row of Φ with the
+!> reaction λ, the stiffness of loads that turn with their arms, and the unbalanced force of a state that is not an equilibrium.
+!> The shares add up to C: no term is omitted. The derivative of C_ij with respect to the logarithm of a rate is the share of that
+!> rate with the opposite sign.
 module ek_contribution
    use ek_kinds, only: wp
    use ek_contract, only: are_checked, require
@@ -33,19 +35,19 @@ module ek_contribution
    !> The part of the model to which a contribution belongs.
    type :: share_t
       integer :: kind = of_element      !! of_element … of_state
-      integer :: item = 0               !! number of the element, joint or load
+      integer :: item = 0               !! index of the element, joint or load; 0 for of_state
       integer :: part = geometric       !! law 1 to 6 of an element; geometric; of_stiffness: of a driver
    end type share_t
 
    !> The contributions to the compliance matrix at one state.
    type :: contribution_t
       type(share_t), allocatable :: share(:)
-      integer, allocatable :: law(:)               !! share of each law of an element
+      integer, allocatable :: law(:)               !! index in `share` of each law of the elements
       real(wp), allocatable :: matrix(:, :, :)     !! (displacement, load, share) at the wheel centres, global axes, SI
       real(wp), allocatable :: slope(:)            !! c of each law [N/m, N m/rad]
       real(wp), allocatable :: gradient(:, :)      !! g of each law: (unknown of all bodies, law)
       real(wp), allocatable :: move(:, :)          !! gᵀu: deflection of each law per unit load: (load, law)
-      real(wp), allocatable :: left_move(:, :)     !! gᵀv
+      real(wp), allocatable :: left_move(:, :)     !! gᵀv: (load, law)
       real(wp), allocatable :: right(:, :), left(:, :)   !! [u; μ] and [v; ν]: (unknown, load)
    end type contribution_t
 
@@ -54,7 +56,7 @@ contains
    !> A list of the contributions of a model on the rig, with memory for their values.
    function new_contribution(suspension, wheels) result(self)
       type(suspension_t), intent(in) :: suspension
-      integer, intent(in) :: wheels                !! of the compliance matrix
+      integer, intent(in) :: wheels                !! number of wheels of the compliance matrix
       type(contribution_t) :: self
       integer :: k, part, n, rows
 
@@ -137,8 +139,8 @@ contains
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
       integer, intent(in) :: element
-      integer, intent(in) :: first                  !! share of its first law
-      integer, intent(inout) :: law                 !! laws before this element; then those with it
+      integer, intent(in) :: first                  !! index of the share of its first law
+      integer, intent(inout) :: law                 !! number of laws before this element; on return, including its laws
       type(contribution_t), intent(inout) :: self
       type(element_part_t) :: parts(6)
       integer :: p, j, i, n
@@ -207,7 +209,7 @@ contains
       end do
    end subroutine add_joint
 
-   !> Adds the share of a driver with a stiffness k: ν μ/k.
+   !> Adds the share of a driver with the stiffness k: ν μ/k, with the changes ν, μ of its reaction in `left` and `right`.
    subroutine add_driver(suspension, joint, nq, left, right, matrix)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: joint, nq
@@ -261,7 +263,7 @@ contains
       end do
    end subroutine add_unbalanced
 
-   !> Positions of the blocks of two bodies in a store of their own (see ek_block).
+   !> Positions of the blocks of two bodies in a store of three blocks (see ek_block); 0 for a block of the chassis.
    pure function local_places(body_i, body_j) result(at)
       integer, intent(in) :: body_i, body_j
       integer :: at(3)
@@ -291,7 +293,7 @@ contains
    pure function block_product(blocks, body_i, body_j, u) result(y)
       real(wp), intent(in) :: blocks(6, 6, 3)
       integer, intent(in) :: body_i, body_j
-      real(wp), intent(in) :: u(:)                  !! of all unknowns
+      real(wp), intent(in) :: u(:)                  !! motions of all unknowns
       real(wp) :: y(12)
 
       y = 0.0_wp
@@ -303,7 +305,7 @@ contains
       end if
    end function block_product
 
-   !> The product of a symmetric block, given by its lower triangle.
+   !> The product of a symmetric block, given by its lower triangle, and the vector u.
    pure function whole_product(block, u) result(y)
       real(wp), intent(in) :: block(6, 6), u(6)
       real(wp) :: y(6)

@@ -1,5 +1,5 @@
 !> The contributions to the columns of a case that are linear in the compliance matrix, state by state: the share of each element,
-!> joint and load in each column, with the load paths of that state.
+!> joint and load in each column, and the load paths of each state.
 module ek_contribution_table
    use ek_kinds, only: wp
    use ek_text, only: is_like
@@ -22,10 +22,10 @@ module ek_contribution_table
    public :: contribution_table_t, row_name_t, start_contributions, choose_contributions, find_contributions, name_share, &
       is_key_compliance
 
-   integer, parameter, public :: share_length = 64      !! of a name in a deck
+   integer, parameter, public :: share_length = 64      !! greatest length of a name in a deck
 
-   !> The columns that are shown if none are named: lateral force steer and camber, deflection, and vertical compliance of each
-   !> wheel.
+   !> The columns that are shown if none are named. For each wheel: deflection, steer and camber under a lateral force, steer under
+   !> an aligning moment, deflection and steer under braking, and vertical compliance at the contact point.
    character(*), parameter, public :: key_compliances(*) = [character(48) :: '*lateral_in_load_held_deflection_mm_per_kn', &
       '*lateral_in_load_held_steer_deg_per_kn', '*lateral_in_load_held_camber_deg_per_kn', &
       '*aligning_in_load_held_steer_deg_per_100nm', '*braking_load_held_deflection_mm_per_kn', &
@@ -44,12 +44,12 @@ module ek_contribution_table
       type(linear_columns_t) :: columns
       type(contribution_t) :: shares
       type(row_name_t), allocatable :: row(:)
-      real(wp), allocatable :: values(:)        !! of the requested columns, in their units
+      real(wp), allocatable :: values(:)        !! values of the requested columns, in their units
       real(wp), allocatable :: parts(:, :)      !! (requested column, row): contributions, which add up to the value
       type(load_path_t) :: paths
       real(wp), allocatable :: arm(:, :)        !! from each wheel centre to its contact point at the state [m], global axes
-      real(wp), allocatable :: energy(:, :)     !! (load of the paths, row): share of the strain energy; they add up to 1
-      logical :: is_known = .false.             !! the matrix of the state is not singular
+      real(wp), allocatable :: energy(:, :)     !! (load of the paths, row): share of the strain energy; the rows add up to 1
+      logical :: is_known = .false.             !! whether the matrix of the state is not singular
    end type contribution_table_t
 
 contains
@@ -112,14 +112,15 @@ contains
       end select
    end subroutine name_share
 
-   !> Finds the contributions at one reached state of a path.
+   !> Finds the contributions at one reached state of a path. If the matrix of the state is singular, only is_known and the values
+   !> are set.
    !> Equation (C.15) of docs/theory/compliance.md.
    subroutine find_contributions(suspension, schedule, path, k, kkt, self)
       type(suspension_t), intent(in) :: suspension          !! on the rig
       type(schedule_t), intent(in) :: schedule              !! of the case
       type(path_t), intent(in) :: path
-      integer, intent(in) :: k                              !! the state
-      type(kkt_t), intent(inout) :: kkt                     !! work space; then with the factors of the state
+      integer, intent(in) :: k                              !! index of the state
+      type(kkt_t), intent(inout) :: kkt                     !! work space; on return, with the factors of the state
       type(contribution_table_t), intent(inout) :: self
       type(state_t) :: state
       type(inputs_t) :: inputs

@@ -1,6 +1,7 @@
-!> Examines the cases of a deck before any solution: errors in their references to parts and tables, and whether they can be solved.
+!> Examines the cases of a deck before any solution: whether the model of each case can be solved, and errors in tables, targets
+!> and headings of the results.
 !>
-!> The model is examined as given in the deck, before balance: a preload found by balance must not count as a stiffness. The full
+!> The model is examined before the preload trim (`balance`): a preload found by the trim must not count as a stiffness. The full
 !> diagnosis runs once per topology and case. A further design of the same case costs one factorisation, unless that factorisation
 !> leaves a doubt (ek_soundness).
 module ek_examination
@@ -23,23 +24,23 @@ module ek_examination
    !> Data from a design of a case that was examined before. One variable serves all designs of a case.
    type :: known_case_t
       logical :: is_known = .false.          !! a design of the case had no defect
-      integer :: unknowns = 0, constraints = 0   !! of the examined design
-      integer :: negative = 0                !! its inertia: negative eigenvalues of the KKT matrix at design
-      integer :: diagnoses = 0               !! full diagnoses so far
+      integer :: unknowns = 0, constraints = 0   !! numbers of the examined design
+      integer :: negative = 0                !! number of negative eigenvalues of the KKT matrix of the examined design
+      integer :: diagnoses = 0               !! number of full diagnoses so far
    end type known_case_t
 
    !> Findings about each case.
    type :: examination_t
-      logical, allocatable :: is_solvable(:)     !! true also if a case cannot be mounted: that is reported when it is run
-      type(message_list_t) :: faults             !! one per case, '' if it can be solved
-      type(message_list_t) :: distinct           !! defects, each once for all cases
+      logical, allocatable :: is_solvable(:)     !! also true for a case that cannot be mounted; the run reports the reason
+      type(message_list_t) :: faults             !! one message per case; '' for a case that can be solved
+      type(message_list_t) :: distinct           !! messages on defects, each once for all cases
    end type examination_t
 
 contains
 
    !> Examines all cases. A defect that several cases share is described only in the first of these cases.
    subroutine examine_cases(base, cases, found)
-      type(suspension_t), intent(in) :: base       !! not balanced
+      type(suspension_t), intent(in) :: base       !! before the preload trim (`balance`)
       type(case_t), intent(in) :: cases(:)
       type(examination_t), intent(out) :: found
       type(diagnosis_t) :: diagnosis
@@ -93,11 +94,11 @@ contains
    !> number of unknowns and rows and the same inertia; `diagnosis` then contains no message and no rank. A case that cannot be
    !> mounted has no defect here: the run reports the reason.
    subroutine examine_case(base, case, diagnosis, known, mounted)
-      type(suspension_t), intent(in) :: base       !! not balanced
+      type(suspension_t), intent(in) :: base       !! before the preload trim (`balance`)
       type(case_t), intent(in) :: case
       type(diagnosis_t), intent(out) :: diagnosis
       type(known_case_t), intent(inout), optional :: known
-      type(mounted_case_t), intent(inout), optional, target :: mounted     !! unless the case cannot be mounted
+      type(mounted_case_t), intent(inout), optional, target :: mounted     !! the case on the rig; unchanged if it cannot be mounted
       type(mounted_case_t), allocatable, target :: own
       type(mounted_case_t), pointer :: this
       logical :: is_sound
@@ -126,10 +127,10 @@ contains
    !> Puts a later design of a case on the rig, and finds whether the design is certainly sound, as an earlier design was. Otherwise
    !> examine_case must diagnose the design. No string is created.
    subroutine recognise_case(base, case, known, mounted, is_sound)
-      type(suspension_t), intent(in) :: base       !! not balanced
+      type(suspension_t), intent(in) :: base       !! before the preload trim (`balance`)
       type(case_t), intent(in) :: case             !! is_mountable
       type(known_case_t), intent(in) :: known
-      type(mounted_case_t), intent(inout) :: mounted       !! of this case of an earlier design, or empty
+      type(mounted_case_t), intent(inout) :: mounted       !! an earlier design of this case on the rig, or empty
       logical, intent(out) :: is_sound
 
       call mount_again(base, case, mounted)
@@ -149,7 +150,7 @@ contains
       if (is_sound) kkt%is_at_design = kkt%fallbacks == 0      ! for the first state of its path
    end subroutine recognise
 
-   !> A string without its digits, signs and decimal points.
+   !> A string without its digits, signs, decimal points and capital letters E.
    pure function without_numbers(text) result(rest)
       character(*), intent(in) :: text
       character(:), allocatable :: rest
@@ -170,7 +171,7 @@ contains
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: cases(:)
       type(error_t), allocatable, intent(out) :: error     !! exit_deck; exit_file if only files are at fault
-      logical, intent(in), optional :: is_whole            !! the suspension is complete; default .true., else tables alone
+      logical, intent(in), optional :: is_whole            !! the suspension is complete (default); .false.: only tables are checked
       type(message_list_t) :: mistakes
       integer :: k, unread
       logical :: has_model
@@ -192,7 +193,7 @@ contains
       type(case_t), intent(in) :: cases(:)
       integer, intent(in) :: k
       type(message_list_t), intent(inout) :: mistakes
-      integer, intent(inout) :: unread            !! files that cannot be read
+      integer, intent(inout) :: unread            !! number of files that cannot be read
       character(:), allocatable :: users
       integer :: j
 
@@ -270,7 +271,7 @@ contains
 
    contains
 
-      !> Adds an element if a column name begins with the element's name.
+      !> Adds an element, a readout or a joint to the list of owners if the column name begins with its name.
       subroutine add_owner(name, where)
          character(*), intent(in) :: name, where
 

@@ -25,11 +25,12 @@ module ek_failure_text
    private
    public :: failure_text, stability_remarks
 
-   integer, parameter :: digits = 10      !! printed of the swept value at the end of a path, which is known to 1e-9 of the range
+   integer, parameter :: digits = 10      !! digits printed of the swept value at the end of a path, exact to 1e-9 of the range
 
 contains
 
-   !> Message about where a path ends and why: joints that lock, a load at its maximum, or a mechanism; with the stops in contact.
+   !> Message about where a path ends, and why: joints that lock, a limit point, a mechanism, or the last attempt; with the stops in
+   !> contact. For a load table or a grid, the message lists the rows or states that did not converge.
    function failure_text(suspension, case, path, failure, kkt) result(text)
       type(suspension_t), intent(in) :: suspension     !! on the rig
       type(case_t), intent(in) :: case                 !! on the rig
@@ -80,8 +81,9 @@ contains
       end select
    end function arc_text
 
-   !> Phrase about the singularity at the last equilibrium. If no singularity is found, it names the body that the last attempt
-   !> moved most, and the joint with the largest constraint residual.
+   !> Phrase about the singularity at the last equilibrium. If no singularity is found, the phrase names the body that the last
+   !> attempt moved most, and the joint with the largest constraint residual. Then follow the stops in contact and, unless joints
+   !> lock, the mechanism or the diagnosis.
    function reason_text(suspension, case, path, failure, kkt) result(text)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
@@ -166,7 +168,7 @@ contains
    end function stop_text
 
    !> Phrase about the rows of a load table that did not converge: 'row 3 of the table did not converge; …', or 'rows 3, 4, 7 … of
-   !> the table, 12 in all, did …'.
+   !> the table, 12 in all, did not converge; …'.
    function row_text(path, failure) result(text)
       type(path_t), intent(in) :: path
       type(failure_t), intent(in) :: failure
@@ -188,7 +190,7 @@ contains
       text = text//' to row '//str(row)//' is at '//str(100.0_wp*(failure%reached - row + 1), 4)//' %'
    end function row_text
 
-   !> Phrase about the states of a grid that did not converge, by travel and driver value.
+   !> Phrase about the states of a grid that did not converge: their number, and travel and driver value of the first six.
    function grid_text(suspension, case, path) result(text)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case             !! on the rig
@@ -211,8 +213,8 @@ contains
       text = text//'; the others are there. Use a shorter range, or more increments'
    end function grid_text
 
-   !> Adds at most one warning each on states with a negative stiffness, limit points and bifurcations on the path, and nearly
-   !> singular matrices.
+   !> Adds one warning if a matrix is nearly singular, one warning per limit point and per bifurcation of the path, and one if
+   !> states have a negative stiffness. For method 'recursive', only a nearly singular matrix gives a warning.
    subroutine stability_remarks(case, path, remarks)
       type(case_t), intent(in) :: case
       type(path_t), intent(in) :: path

@@ -21,20 +21,20 @@ module ek_geometry_columns
       locked_twists, instant_axis, axis_distances, ride_frequency
 
    real(wp), parameter :: standard_gravity = 9.80665_wp      !! m/s²
-   real(wp), parameter :: min_ratio = 1.0e-6_wp            !! stop is independent of the wheels
+   real(wp), parameter :: min_ratio = 1.0e-6_wp            !! length per travel below which a stop does not depend on the wheels
 
-   real(wp), parameter :: parallel = 1.0e-9_wp           !! sine of the angle of spin and steering axis: parallel below
+   real(wp), parameter :: parallel = 1.0e-9_wp           !! sine of the angle up to which spin and steering axis are parallel
 
    ! Below these a carrier does not rotate: stiffer than any steel about z, or a rack that steers 1e-6 rad per metre
-   real(wp), parameter :: min_rotation = 1.0e-12_wp        !! rad/(N m); also of a quotient, by moment or by rack
-   real(wp), parameter :: min_by_rack = 1.0e-6_wp      !! rad/m
+   real(wp), parameter :: min_rotation = 1.0e-12_wp        !! least rotation per moment [rad/(N m)]; also least divisor of slopes
+   real(wp), parameter :: min_by_rack = 1.0e-6_wp      !! least rotation per rack travel [rad/m]
 
 contains
 
-   !> Computes the values of wheel_axis: side view, distances from the deck's steering axis, and spin axis.
+   !> Computes the values of the section wheel_axis: side-view rotation, distances from the deck's steering axis, and spin axis.
    pure subroutine axis_geometry(now, frame, values)
       type(attitude_t), intent(in) :: now
-      real(wp), intent(in) :: frame(3)              !! from the program's frame to the deck's frame
+      real(wp), intent(in) :: frame(3)              !! signs of x, y, z from the program's frame to the deck's frame
       real(wp), intent(inout) :: values(size(wheel_axis))
 
       values(1) = now%side_view
@@ -43,7 +43,8 @@ contains
       values(6:8) = frame*now%axes%spin
    end subroutine axis_geometry
 
-   !> Computes the values of instant_distances, from the twist of the carrier during steering with locked springs.
+   !> Computes the values of the section instant_distances, from the twist of the carrier during steering with locked springs. NaN
+   !> if the carrier does not rotate.
    pure subroutine instant_geometry(twist, now, values)
       real(wp), intent(in) :: twist(6)
       type(attitude_t), intent(in) :: now
@@ -57,10 +58,10 @@ contains
       values = axis_distances(now%axes%side, point, turn, now%at_centre, now%at_contact, now%axes%spin)
    end subroutine instant_geometry
 
-   !> Computes the values of wheel_slopes: recession, camber per steer, frequency.
+   !> Computes the values of the section wheel_slopes: recession, camber per steer, ride frequency.
    pure subroutine slope_values(lift, twist, tyre_rate, mass, now, values)
-      real(wp), intent(in) :: lift(6)       !! of the wheel centre per vertical force on every wheel [m/N, rad/N]
-      real(wp), intent(in) :: twist(6)      !! while it steers with the wheels held; 0 without a rack
+      real(wp), intent(in) :: lift(6)       !! twist at the wheel centre per vertical force on every wheel [m/N, rad/N]
+      real(wp), intent(in) :: twist(6)      !! twist during steering with the wheel heights held; 0 without a rack
       real(wp), intent(in) :: tyre_rate     !! N/m, 0: not given
       real(wp), intent(in) :: mass          !! sprung mass of the wheel [kg], 0: not known
       type(attitude_t), intent(in) :: now
@@ -72,12 +73,13 @@ contains
       if (mass > 0.0_wp) values(3) = ride_frequency(1.0_wp/(lift(3) + 1.0_wp/tyre_rate), mass)
    end subroutine slope_values
 
-   !> Computes the values of axle_geometry: track; with &axle and &steering also the quantities of a turn.
+   !> Computes the values of the section axle_geometry: track and its change; with &axle and &steering also the quantities of a
+   !> turn.
    pure subroutine axle_geometry_values(axle, tyre_width, has_turn, static, left, right, values)
       type(axle_t), intent(in) :: axle
       real(wp), intent(in) :: tyre_width(2)        !! m
-      logical, intent(in) :: has_turn              !! there are &axle and &steering
-      real(wp), intent(in) :: static(2)            !! steer at design [rad]
+      logical, intent(in) :: has_turn              !! the deck has &axle and &steering
+      real(wp), intent(in) :: static(2)            !! steer of both wheels at design [rad]
       type(attitude_t), intent(in) :: left, right
       real(wp), intent(inout) :: values(size(axle_geometry))
       real(wp) :: track, steer(2), inner, outer
@@ -99,12 +101,12 @@ contains
    end subroutine axle_geometry_values
 
    !> Remaining wheel travel to the contact of a stop [m], with equal travel of all wheels: the clearance of the stop divided by the
-   !> change of clearance per travel.
+   !> magnitude of the change of clearance per travel. Negative in contact.
    pure real(wp) function travel_left(suspension, compliance, state, k) result(travel)
       type(suspension_t), intent(in) :: suspension
       type(compliance_t), intent(in) :: compliance
       type(state_t), intent(in) :: state
-      integer, intent(in) :: k                     !! number of the element
+      integer, intent(in) :: k                     !! index of the element
       real(wp) :: ratio
 
       ratio = length_ratio(suspension, compliance, state, k)
@@ -122,13 +124,13 @@ contains
       gap_over = quotient(gap, abs(ratio), min_ratio)
    end function gap_over
 
-   !> Change of the length of an element per wheel travel, with equal travel of all wheels. It is the motion ratio of an element
-   !> that is not a port of the compliance matrix. NaN if the matrix is unknown.
+   !> Change of the length of an element per wheel travel [-], with equal travel of all wheels: the motion ratio of an element that
+   !> is not a port of the compliance matrix. NaN if the matrix is unknown.
    pure real(wp) function length_ratio(suspension, compliance, state, k) result(ratio)
       type(suspension_t), intent(in) :: suspension
       type(compliance_t), intent(in) :: compliance
       type(state_t), intent(in) :: state
-      integer, intent(in) :: k                     !! number of the element
+      integer, intent(in) :: k                     !! index of the element
       type(evaluation_t) :: evaluation
       real(wp) :: length(2)                        ! per unit of the vertical load on each wheel [m/N]
       integer :: n, w
@@ -155,22 +157,23 @@ contains
       if (.not. mass > 0.0_wp) mass = vertical_force(suspension, design_state(suspension), inputs_t(), wheel)/standard_gravity
    end function mass_on
 
-   !> Computes the twist (v, ω) of each wheel's carrier at the wheel centre while it steers, all springs locked or all wheels held.
+   !> Computes the twist (v, ω) of each wheel carrier at the wheel centre during steering, with all springs locked or with the
+   !> heights of all wheel centres held (`lock`).
    !>
-   !> With a steering driver (a rack) in the model, the rack is moved by a unit: a free rack under a steer moment has no
-   !> stiffness, so its displacement dominates, and the elastic response of the other parts to the moment is negligible;
-   !> this limit is the response to a displacement of the rack. Without a rack, a unit steer moment
-   !> about z on the wheel gives the elastic axis (fixed tie rods, rear axles).
+   !> With a steering driver (a rack), the rack is moved by a unit. A steer moment would move a free rack without limit, so the
+   !> elastic response of the other parts to the moment is negligible. Without a rack, a unit steer moment about z on the wheel
+   !> gives the elastic axis (fixed tie rods, rear axles).
    !>
-   !> Springs are locked by pairs of forces along them, found from a small system of known responses:
-   !> lengths(0) + A μ = 0. Without springs the heights of the wheel centres are held instead, as for the steering
-   !> ratio, which is measured on a rig with wheels at fixed heights.
+   !> Springs are locked by pairs of forces μ along them. A small system of known responses gives these forces:
+   !> lengths(0) + A μ = 0, with the changes of length lengths(0) without μ, and A per unit of μ. Without springs, the heights of
+   !> the wheel centres are held instead. These heights are also held for the steering ratio, which is measured on a rig with the
+   !> wheels at fixed heights.
    !> Equation (S.8) of docs/theory/suspension.md.
    pure subroutine locked_twists(compliance, lock, moves, twists)
       type(compliance_t), intent(in) :: compliance   !! known
       type(lock_t), intent(in) :: lock               !! holds the springs, or the heights
-      real(wp), contiguous, intent(inout) :: moves(:)      !! work space: of all ports
-      real(wp), intent(inout) :: twists(:, :)        !! of each wheel in the order of the compliance matrix
+      real(wp), contiguous, intent(inout) :: moves(:)      !! work space: displacements of all ports
+      real(wp), intent(inout) :: twists(:, :)        !! twist of each wheel, in the order of the compliance matrix
       integer :: k, steer
 
       do k = 1, compliance%wheels
@@ -184,13 +187,13 @@ contains
       end do
    end subroutine locked_twists
 
-   !> The instant steering axis of a wheel: the line about which its carrier rotates when it steers with its springs at constant
-   !> length, ω/|ω| through p + ω×v/|ω|² for the twist (v, ω) at the wheel centre p (the pitch of the screw is ignored).
-   !> is_known is false if the carrier does not rotate, or for a horizontal axis.
+   !> The instant steering axis of a wheel: the line about which the wheel carrier rotates during steering with the springs at
+   !> constant length. For the twist (v, ω) at the wheel centre p, the line has the direction ω/|ω| and passes through p + ω×v/|ω|²
+   !> (the pitch of the screw is ignored). is_known is false if the carrier does not rotate, or if the axis is horizontal.
    !> Equation (S.9) of docs/theory/suspension.md.
    pure type(steer_axis_t) function instant_axis(twist, has_drive, now) result(axis)
-      real(wp), intent(in) :: twist(6)                 !! of locked_twists
-      logical, intent(in) :: has_drive                 !! per metre of rack, not per moment
+      real(wp), intent(in) :: twist(6)                 !! twist from locked_twists
+      logical, intent(in) :: has_drive                 !! the twist is per metre of rack, not per moment
       type(attitude_t), intent(in) :: now
       real(wp) :: point(3), turn(3), least
 
@@ -201,9 +204,10 @@ contains
       axis = steer_axis_of(now%axes%side, point, turn, now%at_centre, now%at_contact)
    end function instant_axis
 
-   !> Distances of a wheel from a steering axis, the line through `point` along `direction`: of the centre and of the patch, never
-   !> negative; along the spin axis, from the foot of the common perpendicular, + outboard; length of the common perpendicular,
-   !> + spin axis aft of the line.
+   !> Distances of a wheel from a steering axis, the line through `point` along `direction` [m]. `centre` and `patch` are the
+   !> distances of wheel centre and contact point from the line, never negative. `along` is the distance along the spin axis from
+   !> the common perpendicular to the wheel centre, positive outboard. `across` is the length of the common perpendicular,
+   !> positive: spin axis aft of the line.
    !>
    !> With d = centre − point, k the unit direction upward, w the spin axis outboard, n = side w×k/|w×k|:
    !>
@@ -241,7 +245,7 @@ contains
       length_of = sqrt(v(1)**2 + v(2)**2 + v(3)**2)
    end function length_of
 
-   !> The ride frequency √(k/m)/2π [Hz].
+   !> The ride frequency √(rate/mass)/2π [Hz]; NaN if the rate is not positive.
    pure real(wp) function ride_frequency(rate, mass) result(frequency)
       real(wp), intent(in) :: rate      !! ride rate [N/m]
       real(wp), intent(in) :: mass      !! kg, above 0

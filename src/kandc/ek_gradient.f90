@@ -2,7 +2,8 @@
 !>
 !>     slope = Σ (x − x̄)(y − ȳ) / Σ (x − x̄)²       over the rows with converged = 1 and |x| ≤ window
 !>
-!> x is the travel, roll, force or torque of the test, y a column. The reported value is
+!> If a path turns back, only the rows of the branch through design are used (unfolded_rows). x is the travel, roll, steering
+!> input, force or torque of the test, y a column. The reported value is
 !>
 !>     value = size · s_y/s_x · slope
 !>
@@ -30,21 +31,21 @@ module ek_gradient
    public :: gradient_t, test_gradients, fit_slope, slope_over_window, noise_of
    public :: gradients_csv, gradients_json, write_gradients, read_gradients
 
-   integer, parameter :: min_points = 3     !! fewer points define no fit
+   integer, parameter :: min_points = 3     !! fewer points do not define a fit
 
    !> One gradient of the report.
    type :: gradient_t
       character(:), allocatable :: test        !! name of the case
-      character(:), allocatable :: quantity    !! 'bump toe'
+      character(:), allocatable :: quantity    !! name of the gradient: 'bump toe (fitted)'
       character(:), allocatable :: side        !! 'left', 'right', or '' for the axle and for a single wheel
-      character(:), allocatable :: unit, sign  !! 'deg/m'; meaning of a positive value
-      character(:), allocatable :: column, over   !! the columns of the table
-      character(:), allocatable :: window      !! '±15 mm'
-      real(wp) :: window_half = 0.0_wp         !! mm, deg, N or N m
-      real(wp) :: value = 0.0_wp               !! in `unit`; NaN if there is a note
-      real(wp) :: turn = 1.0_wp                !! s_y/s_x
-      real(wp) :: size = 1.0_wp                !! unit of the value per unit of the slope
-      integer :: points = 0                    !! states in the window
+      character(:), allocatable :: unit, sign  !! unit: 'deg/m'; sign: meaning of a positive value
+      character(:), allocatable :: column, over   !! columns of y and of x in the table
+      character(:), allocatable :: window      !! window with unit: '±15 mm'
+      real(wp) :: window_half = 0.0_wp         !! half width of the window [mm, deg, N or N m]
+      real(wp) :: value = 0.0_wp               !! value in `unit`; NaN if there is a note
+      real(wp) :: turn = 1.0_wp                !! sign s_y/s_x of the wheel, see above
+      real(wp) :: size = 1.0_wp                !! factor that converts the slope to `unit`
+      integer :: points = 0                    !! number of states in the window at which y is a number
       character(:), allocatable :: note        !! reason of a missing value, otherwise ''
    end type gradient_t
 
@@ -53,7 +54,7 @@ module ek_gradient
 
 contains
 
-   !> Computes all gradients of the kind of a test whose columns are in its table.
+   !> Appends the gradients that are defined for the kind of a test and whose columns are in the table of the test.
    subroutine test_gradients(test, windows, gradients, wanted)
       type(test_result_t), intent(in) :: test
       type(windows_t), intent(in) :: windows
@@ -137,9 +138,9 @@ contains
    !> strings.
    subroutine fit_slope(table, place, over, factor_size, half, slope, points, undefined)
       type(table_t), intent(in) :: table
-      integer, intent(in) :: place, over           !! of the columns
+      integer, intent(in) :: place, over           !! indices of the columns of y and x
       real(wp), intent(in) :: factor_size          !! load or displacement at `factor` = 1, if that is the abscissa
-      real(wp), intent(in) :: half                 !! of the window
+      real(wp), intent(in) :: half                 !! half width of the window
       real(wp), intent(out) :: slope               !! NaN if the window has too few states, or a value is undefined
       integer, intent(out) :: points               !! states in the window at which the column is defined
       integer, intent(out), optional :: undefined  !! states in the window at which y is not a number
@@ -157,8 +158,9 @@ contains
       if (abs(slope)*half <= noise_of(table%columns(place))) slope = 0.0_wp
    end subroutine fit_slope
 
-   !> Numerical noise of a column in its unit, by the suffix of its name. Travel is driven to 1e-7 mm, which corresponds to 1e-8 deg
-   !> at a lever of 500 mm and to 1e-3 N at 10 kN/mm. The noise is ten times this value.
+   !> Numerical noise of a column in the unit of the column, by the suffix of its name. Travel is driven to 1e-7 mm, which
+   !> corresponds to 1e-8 deg at a lever of 500 mm and to 1e-3 N at 10 kN/mm. The noise is ten times these values, 1e-2 N m for
+   !> moments, and 1e-12 for other units.
    pure real(wp) function noise_of(column) result(noise)
       character(*), intent(in) :: column
       character(4), parameter :: endings(4) = [character(4) :: '_mm', '_deg', '_n', '_nm']
@@ -185,8 +187,9 @@ contains
       if (test%is_anti .and. side > 0) turn = -turn                  ! the load on the right wheel is −factor
    end function turn_of
 
-   !> Fits the least-squares slope of y over x for |x| ≤ half. The slope is NaN with fewer than three different x, or if y is NaN at
-   !> a state in the window, because the other states would give another slope.
+   !> Fits the least-squares slope of y over x for |x| ≤ half. The slope is NaN with fewer than three states in the window, or if
+   !> their x differ by at most half/1000. It is also NaN if y is not a number at a state in the window, because the other states
+   !> would give another slope.
    pure subroutine slope_over_window(x, y, half, slope, points, undefined)
       real(wp), intent(in) :: x(:), y(:)   !! one value per state; a state that was not found has no x and is skipped
       real(wp), intent(in) :: half
@@ -280,7 +283,7 @@ contains
       text = json%text()
    end function gradients_json
 
-   !> Reads gradients.csv.
+   !> Reads gradients.csv. The file does not contain window_half, turn and size.
    subroutine read_gradients(path, gradients, error)
       character(*), intent(in) :: path
       type(gradient_t), allocatable, intent(out) :: gradients(:)

@@ -1,6 +1,6 @@
 !> The gradients of each set of tests: column over column, with unit and sign; their windows around design, by the abscissa.
 !>
-!> A new gradient is one line below; ek_gradient computes its value, slope_unit of ek_quantity its unit.
+!> A new gradient needs one line in `definitions`. ek_gradient computes its value, and slope_unit of ek_quantity gives its unit.
 module ek_gradient_definition
    use ek_kinds, only: wp
    use ek_rig_test, only: rig_test_t, rig_test, steers, of_travel, of_tilt, of_roll, of_steer, of_lateral, of_braking, &
@@ -15,13 +15,13 @@ module ek_gradient_definition
 
    !> Definition of a gradient, for the equation at the top of ek_gradient.
    type :: definition_t
-      integer :: set                      !! of a test: of_travel, of_roll, …
+      integer :: set                      !! set of tests: of_travel, of_roll, …
       character(52) :: quantity = ''
       character(28) :: column = ''
       character(72) :: sign = ''
       character(1) :: y_turn = ' '        !! 's': times side (toe → steer); 'd': x of the deck, reported forward;
-      !!                                     'i': outward, reported to the right; 'o': x is positive towards the side of the
-      !!                                     wheel, mirrored on the right one
+      !!                                     'i': outward, reported to the right; 'o': x is mirrored on the right wheel,
+      !!                                     positive towards the side of each wheel
       character(18) :: over = ''          !! column of x; '': abscissa of the test, or `factor` in units of the case (N, N m, mm)
    end type definition_t
 
@@ -114,7 +114,7 @@ contains
       where (names == word) windows%half = half
    end subroutine set_window
 
-   !> Finds the window of a gradient. Over `factor`, it is the window of the quantity that the test scales.
+   !> Finds the window of a gradient. Over `factor`, this is the window of the quantity that the test scales: force, torque or rack.
    pure subroutine window_of(kind, over, windows, half, unit)
       character(*), intent(in) :: kind, over    !! kind of the test; column, without the wheel's name
       type(windows_t), intent(in) :: windows

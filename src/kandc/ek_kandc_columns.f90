@@ -1,8 +1,8 @@
 !> The values of the K&C quantities at a state.
 !>
-!> The sections of ek_quantity give names, units and conditions; the values of each section are computed in SI, in the same order,
-!> if one of its columns is requested: here, in ek_wheel_columns and in ek_geometry_columns. A quantity
-!> without a value at a state is NaN.
+!> The sections of ek_quantity give names, units and conditions. The values of a section are computed in SI, in the same order, if
+!> one of its columns is requested: in this module, in ek_wheel_columns or in ek_geometry_columns. A quantity without a value at a
+!> state is NaN.
 !>
 !> The suffix of a column names the quantity whose slope the column is: `…_steer`, `…_toe`, `…_camber`, `…_caster` are the
 !> derivatives of the columns steer_deg, toe_deg, camber_deg and caster_deg; `…_rotation_x`, `…_y`, `…_z` are the
@@ -33,8 +33,8 @@ module ek_kandc_columns
    private
    public :: observe_kandc, fill_kandc
 
-   real(wp), parameter :: min_rack_rate = 1.0e-6_wp              !! rad/m: a rack that does not steer
-   integer, parameter :: most = size(all_quantities)             !! values of a section, at most
+   real(wp), parameter :: min_rack_rate = 1.0e-6_wp              !! rad/m: a rack with a smaller rate does not steer
+   integer, parameter :: most = size(all_quantities)             !! greatest number of values of a section
 
 contains
 
@@ -62,8 +62,8 @@ contains
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
       type(inputs_t), intent(in) :: inputs
-      type(attitude_t), intent(in) :: wheels(:)  !! of the suspension, if self%has_wheels
-      type(kkt_t), intent(inout) :: kkt          !! its matrix is then factorised
+      type(attitude_t), intent(in) :: wheels(:)  !! attitude of each wheel of the suspension, if self%has_wheels
+      type(kkt_t), intent(inout) :: kkt          !! on return, with the factorised matrix
       type(kandc_t), intent(inout) :: self
       real(wp) :: values(most)
       integer :: b, k
@@ -88,7 +88,7 @@ contains
       end do
    end subroutine fill_kandc
 
-   !> Sets the positions of both wheels of an axle.
+   !> Sets the positions of both wheels of an axle, and the axle roll.
    pure subroutine set_stand(wheels, self)
       type(attitude_t), intent(in) :: wheels(:)
       type(kandc_t), intent(inout) :: self
@@ -154,13 +154,13 @@ contains
       end associate
    end subroutine characterise
 
-   !> Computes the values of a section that is not a section of a wheel's characteristics, in SI.
+   !> Computes the values of a section that is not a section of a wheel's characteristics, in SI; the travel to a stop is in mm.
    subroutine section_values(suspension, state, wheels, section, item, self, values)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
       type(attitude_t), intent(in) :: wheels(:)
       integer, intent(in) :: section
-      integer, intent(in) :: item             !! of a wheel its index in the compliance matrix, of an element its number
+      integer, intent(in) :: item             !! index of the wheel in the compliance matrix, or of the element
       type(kandc_t), intent(in) :: self
       real(wp), intent(inout) :: values(most) !! the first are set
       real(wp) :: lift(6), length(2)
@@ -238,7 +238,7 @@ contains
 
    end subroutine section_values
 
-   !> Computes the values of of_turn, with &axle and a rack.
+   !> Computes the values of the section of_turn, for a model with &axle and a rack.
    pure subroutine turn_values(left_now, right_now, wheelbase, self, values)
       type(attitude_t), intent(in) :: left_now, right_now
       real(wp), intent(in) :: wheelbase
@@ -256,7 +256,7 @@ contains
       values(3) = ackermann_error(left, right, wheelbase, self%stand%track)
    end subroutine turn_values
 
-   !> Computes the values of of_steering.
+   !> Computes the values of the section of_steering: steering ratio and steering-wheel angle.
    pure subroutine steering_values(suspension, state, wheels, self, values)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
@@ -278,8 +278,8 @@ contains
       values(2) = sign(per_rack, rate)*row_change(suspension, state, self%steer_row)
    end subroutine steering_values
 
-   !> Change of the prescribed value of a driver's row from design to a state [m, rad]: the value of its measure minus the
-   !> deflection of its compliance.
+   !> Change of the prescribed value of a driver's row from design to a state [m, rad]: the change of the measures of the row, minus
+   !> the deflection of the compliance of the row.
    pure real(wp) function row_change(suspension, state, row) result(change)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state

@@ -33,12 +33,12 @@ module ek_kandc_list
    !> The columns of a model and the work space for their values.
    type, extends(column_list_t) :: kandc_t
       integer :: steer_row = 0                 !! row of Φ of the steering driver, 0: none
-      integer, allocatable :: has(:)           !! conditions of ek_quantity: of each wheel, and without a wheel
-      real(wp), allocatable :: values(:)       !! of the columns, in their units; columns that are not requested are not set
+      integer, allocatable :: has(:)           !! sum of the conditions of ek_quantity: (k) for wheel k, (0) without a wheel
+      real(wp), allocatable :: values(:)       !! values of the columns, in their units; not set for columns that are not requested
       type(compliance_t) :: compliance
       ! what the asked columns need
       logical :: is_asked(sections) = .false.
-      logical, allocatable :: is_group_asked(:, :)      !! (group of characteristics, wheel)
+      logical, allocatable :: is_group_asked(:, :)      !! whether a group is requested: (group of characteristics, wheel)
       logical :: has_wheels = .false., has_patch = .false., has_held = .false.
       logical :: locks_springs = .false., locks_heights = .false.
       integer, allocatable :: heights(:), springs(:)    ! ports of the wheels and of the springs
@@ -71,8 +71,8 @@ contains
    end subroutine start_kandc
 
    !> Lists the names of all columns that a model defines: self%names(:self%used). The order is the order of the table: each wheel,
-   !> the axle with its steering, the geometry of each wheel, the geometry of the axle, elements, springs. choose_kandc then marks
-   !> the requested columns, before any column is filled.
+   !> the axle with its steering, the geometry of each wheel, the geometry of the axle, elements, the rack, axial springs.
+   !> choose_kandc then marks the requested columns, before any column is filled.
    subroutine list_kandc(suspension, self)
       type(suspension_t), intent(in) :: suspension
       type(kandc_t), intent(out) :: self
@@ -153,7 +153,8 @@ contains
 
    contains
 
-      !> Adds the columns of a section of this wheel as one block, if a condition is met.
+      !> Adds the columns of a section of this wheel as one block. For a name with '*', `condition` is the condition that the column
+      !> name contains: 1 load held, 2 height held.
       subroutine add(section, number, condition)
          type(quantity_t), intent(in) :: section(:)
          integer, intent(in) :: number
@@ -164,7 +165,8 @@ contains
 
    end subroutine add_wheel
 
-   !> Adds the column of a stop, or of a spring on a length measure.
+   !> Adds the column of a stop (remaining travel), or of a spring on a length measure (motion ratio). Other elements do not have a
+   !> column.
    subroutine add_element(suspension, k, self)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: k

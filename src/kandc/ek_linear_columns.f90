@@ -1,9 +1,10 @@
 !> The columns that are linear in the compliance matrix: the responses to forces and torques, with vertical loads or heights
-!> held, and the entries of the matrix itself. So their values are sums over shares of the matrix (ek_contribution), by the
-!> kernels that compute the columns: a new column of these sections has its shares without a line here.
+!> held, and the entries of the matrix itself. The value of such a column is therefore a sum over shares of the matrix
+!> (ek_contribution). The kernels that compute the columns also compute the shares, so that a new column of these sections needs
+!> no code in this module.
 !>
-!> With heights held, load and displacement both include the vertical forces that hold them: of a share, Hᵀ C_e H, whose sum
-!> is C_held.
+!> With heights held, load and displacement both include the vertical forces that hold the heights. A share C_e of the matrix then
+!> becomes Hᵀ C_e H; the sum of these shares is C_held.
 module ek_linear_columns
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan, ieee_is_finite
    use ek_kinds, only: wp
@@ -29,15 +30,15 @@ module ek_linear_columns
       fill_changed_columns
 
    integer, parameter :: sections(2) = [of_forces_load_held, of_forces_height_held]
-   integer, parameter :: most = 40      !! values of a section
+   integer, parameter :: most = 40      !! greatest number of values of a section
 
    !> The columns of a model, and the data from which their values at a state are computed.
    type :: linear_columns_t
       integer :: used = 0
-      character(name_length), allocatable :: names(:)     !! of all columns
-      integer, allocatable :: asked(:)                    !! those that are computed
-      type(kandc_t) :: kandc                              !! of the state; its compliance matrix is known
-      integer, allocatable, private :: column(:)          !! of kandc; the rest are entries of the matrix
+      character(name_length), allocatable :: names(:)     !! names of all columns
+      integer, allocatable :: asked(:)                    !! indices of the columns that are computed
+      type(kandc_t) :: kandc                              !! K&C quantities of the state, with its compliance matrix
+      integer, allocatable, private :: column(:)          !! index in kandc; columns after these are entries of the matrix
       logical, private :: has_kandc = .false., has_entries = .false.
       type(attitude_t), allocatable, private :: wheels(:)
    end type linear_columns_t
@@ -95,7 +96,7 @@ contains
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
       type(inputs_t), intent(in) :: inputs
-      type(kkt_t), intent(inout) :: kkt                     !! work space; then with the factors of the state
+      type(kkt_t), intent(inout) :: kkt                     !! work space; on return, with the factors of the state
       type(linear_columns_t), intent(inout) :: self
       real(wp), intent(out) :: values(:)                    !! of the requested columns, in their units
       integer :: k
@@ -111,7 +112,7 @@ contains
    !> Equation (C.15) of docs/theory/compliance.md.
    subroutine fill_linear_columns(suspension, share, self, values)
       type(suspension_t), intent(in) :: suspension
-      real(wp), intent(in) :: share(:, :)                   !! at the wheel centres, SI, global axes
+      real(wp), intent(in) :: share(:, :)                   !! matrix at the wheel centres, SI, global axes
       type(linear_columns_t), intent(in) :: self            !! of find_linear_columns
       real(wp), intent(out) :: values(:)
       type(wheel_characteristics_t) :: is(size(self%wheels))
@@ -151,7 +152,7 @@ contains
    !> Fills the requested columns for another compliance matrix at this state. Heights are held according to that matrix.
    subroutine fill_changed_columns(suspension, c, self, values)
       type(suspension_t), intent(in) :: suspension
-      real(wp), intent(in) :: c(:, :)                       !! at the wheel centres, SI, global axes
+      real(wp), intent(in) :: c(:, :)                       !! matrix at the wheel centres, SI, global axes
       type(linear_columns_t), intent(in) :: self            !! of find_linear_columns
       real(wp), intent(out) :: values(:)
       type(linear_columns_t) :: changed
@@ -192,7 +193,8 @@ contains
 
    contains
 
-      !> Computes the responses with the heights of the wheel centres held.
+      !> Computes the responses of one wheel, with vertical loads held and, if requested, with the heights of the wheel centres
+      !> held.
       subroutine respond_held(c, share, stand, place, is_asked, is)
          real(wp), intent(in) :: c(:, :), share(:, :)
          type(stand_t), intent(in) :: stand

@@ -1,7 +1,7 @@
 !> The rates that contribute most to the key compliances of a suspension. A reader of the report may change them on the page.
 !>
-!> A rate is the constant of one law: an axis of a bushing, a spring, a bar. The same law on both sides of an axle is one rate if it
-!> is equal on both. Laws with a curve or a clearance have no rate.
+!> A rate is the constant of one law: an axis of a bushing, a spring, a bar. Corresponding laws of the left and the right side with
+!> equal constants are one rate. Laws with a curve or a clearance have no rate.
 module ek_live_rates
    use ek_kinds, only: wp
    use ek_largest, only: largest
@@ -16,23 +16,23 @@ module ek_live_rates
    private
    public :: live_rate_t, live_rates_t, choose_rates, find_laws
 
-   real(wp), parameter :: same = 1.0e-9_wp      !! relative: equal rates
-   real(wp), parameter :: noise = 1.0e-9_wp     !! share of a column: smaller contributions are rounding
+   real(wp), parameter :: same = 1.0e-9_wp      !! relative difference up to which rates are equal
+   real(wp), parameter :: noise = 1.0e-9_wp     !! limit, as a share of a column, below which a contribution is rounding
 
    !> A rate that can be changed.
    type :: live_rate_t
-      character(share_length) :: group = ''            !! of the deck: 'bushing', 'spring', 'torsion'
-      character(share_length) :: element(2) = ''       !! its names in the model, left and right; '': only one
-      character(10) :: part = ''                       !! 'x' to 'rz', 'rate'
-      integer :: number = 0                            !! of the law in the element, 1 to 6
-      real(wp) :: rate = 0.0_wp                        !! [N/m, N m/rad]
+      character(share_length) :: group = ''            !! group of the deck: 'bushing', 'spring', 'torsion'
+      character(share_length) :: element(2) = ''       !! names of the elements, left and right; (2) is '' for one element
+      character(10) :: part = ''                       !! name of the law: 'x' to 'rz' of a bushing, 'rate'
+      integer :: number = 0                            !! index of the law in the element, 1 to 6
+      real(wp) :: rate = 0.0_wp                        !! rate of the law [N/m, N m/rad]
       logical :: is_of_angle = .false.
    end type live_rate_t
 
    !> All selected rates, and the laws that have these rates.
    type :: live_rates_t
       type(live_rate_t), allocatable :: rate(:)
-      integer, allocatable :: of_law(:)                !! rate of each law; a rate of both sides has two laws, the left one first
+      integer, allocatable :: of_law(:)                !! index of the rate of each law; a rate of both sides has two, left first
    end type live_rates_t
 
 contains
@@ -41,8 +41,8 @@ contains
    !> matrix of the state is singular.
    subroutine choose_rates(result, k, many, rates)
       type(case_result_t), intent(inout) :: result         !! is_run
-      integer, intent(in) :: k                             !! the state: reached
-      integer, intent(in) :: many                          !! largest number of rates
+      integer, intent(in) :: k                             !! index of the state, which was reached
+      integer, intent(in) :: many                          !! greatest number of rates
       type(live_rates_t), intent(out) :: rates
       type(contribution_table_t) :: table
       type(live_rate_t), allocatable :: all(:)
@@ -70,7 +70,8 @@ contains
       end do
    end subroutine choose_rates
 
-   !> Lists all rates with their largest contributions; 0 for a contribution that is only rounding.
+   !> Lists all rates and, as a score, the largest contribution of each rate to a requested column [-]: its share of the sum of the
+   !> magnitudes of all contributions. 0 for a contribution that is only rounding.
    subroutine list_rates(suspension, table, all, score)
       type(suspension_t), intent(in) :: suspension
       type(contribution_table_t), intent(in) :: table       !! at the state
@@ -107,7 +108,7 @@ contains
       end do
    end subroutine list_rates
 
-   !> Index of the corresponding rate on the left side; 0 if there is no such rate.
+   !> Index of the equal rate of the same part on the left side, for a new rate on the right side; 0 without such a rate.
    pure integer function other_side(all, new) result(at)
       type(live_rate_t), intent(in) :: all(:), new
 
@@ -119,7 +120,8 @@ contains
       at = 0
    end function other_side
 
-   !> Finds the indices of the laws with live rates among the contributions of a test, in the order of `of_law`.
+   !> Finds the indices of the laws with live rates among the contributions of a test, in the order of `of_law`; 0 for a law that
+   !> the test does not have.
    subroutine find_laws(suspension, shares, rates, laws)
       type(suspension_t), intent(in) :: suspension          !! on the rig of the test
       type(contribution_t), intent(in) :: shares            !! of the test

@@ -1,14 +1,16 @@
 !> Data of a state from which a page computes its columns for other rates, exactly and without the model.
 !>
-!> Of m rates, each law acts along a deflection gᵀu; with s = √rate, let G be s gᵀu per unit load, A the same per unit load s on the
-!> laws themselves, and E the relative changes of the rates (0.1: 10 % more). The formula of ek_what_if then has no unit:
+!> Each of the m laws acts along a deflection gᵀu; let s = √rate. G is s gᵀu per unit load at the wheel centres, and G_v is G of
+!> the transpose. A is s gᵀu per load s on each law itself. E contains the relative changes of the rates (0.1: 10 % more). The
+!> formula of ek_what_if then has no unit:
 !>
 !>     C' = C − G_vᵀ (I + E A)⁻¹ E G
 !>
-!> A column that is linear in C is the reading rᵀC b of a load b, so it changes by −ρᵀ (I + E A)⁻¹ E β with ρ = G_v r and β = G b:
-!> 2m numbers per column in addition to the m(m + 1)/2 of A. They are found by the kernels that compute the columns, of the
-!> matrices g_v,a g_bᵀ, so a new column needs nothing here. With heights held the same formula holds with G and A of the
-!> suspension whose heights are held. Of a stiffness, which is the inverse of such a column, the inverse changes so.
+!> A column that is linear in C is the reading rᵀC b of a load b. It changes by −ρᵀ (I + E A)⁻¹ E β with ρ = G_v r and β = G b: 2m
+!> numbers per column in addition to the m(m + 1)/2 numbers of A. The kernels that compute the columns give ρ and β, from the
+!> matrices g_v,a g_bᵀ of rows a of G_v and b of G; so a new column needs no code in this module. With heights held, the formula
+!> uses G and A of the suspension whose heights are held. A stiffness is the inverse of such a column: the formula gives the change
+!> of its inverse.
 module ek_live_state
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
@@ -34,8 +36,8 @@ module ek_live_state
    private
    public :: live_state_t, live_columns_t, start_live, find_live_state
 
-   !> Stiffnesses equal to 1/(displacement of a wheel centre under the load along the same axis), on all wheels, with that axis. The
-   !> ride rate has the tyre in series, which adds a constant to the inverse.
+   !> A stiffness column equal to 1/(displacement of a wheel centre along an axis, under equal loads along this axis on all wheels).
+   !> The ride rate has the tyre in series, which adds a constant to the inverse.
    type :: inverse_t
       character(32) :: name
       integer :: axis
@@ -48,7 +50,7 @@ module ek_live_state
    type :: live_columns_t
       integer :: used = 0
       character(name_length), allocatable :: name(:)
-      logical, allocatable :: is_held(:)              !! of the suspension whose heights are held
+      logical, allocatable :: is_held(:)              !! whether each column is at held heights of the wheel centres
       logical, allocatable :: is_inverse(:)
       integer, allocatable, private :: wheel(:), axis(:)      ! of an inverse: index in the matrix
       type(linear_columns_t), private :: columns
@@ -58,8 +60,8 @@ module ek_live_state
 
    !> The numbers of a state from which the page computes its columns.
    type :: live_state_t
-      logical :: is_known = .false.                   !! the matrix is not singular
-      real(wp), allocatable :: self(:, :), held_self(:, :)   !! A: (law, law); with heights held
+      logical :: is_known = .false.                   !! whether the matrix is not singular
+      real(wp), allocatable :: self(:, :), held_self(:, :)   !! A: (law, law), with loads held; with heights held
       real(wp), allocatable :: read(:, :), load(:, :)        !! ρ and β of each column: (law, column), in the unit of the column
       real(wp), allocatable :: deflection(:)                 !! √rate × deflection that the rate multiplies
       real(wp), allocatable :: move(:, :), held_move(:, :)   !! G_v of the wheel centres: (law, displacement)
@@ -67,8 +69,8 @@ module ek_live_state
 
 contains
 
-   !> Chooses the columns of a test that match `names`, and the laws of the rates. Stiffnesses and columns at held heights refer
-   !> to a single wheel or to an axle.
+   !> Chooses the columns of a test that match `names`, and the laws of the rates. Stiffnesses and columns at held heights are
+   !> chosen only for a single wheel or an axle. No column is chosen if the test does not have all laws of the rates.
    subroutine start_live(suspension, rates, names, self)
       type(suspension_t), intent(in) :: suspension          !! on the rig
       type(live_rates_t), intent(in) :: rates
@@ -135,8 +137,8 @@ contains
       type(suspension_t), intent(in) :: suspension          !! on the rig
       type(schedule_t), intent(in) :: schedule              !! of the case
       type(path_t), intent(in) :: path
-      integer, intent(in) :: k                              !! the state
-      type(kkt_t), intent(inout) :: kkt                     !! work space; then with the factors of the state
+      integer, intent(in) :: k                              !! index of the state
+      type(kkt_t), intent(inout) :: kkt                     !! work space; on return, with the factors of the state
       type(live_columns_t), intent(inout) :: columns        !! of start_live
       type(live_state_t), intent(out) :: self
       type(state_t) :: state
@@ -209,7 +211,7 @@ contains
    subroutine hold_heights(compliance, move, left, self)
       type(compliance_t), intent(in) :: compliance
       real(wp), intent(in) :: move(:, :), left(:, :)        !! (load, law)
-      type(live_state_t), intent(inout) :: self             !! with A
+      type(live_state_t), intent(inout) :: self             !! contains A
       real(wp), allocatable :: response(:, :)
       type(lock_t) :: lock
       integer :: n, m, j
@@ -229,7 +231,7 @@ contains
       self%held_move = transpose(response(:n, n + 1:))
    end subroutine hold_heights
 
-   !> Finds the deflections by which changes of the rates are multiplied. The products are the changes of the forces at the state.
+   !> Finds √rate × deflection of each law at the state. A changed rate changes the force of its law in proportion to this value.
    subroutine find_forces(suspension, state, root, columns, self)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state

@@ -1,9 +1,9 @@
 !> The paths of a load through a suspension: the change of force and moment in every element and joint per unit force at a contact
-!> point, and each one's share of the strain energy.
+!> point.
 !>
-!> An element or joint exerts −dV/dz on its bodies. Under a motion u of the bodies the generalised force changes by T_e u, in
-!> exponential coordinates, and the moment about global axes by ½ π×m more, m = dV/dπ (see ek_skew_system). Force and moment
-!> are given as in the table of states: on the second body, at its point, which moves with that body.
+!> An element or joint with the energy V exerts −dV/dz on its bodies. Under a motion u of the bodies, the generalised force changes
+!> by T_e u in exponential coordinates. The moment about global axes changes by ½ π×m more, m = dV/dπ (see ek_skew_system). Force
+!> and moment are given as in the table of states: on the second body, at the point of the item, which moves with that body.
 !> Equation (C.18) of docs/theory/compliance.md.
 module ek_load_path
    use ek_kinds, only: wp
@@ -24,17 +24,17 @@ module ek_load_path
    private
    public :: load_path_t, find_load_paths
 
-   !> The load paths of the elements, then of the joints of a model.
+   !> The load paths of all items of a model: first its elements, then its joints.
    type :: load_path_t
-      real(wp), allocatable :: force(:, :, :)       !! (axis, load, item): global axes [N/N]
-      real(wp), allocatable :: moment(:, :, :)      !! at the point of the second body [N m/N]
+      real(wp), allocatable :: force(:, :, :)       !! (axis, load, item): on the second body, global axes [N/N]
+      real(wp), allocatable :: moment(:, :, :)      !! (axis, load, item): at the point of the second body [N m/N]
       real(wp) :: unbalanced = 0.0_wp               !! largest unbalanced force [N/N] or moment [N m/N] on a body
    end type load_path_t
 
-   !> The changes of the forces on a body.
+   !> The generalised force of an element or joint on its two bodies, and the change of this force under a motion u.
    type :: change_t
       real(wp) :: now(12) = 0.0_wp                  !! dV/dz at the state
-      real(wp) :: more(12) = 0.0_wp                 !! T_e u
+      real(wp) :: more(12) = 0.0_wp                 !! change T_e u of dV/dz
    end type change_t
 
 contains
@@ -85,7 +85,7 @@ contains
       end do
    end subroutine find_load_paths
 
-   !> Computes T_e u of an element.
+   !> Computes dV/dz of an element, and its change T_e u.
    subroutine change_element(suspension, state, element, u, change)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
@@ -113,8 +113,8 @@ contains
       end associate
    end subroutine change_element
 
-   !> Adds Φᵀμ + λ Hess u of a joint to the sum, and finds its force and moment. In a joint of measures, they are the force and
-   !> moment of the first measure.
+   !> Adds Φᵀμ + λ Hess u of a joint to the sum, and finds the changes of force and moment of the joint. For a joint of measures,
+   !> force and moment are the changes in the first measure.
    subroutine change_joint(suspension, state, joint, nq, u, sum_of, force, moment)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
@@ -156,7 +156,7 @@ contains
    subroutine place(state, body_i, body_j, arm_j, u, change, force, moment)
       type(state_t), intent(in) :: state
       integer, intent(in) :: body_i, body_j
-      real(wp), intent(in) :: arm_j(3)              !! of the point, body axes [m]
+      real(wp), intent(in) :: arm_j(3)              !! point from the reference point of the body, body axes [m]
       real(wp), intent(in) :: u(:)
       type(change_t), intent(in) :: change
       real(wp), intent(out) :: force(3), moment(3)

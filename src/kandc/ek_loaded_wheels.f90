@@ -11,9 +11,9 @@ module ek_loaded_wheels
    private
    public :: stand_t, loaded_t, load_wheels, phase, quotient
 
-   real(wp), parameter, public :: min_compliance = 1.0e-12_wp   !! m/N
+   real(wp), parameter, public :: min_compliance = 1.0e-12_wp   !! m/N; a smaller compliance is rounding
 
-   !> Positions of the wheels at a state, in the order of the compliance matrix C.
+   !> Positions and tyre rates of the wheels at a state, in the order of the compliance matrix C.
    type :: stand_t
       type(axes_t) :: axes(2)
       real(wp) :: centre(3, 2) = 0.0_wp      !! wheel centres [m]
@@ -23,20 +23,21 @@ module ek_loaded_wheels
       real(wp) :: roll = 0.0_wp              !! axle roll at the state [rad]
    end type stand_t
 
-   !> In the order of C: x y z, rotations about them, of the left wheel, then of the right one.
+   !> Responses of the wheels. Rows and columns as in C: x, y, z and the rotations about x, y, z of the left wheel, then of the
+   !> right wheel; a single wheel has the first six.
    type :: loaded_t
       integer :: wheels = 0
       real(wp) :: c(12, 12) = 0.0_wp         !! loads and displacements at the wheel centres
       real(wp) :: m(12, 12) = 0.0_wp         !! forces at the contact points, displacements at the centres; no moments
-      real(wp) :: c_held(12, 12) = 0.0_wp    !! c with heights of the centres held: columns fx and mz
-      real(wp) :: m_held(12, 12) = 0.0_wp    !! m likewise: columns fx and fy
+      real(wp) :: c_held(12, 12) = 0.0_wp    !! c with the heights of the centres held: columns fx and mz only
+      real(wp) :: m_held(12, 12) = 0.0_wp    !! m with the heights of the centres held: columns fx and fy only
       ! i, j: 2 lateral, 3 vertical
       real(wp) :: patch(2:3, 2, 2:3, 2) = 0.0_wp   !! (i, w, j, v): displacement i of contact point w per force j at v
    end type loaded_t
 
 contains
 
-   !> The quotient a/b; NaN where |b| is at most `least`.
+   !> The quotient a/b; NaN if |b| is at most `least`.
    pure real(wp) function quotient(a, b, least)
       real(wp), intent(in) :: a, b, least
       if (abs(b) > least) then

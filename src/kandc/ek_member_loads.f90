@@ -29,31 +29,32 @@ module ek_member_loads
    !> One end of a member.
    type :: member_end_t
       character(:), allocatable :: member, point, body     !! names; point: '' if no hardpoint lies there
-      integer :: element = 0             !! its number; 0: a joint
-      integer :: first_term = 0, last_term = 0     !! of a joint
+      integer :: element = 0             !! index of the element; 0: the member is a joint
+      integer :: first_term = 0, last_term = 0     !! indices of the first and last term of a joint
       integer :: side = 1                !! 1: first body, 2: second body
-      integer :: number = 0              !! of the body, 0: chassis
-      real(wp) :: arm(3) = 0.0_wp        !! from the reference point of the body, body axes [m]
+      integer :: number = 0              !! index of the body; 0: chassis
+      real(wp) :: arm(3) = 0.0_wp        !! end from the reference point of the body, body axes [m]
    end type member_end_t
 
-   !> The loads of several cases: a table with one row per load as a string, and the peaks.
+   !> The loads of several cases: a table with one row per load as a string, and the peaks, each with its state, swept value (column
+   !> `factor`) and case.
    type :: load_record_t
       type(member_end_t), allocatable :: ends(:)
-      type(buffer_t) :: text                       !! loads.csv
-      real(wp), allocatable :: peaks(:, :)         !! (component, end): of largest size [N, N m]; components: see below
+      type(buffer_t) :: text                       !! content of loads.csv
+      real(wp), allocatable :: peaks(:, :)         !! (component, end): value of largest magnitude [N, N m]; see `components`
       integer, allocatable :: state(:, :)
       real(wp), allocatable :: factor(:, :)
       integer, allocatable :: case(:, :)
-      character(64), allocatable :: cases(:)       !! their names
+      character(64), allocatable :: cases(:)       !! names of the cases
    end type load_record_t
 
-   ! what is larger by less is the same: the first state stays, on both sides of an axle
-   real(wp), parameter :: rounding = 1.0e-9_wp, tiny_load = 1.0e-9_wp      !! of the value; N, N m
+   ! a load that exceeds a peak by less does not replace this peak: the first state stays, on both sides of an axle
+   real(wp), parameter :: rounding = 1.0e-9_wp, tiny_load = 1.0e-9_wp      !! tolerances of a peak: share of the value; N, N m
 
    !> Components of a load. The last three are the force of a bushing in its own axes x, y, z, which move with its first body.
    character(*), parameter :: components(11) = [character(6) :: 'fx', 'fy', 'fz', 'f', 'mx', 'my', 'mz', 'm', 'own_fx', 'own_fy', &
       'own_fz']
-   integer, parameter :: of_all = 8           !! components that every member has
+   integer, parameter :: of_all = 8           !! number of components that every member has
    integer, parameter :: resultants(2) = [4, 8]
    character(*), parameter :: nl = new_line('a')
 
@@ -134,7 +135,7 @@ contains
    pure subroutine end_loads(suspension, state, gradients, ends, loads)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
-      real(wp), intent(in) :: gradients(:, :)       !! of the terms, assembled at this state
+      real(wp), intent(in) :: gradients(:, :)       !! gradients of the terms, assembled at this state
       type(member_end_t), intent(in) :: ends(:)
       real(wp), intent(out) :: loads(:, :)          !! (6, end)
       type(element_evaluation_t) :: evaluation
@@ -184,7 +185,7 @@ contains
       call record%text%line('test,state,factor,element,hardpoint,body,fx_n,fy_n,fz_n,mx_nm,my_nm,mz_nm')
    end subroutine begin_loads
 
-   !> Adds the converged states of a case.
+   !> Adds the loads at the converged states of a case: rows of the table, and peaks.
    subroutine add_loads(suspension, case, path, kkt, record)
       type(suspension_t), intent(in) :: suspension      !! on the rig
       type(case_t), intent(in) :: case
@@ -233,7 +234,7 @@ contains
 
    contains
 
-      !> Stores the load at end e if its magnitude exceeds the peak so far.
+      !> Stores each component of the load at end e whose magnitude exceeds the peak of this component so far.
       subroutine keep(e, number, factor, values)
          integer, intent(in) :: e, number
          real(wp), intent(in) :: factor, values(size(components))

@@ -24,11 +24,11 @@ module ek_plausibility
 
 contains
 
-   !> Adds one remark per implausible item, `file:line: item: finding`.
+   !> Lists one remark per implausible item, `file:line: item: finding`.
    !>
-   !> In a model without a wheel, which is not a suspension, only the elements are checked.
+   !> In a model without a wheel, which is not a suspension, connections, points and response are not checked.
    subroutine doubt(suspension, cases, remarks)
-      type(suspension_t), intent(in) :: suspension       !! balanced if possible; not on a rig
+      type(suspension_t), intent(in) :: suspension       !! after the preload trim (`balance`) if possible; not on a rig
       type(case_t), intent(in) :: cases(:)               !! of the deck
       type(message_list_t), intent(out) :: remarks
       type(doubts_t) :: doubts
@@ -61,7 +61,7 @@ contains
       remarks = doubts%remarks
    end subroutine doubt
 
-   !> Examines links and springs: length, body at each end, direction.
+   !> Examines the rack, joints, links, bushings, springs and dampers: length, body at each end, direction.
    subroutine doubt_links(suspension, doubts)
       type(suspension_t), intent(in) :: suspension
       type(doubts_t), intent(inout) :: doubts
@@ -97,7 +97,7 @@ contains
       end do
    end subroutine doubt_links
 
-   !> Examines whether the rack is connected to the wheels.
+   !> Examines whether the rack is connected to another moving body, such as a tie rod or a wheel carrier.
    subroutine doubt_rack(suspension, rack, doubts)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: rack
@@ -120,7 +120,8 @@ contains
 
    end subroutine doubt_rack
 
-   !> Checks that a joint of a wheel carrier is near the wheel and on the same side of the car.
+   !> Checks that a joint of a wheel carrier is on the same side of the car as the wheel and, if the wheel has a steering axis, near
+   !> the wheel centre.
    subroutine doubt_own_points(suspension, m, doubts)
       type(suspension_t), intent(in) :: suspension
       type(measure_t), intent(in) :: m
@@ -169,7 +170,7 @@ contains
       end do
    end subroutine doubt_ends
 
-   !> Checks that the axis of a strut is upright.
+   !> Checks that the axis of a strut is within 45° of the vertical.
    subroutine doubt_slider(suspension, m, doubts)
       type(suspension_t), intent(in) :: suspension
       type(measure_t), intent(in) :: m
@@ -182,7 +183,8 @@ contains
          str(nint(acos(min(1.0_wp, abs(m%v(3))))/degree))//' deg from the vertical; check the signs of its coordinates')
    end subroutine doubt_slider
 
-   !> Checks that an upright spring has its lower end on the wheel's body and its upper end on the chassis.
+   !> Checks the bodies at the ends of a spring or damper within 45° of the vertical. The rank of the body at the upper end must not
+   !> be below the rank of the body at the lower end (rank_of).
    subroutine doubt_upright(suspension, spring, doubts)
       type(suspension_t), intent(in) :: suspension
       type(element_t), intent(in) :: spring
@@ -214,7 +216,7 @@ contains
 
    end subroutine doubt_upright
 
-   !> Index of the body moved by the driver of &steering; 0 if there is none.
+   !> Index of the body moved by the driver of &steering; 0 without such a driver.
    pure integer function rack_body(suspension)
       type(suspension_t), intent(in) :: suspension
       integer :: row

@@ -28,7 +28,7 @@ contains
       call doubt_bushing_axes(suspension, doubts)
    end subroutine doubt_connections
 
-   !> Examines springs against the chassis whose body is not connected to a wheel, either directly or through other bodies.
+   !> Examines springs between the chassis and a body that is not connected to a wheel, either directly or through other bodies.
    subroutine doubt_bearing(suspension, doubts, carries)
       type(suspension_t), intent(in) :: suspension
       type(doubts_t), intent(inout) :: doubts
@@ -134,8 +134,8 @@ contains
       axis = suspension%terms(suspension%rows(suspension%joints(j)%first_row + 3)%first)%measure%v
    end function hinge_axis
 
-   !> Examines bushings that are on the axis of the only bushing of another body, and off the axis of the other bushings of their
-   !> own body.
+   !> Examines bushings of bodies with at least three bushings to the chassis. Adds a remark on a bushing that is on the axis of the
+   !> only bushing of another body, and off the axes of the other bushings of its own body.
    subroutine doubt_bushing_axes(suspension, doubts)
       type(suspension_t), intent(in) :: suspension
       type(doubts_t), intent(inout) :: doubts
@@ -158,7 +158,7 @@ contains
       end do
    end subroutine doubt_bushing_axes
 
-   !> Index of the body that an element connects to the chassis; 0 if there is none.
+   !> Index of the body that an element connects to the chassis; 0 for an element between two other bodies.
    pure integer function on_chassis(suspension, k) result(body)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: k
@@ -194,7 +194,7 @@ contains
       end do
    end function is_coaxial_with_own
 
-   !> Whether each of two bushings is on the z axis of the other bushing.
+   !> Whether each of two bushings is within 2 mm of the z axis of the other bushing, and both are more than 30 mm apart.
    pure logical function are_coaxial(suspension, a, b)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: a, b

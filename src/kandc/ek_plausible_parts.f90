@@ -15,11 +15,11 @@ module ek_plausible_parts
    private
    public :: doubt_elements, doubt_loads, doubt_vehicle, doubt_cases
 
-   real(wp), parameter :: felt = 1.0_wp        !! N: less is rounding of the preloads in the deck
+   real(wp), parameter :: felt = 1.0_wp        !! N: a smaller force is rounding of the preloads in the deck
 
 contains
 
-   !> Examines springs, dampers, stops, torsion springs, bushings, drivers with a stiffness.
+   !> Examines springs on two points, dampers, stops, torsion springs, bushings, and drivers with a stiffness.
    subroutine doubt_elements(suspension, doubts)
       type(suspension_t), intent(in) :: suspension
       type(doubts_t), intent(inout) :: doubts
@@ -65,7 +65,7 @@ contains
       end do
    end subroutine doubt_elements
 
-   !> Examines a spring: rate, length, and its force at design.
+   !> Examines a spring: rate, length, static compression, and force at design.
    subroutine doubt_spring(spring, doubts)
       type(element_t), intent(in) :: spring
       type(doubts_t), intent(inout) :: doubts
@@ -108,7 +108,7 @@ contains
          '; clearance is measured from design')
    end subroutine doubt_stop
 
-   !> Examines a bushing: its largest and smallest rate, the distance of its markers, its curves.
+   !> Examines a bushing: largest and smallest rates, ratio of rotational to translational rates, distance of the markers, curves.
    subroutine doubt_bushing(element, doubts)
       type(element_t), intent(in) :: element
       type(doubts_t), intent(inout) :: doubts
@@ -134,8 +134,8 @@ contains
       end associate
    end subroutine doubt_bushing
 
-   !> Examines a curve over a deflection. Its span and force should be in the usual range, and it should rise, as a restoring force
-   !> must.
+   !> Examines a curve over a deflection. The span of the curve and, over a length, its force and slope should be in the usual
+   !> range. The curve should rise, as a restoring force must.
    subroutine doubt_curve(curve, element, is_angular, doubts)
       type(curve_t), intent(in) :: curve
       type(element_t), intent(in) :: element
@@ -166,7 +166,8 @@ contains
       call doubts%examine(element%where, element_label(element))
    end subroutine doubt_curve
 
-   !> Examines masses, gravity, and the constant load of the road on each wheel.
+   !> Examines masses, gravity, loads without a value, the constant load of the road on each wheel, and a preload trim (`balance`)
+   !> without constant loads.
    subroutine doubt_loads(suspension, doubts)
       type(suspension_t), intent(in) :: suspension
       type(doubts_t), intent(inout) :: doubts
@@ -238,7 +239,7 @@ contains
       end associate
    end subroutine doubt_vehicle
 
-   !> Examines the ranges of the cases.
+   !> Examines the ranges of the cases, and the offset of the force in tests with an offset.
    subroutine doubt_cases(suspension, cases, doubts)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: cases(:)

@@ -20,10 +20,10 @@ module ek_plausible_range
    type :: unit_t
       integer :: dimension
       character(8) :: name
-      real(wp) :: size          !! SI
+      real(wp) :: size          !! SI value of the unit
    end type unit_t
 
-   real(wp), parameter :: pound = 4.4482216_wp      !! N
+   real(wp), parameter :: pound = 4.4482216_wp      !! pound-force [N]
 
    !> The units to which a value may belong, in order of likelihood.
    type(unit_t), parameter :: units_tried(*) = [ &
@@ -39,11 +39,11 @@ module ek_plausible_range
       unit_t(mass, 'g', 1.0e-3_wp), unit_t(mass, 't', 1.0e3_wp), unit_t(share, 'per cent', 0.01_wp), &
       unit_t(acceleration, 'mm/s²', 1.0e-3_wp), unit_t(acceleration, 'g', 9.80665_wp)]
 
-   !> The range of one quantity. It applies to the magnitude unless `low` is negative.
+   !> The usual range of one quantity. The range applies to the magnitude unless `low` is negative.
    type :: range_t
       character(28) :: quantity
       integer :: dimension
-      real(wp) :: low, high     !! mm, N/mm, N mm/deg, N, N m, deg, kg, 1, m/s², Hz, deg/m
+      real(wp) :: low, high     !! limits, by dimension in mm, N/mm, N mm/deg, N, N m, deg, kg, 1, m/s², Hz, deg/m
       logical :: may_be_zero
       character(100) :: suspect  !! likely cause or hint if no other unit fits
    end type range_t
@@ -109,19 +109,19 @@ module ek_plausible_range
       range_t('bump camber', slope, -200.0_wp, 200.0_wp, .true., 'check the ball joints and the inner points of the arms'), &
       range_t('size √(kr/kt)', derived, 1.0_wp, 300.0_wp, .true., 'kr and kt do not fit together')]
 
-   ! Sources of the ranges of the response. Ride frequency, of the wheel rate without the tyre and the load on the wheel: 0.5 to 1.5 Hz
-   ! of passenger cars, 1.5 to 2 Hz of touring cars, 3 to 5 Hz and more of race cars with downforce (M. Giaraffa, OptimumG, Springs &
-   ! Dampers, part 1; Milliken & Milliken, Race Car Vehicle Dynamics, chapter 16), widened by a factor of two. Motion ratio: 0.5 to 1
-   ! (the same), widened by two. Wheel rate: from the spring rates above with these motion ratios. Bump camber: the inverse
-   ! of the length of the front-view swing arm, no shorter than 0.3 m, three quarters of the narrowest half track of the table. Bump
-   ! toe: 30 mm of travel, about the least that a Formula Student car must have, would use the range of the static toe. Compliances
-   ! have no range: no source covers both trucks and race cars.
+   ! Sources of the ranges of the response. Ride frequency, of the wheel rate without the tyre and the load on the wheel: 0.5 to
+   ! 1.5 Hz of passenger cars, 1.5 to 2 Hz of touring cars, 3 to 5 Hz and more of race cars with downforce (M. Giaraffa, OptimumG,
+   ! Springs & Dampers, part 1; Milliken & Milliken, Race Car Vehicle Dynamics, chapter 16), widened by a factor of two. Motion
+   ! ratio: 0.5 to 1 (from these sources), widened by two. Wheel rate: from the spring rates above with these motion ratios. Bump
+   ! camber: the inverse of the length of the front-view swing arm, no shorter than 0.3 m, three quarters of the narrowest half
+   ! track of the table. Bump toe: 30 mm of travel, about the least that a Formula Student car must have, would use the range of
+   ! the static toe. Compliances have no range: no source covers both trucks and race cars.
 
    !> The remarks without repetition. Both sides of a mirrored deck have the same line and give one remark.
    type :: doubts_t
       type(message_list_t) :: remarks
-      type(units_t) :: units = units_t()               !! of the deck
-      character(:), allocatable, private :: where, thing   !! of the item that is examined: file:line, "spring 'coil'"
+      type(units_t) :: units = units_t()               !! units of the deck
+      character(:), allocatable, private :: where, thing   !! location and name of the examined item: file:line, "spring 'coil'"
       type(message_list_t), private :: seen
    contains
       procedure :: examine
@@ -168,7 +168,7 @@ contains
    !> Compares a value with the usual range of its quantity, and adds a remark if the value is outside this range.
    pure subroutine judge(self, quantity, value, detail)
       class(doubts_t), intent(inout) :: self
-      character(*), intent(in) :: quantity     !! of a row of `ranges`
+      character(*), intent(in) :: quantity     !! quantity of a row of `ranges`
       real(wp), intent(in) :: value            !! SI
       character(*), intent(in), optional :: detail   !! follows the likely cause of the table
       type(range_t) :: row
@@ -205,7 +205,7 @@ contains
 
    !> Whether a value is in the range of its quantity.
    pure logical function is_usual(quantity, value)
-      character(*), intent(in) :: quantity     !! of a row of `ranges`
+      character(*), intent(in) :: quantity     !! quantity of a row of `ranges`
       real(wp), intent(in) :: value            !! SI
       integer :: k
 
@@ -217,9 +217,9 @@ contains
    !> Returns the usual range of a quantity in the unit of the table (N/mm, Hz, deg/m, …). The range applies to the magnitude if
    !> `low` is not negative.
    pure subroutine usual_range(quantity, low, high, is_known)
-      character(*), intent(in) :: quantity     !! of a row of `ranges`
+      character(*), intent(in) :: quantity     !! quantity of a row of `ranges`
       real(wp), intent(out) :: low, high
-      logical, intent(out) :: is_known         !! there is such a row
+      logical, intent(out) :: is_known         !! `ranges` has such a row
       integer :: k
 
       k = findloc(ranges%quantity, quantity, dim=1)
@@ -254,7 +254,7 @@ contains
       if (dimension /= share) text = text//' '//deck_name(dimension, self%units)
    end function speak
 
-   !> A number with five digits; from 1e5 to 1e9 with all digits.
+   !> A number with five significant digits; with nine from 1e5 to 1e9.
    pure function short(x) result(text)
       real(wp), intent(in) :: x
       character(:), allocatable :: text

@@ -1,7 +1,7 @@
-!> Plausibility of the response of a model at design: wheel rate, ride frequency, motion ratio of each spring, bump steer and bump
+!> Plausibility of the response of a model at design: wheel rate, ride frequency, motion ratio of each spring, bump toe and bump
 !> camber, the share of an anti-roll bar in the roll rate, and springs without force although the wheels are loaded.
 !>
-!> The cost is one factorisation of the tangent at design, or two for a model with an anti-roll bar. No equilibrium is solved.
+!> The cost is one factorisation of the tangent at design, and one more for each anti-roll bar. No equilibrium is solved.
 module ek_plausible_response
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp, pi, degree
@@ -21,7 +21,7 @@ module ek_plausible_response
    private
    public :: doubt_response
 
-   real(wp), parameter :: newton_per_mm = 1.0e3_wp      !! N/m
+   real(wp), parameter :: newton_per_mm = 1.0e3_wp      !! 1 N/mm in N/m
    real(wp), parameter :: standard_gravity = 9.80665_wp !! m/s²
    character(*), parameter :: wanted(*) = [character(24) :: 'wheel_rate_n_per_mm', 'bump_toe_deg_per_m', 'bump_camber_deg_per_m']
    character(*), parameter :: of_roll = 'suspension_roll_rate_nm_per_deg', of_spring = '_motion_ratio'
@@ -30,7 +30,7 @@ contains
 
    !> Adds the remarks on the response of a model that can be solved.
    subroutine doubt_response(suspension, kkt, doubts)
-      type(suspension_t), intent(in) :: suspension     !! balanced if possible; not on a rig
+      type(suspension_t), intent(in) :: suspension     !! after the preload trim (`balance`) if possible; not on a rig
       type(kkt_t), intent(inout) :: kkt                !! work space
       type(doubts_t), intent(inout) :: doubts
       type(kandc_t) :: kandc
@@ -82,7 +82,7 @@ contains
       if (k > 0) value = kandc%values(k)
    end function value_of
 
-   !> Examines the motion ratio of a spring: its size, and whether the spring shortens in bump.
+   !> Examines the motion ratio of a spring: its magnitude, and whether a spring in tension gets longer in bump.
    subroutine doubt_motion(suspension, k, kandc, doubts)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: k
@@ -105,7 +105,8 @@ contains
       end associate
    end subroutine doubt_motion
 
-   !> Examines wheel rate, ride frequency, bump steer and bump camber of a wheel.
+   !> Examines bump toe and bump camber of a wheel and, if the model has a spring that carries the car, wheel rate and ride
+   !> frequency.
    subroutine doubt_wheel(suspension, w, kandc, doubts)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: w
@@ -136,7 +137,7 @@ contains
       has_coil = any(element_kinds(suspension%elements%kind)%carries)
    end function has_coil
 
-   !> The constant load of the road on a wheel [N].
+   !> The constant load of the road on a wheel [N], positive upward.
    pure real(wp) function road_load(suspension, w) result(load)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: w
@@ -150,7 +151,7 @@ contains
       end do
    end function road_load
 
-   !> Examines whether the preloads found by balance leave all springs without force although the road loads the wheels.
+   !> Examines whether the preload trim (`balance`) leaves all springs without force although the road loads the wheels.
    subroutine doubt_load(suspension, doubts)
       type(suspension_t), intent(in) :: suspension
       type(doubts_t), intent(inout) :: doubts
@@ -184,7 +185,7 @@ contains
       end associate
    end subroutine doubt_load
 
-   !> Whether any element has a preload; otherwise the model was not balanced.
+   !> Whether any element has a preload; otherwise the preload trim (`balance`) was not applied.
    pure logical function has_preload(suspension)
       type(suspension_t), intent(in) :: suspension
       integer :: k

@@ -110,7 +110,7 @@ contains
       end associate
    end subroutine doubt_carrier
 
-   !> Computes the mean position of the attachment points of a body, and their number.
+   !> Computes the mean position of the attachment points of each body (joints and bushings) [m], and the number of these points.
    subroutine middle_of_joints(suspension, mean, joints)
       type(suspension_t), intent(in) :: suspension
       real(wp), intent(out) :: mean(:, 0:)
@@ -139,7 +139,7 @@ contains
 
    contains
 
-      !> Adds a joint to the mean position of a body.
+      !> Adds an attachment point to the sum of the positions of a body.
       subroutine include(body, arm)
          integer, intent(in) :: body
          real(wp), intent(in) :: arm(3)
@@ -149,7 +149,7 @@ contains
 
    end subroutine middle_of_joints
 
-   !> Examines hardpoints that are outside the usual space of a suspension.
+   !> Adds a remark on each used hardpoint that is outside the usual space of a suspension.
    subroutine doubt_points(suspension, doubts)
       type(suspension_t), intent(in) :: suspension
       type(doubts_t), intent(inout) :: doubts

@@ -7,22 +7,23 @@ module ek_port_response
    private
    public :: load_at_patch, read_at_patch, hold, lock_t, find_lock, keep_locked
 
-   real(wp), parameter :: rounding = 1.0e-9_wp    !! share of the port's compliance: a port with less left is already held
+   real(wp), parameter :: rounding = 1.0e-9_wp    !! limit, as a share of a port's own compliance, below which the port is held
 
    !> Ports that are held, one after the other. The variable is used again from state to state, so that its memory is allocated
    !> once.
    type :: lock_t
       integer :: held = 0                            !! number of ports that had to be held
-      integer, allocatable :: port(:)                !! they, in this order
-      real(wp), allocatable :: column(:, :)          !! (port, k): displacements per displacement of port(k), those before it held
-      real(wp), allocatable, private :: left(:, :)   !! compliance that is left: (port, k), k among all that are to be held
-      real(wp), allocatable, private :: own(:)       !! their own compliances before any is held
+      integer, allocatable :: port(:)                !! indices of these ports, in the order of holding
+      real(wp), allocatable :: column(:, :)          !! (port, k): displacements per displacement of port(k), port(:k − 1) held
+      real(wp), allocatable, private :: left(:, :)   !! (port, k): remaining compliance, load at the k-th port to be held
+      real(wp), allocatable, private :: own(:)       !! own compliance of each port to be held, before any port is held
       logical, allocatable, private :: is_held(:)
    end type lock_t
 
 contains
 
-   !> The displacements M = C B of the wheel centres under loads at the contact points.
+   !> The displacements M = C B of the wheel centres under loads at the contact points; B converts these loads to loads at the
+   !> wheel centres.
    !> Equation (C.7) of docs/theory/compliance.md.
    pure function load_at_patch(c, arm) result(m)
       real(wp), intent(in) :: c(:, :)
@@ -39,7 +40,7 @@ contains
       end do
    end function load_at_patch
 
-   !> The displacements Bᵀ M of the contact points.
+   !> The displacements Bᵀ M of the contact points, from the displacements M of the wheel centres (load_at_patch).
    !> Equation (C.7) of docs/theory/compliance.md.
    pure function read_at_patch(m, arm) result(cp)
       real(wp), intent(in) :: m(:, :)
@@ -74,15 +75,15 @@ contains
 
    !> Finds the loads at some ports that undo the displacements of these ports.
    !>
-   !> The ports are held one after the other, the most compliant remaining port first; a port without compliance once others are
-   !> held (wheels that can only move together, two springs on one arm; below 1e-9 of its own compliance is rounding) is held
-   !> already.
+   !> The ports are held one after the other, the most compliant remaining port first. Once others are held, a port may have no
+   !> compliance left (wheels that can only move together, two springs on one arm). If less than 1e-9 of its own compliance
+   !> remains, the port counts as held.
    !> Equation (C.6) of docs/theory/compliance.md.
    !> Equation (S.8) of docs/theory/suspension.md.
    pure subroutine find_lock(c, ports, lock)
       real(wp), intent(in) :: c(:, :)           !! response of all ports to the loads of all ports
-      integer, intent(in) :: ports(:)           !! to be held
-      type(lock_t), intent(inout) :: lock       !! allocated at its first use
+      integer, intent(in) :: ports(:)           !! indices of the ports to be held
+      type(lock_t), intent(inout) :: lock       !! allocated at the first use
       real(wp) :: compliance, most, factor
       integer :: k, j, i, next, n
 
@@ -131,7 +132,7 @@ contains
    !> Equation (C.6) of docs/theory/compliance.md.
    pure subroutine keep_locked(lock, moves)
       type(lock_t), intent(in) :: lock                      !! of find_lock
-      real(wp), contiguous, intent(inout) :: moves(:)       !! of the first ports, with all that are held among them
+      real(wp), contiguous, intent(inout) :: moves(:)       !! displacements of the first ports, which include all held ports
       real(wp) :: factor
       integer :: k, i
 

@@ -7,8 +7,8 @@ module ek_quadratic_form
 
 contains
 
-   !> X K Xᵀ of a symmetric matrix, from its entries in the lower triangle. With explicit shapes, which the compiler turns into
-   !> tight code.
+   !> The product X K Xᵀ for a symmetric matrix K, given by the entries of its lower triangle. From explicit shapes the compiler
+   !> generates tight code.
    pure function quadratic_form(entries, row, column, from, store, many, n, x) result(form)
       integer, intent(in) :: entries, many, n
       integer, intent(in) :: row(entries), column(entries), from(entries)     !! from: positions in the store

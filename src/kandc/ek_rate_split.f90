@@ -1,9 +1,9 @@
 !> The wheel rate and the suspension roll rate as sums: the contributions of springs, bushings, bars, stops and preloads to each
 !> rate.
 !>
-!> A vertical load f moves the suspension by u, and the point of the load by c f. Each part adds its share c_e to the compliance c
-!> (module ek_contribution), which is twice its elastic energy per f². Moved by 1 instead of loaded by 1, the same motion is u/c,
-!> and the rate is k = 1/c = Σ c_e/c²: the part of a spring is its rate times the square of its motion ratio.
+!> A vertical load f moves the suspension by f u, and the point of the load by c f. Each part adds its share c_e to the compliance c
+!> (module ek_contribution); c_e is twice the elastic energy of the part per f². If the point is moved by 1, the motion is u/c and
+!> the rate is k = 1/c = Σ c_e/c². The contribution of a spring is its rate times the square of its motion ratio.
 module ek_rate_split
    use ek_kinds, only: wp
    use ek_element, only: element_kinds, spring_share, bar_share, stop_share, bushing_share, gas_share
@@ -25,12 +25,12 @@ module ek_rate_split
 
 contains
 
-   !> Computes the contributions of the classes to the wheel rate of a wheel, as shares that add up to 1. Both wheels are moved
-   !> alike.
+   !> Computes the contributions of the classes to the wheel rate of a wheel, as shares that add up to 1. Both wheels carry the
+   !> same load.
    subroutine split_wheel_rate(suspension, table, place, shares, is_known)
       type(suspension_t), intent(in) :: suspension              !! on the rig
       type(contribution_table_t), intent(in) :: table           !! of a state
-      integer, intent(in) :: place                              !! of the wheel in the compliance matrix
+      integer, intent(in) :: place                              !! index of the wheel in the compliance matrix
       real(wp), intent(out) :: shares(size(classes))
       logical, intent(out) :: is_known                          !! the wheel is not held by joints
       real(wp) :: parts(size(table%row))
@@ -45,8 +45,8 @@ contains
       call add_up(suspension, table, parts, shares, is_known)
    end subroutine split_wheel_rate
 
-   !> Computes the contributions of the classes to the suspension roll rate, as shares that add up to 1. Both wheels are moved in
-   !> opposite directions.
+   !> Computes the contributions of the classes to the suspension roll rate, as shares that add up to 1. Both wheels carry opposite
+   !> loads.
    subroutine split_roll_rate(suspension, table, shares, is_known)
       type(suspension_t), intent(in) :: suspension              !! on the rig
       type(contribution_table_t), intent(in) :: table           !! of a state
@@ -83,7 +83,7 @@ contains
       end do
    end subroutine add_up
 
-   !> Index of the class of a part: bushings, springs, bars, stops, joints or preloads.
+   !> Index in `classes` of the class of a part.
    pure integer function class_of(suspension, share) result(group)
       type(suspension_t), intent(in) :: suspension
       type(share_t), intent(in) :: share

@@ -1,5 +1,5 @@
-!> Remarks on the solution of a case as data: notes, warnings and failures, in the order in which they were found. Also the messages
-!> on a model before it is solved: contact points, springs, preloads found by balance.
+!> Messages on the solution of a case as data: notes, warnings and failures, in the order in which they were found. Also the
+!> messages on a model before a solution: contact points, springs, preloads found by the preload trim (`balance`).
 module ek_remark
    use ek_kinds, only: wp, millimetre
    use ek_text, only: str, quoted
@@ -23,19 +23,19 @@ module ek_remark
    integer, parameter :: on_end = 1, on_settling = 2, on_drift = 3, on_travel = 4, on_stability = 5, on_rack = 6, on_curve = 7
    integer, parameter :: on_closure = 8
 
-   !> A note, warning or failure as data.
+   !> A message (note, warning or failure) as data.
    type :: remark_t
       integer :: severity = note, topic = on_case
       character(:), allocatable :: case      !! name of the case
-      character(:), allocatable :: head      !! "case 'x'", "case 'x', method recursive"; '' for on_case
-      character(:), allocatable :: text      !! one or more lines
+      character(:), allocatable :: head      !! heading: "case 'x'", "case 'x', method recursive"; '' for on_case
+      character(:), allocatable :: text      !! message without its heading, one or more lines
       logical :: has_place = .false.
-      real(wp) :: place = 0.0_wp             !! swept value to which it applies, SI
+      real(wp) :: place = 0.0_wp             !! swept value to which the message applies, SI
    contains
-      procedure :: whole                     !! string of the remark with its heading
+      procedure :: whole                     !! string of the message with its heading
    end type remark_t
 
-   !> The remarks on a case.
+   !> The messages on a case.
    type :: remark_list_t
       type(remark_t), allocatable, private :: remarks(:)
    contains
@@ -56,7 +56,7 @@ contains
       if (case%unit_name /= '-') text = text//' '//case%unit_name
    end function swept_text
 
-   !> The string of a remark with its case: "case 'x': text".
+   !> The string of a message with its heading: "case 'x': message"; '' as heading gives the message alone.
    pure function whole(self) result(text)
       class(remark_t), intent(in) :: self
       character(:), allocatable :: text
@@ -65,7 +65,7 @@ contains
       if (len(self%head) > 0) text = self%head//': '//text
    end function whole
 
-   !> Adds a remark; adds nothing for an empty string.
+   !> Adds a message; adds nothing for an empty string.
    pure subroutine list_add(self, severity, topic, case, text, place, is_of_method)
       class(remark_list_t), intent(inout) :: self
       integer, intent(in) :: severity, topic
@@ -108,7 +108,7 @@ contains
       if (allocated(self%remarks)) list_has_failed = any(self%remarks%severity == failure)
    end function list_has_failed
 
-   !> All failures as one string, one after the other; '' if there are none.
+   !> All failures as one string, each on a new line; '' without a failure.
    pure function list_failures(self) result(text)
       class(remark_list_t), intent(in) :: self
       character(:), allocatable :: text
@@ -122,8 +122,8 @@ contains
       end do
    end function list_failures
 
-   !> Warns of a contact point at which a wheel of this radius would not touch the ground. Tests and compliance matrix both use the
-   !> contact point of the deck, so that an error in it affects both.
+   !> Warns of a contact point at which a wheel of the given radius would not touch the ground. Tests and compliance matrix both use
+   !> the contact point of the deck, so that an error in this point affects both.
    subroutine patch_remarks(suspension, words)
       type(suspension_t), intent(in) :: suspension
       type(message_list_t), intent(inout) :: words
@@ -155,8 +155,8 @@ contains
       end associate
    end function has_spring
 
-   !> Warns of a deck without a spring, whose equilibrium rests on bushings and stops. Cases that only prescribe a wheel travel or a
-   !> driver (kinematics) need no spring.
+   !> Warns of a deck without a spring, whose equilibrium rests on bushings and stops. No warning is added if every case prescribes
+   !> a wheel travel or a driver and does not request all columns (kinematics): such cases do not need a spring.
    subroutine spring_remarks(suspension, cases, words)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: cases(:)
@@ -169,7 +169,7 @@ contains
          'and the reported rates are those of these elements')
    end subroutine spring_remarks
 
-   !> Adds notes on the preloads found by balance.
+   !> Adds one note per axial spring on the preload found by the preload trim (`balance`).
    subroutine preload_remarks(suspension, words)
       type(suspension_t), intent(in) :: suspension
       type(message_list_t), intent(inout) :: words

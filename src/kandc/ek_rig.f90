@@ -1,13 +1,12 @@
 !> The test rig: the rows, loads and actuations that a case of the deck adds to a suspension.
 !>
-!> `rig_of` returns the rig of a case as a separate value. It cannot fail, reads no file and changes no other data. The tests are
-!> in ek_rig_test.
+!> `rig_of` returns the rig of a case as a separate value. This function cannot fail, does not read a file and does not change other
+!> data. The tests are in ek_rig_test.
 !>
-!> `put_on` builds one flat model of a suspension and a rig. The rows and loads of the rig follow those of the suspension, because
-!> an increment needs one list of rows, one list of loads and one reaction vector λ. The split is by number: `own_rows` of the
-!> suspension come first in Φ and in λ, and "released" means without the rows after them. In the same way the case on the rig is
-!> the case with the actuations of its rig. A separate rig would be one more argument of every procedure, without any other
-!> benefit.
+!> `put_on` builds one flat model of a suspension and a rig. The rows and loads of the rig follow the rows and loads of the
+!> suspension, because an increment needs one list of rows, one list of loads and one reaction vector λ. The first `own_rows` rows
+!> of Φ and of λ belong to the suspension; "released" means without the rows after these. The case on the rig is the case with the
+!> actuations of its rig. A separate rig would be one more argument of every procedure, without any other benefit.
 !>
 !> A wheel held by height has a driver on its centre, or on its contact point (vertical = 'patch'). On the road (vertical =
 !> 'road') this driver is the height of the road, on which the contact point rests through the tyre rate. Held by vertical
@@ -33,15 +32,15 @@ module ek_rig
 
    !> A case on the rig, ready to be solved.
    type :: mounted_case_t
-      type(suspension_t) :: suspension             !! on the rig
-      type(case_t) :: case                         !! with its actuations, unit and name of the swept value
+      type(suspension_t) :: suspension             !! suspension on the rig
+      type(case_t) :: case                         !! case with its actuations, and unit and name of the swept value
       type(kkt_t) :: kkt                           !! work space
-      type(walk_t) :: space                        !! of its paths
+      type(walk_t) :: space                        !! work space of the paths of the case
       logical, private :: is_mounted = .false.
-      type(rig_t), private :: rig                  !! on which it stands
+      type(rig_t), private :: rig                  !! rig of the case
    end type mounted_case_t
 
-   character(*), parameter :: heights(2) = [character(16) :: 'rig_left_height', 'rig_right_height']   !! no name of a deck begins so
+   character(*), parameter :: heights(2) = [character(16) :: 'rig_left_height', 'rig_right_height']   !! deck names do not begin so
    real(wp), parameter :: nothing(3) = 0.0_wp
 
 contains
@@ -51,7 +50,7 @@ contains
       type(suspension_t), intent(in) :: base
       type(case_t), intent(in) :: given               !! is_mountable
       type(suspension_t), intent(out) :: suspension   !! on the rig
-      type(case_t), intent(out) :: this               !! with its actuations, range, unit and name of the swept value
+      type(case_t), intent(out) :: this               !! case with its actuations, and range, unit and name of the swept value
       type(rig_t) :: rig
 
       call mount_on(base, given, rig, suspension, this)
@@ -97,7 +96,7 @@ contains
    subroutine mount_again(base, given, mounted)
       type(suspension_t), intent(in) :: base
       type(case_t), intent(in) :: given                !! is_mountable
-      type(mounted_case_t), intent(inout) :: mounted   !! of mount_case or mount_again; empty: as mount_case
+      type(mounted_case_t), intent(inout) :: mounted   !! from mount_case or mount_again; if empty, filled by mount_case
       integer :: k
 
       if (.not. stands_there(base, given, mounted)) then
@@ -120,7 +119,7 @@ contains
       end associate
    end subroutine mount_again
 
-   !> Whether a case was put on the rig with a suspension of these parts.
+   !> Whether a case of this name was put on the rig with the same solver, and with a suspension of as many parts.
    pure logical function stands_there(base, given, mounted)
       type(suspension_t), intent(in) :: base
       type(case_t), intent(in) :: given
@@ -165,7 +164,7 @@ contains
 
    !> The rig of a case. A case without a test uses the driver or load that it names.
    pure type(rig_t) function rig_of(suspension, case) result(rig)
-      type(suspension_t), intent(in) :: suspension    !! completed, on no rig
+      type(suspension_t), intent(in) :: suspension    !! completed, not on a rig
       type(case_t), intent(in) :: case                !! a table that was not read has no rows: the rig then moves nothing
 
       rig = new_rig()
@@ -244,7 +243,8 @@ contains
       rig%unit = trim(driver_unit(suspension, case%drive))
    end subroutine follow_deck
 
-   !> Adds heights that follow the swept value; with vertical = 'force', adds vertical forces instead.
+   !> Adds the actuations that move the heights of the wheels with the swept value. With vertical = 'force', adds vertical forces
+   !> instead.
    pure subroutine move_heights(test, suspension, case, wheels, control, rig)
       type(rig_test_t), intent(in) :: test
       type(suspension_t), intent(in) :: suspension
@@ -296,7 +296,7 @@ contains
       end do
    end subroutine load_wheels
 
-   !> Adds the loads and drivers of the columns of a table; its rows become the path of the case.
+   !> Adds the loads and drivers of the columns of a load table. The rows of the table become the path of the case.
    pure subroutine take_rows(suspension, case, control, rig)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
@@ -328,11 +328,11 @@ contains
       rig%is_table = .true.
    end subroutine take_rows
 
-   !> Adds a driver of Σ sign × height relative to the vehicle body, of wheel centres, contact points, or of the road under the
-   !> tyres. Its value is the change from design [m]. The tyres on the road deflect under the loads at the contact points, so that
-   !> Σ sign × height = value + λ Σ sign²/rate.
+   !> Adds a driver of Σ sign × height relative to the vehicle body, with the heights of wheel centres, of contact points, or of the
+   !> road under the tyres. The value of the driver is the change from design [m]. The tyres on the road deflect under the loads at
+   !> the contact points, so that Σ sign × height = value + λ Σ sign²/rate.
    pure subroutine add_height(rig, suspension, name, where, wheels, signs, control)
-      type(rig_t), intent(inout) :: rig        !! its numbers still without a meaning
+      type(rig_t), intent(inout) :: rig        !! the numbers of the rig are set later (set_rig_numbers)
       type(suspension_t), intent(in) :: suspension
       character(*), intent(in) :: name, where
       integer, intent(in) :: wheels(:)

@@ -1,4 +1,4 @@
-!> The rig of a case, and its numbers for one design after the other: the points of its heights and loads, the tyres under
+!> The rig of a case, and the numbers of the rig for one design after the other: the points of its heights and loads, the tyres on
 !> its road, the range of the swept value.
 !>
 !> ek_rig creates the parts of a rig once, with their names; `set_rig_numbers` computes every number of these parts that a design
@@ -19,33 +19,33 @@ module ek_rig_numbers
 
    !> The sum that a driver prescribes: Σ sign × height of wheels, in the order of the terms of its row.
    type :: height_t
-      integer :: wheels(2) = 0                           !! 0: none
+      integer :: wheels(2) = 0                           !! indices of the wheels; 0: none
       real(wp) :: signs(2) = 0.0_wp
-      logical :: is_at_centre = .false.                  !! of the wheel; otherwise at the contact point of the deck
-      logical :: is_road = .false.                       !! the height of the road under the tyre of the contact point
+      logical :: is_at_centre = .false.                  !! height of the wheel centre; otherwise of the contact point
+      logical :: is_road = .false.                       !! height of the road under the tyre at the contact point
    end type height_t
 
-   !> The point of application of a load, and its value at factor 1.
+   !> The point of application of a load of the rig, and the force and moment of this load at the load factor 1.
    type :: acting_t
       integer :: wheel = 0
-      logical :: is_at_patch = .false.                   !! otherwise at the wheel centre
-      real(wp) :: force(3) = 0.0_wp, moment(3) = 0.0_wp  !! N, N m
+      logical :: is_at_patch = .false.                   !! at the contact point; otherwise at the wheel centre
+      real(wp) :: force(3) = 0.0_wp, moment(3) = 0.0_wp  !! at the load factor 1 [N, N m]
       logical :: has_trail = .false.                     !! the offset of the case gives a moment
    end type acting_t
 
-   !> Additions of a case to a suspension. Indices of its joints, rows, terms and loads continue after the suspension.
+   !> Additions of a case to a suspension. The indices of joints, rows, terms and loads of the rig continue after the suspension.
    type :: rig_t
       type(joint_t), allocatable :: joints(:)            !! drivers of heights, one row each
       type(row_t), allocatable :: rows(:)
       type(term_t), allocatable :: terms(:)
       type(load_t), allocatable :: loads(:)
-      type(height_t), allocatable :: heights(:)          !! of each row
-      type(acting_t), allocatable :: acting(:)           !! of each load
-      type(actuation_t), allocatable :: actuations(:)    !! of loads and rows of the rig, and of loads and rows that the case names
+      type(height_t), allocatable :: heights(:)          !! height prescribed by each row
+      type(acting_t), allocatable :: acting(:)           !! point and value of each load
+      type(actuation_t), allocatable :: actuations(:)    !! actuations of loads and rows of the rig, and of those the case names
       logical :: is_table = .false.                      !! the rows of a table are the path of the case
       real(wp) :: from = 0.0_wp, to = 0.0_wp             !! swept values, SI
       integer :: increments = 0
-      character(:), allocatable :: unit, place_name      !! of the swept value: 'mm', 'wheel travel'
+      character(:), allocatable :: unit, place_name      !! unit and name of the swept value: 'mm', 'wheel travel'
    end type rig_t
 
 contains
@@ -53,7 +53,7 @@ contains
    !> Sets the numbers of a rig for a design of the suspension and of the case. Memory is allocated only for the first values of a
    !> grid.
    pure subroutine set_rig_numbers(suspension, case, rig)
-      type(suspension_t), intent(in) :: suspension       !! completed, on no rig
+      type(suspension_t), intent(in) :: suspension       !! completed, not on a rig
       type(case_t), intent(in) :: case
       type(rig_t), intent(inout) :: rig
       real(wp) :: arm(3)

@@ -1,8 +1,9 @@
 !> The linear system of a state under loads that have no potential: a constant moment, or a load that rotates with its body.
 !>
-!> T lacks their skew part N, which affects not the equilibrium but its derivative. With g = dV/dπ the moment of all terms that
-!> have a potential, the derivative of the residual along a rotation is the derivative in exponential coordinates less ½ g̃ (from
-!> the product of two rotations, exp(δ̃)exp(π̃) = exp((δ + π + ½ δ×π + …)~)), and g is the moment M of the rest:
+!> T does not contain the skew part N of these loads. N does not affect the equilibrium, but affects its derivative. Let g = dV/dπ
+!> be the moment of all terms that have a potential. The derivative of the residual along a rotation is the derivative in
+!> exponential coordinates less ½ g̃ (from the product of two rotations, exp(δ̃)exp(π̃) = exp((δ + π + ½ δ×π + …)~)). At
+!> equilibrium, g is the moment M of the loads without a potential:
 !>
 !>     dead moment M:            N_ππ = −½ M̃
 !>     follower, force f, moment m about the reference point, arm included:
@@ -25,8 +26,8 @@ module ek_skew_system
 
    type :: skew_system_t
       logical :: is_singular = .false.
-      real(wp), allocatable :: matrix(:, :)                !! T + N and the rows, not scaled; allocated at its first use
-      real(wp), allocatable, private :: factors(:, :)      !! of the scaled matrix
+      real(wp), allocatable :: matrix(:, :)                !! T + N and the rows, not scaled; allocated at the first use
+      real(wp), allocatable, private :: factors(:, :)      !! LU factors of the scaled matrix
       integer, allocatable, private :: pivots(:)
    end type skew_system_t
 
@@ -59,7 +60,7 @@ contains
    !> Equation (C.4) of docs/theory/compliance.md.
    pure function skew_part(load, pose, factor) result(part)
       type(load_t), intent(in) :: load
-      type(pose_t), intent(in) :: pose              !! of its body
+      type(pose_t), intent(in) :: pose              !! pose of the body of the load
       real(wp), intent(in) :: factor
       real(wp) :: part(6, 6), force(3), moment(3), arm(3)
 

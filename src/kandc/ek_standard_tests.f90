@@ -16,15 +16,15 @@ contains
 
    !> Lists the standard tests of an axle, or the standard tests of a single wheel.
    !>
-   !> A test that the deck contains (same test, phase, offset and vertical control) is taken from the deck with its range. The other
-   !> cases of the deck follow. A test whose name the deck uses for another case gets the suffix '_test'. Steering covers the travel
-   !> of the rack given in &steering; a grid also covers the range of the parallel travel. A grid costs as much as several other
-   !> tests, so that it is listed only if it is requested.
+   !> A test that the deck contains (with this kind, phase and offset, and the vertical control of the test) is taken from the deck
+   !> with its range. The other cases of the deck follow. A test whose name the deck uses for another case gets the suffix '_test'.
+   !> Steering covers the travel of the rack given in &steering; a grid also covers the range of the parallel travel. A grid costs
+   !> as much as several other tests, so a grid is listed only if it is requested.
    subroutine standard_tests(suspension, own, tests, asked)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: own(:)             !! cases of the deck
       type(case_t), allocatable, intent(out) :: tests(:)
-      character(*), intent(in), optional :: asked    !! name of a test that runs on request only; '*': all of them
+      character(*), intent(in), optional :: asked    !! name of a test that runs on request only; '*': all such tests
       logical :: is_taken(size(own))
       integer :: wheels(2), place, trails, phase, k, t
 

@@ -1,8 +1,8 @@
 !> The columns of a state itself: wheels, springs, measures, bushings, joints. Columns that need the compliance matrix are in
 !> ek_kandc_columns.
 !>
-!> Units are mm, N, deg, N m regardless of the deck's units; vectors are in the deck's frame. input/QUANTITIES.md defines each of
-!> them.
+!> Units are mm, N, deg, N m regardless of the deck's units; vectors are in the deck's frame. input/QUANTITIES.md defines each
+!> column.
 module ek_state_columns
    use ek_kinds, only: wp, degree, millimetre
    use ek_quantity, only: wheel_position, steer_axis, axis
@@ -25,7 +25,7 @@ module ek_state_columns
 
    ! sections: of a wheel, an element of one measure, a measure, a bushing, a joint
    integer, parameter :: of_position = 1, of_axis = 2, of_element = 3, of_readout = 4, of_bushing = 5, of_joint = 6
-   integer, parameter :: most = max(12, size(wheel_position), size(steer_axis))      !! values of a section: of a bushing 12
+   integer, parameter :: most = max(12, size(wheel_position), size(steer_axis))      !! greatest number of values of a section
 
    ! rotations, cosines, lengths: ending of the column of an element's value, and its unit
    character(*), parameter :: endings(3) = [character(10) :: '_angle_deg', '_cosine', '_length_mm']
@@ -158,7 +158,7 @@ contains
       end do
    end subroutine state_values
 
-   !> Computes the values of wheel_position, in SI.
+   !> Computes the values of the section wheel_position, in SI.
    pure subroutine position_values(now, frame, values)
       type(attitude_t), intent(in) :: now
       real(wp), intent(in) :: frame(3)
@@ -173,7 +173,8 @@ contains
       values(9:11) = frame*now%contact
    end subroutine position_values
 
-   !> Computes the length or clearance, and the force, of an element with one measure, in the units of the columns.
+   !> Computes the value of an element with one measure (length, angle, cosine, or the clearance of a stop), and its force (positive
+   !> in compression) or moment, in the units of the columns.
    pure subroutine element_values(suspension, state, k, values)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
@@ -209,12 +210,12 @@ contains
       end associate
    end subroutine bushing_values
 
-   !> Computes force and moment of a joint on its second body, at its point, in the frame of the deck. For a joint of measures,
-   !> computes the reaction of its first row.
+   !> Computes force and moment of a joint on its second body, at the point of the joint [N, N m], in the frame of the deck. For a
+   !> joint of measures, computes the reaction of its first row.
    pure subroutine joint_values(suspension, state, gradients, frame, k, values)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
-      real(wp), intent(in) :: gradients(:, :)    !! of the terms of rows
+      real(wp), intent(in) :: gradients(:, :)    !! gradients of the terms of rows
       real(wp), intent(in) :: frame(3)
       integer, intent(in) :: k
       real(wp), intent(inout) :: values(most)
@@ -240,7 +241,7 @@ contains
       end associate
    end subroutine joint_values
 
-   !> Index of the row of the table above for a kind of measure.
+   !> Index in `endings` and `units` for a kind of measure.
    pure integer function which(kind)
       integer, intent(in) :: kind
       which = 3

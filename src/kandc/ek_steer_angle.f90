@@ -12,7 +12,7 @@ module ek_steer_angle
    ! Below one degree the static toe, not the linkage, determines the difference of the two wheels: (δA − δo) is then
    ! 0.01 deg, a toe of 0.1 deg ten times that
    real(wp), parameter :: min_steer = degree
-   real(wp), parameter :: widest_circle = 1000.0_wp   !! m: beyond this the car drives straight ahead
+   real(wp), parameter :: widest_circle = 1000.0_wp   !! limit of the turning circle [m]: beyond, the car drives straight ahead
 
 contains
 
@@ -23,7 +23,8 @@ contains
       steer_of = side*toe
    end function steer_of
 
-   !> Change of the steer angle with a rotation θ of the carrier, spin axis w (unit, outboard).
+   !> Change of the steer angle [rad, positive to the left] under a small rotation θ of the carrier; w is the spin axis (unit,
+   !> outboard).
    !>
    !>     steer = side·atan2(−w_x, side·w_y),  δw = θ×w:   δsteer = θ_z − w_z (θ_x w_x + θ_y w_y)/(w_x² + w_y²)
    !>
@@ -33,7 +34,7 @@ contains
       rate = dot_product(steer_gradient(spin), turn)
    end function steer_rate
 
-   !> The factors of θ in the steer angle. They are computed once for many rotations of one carrier.
+   !> The factors of the components of θ in the change of the steer angle (steer_rate). They serve many rotations of one carrier.
    !> Equation (C.10) of docs/theory/compliance.md.
    pure function steer_gradient(spin) result(gradient)
       real(wp), intent(in) :: spin(3)
@@ -75,7 +76,8 @@ contains
       side = 1
    end subroutine outer_wheel
 
-   !> Inner angle at which both wheels roll about one point on the line of the rear axle:
+   !> Steer angle δA of the inner wheel [rad] at which both wheels roll about one point on the line of the rear axle, from the steer
+   !> angle δo of the outer wheel, wheelbase L and track t:
    !>
    !>     δA = atan(L/(L/tan δo − t)), written as atan2(L tan δo, L − t tan δo): 0 at 0, no division
    pure real(wp) function ackermann_angle(outer, wheelbase, track) result(inner)
@@ -83,8 +85,9 @@ contains
       inner = atan2(wheelbase*tan(outer), wheelbase - track*tan(outer))
    end function ackermann_angle
 
-   !> The Ackermann percentage 100 (δi − δo)/(δA − δo) [%]: 100 for wheels that roll about one point, 0 for parallel steer. NaN
-   !> below one degree of steer, and if δA = δo: without a track, or with an infinite wheelbase.
+   !> The Ackermann percentage 100 (δi − δo)/(δA − δo) [%], δi of the inner and δo of the outer wheel: 100 for wheels that roll
+   !> about one point, 0 for parallel steer. NaN if δo is below one degree, and if δA = δo: without a track, or with an infinite
+   !> wheelbase.
    pure real(wp) function ackermann_percent(left, right, wheelbase, track) result(percent)
       real(wp), intent(in) :: left, right, wheelbase, track
       real(wp) :: inner, outer, wanted
@@ -108,7 +111,7 @@ contains
    end function ackermann_error
 
    !> Diameter of the circle of the outer wheel, 2L/sin δo [m]: all wheels roll, the centre is on the line of the
-   !> rear axle. Not a number above one kilometre.
+   !> rear axle. NaN from one kilometre.
    pure real(wp) function turning_circle(left, right, wheelbase) result(diameter)
       real(wp), intent(in) :: left, right, wheelbase
       real(wp) :: inner, outer
@@ -127,7 +130,8 @@ contains
       outer = atan2(wheelbase*tan(inner), wheelbase + track*tan(inner))
    end function ideal_outer_steer
 
-   !> Diameter of the circle of the outer front corner of the car: f ahead of the wheels, b/2 from the middle.
+   !> Diameter of the circle of the outer front corner of the car [m]. The corner is the overhang f ahead of the wheels and half the
+   !> width b from the middle. NaN if the turning circle is one kilometre or more.
    !>
    !>     2 √((L/tan δo − t/2 + b/2)² + (L + f)²)        about a point on the line of the rear axle
    pure real(wp) function wall_to_wall(outer, wheelbase, track, overhang, width) result(diameter)

@@ -1,7 +1,7 @@
 !> The table of a sweep, one row per state: the quantities of a case.
 !>
-!> The columns come from ek_state_columns and ek_kandc_columns, between `state` and `factor` in front and `converged`,
-!> `iterations` and `constraint_error` at the end.
+!> The columns come from ek_state_columns and ek_kandc_columns, between `state` and `factor` in front and `converged`, `stable`,
+!> `near_singular`, `iterations` and `constraint_error` at the end.
 module ek_sweep_table
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan, ieee_is_finite
    use ek_kinds, only: wp, i8
@@ -23,14 +23,14 @@ module ek_sweep_table
    public :: observer_t, make_observer, observe, observe_kandc_at, observe_state, quantity_columns, reads_matrix, &
       is_kandc_column, reads_poses_of_wheels, nearly_singular, sweep_table, sweep_columns, open_states, sweep_bytes
 
-   real(wp), parameter :: nearly_singular = 1.0e-12_wp   !! smallest over largest pivot: four digits are left
+   real(wp), parameter :: nearly_singular = 1.0e-12_wp   !! ratio of smallest to largest pivot; at this limit, four digits remain
    real(wp), parameter :: open_joints = 1.0e-2_wp   !! |Φ| [m, rad] above which a state of a linear method is marked converged = 0
 
    !> Layout of a table of states: its columns, and the work space to fill them.
    type :: observer_t
       character(name_length), allocatable :: columns(:)     !! column headings of the table
-      integer, private :: shown = 0, reported = 0, ended = 0    !! last column of the state, of the quantities, of the table
-      integer, allocatable, private :: kept(:)              !! the columns of the table among all
+      integer, private :: shown = 0, reported = 0, ended = 0    !! index of the last column of the state, the quantities, the table
+      integer, allocatable, private :: kept(:)              !! indices of the columns of the table among all columns
       type(column_list_t), private :: list                  !! columns of the state
       type(kandc_t), private :: kandc                       !! K&C columns, if the case requests them
       character(name_length), allocatable, private :: wanted(:)
@@ -92,12 +92,13 @@ contains
       if (case%has_all) is_for = same_columns(suspension, self%kandc)
    end function is_for
 
-   !> Builds the table of a sweep. It contains all states that were reached, and on each side the first state that was not reached.
-   !> The latter is marked by converged = 0 and NaN values.
+   !> Builds the table of a sweep. The table contains all states that were reached, and on each side the first state that was not
+   !> reached; for a load table, all rows. A state that was not reached has converged = 0 and NaN values. A state of a linear method
+   !> that violates the joint constraints has converged = 0.
    !>
-   !> If the case requests all columns, the K&C quantities precede the last columns. They come from the compliance matrix at every
-   !> state, which is solved only if one of the columns of the observer needs it. With defers_kandc the K&C quantities are NaN;
-   !> observe_kandc_at computes them at the states where they are read.
+   !> If the case requests all columns, the K&C quantities precede the last columns. The compliance matrix of a state is solved only
+   !> if a column of the observer needs it. With defers_kandc, the K&C quantities are NaN; observe_kandc_at computes them at the
+   !> states that are read.
    subroutine observe(suspension, case, path, kkt, observer, table, defers_kandc)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
@@ -225,16 +226,16 @@ contains
       names = observer%columns(3:count(observer%kept <= observer%reported))
    end function quantity_columns
 
-   !> Whether any column needs the compliance matrix, or belongs to a section that is computed with the matrix.
+   !> Whether any column of the table is a K&C quantity. These quantities are computed together with the compliance matrix.
    pure logical function reads_matrix(observer)
       type(observer_t), intent(in) :: observer              !! of make_observer
       reads_matrix = has_kandc(observer)
    end function reads_matrix
 
-   !> Whether a column of the table is a K&C quantity, which is computed with the compliance matrix.
+   !> Whether a column of the table is a K&C quantity (ek_kandc_list).
    pure logical function is_kandc_column(observer, column)
       type(observer_t), intent(in) :: observer              !! of make_observer
-      integer, intent(in) :: column                         !! of its table
+      integer, intent(in) :: column                         !! index of a column of the table
       is_kandc_column = observer%kept(column) > observer%shown .and. observer%kept(column) <= observer%reported
    end function is_kandc_column
 
@@ -345,7 +346,8 @@ contains
       columns(size(columns) - 2:) = [character(name_length) :: 'near_singular', 'iterations', 'constraint_error']
    end subroutine list_columns
 
-   !> Whether stability is known. It is not for the recursive method, whose matrix has no geometric stiffness.
+   !> Whether the stability of the states is known. It is unknown for the recursive method, whose matrix does not contain the
+   !> geometric stiffness.
    pure logical function knows_stability(case)
       type(case_t), intent(in) :: case
       knows_stability = case%method /= 'recursive'
@@ -369,8 +371,8 @@ contains
       bytes = margin + 8*int(case%increments + 2, i8)*(coordinates(suspension) + of_a_path + 2*size(observer%columns))
    end function sweep_bytes
 
-   !> Finds the first and last state in the table: all converged states, and one more on a side that failed. For a load table, every
-   !> row is included.
+   !> Finds the first and last state in the table: all converged states, and one more on a side that failed. If no state converged,
+   !> both are the design state. For a load table, every row is included.
    pure subroutine reached_rows(path, first, last)
       type(path_t), intent(in) :: path
       integer, intent(out) :: first, last

@@ -22,11 +22,11 @@ module ek_target
 
    !> The target, and the swept value that meets it.
    type :: target_t
-      character(:), allocatable :: column    !! its full name, with unit
-      real(wp) :: wanted = 0.0_wp            !! in that unit
-      real(wp) :: place = 0.0_wp             !! swept value, SI
+      character(:), allocatable :: column    !! full name of the column, with unit
+      real(wp) :: wanted = 0.0_wp            !! target value, in the unit of the column
+      real(wp) :: place = 0.0_wp             !! swept value at which the column has the target value, SI
       integer :: crossings = 0               !! number of crossings of the value in the sweep; the nearest to design is used
-      type(table_t) :: table                 !! the state at the found swept value, one row
+      type(table_t) :: table                 !! table of the state at this swept value, one row
    end type target_t
 
 contains
@@ -34,9 +34,9 @@ contains
    !> Searches a sweep of method `equilibrium` for case%target, 'column=value', and solves for the swept value between the states of
    !> the sweep.
    !>
-   !> The unit of the column may be omitted if only one column begins with the name. If there are several solutions, the solution
-   !> nearest to design is used. Errors: exit_deck if there is no such column; exit_convergence if the sweep does not reach the
-   !> value.
+   !> The unit of the column may be omitted if only one column has this name with a unit. If there are several solutions, the
+   !> solution nearest to design is used. A jump of the column across the value, as at a pole, is not a solution. Errors: exit_deck
+   !> if there is no such column; exit_convergence if the sweep does not reach the value.
    subroutine find_target(suspension, case, path, table, kkt, found, error)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
@@ -74,8 +74,8 @@ contains
          str(found%wanted)//words)
    end subroutine find_target
 
-   !> Marks the rows that have the target value, or between which and the next row the target value is crossed. Estimates the swept
-   !> value at each crossing.
+   !> Marks each row that has the target value, and each row after which the column crosses the target value before the next row.
+   !> Estimates the swept value at each crossing.
    subroutine find_crossings(path, table, c, wanted, is_crossing, place)
       type(path_t), intent(in) :: path
       type(table_t), intent(in) :: table

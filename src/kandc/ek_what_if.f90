@@ -5,8 +5,8 @@
 !>
 !>     C' = C − G_vᵀ (I + D A)⁻¹ D G
 !>
-!> and, with the laws rigid, C' = C − G_vᵀ A⁻¹ G. G_v is G of the transpose. An added law has the rate 0 before; this gives the
-!> effect of an added spring. With preload the state would also move; the result is exact for the unchanged state.
+!> and, with the laws rigid, C' = C − G_vᵀ A⁻¹ G. G_v is G of the transpose. For an added spring, the rate before the change is 0.
+!> With preload the state would also move; the result is exact for the unchanged state.
 module ek_what_if
    use ek_kinds, only: wp
    use ek_contract, only: are_checked, require
@@ -24,7 +24,7 @@ contains
    !> Computes A: the deflections of some laws per unit load on each of them. The cost is one solution per law.
    !> Equation (C.16) of docs/theory/compliance.md.
    subroutine find_self_moves(laws, kkt, compliance, shares, self_move)
-      integer, intent(in) :: laws(:)                      !! numbers of laws in `shares`
+      integer, intent(in) :: laws(:)                      !! indices of laws in `shares`
       type(kkt_t), intent(inout) :: kkt                   !! with the factors of the state
       type(compliance_t), intent(in) :: compliance        !! of the state
       type(contribution_t), intent(in) :: shares          !! of split_compliance, at the same state
@@ -38,13 +38,13 @@ contains
       self_move = matmul(transpose(shares%gradient(:, laws)), columns(:kkt%nq, :))
    end subroutine find_self_moves
 
-   !> Computes C' after changes of some rates. I + D A is singular where a rate becomes so negative that the suspension collapses.
+   !> Computes C' after changes of some rates. I + D A is singular if a rate becomes so negative that the suspension collapses.
    !> Equation (C.16) of docs/theory/compliance.md.
    subroutine changed_compliance(c, left_move, move, self_move, change, changed, is_known)
       real(wp), intent(in) :: c(:, :)                       !! at the wheel centres
       real(wp), intent(in) :: left_move(:, :), move(:, :)   !! (load, law): G_vᵀ, Gᵀ
       real(wp), intent(in) :: self_move(:, :)               !! A
-      real(wp), intent(in) :: change(:)                     !! of each rate [N/m, N m/rad]
+      real(wp), intent(in) :: change(:)                     !! change of each rate [N/m, N m/rad]
       real(wp), allocatable, intent(out) :: changed(:, :)   !! C'
       logical, intent(out) :: is_known                      !! .false.: singular
       real(wp) :: matrix(size(change), size(change)), forces(size(change), size(c, 2))
@@ -62,8 +62,8 @@ contains
       changed = c - matmul(left_move, forces)
    end subroutine changed_compliance
 
-   !> The compliance matrix C' with some laws rigid. Their deflections are locked one after the other; a deflection that is already
-   !> locked has no effect.
+   !> The compliance matrix C' with some laws rigid. The deflections of these laws are locked one after the other; a deflection that
+   !> is already locked has no effect.
    !> Equation (C.17) of docs/theory/compliance.md.
    pure function rigid_compliance(c, left_move, move, self_move) result(changed)
       real(wp), intent(in) :: c(:, :)

@@ -14,7 +14,7 @@ contains
    pure subroutine wheel_values(group, is, frame, values)
       integer, intent(in) :: group
       type(wheel_characteristics_t), intent(in) :: is
-      real(wp), intent(in) :: frame(3)              !! from the program's frame to the deck's frame
+      real(wp), intent(in) :: frame(3)              !! signs of x, y, z from the program's frame to the deck's frame
       real(wp), intent(inout) :: values(:)          !! the first are set
 
       select case (group)
@@ -59,7 +59,7 @@ contains
       end select
    end subroutine wheel_values
 
-   !> Computes the responses to roll: steer, camber, caster, steer in percent, and rotations.
+   !> Computes the responses to roll: steer, camber and caster per roll, steer in per cent of roll, and rotations.
    pure subroutine roll_values(roll, frame, values)
       type(response_t), intent(in) :: roll
       real(wp), intent(in) :: frame(3)

@@ -1,7 +1,7 @@
 !> A key number of a suspension: its definition, the columns and tests that contain it, and the way in which its value is read.
 !>
 !> ek_key_numbers lists the key numbers that tests can have, from the headings of their tables alone. read_source reads one key
-!> number when the tests are solved. It creates no strings, so that several threads can read at the same time.
+!> number when the tests are solved. read_source creates no strings, so that several threads can call it at the same time.
 module ek_key_number
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
@@ -24,26 +24,26 @@ module ek_key_number
    type :: key_source_t
       integer :: test = 0                               !! index in the list of tests
       character(name_length) :: column(2) = ''          !! '': this wheel does not have the number
-      character(name_length) :: over(2) = ''            !! the abscissa of a gradient; the column that has a given value
-      real(wp) :: wanted(2) = 0.0_wp                    !! that value, in the unit of the column
-      real(wp) :: half = 0.0_wp                         !! window of a gradient, in the unit of `over`
-      real(wp) :: size(2) = 1.0_wp                      !! unit and sign of a gradient: times the slope of the columns
+      character(name_length) :: over(2) = ''            !! abscissa of a gradient; or column that has a given value
+      real(wp) :: wanted(2) = 0.0_wp                    !! given value of the column `over`, in the unit of this column
+      real(wp) :: half = 0.0_wp                         !! half width of the window of a gradient, in the unit of `over`
+      real(wp) :: size(2) = 1.0_wp                      !! factor on the slope of the columns: unit and sign of a gradient
       real(wp) :: factor_size = 1.0_wp                  !! load or displacement at `factor` = 1
    end type key_source_t
 
    !> One key number of a report, with its values for the axle, a single wheel or both wheels.
    type :: key_number_t
       character(:), allocatable :: group, quantity, unit, sign
-      character(:), allocatable :: name           !! for programs, without left_ or right_: 'bump_toe', 'toe_deg'
+      character(:), allocatable :: name           !! name for programs, without left_ or right_: 'bump_toe', 'toe_deg'
       character(:), allocatable :: condition      !! test and window of the number: 'parallel_travel, within ±15 mm of design'
-      character(:), allocatable :: definition     !! from which columns, and its sign
+      character(:), allocatable :: definition     !! columns of the number, and its sign
       character(48) :: held = ''                  !! condition of the wheels of a loaded axle: 'vertical force held'
       logical :: has_target = .false.
       real(wp) :: target(2) = 0.0_wp              !! lower and upper limit that the deck gives, in `unit`
-      real(wp) :: left = 0.0_wp, right = 0.0_wp      !! NaN if missing
+      real(wp) :: left = 0.0_wp, right = 0.0_wp      !! values of the wheels; NaN if missing
       logical :: is_of_axle = .false.                !! one number, in `left`
       integer :: how = at_design                     !! one of the constants above
-      type(key_source_t), allocatable :: sources(:)  !! tests that may have it; the first that has a value counts
+      type(key_source_t), allocatable :: sources(:)  !! tests that may have the number, in the order of reading
    end type key_number_t
 
 contains
@@ -70,8 +70,9 @@ contains
       is_slope = how >= slope .and. how <= anti_phase
    end function is_slope
 
-   !> Reads a key number from one of its tests. `values` contains the values from earlier tests: first for the left wheel, the
-   !> single wheel or the axle, then for the right wheel. `is_final`: no further test needs to be read.
+   !> Reads a key number from one of its tests: first for the left wheel, the single wheel or the axle, then for the right wheel.
+   !> For the largest magnitude over all tests, `values` contains the values from earlier tests. `is_final`: no further test needs
+   !> to be read.
    subroutine read_source(how, source, table, values, is_final)
       integer, intent(in) :: how
       type(key_source_t), intent(in) :: source
@@ -117,7 +118,8 @@ contains
       if (row > 0) value = table%values(place, row)
    end function design_value
 
-   !> Finds the maximum or minimum of a column over the converged states. For the largest magnitude, earlier tests are included.
+   !> Finds the maximum or minimum of a column over the usable states (is_good), or the largest magnitude, which includes the value
+   !> from earlier tests.
    subroutine take_extreme(how, table, place, value)
       integer, intent(in) :: how
       type(table_t), intent(in) :: table
@@ -165,7 +167,7 @@ contains
       end do
    end function value_where
 
-   !> Whether each state converged and has a finite value in a column.
+   !> Whether each state converged, is on the branch through design (unfolded_rows), and has a finite value in a column.
    pure function is_good(table, place)
       type(table_t), intent(in) :: table
       integer, intent(in) :: place

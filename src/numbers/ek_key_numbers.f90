@@ -19,10 +19,10 @@ module ek_key_numbers
    !> One key number: its group, its column or gradient, and the way in which it is read.
    type :: entry_t
       character(32) :: group = ''
-      character(44) :: name = ''        !! a column, or a gradient without its suffix
-      character(15) :: kind = ''        !! of the test; '': the first that has the column
-      integer :: how = at_design        !! at_design to anti_phase of ek_key_number
-      character(38) :: title = ''       !! of an extreme; otherwise the title of the column or gradient
+      character(44) :: name = ''        !! name of a column, or of a gradient without the suffix ' (fitted)'
+      character(15) :: kind = ''        !! kind of the test; '': any test that has the column
+      integer :: how = at_design        !! source: at_design to anti_phase of ek_key_number
+      character(38) :: title = ''       !! title of an extreme; '': the title of the column or gradient
    end type entry_t
 
    character(*), parameter :: phases(slope:anti_phase) = [character(12) :: '', ', in phase', ', anti-phase']
@@ -87,7 +87,7 @@ module ek_key_numbers
 
 contains
 
-   !> Computes all key numbers that the tests provide, with their values.
+   !> Computes all key numbers that the tests provide. A key number without a value is omitted, except a gradient.
    subroutine key_numbers(tests, gradients, numbers)
       type(test_result_t), intent(in) :: tests(:)        !! solved
       type(gradient_t), intent(in) :: gradients(:)       !! of these tests
@@ -159,11 +159,12 @@ contains
       call numbers_of(list, numbers)
    end subroutine list_key_numbers
 
-   !> Marks the gradients among the requested key numbers that are read from a kind of test: 'bump toe (fitted)'.
+   !> Lists the gradients that the requested key numbers read from a kind of test, such as 'bump toe (fitted)', and marks the names
+   !> of these key numbers in is_gradient.
    subroutine wanted_gradients(kind, wanted, quantities, is_gradient)
       character(*), intent(in) :: kind, wanted(:)        !! names without left_ and right_
       character(64), allocatable, intent(out) :: quantities(:)
-      logical, intent(inout) :: is_gradient(:)           !! of each name: set if it is one of these
+      logical, intent(inout) :: is_gradient(:)           !! of each name in `wanted`
       integer :: k
 
       allocate (quantities(0))
@@ -177,8 +178,8 @@ contains
       end do
    end subroutine wanted_gradients
 
-   !> The name of the key number that is a column at design, or a gradient; '' if there is none. Loads in phase and in anti-phase
-   !> give two key numbers for one gradient; such a gradient has no name here.
+   !> The name of the key number that is a column at design, or a gradient; '' without such a key number. Loads in phase and in
+   !> anti-phase give two key numbers for one gradient; the result for such a gradient is ''.
    pure character(64) function number_name(source, is_slope) result(name)
       character(*), intent(in) :: source                 !! 'toe_deg', 'bump toe'
       logical, intent(in) :: is_slope                    !! source is a gradient
@@ -230,7 +231,8 @@ contains
       end do
    end subroutine number_heads
 
-   !> Reads a gradient of the tests with a kind and phase. Of several tests, the first that was run is used.
+   !> Defines a key number as a gradient of the tests of a kind and phase. Every test with the gradient becomes a source; unit,
+   !> sign and condition come from the first of these tests.
    subroutine from_gradients(tests, gradients, entry, number)
       type(test_result_t), intent(in) :: tests(:)
       type(gradient_t), intent(in) :: gradients(:)
@@ -269,7 +271,8 @@ contains
       end do
    end subroutine from_gradients
 
-   !> Reads a column at design, or its maximum or minimum, in the tests that have the column.
+   !> Defines a key number as a column at design, or as the maximum or minimum of a column. Every test that has the column becomes a
+   !> source.
    subroutine from_tables(tests, entry, is_steered, number)
       type(test_result_t), intent(in) :: tests(:)
       type(entry_t), intent(in) :: entry
@@ -315,7 +318,7 @@ contains
       end do
    end subroutine from_tables
 
-   !> The sign convention after a definition: '; + top outward'; '' if there is none.
+   !> The sign convention as the end of a definition: '; + top outward'; '' without a sign convention.
    function sign_of(sign) result(text)
       character(*), intent(in) :: sign
       character(:), allocatable :: text

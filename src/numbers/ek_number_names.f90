@@ -73,7 +73,7 @@ contains
    !> Lists the names of all key numbers, with units and definitions, in the order of the report. No case is solved, so that a
    !> listed key number may turn out to be NaN.
    subroutine list_numbers(suspension, cases, names, units, definitions)
-      type(suspension_t), intent(in) :: suspension      !! on no rig
+      type(suspension_t), intent(in) :: suspension      !! not on a rig
       type(case_t), intent(in) :: cases(:)
       type(message_list_t), intent(out) :: names, units, definitions
       type(key_number_t), allocatable :: listed(:)
@@ -100,7 +100,7 @@ contains
       type(test_result_t), allocatable, intent(out) :: tests(:)
       type(key_number_t), allocatable, intent(out) :: listed(:)
       character(name_length), allocatable, intent(out) :: names(:, :)   !! (wheel, number): '' if a wheel does not have it
-      character(*), intent(in), optional :: wanted(:)    !! of names without left_ and right_; absent: all
+      character(*), intent(in), optional :: wanted(:)    !! names without left_ and right_; absent: all
       type(case_t), allocatable :: run(:)
       type(gradient_t), allocatable :: gradients(:)
       character(name_length), allocatable :: heads(:)

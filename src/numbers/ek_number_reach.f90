@@ -14,13 +14,13 @@ module ek_number_reach
    private
    public :: reach_of, lacks_state
 
-   real(wp), parameter :: margin = 1.001_wp    !! of a window: its states may differ from their swept values by the tolerance
+   real(wp), parameter :: margin = 1.001_wp    !! factor on a window: its states may be off their swept values by the tolerance
 
 contains
 
-   !> The swept value beyond which a key number needs no state of a source: 0 if the key number is read at design, otherwise the end
-   !> of its window. For a gradient, the test must hold the wheels such that the abscissa is the swept value times a factor;
-   !> otherwise all states are needed.
+   !> The swept value beyond which a key number does not need a state of a source [SI]: 0 for a key number that is read at design,
+   !> and the end of the window for a gradient if the abscissa of the test is the swept value times a constant. In all other cases
+   !> all states are needed, and the result is huge.
    pure real(wp) function reach_of(how, suspension, case, source, test) result(reach)
       integer, intent(in) :: how                        !! of ek_key_number
       type(suspension_t), intent(in) :: suspension
@@ -55,7 +55,7 @@ contains
 
    end function reach_of
 
-   !> Whether a case lacks a state within a reach from design: the case was not run, its states end earlier on one side, or a state
+   !> Whether a case lacks a state within a reach from design: the case was not run, the path ends earlier on one side, or a state
    !> violates the joint constraints (converged = 0).
    pure logical function lacks_state(result, reach)
       type(case_result_t), intent(in) :: result

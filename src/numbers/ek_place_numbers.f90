@@ -1,5 +1,5 @@
-!> Key numbers at particular states of a test: ratio and Ackermann with the inner wheel at 20 deg, wheel travel to the contact of a
-!> stop, and the largest force on the rack over all tests.
+!> Key numbers at particular states of a test: steering ratio and Ackermann percentage with the inner wheel at 20 deg, wheel travel
+!> to the contact of a stop, and the largest force on the rack over all tests.
 module ek_place_numbers
    use ek_kinds, only: wp
    use ek_text, only: spaced
@@ -10,7 +10,7 @@ module ek_place_numbers
    private
    public :: number_list_t, new_number, add_source, append, numbers_of, place_numbers
 
-   real(wp), parameter :: inner_steer = 20.0_wp        !! deg: a tight corner in town, a usual reference for steering
+   real(wp), parameter :: inner_steer = 20.0_wp        !! steer of the inner wheel [deg]: tight corner in town, a usual reference
    character(*), parameter :: gap_ending = '_gap_mm', travel = 'wheel_travel_mm', rack_force = 'steering_rack_force_n', &
       rack_name = 'largest_rack_force_n', to_stop = 'travel_to_'
 
@@ -18,8 +18,8 @@ module ek_place_numbers
       type(key_number_t), allocatable :: number
    end type slot_t
 
-   !> Key numbers in order. They are stored in slots: a key number with the columns of all tests takes kilobytes, and an insertion
-   !> copies no key number.
+   !> Key numbers in order. Each key number is stored in a slot of its own. A key number with the columns of all tests needs
+   !> kilobytes; with slots, an insertion does not copy the others.
    type :: number_list_t
       private
       type(slot_t), allocatable :: slots(:)
@@ -54,7 +54,7 @@ contains
       number%sources = [number%sources, source]
    end subroutine add_source
 
-   !> Appends these key numbers, as far as the tables of the tests have their columns.
+   !> Appends the key numbers of this module whose columns are in the tables of the tests.
    subroutine place_numbers(tests, numbers, wanted)
       type(test_result_t), intent(in) :: tests(:)
       type(number_list_t), intent(inout) :: numbers
@@ -79,7 +79,7 @@ contains
    !> the inner wheel.
    subroutine add_at_steer(test, place, column, quantity, name, unit, numbers)
       type(test_result_t), intent(in) :: test
-      integer, intent(in) :: place                 !! of the test
+      integer, intent(in) :: place                 !! index of the test
       character(*), intent(in) :: column, quantity, name, unit
       type(number_list_t), intent(inout) :: numbers
       type(key_number_t) :: number
@@ -103,10 +103,11 @@ contains
       call append(number, numbers)
    end subroutine add_at_steer
 
-   !> Adds the wheel travel from design to the contact of each stop on its side, with both wheels in parallel travel.
+   !> Adds the wheel travel from design to the contact of each stop, in parallel travel: the travel of the wheel on the side
+   !> of the stop, or of the first wheel if the name of the stop gives no side.
    subroutine add_stops(test, place, numbers)
       type(test_result_t), intent(in) :: test
-      integer, intent(in) :: place                 !! of the test
+      integer, intent(in) :: place                 !! index of the test
       type(number_list_t), intent(inout) :: numbers
       type(key_number_t) :: number
       type(key_source_t) :: source
@@ -182,7 +183,7 @@ contains
       call append(number, numbers)
    end subroutine add_rack_force
 
-   !> Inserts a key number after the last key number of its group.
+   !> Inserts a key number after the last key number of its group, or at the end of the list if it begins a new group.
    subroutine append(number, list)
       type(key_number_t), intent(in) :: number
       type(number_list_t), intent(inout) :: list

@@ -12,7 +12,7 @@ module ek_planned_test
 
 contains
 
-   !> Lists name, kind and title of every test before it is run.
+   !> Lists name, kind and title of every test before a solution. The results of all cases are set to have all columns.
    subroutine planned_tests(suspension, cases, tests)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(inout) :: cases(:)      !! their results have all columns
@@ -39,7 +39,8 @@ contains
       end do
    end subroutine planned_tests
 
-   !> Finds the kind of test to which a case of a deck corresponds, from its driver or load.
+   !> Finds the kind of test to which a case of a deck corresponds, from the driver or load of the case; 'other' if the case does
+   !> not correspond to a test.
    subroutine kind_of_case(suspension, case, kind, factor_size)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case

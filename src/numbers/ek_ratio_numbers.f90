@@ -1,4 +1,4 @@
-!> Key numbers of springs, dampers and anti-roll bars: the motion ratio of each element at design.
+!> Key numbers of springs: the motion ratio of each spring on two points and of each spring on a length measure, at design.
 module ek_ratio_numbers
    use ek_text, only: spaced
    use ek_table, only: column_index
@@ -13,8 +13,8 @@ module ek_ratio_numbers
 
 contains
 
-   !> Appends the motion ratio of each element with one measure: the change of its length per wheel travel. Stops are omitted,
-   !> because they are without contact near design.
+   !> Appends the motion ratio of each element with a column of motion ratio: the change of the length of the element per wheel
+   !> travel. Stops are omitted, because they are without contact near design.
    subroutine ratio_numbers(tests, numbers, wanted)
       type(test_result_t), intent(in) :: tests(:)
       type(number_list_t), intent(inout) :: numbers
