@@ -1,4 +1,4 @@
-!> The states of a sweep, in storage that serves one design after the other: the swept value of each state, and the findings at it.
+!> The states of a sweep, in storage that serves one design after the other: the swept value of each state, and the findings there.
 module ek_path_states
    use ek_kinds, only: wp
    use ek_case, only: case_t, follows_table
@@ -14,22 +14,23 @@ module ek_path_states
    !> All states of a sweep, in order from…to.
    type :: path_t
       integer :: states = 0
-      integer :: start = 0                        !! index of the design state, 0 if the range leaves it out
+      integer :: start = 0                        !! index of the design state; 0 if the range does not contain design
       real(wp), allocatable :: value(:)           !! swept value: factor, or change of the driven value [m, rad]
       real(wp), allocatable :: packed(:, :)       !! (coordinate, state), see ek_state
       logical, allocatable :: is_reached(:)
       logical, allocatable :: is_stable(:)        !! no negative stiffness
-      integer, allocatable :: iterations(:)       !! factorisations spent on a state
-      real(wp), allocatable :: pivot_ratio(:)     !! cheap condition estimate; where that is tiny, the true one
+      integer, allocatable :: iterations(:)       !! number of factorisations for each state
+      real(wp), allocatable :: pivot_ratio(:)     !! smallest / largest pivot; where it is tiny, the condition estimate if larger
       real(wp), allocatable :: settled(:)         !! packed state under the constant loads only
       logical :: is_settled = .false.             !! there is an equilibrium under the constant loads
-      logical :: is_table = .false.               !! rows of a table, each an independent state
+      logical :: is_table = .false.               !! the states are rows of a table, independent of each other
       integer :: crossings = 0                    !! number of bifurcations on the path
       real(wp) :: crossing_place(max_crossings) = 0.0_wp   !! swept values of these bifurcations
       integer :: limits = 0                       !! number of limit points (follow = 'arc')
       real(wp) :: limit_place(2*max_limits) = 0.0_wp
       integer :: limit_state(2*max_limits) = 0   !! index of the nearest state; 0: before the range begins
-      type(failure_t) :: failure(2)               !! towards `to`, towards `from`; or while settling; or first failed row of a table
+      type(failure_t) :: failure(2)               !! (1) towards `to`, (2) towards `from`; only (1) if the sweep has one direction,
+                                                  !! in static equilibrium, or for the first failed row of a table
    end type path_t
 
 contains
@@ -75,7 +76,7 @@ contains
 
    !> Allocates storage for the states of a path, and marks all states as not reached.
    pure subroutine clear(numbers, path)
-      integer, intent(in) :: numbers              !! of a state
+      integer, intent(in) :: numbers              !! length of a packed state
       type(path_t), intent(inout) :: path         !! with the number of its states
       logical :: is_alike
       integer :: side
@@ -140,7 +141,7 @@ contains
       end if
    end function ways
 
-   !> The range of a path [swept value]; 1 row for a table.
+   !> The scale of a path [swept value]: its range plus its largest magnitude; 1 row for a table.
    pure real(wp) function span(path)
       type(path_t), intent(in) :: path
       span = 1.0_wp

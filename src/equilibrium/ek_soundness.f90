@@ -18,7 +18,8 @@ module ek_soundness
    private
    public :: is_surely_sound
 
-   real(wp), parameter :: doubt = 10.0_wp     !! `condition` estimates |S⁻¹| from below, seldom by more than a factor of 3
+   real(wp), parameter :: doubt = 10.0_wp     !! safety factor: `condition` estimates |S⁻¹| from below, seldom by more than a factor
+                                              !! of 3
 
 contains
 
