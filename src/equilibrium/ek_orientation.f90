@@ -314,7 +314,7 @@ contains
    end subroutine allocate_dense
 
    !> Finds whether det(Φq(a) Φq(b)ᵀ) < 0, by LU factors of the complete matrix of products. For a singular matrix the
-   !> result is .false..
+   !> result is .false.
    pure subroutine find_sign(self, is_negative)
       type(orientation_t), intent(inout) :: self
       logical, intent(out) :: is_negative

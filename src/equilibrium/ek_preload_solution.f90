@@ -18,7 +18,7 @@ module ek_preload_solution
                                                         !! rounding
    real(wp), parameter :: moderate = 1.0e100_wp         ! largest number whose products cannot overflow
    integer, parameter :: most_corrections = 3
-   real(wp), parameter :: last_correction = 1.0e-8_wp   ! of the solution: the next one would be smaller by the same factor, or its root
+   real(wp), parameter :: last_correction = 1.0e-8_wp   ! of the solution: the next is smaller by this factor, or its root
    real(wp), parameter :: closed = 1.0e-10_wp           ! of |b|: remainder of W x + F y = b
 
 contains

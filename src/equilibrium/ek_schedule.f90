@@ -150,7 +150,7 @@ contains
    end subroutine inputs_at
 
    !> Value of an actuation: share × swept value, share × tan(swept value), or the value of the table. Table values are linear
-   !> between rows. From swept value `rest` (initially 0) to the next row, they increase linearly from 0.
+   !> between rows. From swept value `rest` (initially 0) to the next row, they change linearly from 0.
    pure real(wp) function value_at(actuation, place, rest) result(value)
       type(actuator_t), intent(in) :: actuation
       real(wp), intent(in) :: place

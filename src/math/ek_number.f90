@@ -1,7 +1,8 @@
 !> The numbers of kernels: the values that differ between designs.
 !>
-!> A kernel is compiled twice from one source. Here its numbers `real(num)` are reals. The build also makes a copy of it
-!> (src/lanes/make_lanes.cmake) in which they are `type(lanes_t)`, the numbers of four designs, and this module is `ek_lanes`.
+!> A kernel is compiled twice from one source. With this module, the numbers `real(num)` of a kernel are reals. The build also makes
+!> a copy of the kernel (src/lanes/make_lanes.cmake) in which the numbers are `type(lanes_t)`, the numbers of four designs, and
+!> `ek_lanes` replaces this module.
 !> "How a kernel is written" in docs/compilers.md gives the rules.
 module ek_number
    use ek_kinds, only: wp

@@ -3,11 +3,11 @@
 !>     [ K   F ] [v]   [b]
 !>     [ Fᵀ  0 ] [y] = [0]
 !>
-!> One column of F after the other takes its largest element as pivot (P F = L [U; 0]); the same row operations on both sides
-!> of K leave Zᵀ K Z, where the columns of Z span the null space of Fᵀ, and Cholesky's method factorises it. Zeros are skipped: for
-!> matrices of bodies with few connections this takes a fraction of the time of LAPACK's dsytrf on the whole.
+!> The columns of F are eliminated one after the other, with the largest element of the column as pivot: P F = L [U; 0]. The same
+!> operations on rows and columns of K leave Zᵀ K Z, where the columns of Z span the null space of Fᵀ. Cholesky's method factorises
+!> Zᵀ K Z. Zeros are skipped: for bodies with few connections this takes a fraction of the time of LAPACK's dsytrf on the whole.
 !>
-!> The matrix counts as regular only where there is no doubt about it: see `pivot_share` and `stiffness_share`. Other matrices
+!> The matrix counts as regular only if its rank is beyond doubt: see `pivot_share` and `stiffness_share`. Other matrices
 !> require a decomposition in singular values (ek_singular_values).
 module ek_saddle
    use ek_kinds, only: wp
@@ -56,7 +56,7 @@ contains
       call eliminate_arrays(saddle%n, saddle%m, saddle%k, saddle%f, saddle%swapped, saddle%is_regular)
    end subroutine eliminate
 
-   !> Does the work of eliminate, with explicit shapes.
+   !> Factorises the arrays of a saddle matrix for `eliminate`, with explicit shapes. Returns early if the matrix is not regular.
    !> Equation (K.22) of docs/theory/kkt.md.
    pure subroutine eliminate_arrays(n, m, k, f, swapped, is_regular)
       integer, intent(in) :: n, m

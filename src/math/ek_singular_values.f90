@@ -18,7 +18,7 @@ module ek_singular_values
       integer :: rank = 0                    !! number of singular values that count as nonzero
       real(wp), allocatable :: values(:)     !! largest first; min(rows, columns) values
       real(wp), allocatable :: left(:, :)    !! U (rows, rows)
-      real(wp), allocatable :: right(:, :)   !! V (columns, columns); without its null space: (columns, min(rows, columns))
+      real(wp), allocatable :: right(:, :)   !! V (columns, columns); without null space (columns, min(rows, columns))
    end type singular_values_t
 
 contains

@@ -1,6 +1,6 @@
 !> Force and tangent of elastic elements of any kind: the only procedures that the assembly of the system calls.
 !>
-!> "Pull" is the generalised force dV/dz, the gradient of the energy; the force ON the bodies is −dV/dz.
+!> The generalised force is dV/dz, the gradient of the energy; the force ON the bodies is −dV/dz.
 module ek_element_force
    use ek_kinds, only: wp
    use ek_number, only: num, zero
@@ -18,7 +18,7 @@ module ek_element_force
    !> An element at one pair of poses.
    type :: element_evaluation_t
       real(num) :: generalised_force(12) = zero      !! dV/d[Δr_i Δπ_i Δr_j Δπ_j] [N, N m]
-      real(num) :: tension = zero       !! dV/dvalue and its slope, of an element of one measure
+      real(num) :: tension = zero       !! dV/dvalue of an element of one measure; `slope` is its slope
       real(num) :: slope = zero
       type(evaluation_t) :: measure
       type(bushing_evaluation_t) :: bushing
@@ -55,7 +55,7 @@ contains
       tension = tension - spring%preload
    end subroutine spring_tension
 
-   !> Adds d²V/dz² of an element: the material part, and force × Hessian.
+   !> Adds d²V/dz² of an element: the material part, and force × Hessian unless is_material.
    pure subroutine add_element_tangent(element, evaluation, is_material, at, blocks)
       type(element_t), intent(in) :: element
       type(element_evaluation_t), intent(in) :: evaluation          !! of evaluate_element

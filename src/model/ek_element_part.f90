@@ -2,7 +2,7 @@
 !> geometric stiffness of its forces.
 !>
 !> The tangent of an element is Σ c g gᵀ + Σ F Hess: c the slope of a law, g the gradient of its measure. A bushing has six laws, of
-!> gaps and rotations along and about the axes of its marker on body i; every other element has one.
+!> displacements and rotations along and about the axes of its marker on body i; every other element has one law.
 module ek_element_part
    use ek_kinds, only: wp
    use ek_relative_rotation, only: pose_t
@@ -49,8 +49,9 @@ contains
       end if
    end function has_rate
 
-   !> Finds the deflection of each law that is a rate, which is the change of its force per change of the rate. The deflection is 0
-   !> at design, where the preload is the force. An exception is a spring whose preload follows from its rate and its free length.
+   !> Finds the deflection of each law that is a rate: the change of the force per change of the rate. The deflection is counted
+   !> from design, where the force is the preload. For a spring whose preload follows from rate and free length, the deflection is
+   !> counted from the free length.
    pure subroutine find_deflections(element, pose_i, pose_j, deflection)
       type(element_t), intent(in) :: element
       type(pose_t), intent(in) :: pose_i, pose_j

@@ -17,7 +17,7 @@ module ek_load
       real(num) :: force(3) = zero       !! N, global axes at design
       real(num) :: moment(3) = zero      !! N m
       logical :: follows = .false.        !! rotates with the body
-      logical :: is_case = .false.        !! scaled by the case that refers to it; otherwise always acting
+      logical :: is_case = .false.        !! scaled by the case that refers to this load; otherwise constant
       logical :: is_weight = .false.      !! gravity of the body, not a load of the deck or the rig
    end type load_t
 
@@ -43,7 +43,7 @@ contains
    end subroutine wrench
 
    !> Adds the stiffness of a load, −d(force, moment)/dz. For a load of constant direction it is −S(arm, force). For a load that
-   !> rotates with its body, δf = π×f gives T_rπ = f̃; half of it is added to the block rπ, half to πr.
+   !> rotates with its body, δf = π×f gives T_rπ = f̃; ½ f̃ is added to the block rπ, and its transpose to πr.
    !> Equation (K.4) of docs/theory/kkt.md.
    pure subroutine add_load_tangent(load, force, arm, body, blocks)
       type(load_t), intent(in) :: load
