@@ -36,7 +36,7 @@ module ek_arc
 
    real(wp), parameter :: first_step = 1.0e-2_wp      !! length of the first step in the norm above [-]
    real(wp), parameter :: longest_step = 1.0e-1_wp
-   real(wp), parameter :: corner_step = 1.0e-5_wp     !! in shorter steps a larger angle is accepted as the corner of a law [-]
+   real(wp), parameter :: corner_step = 1.0e-5_wp     !! longest step that may have a larger angle: the corner of a law [-]
    real(wp), parameter :: min_step = 1.0e-9_wp      !! if no step down to this length is accepted, the path has ended [-]
    real(wp), parameter :: max_rotation = 0.17_wp         !! largest angle between the tangents at the ends of a step [rad]: 10 deg
    real(wp), parameter :: good_turn = 0.1_wp          !! angle between the tangents at which the next step aims [rad]

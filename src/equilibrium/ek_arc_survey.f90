@@ -94,7 +94,8 @@ contains
 
    contains
 
-      !> Whether the path has left the useful range (gone_far) or is closed (gone_round); `arrived` if neither. The last probe is b.
+      !> Reason for the end of the path: gone_far (outside the useful range) or gone_round (closed); `arrived` if the path has not
+      !> ended. The last probe must be b.
       integer function ending()
          real(wp) :: moved, behind
 

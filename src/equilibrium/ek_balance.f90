@@ -1,13 +1,13 @@
 !> Determines preloads for which the design position is in equilibrium under the constant loads.
 !>
 !> `spring`: the spring preloads for which the wheels are at design height in static equilibrium.
-!> `all`: spring and bushing preloads with which every body stays exactly at design; if there are several solutions,
-!> the one with the smallest complementary energy Σ f²/2k of the bushing preloads (k of a curve: its slope at design).
+!> `all`: spring and bushing preloads with which every body stays exactly at design; of several solutions, the
+!> solution with the smallest complementary energy Σ f²/2k of the bushing preloads (k of a curve: its slope at design).
 !> The preloads of dampers, stops, torsion springs, springs on measures and springs with `balance = .false.` are unchanged.
 !>
 !> A driver with a stiffness that acts on the body of a wheel (a tyre modelled as a spring under the contact point) would carry the
-!> wheel instead of the spring: it is excluded from `all` unless its joint sets `balance = .true.`. Other drivers (a rack, a
-!> steering column) are included unless their joint sets `balance = .false.`.
+!> wheel instead of the spring: such a driver is excluded from `all` unless its joint sets `balance = .true.`. Other drivers (a
+!> rack, a steering column) are included unless their joint sets `balance = .false.`.
 module ek_balance
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t, fail, exit_model, exit_convergence

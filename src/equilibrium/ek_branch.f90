@@ -1,7 +1,7 @@
 !> Checks that a step of a path ends on the branch on which it started.
 !>
-!> Newton's method converges to some equilibrium near its guess: beyond a lock, a limit point or a bifurcation this is
-!> another assembly or another branch. A step from state a to state b of width h is accepted only if
+!> Newton's method converges to some equilibrium near its guess: beyond a lock, a limit point or a bifurcation, this
+!> equilibrium may belong to another assembly or another branch. A step from state a to state b of width h is accepted only if
 !>
 !> - the tangents t = dz/ds = N⁻¹ ∂F/∂s at its ends agree with the motion d of the bodies from a to b (z: bodies and reactions,
 !>   s: swept value, F: loads and driven values): |d − h (t_a + t_b)/2| is small against |d| (trapezoidal rule: third order in h on
@@ -42,7 +42,7 @@ module ek_branch
    integer, parameter, public :: max_crossings = 8   !! largest number of bifurcations reported
 
    real(wp), parameter :: shortest = 2.5e3_wp      !! times the least step, 1e-6 of the range: shorter steps may bend without a law
-   real(wp), parameter :: even = 0.3_wp            !! change of ln |det N| in a step: near a loss of rank it is above 0.7
+   real(wp), parameter :: even = 0.3_wp            !! limit of the change of ln |det N| in a step; above 0.7 near a loss of rank
    real(wp), parameter, public :: tiny_step = 1.0e3_wp     !! times the least step: near a lock, only shorter steps are accepted
    real(wp), parameter :: zero = 9.2_wp            !! fall of ln |det N| after which 1e-4 of |det N| is left
    real(wp), parameter :: fresh = 1.0e-2_wp        !! distance from which factors give a good tangent, as a share of the motion
@@ -90,12 +90,12 @@ module ek_branch
       type(predictor_t) :: predictor
       real(wp), allocatable :: tangent_a(:), tangent_b(:)  !! dz/ds: twists of the bodies and reactions per swept value
       real(wp), allocatable :: motion(:), motion_before(:) !! twists of the bodies [m, rad]: from a to b; from the state before to a
-      real(wp), allocatable :: chord_a(:), chord_b(:)      !! tangents with the laws replaced by their chords
+      real(wp), allocatable :: chord_a(:), chord_b(:)      !! tangents at a, at b, with the laws replaced by their chords
       real(wp), allocatable :: twist(:)                    !! twists of the bodies [m, rad]: work space of go_along
       type(orientation_t) :: orientation
       type(tangent_t) :: work
       type(chord_t) :: chord
-      type(factors_t) :: factors            !! of N at the newest state
+      type(factors_t) :: factors            !! stored factors of N at the newest state
       type(state_t) :: before, shifted
    end type branch_t
 
@@ -295,8 +295,8 @@ contains
          self%before, step%inputs_a, step%rate, kkt, self%chord_a, step%is_regular(at_a))
    end subroutine evaluate_beginning
 
-   !> Decides whether the tangents agree with the motion. If they do not, decides whether the tangents along the chords of bent laws
-   !> agree, N stays regular, and N has as many negative eigenvalues at b as at a.
+   !> Decides whether the tangents agree with the motion. If the tangents do not agree, decides whether the tangents along the
+   !> chords of bent laws agree, N stays regular, and N has as many negative eigenvalues at b as at a.
    pure subroutine decide(self, step, length)
       type(branch_t), intent(in) :: self
       type(step_t), intent(inout) :: step

@@ -4,10 +4,10 @@
 !> where Z is a basis of the null space of Φq. A redundant constraint is a left null vector of Φq. Both are
 !> found by LAPACK's singular value and eigenvalue decompositions of the scaled matrices.
 !>
-!> A stiffness counts as zero if it is below the rounding error of its own sums, vᵀ T v against |v|ᵀ |T| |v|, or below 1e-7
-!> of the softest spring or bushing (hardpoints rounded to a tenth of a millimetre leave such levers); the limit is lower if
-!> many bodies move. A stiffness is not compared with the characteristic stiffness: a coil of 30 N/mm next to bushings of
-!> 1e10 N/mm, or the bending of a chain of 160 bodies, is extremely soft in comparison, but not a mechanism.
+!> The stiffness of a motion v counts as zero if it is below the rounding error of its own sums (vᵀ T v against |v|ᵀ |T| |v|), or
+!> below 1e-7 of the rate of the softest spring or bushing. Hardpoints rounded to a tenth of a millimetre cause such stiffnesses.
+!> The limit is lower if many bodies move. A stiffness is not compared with the characteristic stiffness: a coil of 30 N/mm next to
+!> bushings of 1e10 N/mm, or the bending of a chain of 160 bodies, is extremely soft in comparison, but not a mechanism.
 !>
 !> T includes the geometric stiffness of preloads. A motion without material stiffness (K) is held by preload only and
 !> is reported separately.
@@ -61,7 +61,7 @@ module ek_diagnosis
 
 contains
 
-   !> Whether the diagnosis found no mechanism and no redundant constraint. It is also .false. if the diagnosis failed.
+   !> Whether the diagnosis found no mechanism and no redundant constraint. The result is also .false. if the diagnosis failed.
    pure logical function is_solvable(self)
       class(diagnosis_t), intent(in) :: self
       is_solvable = self%mechanisms%count() + self%redundancies%count() + self%failures%count() == 0

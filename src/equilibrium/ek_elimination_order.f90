@@ -11,7 +11,7 @@ module ek_elimination_order
    private
    public :: order_t, find_order, natural_order
 
-   real(wp), parameter :: threshold = 0.02_wp     !! of stability: factors of the samples are below about 1/threshold
+   real(wp), parameter :: threshold = 0.02_wp     !! stability threshold: factors of the samples are below about 1/threshold
    real(wp), parameter :: vanished = 1.0e-30_wp   !! limit of a pivot of the scaled matrix: smaller pivots are not divided by
 
    !> Pivots in the order of elimination, and the unknowns that each couples.
@@ -150,7 +150,7 @@ contains
 
    contains
 
-      !> Adds an unknown to the rows of pivot k, unless it is already one of them.
+      !> Adds an unknown to the rows of pivot k, unless the pivot already couples this unknown.
       subroutine add(unknown)
          integer, intent(in) :: unknown
          if (mark(unknown) == k) return

@@ -65,7 +65,7 @@ contains
 
    !> Assembles the matrix (by `mode`) and the right-hand side at a state. λ enters T and the residual.
    !>
-   !> With material_only, the residual is complete as well; the recursion replaces it.
+   !> With material_only, the residual is complete as well; the recursion replaces this residual.
    !> Equation (K.1) of docs/theory/kkt.md.
    pure subroutine assemble(suspension, state, inputs, mode, kkt)
       type(suspension_t), intent(in) :: suspension
@@ -104,7 +104,7 @@ contains
       if (inputs%homotopy > 0.0_wp) call add_multiple(kkt%nq, -inputs%homotopy, kkt%imbalance, kkt%rhs)
    end subroutine assemble
 
-   !> Assembles only the rows of Φ at a state: their gradients and violations, equal to those of `assemble`.
+   !> Assembles only the rows of Φ at a state: gradients and violations, equal to the results of `assemble`.
    pure subroutine assemble_rows(suspension, state, inputs, kkt)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state

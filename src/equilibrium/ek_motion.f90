@@ -61,8 +61,8 @@ contains
    !>
    !>     r ← r + V(Δπ) Δr,   V = I + (1 − cos θ)/θ² Δπ̃ + (θ − sin θ)/θ³ Δπ̃²,   A ← exp(Δπ̃) A
    !>
-   !> Agrees with `move` of ek_state to first order. In contrast to it, the result does not depend on the reference
-   !> point of the body: a twist and its exponential belong to the body, not to a point.
+   !> The result agrees with `move` of ek_state to first order. In contrast to `move`, it does not depend on the reference point of
+   !> the body: a twist and its exponential belong to the body, not to a point.
    !> Equations (R.8), (R.12) of docs/theory/rotations.md.
    pure subroutine move_all(bodies, step, poses)
       integer, intent(in) :: bodies

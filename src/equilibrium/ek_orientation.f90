@@ -34,8 +34,8 @@ module ek_orientation
       integer, allocatable :: first(:)                     !! (rows + 1): first slot of each rigid row
       integer, allocatable :: body(:), row(:)              !! body and rigid row of each slot
       integer, allocatable :: slot_of(:, :)                !! (2, term): at body i and j; 0: chassis
-      integer, allocatable :: entry_row(:), entry_column(:)   !! of each product that may be nonzero, row ≥ column
-      integer, allocatable :: pair(:, :)                   !! (3, pair): a product, and two slots of one body that add to it
+      integer, allocatable :: entry_row(:), entry_column(:)   !! row and column of each product that may be nonzero; row ≥ column
+      integer, allocatable :: pair(:, :)                   !! (3, pair): index of a product, two slots of one body that add to it
       type(plan_t) :: plan                                 !! plan of elimination of the products
       real(wp), allocatable :: rows_a(:, :), rows_b(:, :)  !! scaled Φq: (6, slot)
       type(pose_t), allocatable :: poses_b(:)              !! poses of the state of rows_b

@@ -40,7 +40,7 @@ module ek_path
    type :: walk_t
       private
       type(state_t) :: state
-      real(wp) :: here = 0.0_wp        !! swept value of the state, and the inputs there; for the linear methods
+      real(wp) :: here = 0.0_wp        !! swept value of `state`, and the inputs at this value; for the linear methods
       type(inputs_t) :: inputs
       type(schedule_t) :: schedule
       real(wp), allocatable :: held(:)     !! Φqᵀλ of the recursion [N, N m], see start_recursion

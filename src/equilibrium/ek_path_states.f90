@@ -1,4 +1,5 @@
-!> The states of a sweep, in storage that serves one design after the other: the swept value of each state, and the findings there.
+!> The states of a sweep, in storage that serves one design after the other: swept value and findings of
+!> each state.
 module ek_path_states
    use ek_kinds, only: wp
    use ek_case, only: case_t, follows_table
@@ -20,7 +21,8 @@ module ek_path_states
       logical, allocatable :: is_reached(:)
       logical, allocatable :: is_stable(:)        !! no negative stiffness
       integer, allocatable :: iterations(:)       !! number of factorisations for each state
-      real(wp), allocatable :: pivot_ratio(:)     !! smallest / largest pivot; where it is tiny, the condition estimate if larger
+      real(wp), allocatable :: pivot_ratio(:)     !! smallest / largest pivot; if tiny, the condition estimate replaces a smaller
+                                                  !! ratio
       real(wp), allocatable :: settled(:)         !! packed state under the constant loads only
       logical :: is_settled = .false.             !! there is an equilibrium under the constant loads
       logical :: is_table = .false.               !! the states are rows of a table, independent of each other

@@ -2,7 +2,7 @@
 !> positions of all updates are found once for all matrices of one pattern.
 !>
 !> D has blocks of one or two unknowns (ek_elimination_order). The factors are stored in one array x: per block the lower
-!> triangle of D⁻¹, then the columns of L. ek_plan_factors computes them.
+!> triangle of D⁻¹, then the columns of L. ek_plan_factors computes the factors.
 module ek_plan
    use ek_kinds, only: wp
    use ek_elimination_order, only: order_t, find_order, natural_order

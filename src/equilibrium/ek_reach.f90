@@ -42,7 +42,7 @@ module ek_reach
    type :: step_t
       real(wp) :: place = 0.0_wp                 !! swept value of b
       type(inputs_t) :: inputs_a, inputs_b
-      type(outcome_t) :: outcome                 !! of the iteration to b
+      type(outcome_t) :: outcome                 !! outcome of the iteration to b
       integer :: verdict = doubtful              !! same_branch, crossing or doubtful (ek_branch)
       logical :: was_compared = .false.
       integer :: iterations = 0                  !! number of factorisations in all attempts
@@ -193,7 +193,8 @@ contains
       step%iterations = step%iterations + step%outcome%factorisations
    end subroutine find_end
 
-   !> Judges whether the end of a step is on the path: the prediction was close, or a comparison with the beginning confirms it.
+   !> Judges whether the end of a step is on the path: the prediction was close, or a comparison with the beginning
+   !> confirms the step.
    subroutine judge_end(suspension, tolerance, branch, state, kkt, step)
       type(suspension_t), intent(in) :: suspension
       real(wp), intent(in) :: tolerance

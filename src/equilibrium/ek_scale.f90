@@ -17,8 +17,8 @@ module ek_scale
 
 contains
 
-   !> Computes the size of the mechanism (mean length of the arms of joints and bushings) and the geometric mean of the rates of
-   !> springs and bushings at design (of torsion springs and rotational rates / L², if there are no others).
+   !> Computes the characteristic length (mean length of the arms of joints and bushings) and the characteristic stiffness
+   !> (geometric mean of the rates of springs and bushings at design). If all these rates are zero, rotational rates / L² are used.
    subroutine characteristic(suspension, length, stiffness)
       type(suspension_t), intent(in) :: suspension
       real(wp), intent(out) :: length       !! L [m], at least 1 mm

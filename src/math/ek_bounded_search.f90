@@ -11,10 +11,10 @@
 !> unknown stays at a bound if the sum would grow away from the bound). If a step fails, because |r| grows or r has no value, the
 !> step is damped as Levenberg and Marquardt do. For as many conditions as unknowns this is Newton's method.
 !>
-!> Reasons against libraries: the codes of MINPACK (lmder) do not support bounds. With bounds by a change of variable, a solution
-!> at a bound has the derivative zero there, from which no step leaves and no covariance follows; and MINPACK does not find the
-!> rank of the problem, for which LAPACK is needed anyway. NLopt has bounds, but no method for least squares: it would have to
-!> find from many gradients the curvature that the Jacobian gives at once. This module is short, since LAPACK (dgelsd) does the
+!> Reasons against libraries: the codes of MINPACK (lmder) do not support bounds. With bounds by a change of variable, the
+!> derivative is zero at a bound: no step leaves the bound, and no covariance follows. MINPACK does not find the rank of the
+!> problem, for which LAPACK is needed anyway. NLopt has bounds, but no method for least squares: NLopt would find from
+!> many gradients the curvature that the Jacobian gives at once. This module is short, since LAPACK (dgelsd) does the
 !> numerical work.
 module ek_bounded_search
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
@@ -37,7 +37,7 @@ module ek_bounded_search
       integer :: ended = 0                           !! one of the constants above
       integer :: trials = 0, steps = 0               !! number of evaluations; number of steps taken
       real(wp), allocatable :: x(:)                  !! x to be evaluated next
-      real(wp), allocatable :: best(:)               !! the best x so far; `residuals` and `jacobian` are r and J there
+      real(wp), allocatable :: best(:)               !! the best x so far; `residuals` and `jacobian` are r and J at `best`
       real(wp), allocatable :: residuals(:), jacobian(:, :)
       integer, allocatable :: held(:)                !! of each unknown: −1 held at its lower, +1 at its upper bound; 0 free
       real(wp), allocatable, private :: lower(:), upper(:), scale(:)
@@ -67,7 +67,7 @@ contains
       allocate (search%held(size(start)), source=0)
    end subroutine begin_search
 
-   !> Evaluates r and its Jacobian at search%x: stores them if |r| is the smallest so far, and sets the next x or ends the search.
+   !> Uses r and its Jacobian at search%x: stores both if |r| is the smallest so far, and sets the next x or ends the search.
    subroutine advance_search(r, jacobian, is_valid, search)
       real(wp), intent(in) :: r(:)
       real(wp), intent(in) :: jacobian(:, :)             !! (residual, unknown)

@@ -20,7 +20,7 @@ module ek_curve
 
    !> A curve, in the units of its points.
    type :: curve_t
-      character(:), allocatable :: name            !! for messages; may be unallocated
+      character(:), allocatable :: name            !! name for messages; may be unallocated
       real(num), allocatable :: breaks(:)           !! x of the n points, increasing
       real(num), allocatable :: coefficients(:, :)  !! (4, n−1): c1 … c4 of each piece
       real(num) :: end_value = zero               !! y of the last point

@@ -18,7 +18,7 @@ module ek_saddle
    public :: saddle_t, new_saddle, eliminate, reduce, spread_motion, solve_forces
 
    ! A pivot of F up to this share of its largest element leaves a doubt. Columns count as dependent in ek_preload_problem where a
-   ! singular value is below 1e-11: between the two there is room for the factor between pivots and singular values, seldom over 100.
+   ! singular value is below 1e-11: between the two there is room for the factor from pivots to singular values, seldom over 100.
    real(wp), parameter :: pivot_share = 1.0e-6_wp
    ! … and a pivot of Zᵀ K Z, in the units of K, up to this share of the largest diagonal element of K. It is a square: 1e-22
    ! of the largest counts as nothing there.
@@ -28,8 +28,9 @@ module ek_saddle
    type :: saddle_t
       integer :: n = 0                           !! rows of K
       integer :: m = 0                           !! columns of F
-      real(wp), allocatable :: k(:, :)           !! (n, n) lower triangle; then from row and column m + 1 on: the factor of Zᵀ K Z
-      real(wp), allocatable :: f(:, :)           !! (n, m); then U, and below its diagonal L
+      real(wp), allocatable :: k(:, :)           !! (n, n) lower triangle of K; after `eliminate` the factor of Zᵀ K Z, from row m +
+                                                 !! 1 on
+      real(wp), allocatable :: f(:, :)           !! (n, m) F; after `eliminate` U, and L below the diagonal
       integer, allocatable :: swapped(:)         !! (m): the row that was exchanged with row k
       logical :: is_regular = .false.            !! F and Zᵀ K Z have full rank without a doubt
    end type saddle_t

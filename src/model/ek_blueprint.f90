@@ -100,7 +100,7 @@ module ek_blueprint
    !> The numbers of a case, as indices of parameters.
    type :: case_plan_t
       integer :: from = 0, to = 0, offset = 0
-      integer :: steer_from = 0, steer_to = 0      !! in a grid; 0: the ends of the travel of &steering
+      integer :: steer_from = 0, steer_to = 0      !! indices of parameters; 0 in a grid: ± travel of &steering
    end type case_plan_t
 
    type :: blueprint_t

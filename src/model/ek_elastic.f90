@@ -34,7 +34,7 @@ module ek_elastic
       real(num) :: preload_force(3) = zero  !! force on body j at design, marker axes [N]
       real(num) :: preload_moment(3) = zero !! moment on body j at design, marker axes [N m]
       ! curves instead of rates, in the order: along x, y, z, about x, y, z of the marker
-      type(law_t), allocatable :: laws(:)    !! six if has_curves; a component without a curve has its rate
+      type(law_t), allocatable :: laws(:)    !! six laws if has_curves; a law is used only if it has a curve
    end type bushing_t
 
    !> A bushing at one pair of poses.

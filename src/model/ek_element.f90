@@ -52,8 +52,8 @@ module ek_element
    type :: element_kind_t
       character(8) :: label       !! group of the deck, for messages
       character(20) :: one, many  !! names in the counts of `check`, in the order of the table; '': not counted
-      logical :: carries          !! its rate at design carries the car (a deck without such an element gives a warning)
-      logical :: has_gap          !! a stop: free up to contact; its column is the clearance, not the value of its measure
+      logical :: carries          !! the rate at design carries the car (a deck without such an element gives a warning)
+      logical :: has_gap          !! a stop: free up to contact; the result column is the clearance, not the value of the measure
       logical :: is_axial_spring        !! the preload trim (`balance`) may set its preload; its motion ratio is reported
       integer :: shape            !! shape in pictures, for an element on a distance or a bushing
       integer :: share            !! class of its share in a rate

@@ -73,8 +73,8 @@ contains
       end if
    end subroutine add_element_tangent
 
-   !> Adds slope g gᵀ + tension × Hessian of the measure, with g its gradient. For a distance this is Jᵀ[slope e eᵀ + tension/L (I −
-   !> e eᵀ)]J and the arm terms, which equal the arm terms of a displacement along e.
+   !> Adds slope g gᵀ + tension × Hessian of the measure, with g its gradient. For a distance the sum is Jᵀ[slope e eᵀ + tension/L
+   !> (I − e eᵀ)]J and the arm terms, which equal the arm terms of a displacement along e.
    !> Equation (M.13) of docs/theory/measures.md.
    pure subroutine add_spring_tangent(kind, evaluation, tension, slope, at, blocks)
       integer, intent(in) :: kind                       !! of the measure

@@ -34,7 +34,7 @@ module ek_joint
 
    ! directions that define a joint, those of axis and axis_2
    integer, parameter :: no_axis = 0, one_axis = 1, one_or_two = 2, two_axes = 3
-   integer, parameter :: either_axis = 4      !! the other one is then chosen perpendicular to it
+   integer, parameter :: either_axis = 4      !! axis or axis_2; the program chooses the other axis perpendicular
    ! angle between axis and axis_2
    integer, parameter :: any_angle = 0, right_angle = 1, no_angle = 2, not_opposed = 3
    ! parts in pictures: without an attachment point; with one that is not drawn; drawn
@@ -90,7 +90,7 @@ module ek_joint
       real(wp) :: point_i(3) = 0.0_wp, point_j(3) = 0.0_wp   !! equal unless two points are given
       real(wp) :: axis_i(3) = [0.0_wp, 0.0_wp, 1.0_wp]       !! unit, fixed in body i
       real(wp) :: axis_j(3) = [0.0_wp, 0.0_wp, 1.0_wp]       !! unit, fixed in body j
-      real(wp) :: across(3) = 0.0_wp                         !! as in joint_t
+      real(wp) :: across(3) = 0.0_wp                         !! direction of the first row across the axis; 0: free choice
    end type joint_geometry_t
 
 contains

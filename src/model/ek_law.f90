@@ -1,4 +1,4 @@
-!> A law of one scalar measure other than rate × deflection: along a curve, one-sided, or reflected.
+!> A law of one scalar measure: a rate × deflection or a curve, possibly one-sided or reflected.
 !>
 !>     force = s y(p),   p = e or its one-sided part,   e = s (value − reference)
 !>

@@ -42,8 +42,8 @@ contains
       moment = moment + cross(arm, force)
    end subroutine wrench
 
-   !> Adds the stiffness of a load, −d(force, moment)/dz. For a load of constant direction it is −S(arm, force). For a load that
-   !> rotates with its body, δf = π×f gives T_rπ = f̃; ½ f̃ is added to the block rπ, and its transpose to πr.
+   !> Adds the stiffness of a load, −d(force, moment)/dz. For a load of constant direction the stiffness is −S(arm, force). For a
+   !> load that rotates with its body, δf = π×f gives T_rπ = f̃; ½ f̃ is added to the block rπ, and its transpose to πr.
    !> Equation (K.4) of docs/theory/kkt.md.
    pure subroutine add_load_tangent(load, force, arm, body, blocks)
       type(load_t), intent(in) :: load

@@ -24,7 +24,7 @@ module ek_suspension
       logical :: has_origin = .false.     !! `origin` is given in the deck; otherwise it is the mean of the attachment points
       integer :: attached = 0             !! number of attachment points
       real(wp) :: mass = 0.0_wp           !! kg
-      real(wp) :: centre(3) = 0.0_wp      !! centre of gravity: arm from the reference point, body axes [m]; if there is a mass
+      real(wp) :: centre(3) = 0.0_wp      !! centre of gravity of a body with a mass: arm from the reference point, body axes [m]
    end type body_t
 
    !> A named hardpoint, design position.
@@ -45,7 +45,7 @@ module ek_suspension
       real(wp) :: toe = 0.0_wp, camber = 0.0_wp         !! static angles, given in the deck or derived from the spin axis [rad]
       real(wp) :: radius = 0.0_wp         !! m
       real(wp) :: tyre_rate = 0.0_wp      !! vertical stiffness of the tyre [N/m]; 0: not given
-      real(wp) :: tyre_width = 0.0_wp     !! of the tread [m]; 0: not given
+      real(wp) :: tyre_width = 0.0_wp     !! width of the tread [m]; 0: not given
       real(wp) :: sprung_mass = 0.0_wp    !! sprung mass carried by this wheel [kg]; 0: not given
       logical :: has_steer_axis = .false.
       real(wp) :: steer_axis(3, 2) = 0.0_wp             !! two points on the carrier, arms [m]
@@ -65,7 +65,7 @@ module ek_suspension
       logical :: is_front = .true.
       real(wp) :: wheelbase = 0.0_wp      !! m
       real(wp) :: cg_height = 0.0_wp      !! centre of gravity of the car above the ground [m]
-      real(wp) :: mass = 0.0_wp           !! of the car [kg]; 0: not given
+      real(wp) :: mass = 0.0_wp           !! mass of the car [kg]; 0: not given
       real(wp) :: brake_share = 0.0_wp    !! share of the car's braking force that acts on the FRONT axle, 0 to 1
       real(wp) :: drive_share = 1.0_wp    !! share of the car's driving force that acts on THIS axle, 0 to 1
       real(wp) :: front_overhang = 0.0_wp !! front corner of the car ahead of the wheels [m]; 0: not given
