@@ -42,12 +42,12 @@ module ek_arc
    real(wp), parameter :: good_turn = 0.1_wp          !! angle between the tangents at which the next step aims [rad]
    real(wp), parameter :: max_of_corner = 1.5_wp     !! largest angle at a corner of a law [rad]; above it, another path
    real(wp), parameter :: smooth = 1.0e-2_wp          !! allowed error of the trapezoidal rule, as a share of the step [-]
-   integer, parameter :: max_iterations = 10         !! Newton's method converges quadratically: more iterations would not help
+   integer, parameter :: max_iterations = 10         !! largest number of iterations: Newton's method does not need more
 
    !> A segment of the path from a to b, the position of a probe on it, and work space.
    type :: arc_t
       type(schedule_t) :: schedule
-      real(wp) :: range = 1.0_wp                     !! range of swept values equivalent to the size of the model
+      real(wp) :: range = 1.0_wp                     !! range of swept values: a change by the range has the length 1
       real(wp) :: size = 1.0_wp                      !! L [m]: characteristic length, or the longest spring or stop at design
       real(wp) :: tolerance = 0.0_wp                 !! limit of the last correction [m]
       logical :: is_symmetric = .true.               !! no load makes the true matrix unsymmetric
@@ -56,8 +56,8 @@ module ek_arc
       real(wp) :: step = first_step                  !! length of the next step to be tried [-]
       real(wp) :: place_a = 0.0_wp, place_b = 0.0_wp
       integer :: negative_a = 0, negative_b = 0      !! negative eigenvalues of N at a, at b
-      real(wp), allocatable :: packed_a(:), packed_b(:)      !! states, see ek_state
-      real(wp), allocatable :: tangent_a(:), tangent_b(:)    !! [twists; reactions; swept value] per length
+      real(wp), allocatable :: packed_a(:), packed_b(:)      !! packed states a and b, see ek_state
+      real(wp), allocatable :: tangent_a(:), tangent_b(:)    !! unit tangents at a and b: [twists; reactions; swept value]
       real(wp), allocatable :: tangent_0(:)                  !! tangent at the start of the path
       type(state_t) :: state                         !! state of the last probe
       real(wp) :: place = 0.0_wp                     !! swept value of the last probe
@@ -66,13 +66,13 @@ module ek_arc
       type(state_t) :: other
       real(wp), allocatable :: motion(:)             !! step to the last probe (find_motion): [twists; 0; swept value]
       real(wp), allocatable :: residual(:)
-      real(wp), allocatable :: matrix(:, :), rhs(:, :)       !! the bordered system, scaled
+      real(wp), allocatable :: matrix(:, :), rhs(:, :)       !! the bordered system, scaled: matrix and right-hand side
       integer, allocatable :: pivots(:)
    end type arc_t
 
 contains
 
-   !> Allocates the work space for a model.
+   !> The work space for a model, before `begin`.
    function new_arc(suspension, schedule, length, range, tolerance) result(self)
       type(suspension_t), intent(in) :: suspension
       type(schedule_t), intent(in) :: schedule

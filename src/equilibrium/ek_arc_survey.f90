@@ -15,7 +15,7 @@ module ek_arc_survey
    integer, parameter, public :: arrived = 0        !! the path reaches the end of the case
    integer, parameter, public :: stuck = 1          !! no step was accepted
    integer, parameter, public :: gone_far = 2       !! a body, or the swept value, moved further than in any suspension
-   integer, parameter, public :: gone_round = 3     !! the path is closed: it came back to design
+   integer, parameter, public :: gone_round = 3     !! the path is closed: it returns to design
    integer, parameter, public :: gone_on = 4        !! the path has more than max_steps steps
 
    integer, parameter, public :: max_limits = 16   !! largest number of limit points, and of bifurcations, reported
@@ -33,8 +33,8 @@ module ek_arc_survey
    !> The findings of `survey` about a path.
    type :: survey_t
       integer :: ending = stuck
-      real(wp) :: near_length = 0.0_wp, far_length = 0.0_wp      !! length of the path from design to `near`; to `far` or the last b
-      real(wp) :: last_place = 0.0_wp                            !! the swept value to which the path was followed
+      real(wp) :: near_length = 0.0_wp, far_length = 0.0_wp      !! length from design to `near`, and to `far` or the path's end
+      real(wp) :: last_place = 0.0_wp                            !! swept value to which the path was followed
       integer :: limits = 0
       real(wp) :: limit_place(max_limits) = 0.0_wp, limit_length(max_limits) = 0.0_wp
       integer :: crossings = 0

@@ -8,7 +8,7 @@
 !>   a smooth path);
 !> - the matrix N has as many negative eigenvalues at b as at a: N is regular along a smooth path;
 !> - det(Φq(a) Φq(b)ᵀ) > 0: the joints are in the same assembly mode. Where Φq loses rank, the inertia of N does not
-!>   change: det N is proportional to the square of det Φq.
+!>   change: det N is proportional to det(Φq Φqᵀ), which has a double zero there.
 !>
 !> Where laws bend between a and b, the tangents with the chords of these laws must agree instead (ek_chord). If the step was halved
 !> often enough, d need only lie between h t_a and h t_b, and the direction of motion of no body may change by more than 60
@@ -68,10 +68,10 @@ module ek_branch
    type :: known_t
       integer :: negative = -1              !! negative eigenvalues of N at the newest state; −1: not known
       real(wp) :: log_determinant = huge(1.0_wp)   !! ln |det N| at the newest state; huge: not known
-      logical :: was_uneven = .true.        !! |det N| changed much in the step to the newest state
+      logical :: was_uneven = .true.        !! |det N| changed by more than `even` in the step to the newest state
       logical :: has_tangent = .false.      !! tangent_a belongs to the newest state
       real(wp) :: width_before = 0.0_wp     !! swept value of a minus swept value of the state before; 0: unknown
-      integer :: serial = -1                !! number of the last factorisation at or near b
+      integer :: serial = -1                !! serial number of the last factorisation at or near b
       real(wp) :: missed = 0.0_wp           !! distance of this factorisation from b [m]
       logical :: is_singular = .false.      !! the joints lose rank at or too near to the end of the step compared last
       logical :: is_over = .false.          !! the joints are in another assembly mode at the end of the step compared last
@@ -81,7 +81,7 @@ module ek_branch
       integer :: factorisations = 0         !! number of factorisations made by the last comparison
       real(wp) :: least = 0.0_wp            !! shortest step tried before the path is reported to end [swept value]
       real(wp) :: width = 0.0_wp            !! width of the step across a bifurcation [swept value]
-      integer :: crossings = 0              !! bifurcations met so far
+      integer :: crossings = 0              !! number of bifurcations so far
       real(wp) :: crossing_place(max_crossings) = 0.0_wp
    end type known_t
 
@@ -101,7 +101,7 @@ module ek_branch
 
 contains
 
-   !> Allocates the work space for a model.
+   !> An empty branch with the work space for a model.
    function new_branch(suspension) result(self)
       type(suspension_t), intent(in) :: suspension
       type(branch_t) :: self
@@ -147,7 +147,8 @@ contains
       self%chord_b(:) = 0.0_wp
    end subroutine renew_branch
 
-   !> Continues from another state, of which the tangent and the factors are unknown. Its inertia may be known.
+   !> Continues from another state, of which the tangent and the factors are unknown. The inertia of this
+   !> state may be known.
    pure subroutine leave(self, place, packed, negative)
       type(branch_t), intent(inout) :: self
       real(wp), intent(in) :: place                 !! of that state

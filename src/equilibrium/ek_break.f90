@@ -25,13 +25,13 @@ module ek_break
                                                    !! the share is about 1e-4
    real(wp), parameter :: gone = 1.0e-6_wp         !! limit, as a share of the value at design: below it nothing holds a body (a
                                                    !! load maximum leaves more)
-   real(wp), parameter :: takes_part = 0.3_wp      !! limit, as a share of the largest entry of a left singular vector: joints above
-                                                   !! it are listed
+   real(wp), parameter :: takes_part = 0.3_wp      !! limit, as a share of the largest entry of a left singular vector: joints
+                                                   !! with larger entries are listed
 
    !> The reason why a path ends, and the joints or the motion of the null vector.
    type :: break_t
       integer :: reason = no_reason
-      logical, allocatable :: locks(:)      !! of each joint: it is involved in a lock
+      logical, allocatable :: locks(:)      !! of each joint: whether the joint is involved in a lock
       integer :: body = 0                   !! limit point or mechanism: index of the body that moves most without stiffness
       real(wp), allocatable :: motion(:)    !! limit point or mechanism: motion without stiffness, scaled unknowns
    end type break_t

@@ -34,7 +34,7 @@ module ek_chord
 
    !> Position of a law in the model: its element and component.
    type :: place_t
-      integer :: element = 0, component = 0     !! component of a bushing, 1 to 6; 0: the law of the element
+      integer :: element = 0, component = 0     !! indices: element; component of a bushing, 0 for other elements
       type(measure_t) :: measure                !! measure on which the law acts
       real(wp) :: offset = 0.0_wp               !! argument of the law = measure − offset [m]
    end type place_t
@@ -53,7 +53,7 @@ module ek_chord
 
 contains
 
-   !> Finds the laws of a model and allocates the work space.
+   !> The laws of a model, with work space.
    function new_chord(suspension) result(self)
       type(suspension_t), intent(in) :: suspension
       type(chord_t) :: self

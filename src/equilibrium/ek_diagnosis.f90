@@ -37,8 +37,8 @@ module ek_diagnosis
    real(wp), parameter :: rounding = 50.0_wp*epsilon(1.0_wp)   !! error of a sum, per term: smaller sums count as zero
    real(wp), parameter :: soft_stiffness = 1.0e-5_wp      !! limit, as a share of the characteristic stiffness: below it a warning
                                                           !! is given
-   real(wp), parameter :: takes_part = 1.0e-3_wp          !! limit, as a share of the largest entry of a null vector: joints above
-                                                          !! it are listed
+   real(wp), parameter :: takes_part = 1.0e-3_wp          !! limit, as a share of the largest entry of a null vector: joints with
+                                                          !! larger entries are listed
    character(*), parameter :: failed = 'the model cannot be examined: its forces or stiffnesses are too large to calculate with'
 
    !> Findings about a model at a state.
@@ -51,9 +51,9 @@ module ek_diagnosis
       real(wp) :: softest = 0.0_wp               !! smallest stiffness of a motion that the joints allow / characteristic stiffness
       type(message_list_t) :: mechanisms         !! messages on mechanisms, one line each
       type(message_list_t) :: redundancies       !! messages on redundant constraints, one line each
-      type(message_list_t) :: failures           !! a decomposition that failed: nothing is known then
-      type(message_list_t) :: warnings           !! soft or unstable motions
-      type(message_list_t) :: preload_held       !! motions held by preloads only
+      type(message_list_t) :: failures           !! message on a decomposition that failed: nothing is known then
+      type(message_list_t) :: warnings           !! messages on soft or unstable motions
+      type(message_list_t) :: preload_held       !! messages on motions held by preloads or loads only
    contains
       procedure :: is_solvable
       procedure :: words

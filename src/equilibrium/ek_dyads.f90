@@ -25,11 +25,11 @@ module ek_dyads
       integer :: number = 0                 !! number of dyads; 0 removes all dyads
       integer :: negative = -1              !! negative eigenvalues of N'; −1: N' is singular
       integer, allocatable :: at(:, :)      !! (2, dyad): number of unknowns before each of the two bodies; negative: chassis
-      real(wp), allocatable :: gradient(:, :)    !! (12, dyad): g
+      real(wp), allocatable :: gradient(:, :)    !! (12, dyad): gradients g
       real(wp), allocatable :: column(:, :)      !! (unknown, dyad): N⁻¹ g
-      real(wp), allocatable :: product(:, :)     !! gᵀ N⁻¹ g
-      real(wp), allocatable :: change(:)    !! s
-      real(wp), allocatable :: root(:)      !! √|s|
+      real(wp), allocatable :: product(:, :)     !! (dyad, dyad): gᵀ N⁻¹ g
+      real(wp), allocatable :: change(:)    !! (dyad): changes s
+      real(wp), allocatable :: root(:)      !! (dyad): √|s|
       real(wp), allocatable :: small(:)     !! W by columns, then its factors
       real(wp), allocatable :: part(:), work(:)
       integer, allocatable :: pivots(:)

@@ -26,9 +26,9 @@ module ek_elimination_order
    type :: graph_t
       integer :: n = 0, samples = 0, room = 0
       integer, allocatable :: degree(:)
-      integer, allocatable :: next_to(:, :)      !! (neighbour, unknown)
-      real(wp), allocatable :: value(:, :, :)    !! (sample, neighbour, unknown)
-      real(wp), allocatable :: diagonal(:, :)    !! (sample, unknown)
+      integer, allocatable :: next_to(:, :)      !! (neighbour, unknown): index of each neighbour of an unknown
+      real(wp), allocatable :: value(:, :, :)    !! (sample, neighbour, unknown): entries off the diagonal
+      real(wp), allocatable :: diagonal(:, :)    !! (sample, unknown): entries of the diagonal
       logical, allocatable :: is_left(:)
       integer, allocatable :: mark(:)            !! work space: index of a neighbour, or 0
    end type graph_t

@@ -12,8 +12,8 @@ module ek_factors
    type :: factors_t
       logical :: is_kept = .false.          !! the object contains the factors of the state
       integer, private :: serial = -1       !! number of the factorisation; −1: the state has no factors
-      integer, private :: negative = 0      !! negative eigenvalues
-      integer, private :: stage = nothing   !! content of `matrix`, as in kkt_t
+      integer, private :: negative = 0      !! number of negative eigenvalues
+      integer, private :: stage = nothing   !! stage of the factors, as in kkt_t
       integer, private :: way = 0           !! plan of the factors, as in kkt_t
       real(wp), allocatable, private :: matrix(:, :), planned(:)
       integer, allocatable, private :: pivots(:)

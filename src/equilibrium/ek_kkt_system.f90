@@ -25,20 +25,20 @@ module ek_kkt_system
 
    integer, parameter :: nothing = 0, assembled = 1, lapack_factors = 2, plan_factors = 3   !! stages of the matrix
 
-   integer, parameter :: held = 1, released = 2     !! plans: of the matrix of an increment, and with the rows of the rig released
+   integer, parameter :: held = 1, released = 2     !! plans: matrix of an increment; matrix with the rows of the rig released
 
    !> The system and its work space, allocated once per model.
    type :: kkt_t
       integer :: nq = 0, nc = 0, n = 0       !! number of unknowns, of rows, and their sum
       type(pattern_t) :: pattern             !! positions of the entries in the store
-      real(wp), allocatable :: store(:)      !! the numbers of the matrix, not scaled
+      real(wp), allocatable :: store(:)      !! the entries of the matrix, not scaled
       real(wp), allocatable :: scaling(:)    !! scale factor of each entry of the pattern
       logical :: has_plan = .false.          !! factorise by plan
-      type(plan_t) :: plan(2)                !! held and released
+      type(plan_t) :: plan(2)                !! plans `held` and `released`
       real(wp), allocatable :: planned(:)    !! factors by plan
       real(wp), allocatable :: turned(:, :)  !! (right-hand side, unknown): work space of solve_many
       real(wp), allocatable :: matrix(:, :)  !! factors by LAPACK in the lower triangle; allocated when needed
-      real(wp), allocatable :: rhs(:)        !! [N, N m; m, -, rad]; after `solve` [Δq; Δλ]
+      real(wp), allocatable :: rhs(:)        !! right-hand side [N, N m; m, -, rad]; after `solve` [Δq; Δλ]
       real(wp), allocatable :: gradients(:, :)   !! (12, term): coefficient × gradient of each term
       real(wp), allocatable :: values(:)     !! Φ(q) − c − Cλ of each row [m, -, rad]: constraint violation
       real(wp), allocatable :: scale(:)      !! D: scale factors of the unknowns and of the rows (ek_scale)

@@ -14,13 +14,13 @@ module ek_newton
    public :: outcome_t, find_equilibrium, ends_here
    public :: max_iterations, max_chords, rest, good_chord
 
-   integer, parameter :: max_iterations = 15   !! Newton's method converges quadratically: more iterations would not help
-   integer, parameter :: max_chords = 4        !! steps with old factors: three cost less than one factorisation
+   integer, parameter :: max_iterations = 15   !! largest number of iterations: Newton's method does not need more
+   integer, parameter :: max_chords = 4        !! largest number of steps with old factors: three cost less than one factorisation
    real(wp), parameter :: rest = 1.0e-6_wp      !! allowed error of a state found with old factors, as a share of the tolerance
    ! × step²/characteristic length: the error that a full step leaves. Some 0.2 on a smooth path, 130 in the stops of the examples;
    ! near the end of a path, where the stiffness vanishes, 200 has let 1e-12 m pass
    real(wp), parameter :: curvature = 2.0e4_wp
-   real(wp), parameter :: good_chord = 0.03_wp  !! limit of step/step before; above it, new factors are cheaper
+   real(wp), parameter :: good_chord = 0.03_wp  !! limit of step / previous step: above it, new factors are cheaper
 
    !> The outcome of an iteration.
    type :: outcome_t
@@ -28,7 +28,7 @@ module ek_newton
       logical :: is_singular = .false.    !! a matrix could not be factorised
       integer :: factorisations = 0
       real(wp) :: first = 0.0_wp          !! length of the first correction: error of the guess [m]
-      real(wp) :: missed = 0.0_wp         !! distance from the result at which the last factors were computed [m]
+      real(wp) :: missed = 0.0_wp         !! distance of the last factors from the result [m]
       real(wp) :: last = 0.0_wp           !! length of the last correction [m]
       integer :: negative = 0             !! negative eigenvalues of the last matrix
       real(wp) :: pivot_ratio = 1.0_wp    !! cheap condition estimate of the last matrix

@@ -33,7 +33,7 @@ module ek_orientation
       integer, allocatable :: held(:)                      !! index of each rigid row in the suspension
       integer, allocatable :: first(:)                     !! (rows + 1): first slot of each rigid row
       integer, allocatable :: body(:), row(:)              !! body and rigid row of each slot
-      integer, allocatable :: slot_of(:, :)                !! (2, term): at body i and j; 0: chassis
+      integer, allocatable :: slot_of(:, :)                !! (2, term): slots of each term at bodies i and j; 0: chassis
       integer, allocatable :: entry_row(:), entry_column(:)   !! row and column of each product that may be nonzero; row ≥ column
       integer, allocatable :: pair(:, :)                   !! (3, pair): index of a product, two slots of one body that add to it
       type(plan_t) :: plan                                 !! plan of elimination of the products
@@ -48,7 +48,7 @@ module ek_orientation
 
 contains
 
-   !> Allocates the work space for a model.
+   !> The rigid rows of a model, with work space.
    function new_orientation(suspension) result(self)
       type(suspension_t), intent(in) :: suspension
       type(orientation_t) :: self

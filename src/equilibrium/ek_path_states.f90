@@ -16,10 +16,10 @@ module ek_path_states
    type :: path_t
       integer :: states = 0
       integer :: start = 0                        !! index of the design state; 0 if the range does not contain design
-      real(wp), allocatable :: value(:)           !! swept value: factor, or change of the driven value [m, rad]
+      real(wp), allocatable :: value(:)           !! swept value: factor, change of the driven value [m, rad], or table row
       real(wp), allocatable :: packed(:, :)       !! (coordinate, state), see ek_state
       logical, allocatable :: is_reached(:)
-      logical, allocatable :: is_stable(:)        !! no negative stiffness
+      logical, allocatable :: is_stable(:)        !! no motion has a negative stiffness
       integer, allocatable :: iterations(:)       !! number of factorisations for each state
       real(wp), allocatable :: pivot_ratio(:)     !! smallest / largest pivot; if tiny, the condition estimate replaces a smaller
                                                   !! ratio
@@ -31,8 +31,8 @@ module ek_path_states
       integer :: limits = 0                       !! number of limit points (follow = 'arc')
       real(wp) :: limit_place(2*max_limits) = 0.0_wp
       integer :: limit_state(2*max_limits) = 0   !! index of the nearest state; 0: before the range begins
-      type(failure_t) :: failure(2)               !! (1) towards `to`, (2) towards `from`; only (1) if the sweep has one direction,
-                                                  !! in static equilibrium, or for the first failed row of a table
+      type(failure_t) :: failure(2)               !! (1) towards `to`, or of the only direction; (2) towards `from`. (1) is also the
+                                                  !! failure of static equilibrium, or of the first failed row of a table
    end type path_t
 
 contains

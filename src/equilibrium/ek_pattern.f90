@@ -20,7 +20,7 @@ module ek_pattern
 
    !> Positions of all entries of the system in its store.
    type :: pattern_t
-      integer :: nq = 0, nc = 0, n = 0           !! unknowns of bodies, rows of Φ, and their sum
+      integer :: nq = 0, nc = 0, n = 0           !! number of unknowns of bodies, of rows of Φ, and their sum
       integer :: bodies = 0, blocks = 0          !! number of bodies; number of blocks of bodies and of pairs
       integer, allocatable :: pair(:, :)         !! (2, block): body of the rows, body of the columns
       integer, allocatable :: element_at(:, :)   !! (3, element): blocks of each element, see ek_block

@@ -11,13 +11,13 @@ module ek_predictor
    private
    public :: predictor_t, new_predictor, remember, predict, judge, forget, usable, find_weights
 
-   integer, parameter, public :: depth = 6   !! states stored; more would amplify rounding (Σ|w| = 2^depth − 1)
+   integer, parameter, public :: depth = 6   !! number of states stored; more would amplify rounding (Σ|w| = 2^depth − 1)
 
    real(wp), parameter :: too_near = 1.0e-6_wp   !! distance of states, as a share of the step ahead: closer states amplify rounding
 
    !> The last states, in a ring of slots, and the number of states that predictions use.
    type :: predictor_t
-      real(wp), allocatable :: packed(:, :)   !! (coordinate, slot)
+      real(wp), allocatable :: packed(:, :)   !! (coordinate, slot): packed states
       real(wp), allocatable :: guess(:)       !! work space: one packed state
       real(wp) :: abscissa(depth) = 0.0_wp
       integer :: newest = 0, count = 0

@@ -26,9 +26,9 @@ module ek_preload_problem
 
    !> The problem: the columns of W and F as gradients at two bodies, and b.
    type :: preload_problem_t
-      integer :: nq = 0                          !! rows: unknowns of the bodies
-      integer :: nx = 0                          !! columns of W: six per bushing
-      integer :: ny = 0                          !! columns of F: scalar elements, then rows of Φ
+      integer :: nq = 0                          !! number of rows: unknowns of the bodies
+      integer :: nx = 0                          !! number of columns of W: six per bushing
+      integer :: ny = 0                          !! number of columns of F: elements of one measure, then rows of Φ
       real(wp), allocatable :: load(:)           !! b, scaled
       real(wp), allocatable :: root(:)           !! square root of each rate: preload = root × x
       real(wp), allocatable :: weighted(:, :)    !! (12, nx) W, scaled

@@ -30,7 +30,7 @@ module ek_reach
       real(wp) :: reached = 0.0_wp         !! swept value of the last equilibrium
       logical :: is_singular = .false.
       logical :: is_off_path = .false.     !! a linear method continued, but not along the path from design
-      integer :: ending = 0                !! how a walk by arc length ended, see ek_arc_survey; 0 for other walks
+      integer :: ending = 0                !! end of a walk by arc length, see ek_arc_survey; 0 for other walks
       integer :: body = 0                  !! index of the body that moved most in the failed attempt; 0: none
       real(wp) :: moved = 0.0_wp           !! motion of this body [m]
       integer :: row = 0                   !! index of the row of Φ with the largest violation; 0: none

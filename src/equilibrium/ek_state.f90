@@ -16,7 +16,7 @@ module ek_state
    !> Poses of bodies 0 … n (index 1 is the chassis, which is fixed) and the reactions λ.
    type :: state_t
       type(pose_t), allocatable :: poses(:)
-      real(wp), allocatable :: reaction(:)   !! λ, one per constraint row [N, or N m for a row without length]
+      real(wp), allocatable :: reaction(:)   !! λ, one per constraint row [N; N m for rows of cosines and angles]
    end type state_t
 
    !> The inputs of one state: scaled loads and prescribed values, in addition to the constant loads. The size

@@ -18,7 +18,7 @@ module ek_tangent
    !> Work space, and whether the loads leave the true matrix symmetric.
    type :: tangent_t
       private
-      real(wp), allocatable :: whole(:), defect(:)         !! [Δq; Δλ] per swept value, and a right-hand side
+      real(wp), allocatable :: whole(:), defect(:)         !! tangent [Δq; Δλ] per swept value; a right-hand side
       real(wp), allocatable :: twist(:)                    !! twists of the bodies [m, rad]
       logical :: is_symmetric = .true.      !! no load makes the tangent unsymmetric
       type(state_t) :: shifted
@@ -26,7 +26,7 @@ module ek_tangent
 
 contains
 
-   !> Allocates the work space for a model.
+   !> The work space of find_tangent for a model.
    function new_tangent(suspension) result(self)
       type(suspension_t), intent(in) :: suspension
       type(tangent_t) :: self

@@ -151,7 +151,7 @@ contains
       real(wp), intent(in) :: damping                    !! μ
       real(wp), intent(out) :: d(:)
       integer, intent(out) :: held(:)                    !! −1 at low, +1 at high, 0 free
-      real(wp), parameter :: rounding = 1.0e-12_wp       !! of the slopes: a smaller one frees nothing
+      real(wp), parameter :: rounding = 1.0e-12_wp       !! limit of a scaled slope: smaller slopes free no unknown
       real(wp) :: z(size(d)), slope(size(d)), mu, share, this
       integer :: j, cycles, worst
 

@@ -14,7 +14,7 @@ module ek_number
    integer, parameter :: mask = kind(.true.)    !! logical(mask): a condition on such numbers
    integer, parameter :: piece = kind(1)        !! integer(piece): a position in a table, found by such numbers
 
-   real(num), parameter :: zero = 0.0_num, one = 1.0_num     !! for initial values of components and for constants
+   real(num), parameter :: zero = 0.0_num, one = 1.0_num     !! 0 and 1 for initial values of components and for constants
 
 contains
 

@@ -26,13 +26,13 @@ module ek_saddle
 
    !> The matrix of a saddle-point system, later its factors.
    type :: saddle_t
-      integer :: n = 0                           !! rows of K
-      integer :: m = 0                           !! columns of F
+      integer :: n = 0                           !! number of rows of K
+      integer :: m = 0                           !! number of columns of F
       real(wp), allocatable :: k(:, :)           !! (n, n) lower triangle of K; after `eliminate` the factor of Zᵀ K Z, from row m +
                                                  !! 1 on
       real(wp), allocatable :: f(:, :)           !! (n, m) F; after `eliminate` U, and L below the diagonal
       integer, allocatable :: swapped(:)         !! (m): the row that was exchanged with row k
-      logical :: is_regular = .false.            !! F and Zᵀ K Z have full rank without a doubt
+      logical :: is_regular = .false.            !! F and Zᵀ K Z have full rank beyond doubt
    end type saddle_t
 
 contains

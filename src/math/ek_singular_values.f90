@@ -16,7 +16,7 @@ module ek_singular_values
    type :: singular_values_t
       logical :: is_found = .false.          !! false: A has elements that are not finite, or LAPACK did not converge
       integer :: rank = 0                    !! number of singular values that count as nonzero
-      real(wp), allocatable :: values(:)     !! largest first; min(rows, columns) values
+      real(wp), allocatable :: values(:)     !! min(rows, columns) singular values, largest first
       real(wp), allocatable :: left(:, :)    !! U (rows, rows)
       real(wp), allocatable :: right(:, :)   !! V (columns, columns); without null space (columns, min(rows, columns))
    end type singular_values_t

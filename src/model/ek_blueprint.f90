@@ -21,9 +21,9 @@ module ek_blueprint
    integer, parameter :: hardpoint = 1     !! point given by three parameters
    integer, parameter :: along = 2         !! unit vector from vector a to vector b
    integer, parameter :: given = 3         !! unit vector along three parameters
-   integer, parameter :: chosen = 4        !! perpendicular to the direction a, the same choice in either frame of a deck
-   integer, parameter :: chosen_right = 5  !! the mirror image of the choice for the mirror image of a
-   integer, parameter :: across = 6        !! horizontal and perpendicular to the direction a: symmetric on a mirrored axle
+   integer, parameter :: chosen = 4        !! unit vector perpendicular to vector a: the same choice in either frame of a deck
+   integer, parameter :: chosen_right = 5  !! mirror image of the `chosen` vector for the mirror image of a
+   integer, parameter :: across = 6        !! horizontal unit vector perpendicular to vector a: symmetric on a mirrored axle
 
    ! where a hardpoint must stay, or the deck has another topology
    integer, parameter, public :: anywhere = 0, in_plane = 1, off_left = 2, off_right = 3   !! side of the plane of &mirror

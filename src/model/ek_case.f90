@@ -11,11 +11,11 @@ module ek_case
 
    character(*), parameter :: method_names(3) = [character(11) :: 'recursive', 'corrected', 'equilibrium']
    character(*), parameter :: follow_names(2) = [character(6) :: 'factor', 'arc']
-   character(*), parameter :: solver_names(2) = [character(6) :: 'lapack', 'plan']      !! see ek_kkt
+   character(*), parameter :: solver_names(2) = [character(6) :: 'lapack', 'plan']      !! names of the solvers, see ek_kkt
    integer, parameter :: max_increments = 1000000   !! largest number of increments; a state needs about 3 kB
    integer, parameter :: max_driven = 24   !! largest number of loads, and of rows, that one case may drive: nine loads per wheel
                                            !! and a few more
-   real(wp), parameter :: default_tolerance = 1.0e-10_wp   !! default of the largest last Newton correction [m]: 1e-7 mm
+   real(wp), parameter :: default_tolerance = 1.0e-10_wp   !! default of case_t%tolerance [m]: 1e-7 mm
 
    integer, parameter :: follows_place = 1     !! share × swept value
    integer, parameter :: follows_tangent = 2   !! share × tan(swept value): heights of a rolling axle
@@ -35,7 +35,7 @@ module ek_case
       character(:), allocatable :: name       !! column heading; for a driver joint, the name of the joint
       integer :: wheel = 0                    !! index of the wheel; 0: a driver joint of the deck
       integer :: component = 0                !! 1–3 force and 4–6 moment at the contact point, 7–9 force at the centre; 0: a height
-      real(wp), allocatable :: values(:)      !! N, N m, m or rad
+      real(wp), allocatable :: values(:)      !! value in each row [N, N m, m or rad]
    end type table_column_t
 
    !> A load table as read with the deck. The table has no rows if it has errors or if its file cannot be read.
@@ -66,11 +66,11 @@ module ek_case
       character(:), allocatable :: vertical !! how wheels are held: 'centre', 'patch', 'road', 'force'; '': default of the test
       logical :: is_anti = .false.          !! anti-phase: the load on the right wheel is reversed
       real(wp) :: offset = 0.0_wp           !! trail of a lateral force aft of the contact point [m]
-      character(:), allocatable :: file     !! name of a load table
+      character(:), allocatable :: file     !! name of the file of a load table
       type(load_table_t) :: table           !! content of this file
-      character(:), allocatable :: target   !! 'column=value', '' for none
+      character(:), allocatable :: target   !! target 'column=value'; '' without a target
       logical :: is_good = .true.           !! .false.: the case has an error and cannot be mounted on the rig
-      logical :: has_all = .false.          !! write the compliance matrix and the quantities derived from it at every state
+      logical :: has_all = .false.          !! the compliance matrix and the quantities derived from it are written at every state
       ! of a case on the rig, see ek_rig; not allocated in the deck, except for a case that names several loads
       type(actuation_t), allocatable :: actuations(:)
       real(wp) :: unit = 1.0_wp             !! SI value of the unit of the swept value

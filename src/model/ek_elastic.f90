@@ -40,7 +40,7 @@ module ek_elastic
    !> A bushing at one pair of poses.
    type :: bushing_evaluation_t
       real(num) :: a(3) = zero, b(3) = zero, d(3) = zero   !! arms, displacement from I to J; global [m]
-      real(num) :: frame(3, 3) = identity3                      !! A_i
+      real(num) :: frame(3, 3) = identity3                      !! A_i: body-i axes → global axes
       real(num) :: gap(3) = zero        !! displacement minus its value at design, axes of body i [m]
       real(num) :: force(3) = zero      !! dV/dd, global [N]
       real(num) :: moment(3) = zero     !! dV/dθ, axes of body i [N m]

@@ -56,7 +56,7 @@ module ek_element
       logical :: has_gap          !! a stop: free up to contact; the result column is the clearance, not the value of the measure
       logical :: is_axial_spring        !! the preload trim (`balance`) may set its preload; its motion ratio is reported
       integer :: shape            !! shape in pictures, for an element on a distance or a bushing
-      integer :: share            !! class of its share in a rate
+      integer :: share            !! class of the share of an element in a wheel rate or roll rate
    end type element_kind_t
 
    type(element_kind_t), parameter :: element_kinds(*) = [ &
@@ -75,7 +75,7 @@ module ek_element
       real(num) :: preload = zero          !! compression at design [N], moment on body j about the axis [N m]
       type(law_t) :: law                    !! law of the measure, from which the preload is subtracted [N, N m]
       type(bushing_t) :: bushing            !! the six components of a bushing
-      real(num) :: design_length = zero    !! value at design: m, rad, -
+      real(num) :: design_length = zero    !! value of the measure at design [m, rad, -]
       real(num) :: free_length = zero      !! free length [m]; 0: not given
       real(num) :: clearance = zero        !! clearance of a stop [m]
       character(:), allocatable :: name, where

@@ -15,8 +15,8 @@ module ek_element_part
 
    !> One law of an element at a state.
    type :: element_part_t
-      real(wp) :: slope = 0.0_wp             !! c [N/m, N m/rad]
-      real(wp) :: gradient(12) = 0.0_wp      !! g, of the deflection [-, m]
+      real(wp) :: slope = 0.0_wp             !! c: slope of the law [N/m, N m/rad]
+      real(wp) :: gradient(12) = 0.0_wp      !! g: gradient of the deflection [-, m]
    end type element_part_t
 
 contains

@@ -87,9 +87,9 @@ module ek_joint
    !> The geometry that defines a joint: design position, global axes, SI.
    type :: joint_geometry_t
       integer :: body_i = 0, body_j = 0
-      real(wp) :: point_i(3) = 0.0_wp, point_j(3) = 0.0_wp   !! equal unless two points are given
-      real(wp) :: axis_i(3) = [0.0_wp, 0.0_wp, 1.0_wp]       !! unit, fixed in body i
-      real(wp) :: axis_j(3) = [0.0_wp, 0.0_wp, 1.0_wp]       !! unit, fixed in body j
+      real(wp) :: point_i(3) = 0.0_wp, point_j(3) = 0.0_wp   !! points on i and j [m], equal unless two are given
+      real(wp) :: axis_i(3) = [0.0_wp, 0.0_wp, 1.0_wp]       !! unit vector fixed in body i
+      real(wp) :: axis_j(3) = [0.0_wp, 0.0_wp, 1.0_wp]       !! unit vector fixed in body j
       real(wp) :: across(3) = 0.0_wp                         !! direction of the first row across the axis; 0: free choice
    end type joint_geometry_t
 

@@ -14,9 +14,9 @@ module ek_load
       character(:), allocatable :: name, where
       integer :: body = 0
       real(num) :: arm(3) = zero         !! point of application from the reference point, body axes [m]
-      real(num) :: force(3) = zero       !! N, global axes at design
-      real(num) :: moment(3) = zero      !! N m
-      logical :: follows = .false.        !! rotates with the body
+      real(num) :: force(3) = zero       !! force [N], global axes at design
+      real(num) :: moment(3) = zero      !! moment [N m], global axes at design
+      logical :: follows = .false.        !! force and moment rotate with the body
       logical :: is_case = .false.        !! scaled by the case that refers to this load; otherwise constant
       logical :: is_weight = .false.      !! gravity of the body, not a load of the deck or the rig
    end type load_t

@@ -39,9 +39,9 @@ module ek_suspension
       character(:), allocatable :: name, where
       integer :: body = 0
       integer :: side = -1                !! −1 left, +1 right
-      real(wp) :: centre(3) = 0.0_wp      !! arms from the carrier's reference point, body axes [m]
-      real(wp) :: contact(3) = 0.0_wp
-      real(wp) :: spin(3) = [0.0_wp, -1.0_wp, 0.0_wp]   !! unit, outboard, body axes
+      real(wp) :: centre(3) = 0.0_wp      !! wheel centre: arm from the carrier's reference point, body axes [m]
+      real(wp) :: contact(3) = 0.0_wp     !! contact point: arm from the carrier's reference point, body axes [m]
+      real(wp) :: spin(3) = [0.0_wp, -1.0_wp, 0.0_wp]   !! spin axis: unit vector, outboard, body axes
       real(wp) :: toe = 0.0_wp, camber = 0.0_wp         !! static angles, given in the deck or derived from the spin axis [rad]
       real(wp) :: radius = 0.0_wp         !! m
       real(wp) :: tyre_rate = 0.0_wp      !! vertical stiffness of the tyre [N/m]; 0: not given
@@ -55,7 +55,7 @@ module ek_suspension
    type :: readout_t
       character(:), allocatable :: name, where
       type(measure_t) :: measure
-      real(wp) :: design_value = 0.0_wp   !! m, - or rad
+      real(wp) :: design_value = 0.0_wp   !! value at design [m, - or rad]
    end type readout_t
 
    !> Data of the vehicle, for characteristics of the axle that depend on the complete car.
@@ -64,11 +64,11 @@ module ek_suspension
       character(:), allocatable :: where
       logical :: is_front = .true.
       real(wp) :: wheelbase = 0.0_wp      !! m
-      real(wp) :: cg_height = 0.0_wp      !! centre of gravity of the car above the ground [m]
+      real(wp) :: cg_height = 0.0_wp      !! height of the centre of gravity of the car above the ground [m]
       real(wp) :: mass = 0.0_wp           !! mass of the car [kg]; 0: not given
       real(wp) :: brake_share = 0.0_wp    !! share of the car's braking force that acts on the FRONT axle, 0 to 1
       real(wp) :: drive_share = 1.0_wp    !! share of the car's driving force that acts on THIS axle, 0 to 1
-      real(wp) :: front_overhang = 0.0_wp !! front corner of the car ahead of the wheels [m]; 0: not given
+      real(wp) :: front_overhang = 0.0_wp !! distance of the front corner of the car ahead of the wheels [m]; 0: not given
       real(wp) :: front_width = 0.0_wp    !! width of the car at its front corners [m]; given together with front_overhang
       logical :: drives_at_patch = .false.   !! the axle carries the drive torque (solid axle): driving force acts at contact point;
                                              !! otherwise (independent suspension) at the wheel centre
