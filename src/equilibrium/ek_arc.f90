@@ -10,14 +10,14 @@
 !>     [ N  −∂F/∂s ] [Δz Δλ]   [ F ]
 !>     [ t     t_s ] [Δs   ] = [ 0 ]
 !>
-!> which is regular at a limit point, where N alone is not. Lengths are measured in
+!> which is regular at a limit point, where N alone is not. Lengths follow from the scalar product
 !>
 !>     a·b = Σ over bodies (a_r·b_r/L² + a_π·b_π) + a_s b_s/range²        L the size of the model
 !>
 !> and are therefore dimensionless; reactions are ignored. The tangent has the sense of the previous tangent, which
 !> carries the path across a fold. A position where joints lock is passed likewise; the reactions at this position are unbounded.
 !>
-!> A step is accepted if its tangents agree with the motion and differ by a small angle, or at a corner of a law.
+!> A step is accepted if the tangents at its ends agree with the motion and differ by a small angle, or at a corner of a law.
 !> Steps are reproducible: followed again from the same state, a path has the same lengths.
 !> No memory is allocated after new_arc.
 module ek_arc

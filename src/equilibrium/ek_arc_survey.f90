@@ -129,7 +129,7 @@ contains
 
    end subroutine survey
 
-   !> The length from design to state k, which is between states `first` and `last`.
+   !> The length of the path from design to state k. States `first` to `last` are at equal distances.
    pure real(wp) function length_at(found, k, first, last) result(length)
       type(survey_t), intent(in) :: found
       integer, intent(in) :: k, first, last

@@ -122,7 +122,8 @@ contains
       end select
    end subroutine balance_remarks
 
-   !> Phrase about excluded drivers for an error message: '; driver … is excluded'; '' if there are none.
+   !> Phrase about excluded drivers for an error message: '; driver 'rack' is excluded unless …'; '' without excluded
+   !> drivers.
    function kept_out(suspension) result(text)
       type(suspension_t), intent(in) :: suspension
       character(:), allocatable :: text

@@ -151,7 +151,7 @@ contains
    !> state may be known.
    pure subroutine leave(self, place, packed, negative)
       type(branch_t), intent(inout) :: self
-      real(wp), intent(in) :: place                 !! of that state
+      real(wp), intent(in) :: place                 !! swept value of this state
       real(wp), contiguous, intent(in) :: packed(:)
       integer, intent(in) :: negative               !! −1: not known
 
@@ -314,7 +314,7 @@ contains
    pure subroutine accept(self, outcome, kkt, was_compared)
       type(branch_t), intent(inout) :: self
       type(outcome_t), intent(in) :: outcome     !! of the iteration to b
-      type(kkt_t), intent(in) :: kkt             !! the factors at or near b, unless it was compared
+      type(kkt_t), intent(in) :: kkt             !! factors at or near b, unless the step was compared
       logical, intent(in) :: was_compared
 
       if (.not. was_compared) self%serial = kkt%factorisations

@@ -67,7 +67,7 @@ contains
       if (laws > 0) self%dyads = new_dyads(suspension%unknowns() + suspension%constraints(), laws)
    end function new_chord
 
-   !> Renews the chords in place for other numbers of the model.
+   !> Renews the chords for other numbers of the model, in place unless the number of laws that can bend has changed.
    subroutine renew_chord(suspension, self)
       type(suspension_t), intent(in) :: suspension
       type(chord_t), intent(inout) :: self        !! of new_chord, for the same model
@@ -158,7 +158,7 @@ contains
    !> Computes the force and slope of a law at both ends, and the least, mean and most slope between the ends.
    pure subroutine draw(self, number, element, component)
       type(chord_t), intent(inout) :: self
-      integer, intent(in) :: number                !! of the law; its values are set
+      integer, intent(in) :: number                !! index of the law, whose values are set
       type(element_t), intent(in) :: element
       integer, intent(in) :: component             !! of a bushing; 0: the law of the element
       real(wp) :: slope
@@ -185,8 +185,8 @@ contains
       self%slope(mean, number) = min(max(slope, self%slope(least, number)), self%slope(most, number))
    end subroutine draw
 
-   !> Computes the tangent of the changed model at one end, with the factors of N at this end, and whether N stays regular for all
-   !> slopes.
+   !> Computes the tangent of the changed model at one end, with the factors of N at this end. Determines whether N is regular for
+   !> all slopes of the laws in the step.
    !> Equation (K.16) of docs/theory/kkt.md.
    subroutine evaluate_along_chord(self, suspension, work, end, state, inputs, rate, kkt, tangent, is_regular)
       type(chord_t), intent(inout) :: self

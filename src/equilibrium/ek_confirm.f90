@@ -2,8 +2,8 @@
 !>
 !> The recursive and the corrected increment take one step without a check, and may step across a lock onto another assembly.
 !> Therefore the exact path is followed again in a few long steps checked by ek_reach. At the end of each step, Newton's method
-!> is started from the state of the linear method and must converge to the exact path. States beyond the last swept value of such a
-!> convergence are marked as not reached.
+!> is started from the state of the linear method and must converge to the exact path. States beyond the last swept value at which
+!> Newton's method converges are marked as not reached.
 module ek_confirm
    use ek_kinds, only: wp
    use ek_suspension, only: suspension_t

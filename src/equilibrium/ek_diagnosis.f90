@@ -9,8 +9,8 @@
 !> The limit is lower if many bodies move. A stiffness is not compared with the characteristic stiffness: a coil of 30 N/mm next to
 !> bushings of 1e10 N/mm, or the bending of a chain of 160 bodies, is extremely soft in comparison, but not a mechanism.
 !>
-!> T includes the geometric stiffness of preloads. A motion without material stiffness (K) is held by preload only and
-!> is reported separately.
+!> T includes the geometric stiffness of preloads. A motion without material stiffness (K) is held by preloads or loads only
+!> and is reported separately.
 !> Equation (K.7) of docs/theory/kkt.md.
 module ek_diagnosis
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
@@ -250,7 +250,7 @@ contains
       call diagnosis%warnings%add(text)
    end subroutine name_mechanisms
 
-   !> Lists the motions without material stiffness that are held by preloads.
+   !> Lists the motions without material stiffness that are held by preloads or loads.
    subroutine name_preload_held(suspension, state, tangent, material, basis, kkt, diagnosis)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
@@ -309,7 +309,7 @@ contains
       end do
    end subroutine modes
 
-   !> The number of bodies that share a motion: (Σ p)²/Σ p² of their parts p; 1 for a single body.
+   !> The number of bodies that share a motion: (Σ p)²/Σ p², with p the size of the motion of each body; 1 for a single body.
    pure real(wp) function bodies_in(motion) result(bodies)
       real(wp), intent(in) :: motion(:)
       real(wp) :: part(size(motion)/6)
@@ -367,8 +367,8 @@ contains
       end associate
    end function softer_than
 
-   !> Transforms vectors by Gauss–Jordan elimination with column pivoting. The new vectors span the same space and have few nonzero
-   !> entries, so that two independent defects are reported separately.
+   !> Transforms vectors by Gauss–Jordan elimination, with the largest entry of each vector as pivot. The new vectors span the same
+   !> space and have few nonzero entries, so that two independent defects are reported separately.
    pure subroutine make_sparse(vectors)
       real(wp), intent(inout) :: vectors(:, :)
       integer :: k, l, r

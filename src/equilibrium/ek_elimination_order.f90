@@ -14,7 +14,7 @@ module ek_elimination_order
    real(wp), parameter :: threshold = 0.02_wp     !! stability threshold: factors of the samples are below about 1/threshold
    real(wp), parameter :: vanished = 1.0e-30_wp   !! limit of a pivot of the scaled matrix: smaller pivots are not divided by
 
-   !> Pivots in the order of elimination, and the unknowns that each couples.
+   !> Pivots in the order of elimination, and the unknowns that each pivot couples.
    type :: order_t
       integer :: blocks = 0
       integer, allocatable :: pivot(:, :)        !! (2, block): unknowns; the second is 0 for a pivot of one unknown
@@ -42,8 +42,8 @@ module ek_elimination_order
 
 contains
 
-   !> Finds the order for a pattern of n unknowns. Each entry of the pattern is given once, with its values in the samples; rows
-   !> need not be below columns.
+   !> Finds the order for a pattern of n unknowns. Each entry of the pattern is given once, with its values in the samples; the
+   !> entry may be above or below the diagonal.
    subroutine find_order(n, row, column, values, order)
       integer, intent(in) :: n
       integer, intent(in) :: row(:), column(:)   !! of each entry

@@ -1,9 +1,9 @@
 !> Checks that the joints of two states are in the same assembly mode: det(Φq(a) Φq(b)ᵀ) > 0, for the rigid rows.
 !>
 !> If Φq loses rank between the two states, the determinant changes sign, while the inertia of the matrix N of equilibrium is
-!> unchanged: det N is proportional to the square of det Φq. The products of rows that share no body are zero: only the other
-!> products are computed and eliminated, row by row (ek_plan). No memory is allocated after new_orientation, except for the LU
-!> factors of a large model.
+!> unchanged: det N is proportional to det(Φq Φqᵀ), which has a double zero there. The products of rows that share no body are
+!> zero: only the other products are computed and eliminated, row by row (ek_plan). No memory is allocated after new_orientation,
+!> except for the LU factors of a large model.
 module ek_orientation
    use ek_kinds, only: wp
    use ek_relative_rotation, only: pose_t

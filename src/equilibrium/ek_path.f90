@@ -60,7 +60,7 @@ contains
    end subroutine empty_walk
 
    !> Sweeps a case; failures are returned in path%failure and never stop the program. States of a linear method that are not
-   !> on the path from design are rejected.
+   !> on the path from design are rejected, except in tables.
    subroutine sweep(suspension, case, path, kkt, progress, reach, space)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
@@ -83,8 +83,8 @@ contains
       end do
    end subroutine sweep
 
-   !> Follows the complete path of new_path, or a path of equilibria around design only as far as `reach`. The states of both
-   !> paths are identical bit for bit.
+   !> Follows the complete path of new_path, or a path of equilibria around design only as far as `reach`. The states that
+   !> both paths contain are identical bit for bit.
    subroutine walk(suspension, case, path, kkt, progress, reach, space)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
@@ -92,7 +92,7 @@ contains
       type(kkt_t), intent(inout) :: kkt
       procedure(progress_procedure), optional :: progress
       real(wp), intent(in), optional :: reach      !! swept value; 0: the design state only
-      type(walk_t), intent(inout), optional :: space   !! as for sweep
+      type(walk_t), intent(inout), optional :: space   !! as in `sweep`
       type(walk_t), allocatable :: own
 
       if (present(space)) then

@@ -43,7 +43,7 @@ contains
    subroutine new_path(suspension, case, path)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
-      type(path_t), intent(inout) :: path        !! its memory is used again if it fits
+      type(path_t), intent(inout) :: path        !! memory of a suitable size is used again
       integer :: n, before, k
 
       n = case%increments

@@ -26,7 +26,7 @@ module ek_predictor
 
 contains
 
-   !> Allocates storage for states of `length` numbers.
+   !> A predictor without states, with storage for states of `length` numbers.
    pure function new_predictor(length) result(self)
       integer, intent(in) :: length
       type(predictor_t) :: self

@@ -23,7 +23,7 @@ module ek_reach
    real(wp), parameter :: away = 0.6_wp               !! next step, as a share of a step that ends at a loss of rank
    integer, parameter :: max_attempts = 400          !! largest number of steps tried per increment
 
-   !> Where and how a sweep stopped.
+   !> The failure of a sweep: location, cause and last equilibrium.
    type :: failure_t
       integer :: state = 0                 !! index of the first state that did not converge, 0: none
       real(wp) :: value = 0.0_wp           !! swept value of the nearest attempt that failed
@@ -97,7 +97,7 @@ contains
       type(kkt_t), intent(inout) :: kkt          !! with `found`, factors near the goal
       integer, intent(out) :: iterations         !! factorisations spent
       type(failure_t), intent(inout) :: failure
-      type(outcome_t), intent(in), optional :: found     !! how it was found from branch%predictor%guess; it is to be judged
+      type(outcome_t), intent(in), optional :: found     !! outcome of the iteration from branch%predictor%guess to the goal
       type(step_t) :: step
       real(wp) :: here, width
       real(wp) :: lost        ! place of the nearest attempt that failed
@@ -173,7 +173,7 @@ contains
       type(suspension_t), intent(in) :: suspension
       type(schedule_t), intent(in) :: schedule
       integer, intent(in) :: points              !! earlier states that may be used
-      logical, intent(in) :: has_tangent         !! use it rather than two states
+      logical, intent(in) :: has_tangent         !! use the tangent instead of two states
       real(wp), intent(in) :: tolerance
       type(branch_t), intent(inout) :: branch
       type(state_t), intent(inout) :: state
@@ -261,10 +261,10 @@ contains
    !> inertia is unchanged.
    logical function is_foreseen(predictor, state, negative, negative_before, tolerance, length, is_long)
       type(predictor_t), intent(in) :: predictor     !! with the guess
-      type(state_t), intent(in) :: state             !! result of Newton's method from it
+      type(state_t), intent(in) :: state             !! result of Newton's method from the guess
       integer, intent(in) :: negative, negative_before
       real(wp), intent(in) :: tolerance, length      !! m
-      logical, intent(out) :: is_long                !! it may yet have passed over a narrow gap of the assembly
+      logical, intent(out) :: is_long                !! the step may have passed over a narrow gap of the assembly
       real(wp) :: moved, missed
 
       moved = squared_distance(size(state%poses) - 1, state%poses, predictor%packed(:, predictor%newest), length)

@@ -16,7 +16,8 @@ contains
    !> Starts the recursion before the first increment: λ⁻¹ is the reaction in the design state (zero without preloads and
    !> constant loads).
    !>
-   !> λ⁻¹ is the λ of [K Φqᵀ; Φq −C][Δq; λ] = [f_ext − f_el; 0] at design; Δq vanishes if the preloads balance the constant loads.
+   !> λ⁻¹ is the λ of [K Φqᵀ; Φq −C][Δq; λ] = [f_ext − f_el; c − Φ] at design; Δq vanishes if the preloads balance the constant
+   !> loads.
    !> Equation (K.8) of docs/theory/kkt.md.
    subroutine start_recursion(suspension, state, kkt, held)
       type(suspension_t), intent(in) :: suspension

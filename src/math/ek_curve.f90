@@ -32,7 +32,7 @@ contains
    !> Copies the numbers of a curve to another curve. The memory of the latter is used again if the number of points is equal.
    pure subroutine copy_curve(from, to)
       type(curve_t), intent(in) :: from
-      type(curve_t), intent(inout) :: to          !! its name is then unchanged
+      type(curve_t), intent(inout) :: to          !! in this case the name is unchanged
       logical :: is_alike
 
       is_alike = allocated(to%breaks)

@@ -28,7 +28,7 @@ contains
       real(wp), intent(in) :: a(:, :)
       real(wp), intent(in) :: share          !! singular values up to this share of the largest count as zero
       type(singular_values_t), intent(out) :: parts
-      real(wp), intent(in), optional :: whole    !! … or of this number, if it is larger: the norm of a matrix that A is a part of
+      real(wp), intent(in), optional :: whole    !! … or of this number if larger: the norm of a matrix that contains A
       logical, intent(in), optional :: wants_null_space      !! all columns of V; default .false.
       real(wp), allocatable :: copy(:, :), transposed(:, :), work(:)
       real(wp) :: query(1), most

@@ -48,7 +48,7 @@ contains
    pure subroutine add_load_tangent(load, force, arm, body, blocks)
       type(load_t), intent(in) :: load
       real(num), intent(in) :: force(3), arm(3)      !! of wrench, the force times its factor [N]; [m]
-      integer, intent(in) :: body                    !! its diagonal block
+      integer, intent(in) :: body                    !! index of its diagonal block
       real(num), intent(inout) :: blocks(6, 6, *)
       real(num) :: block(3, 3), backward(3)
 
