@@ -1,4 +1,4 @@
-!> Small rotations and vectors: quaternions (scalar first), rotation vectors, skew matrices.
+!> Rotations and vectors of three components: quaternions (scalar first), rotation vectors, skew matrices.
 !>
 !> A unit quaternion q = (cos φ/2, n sin φ/2) represents the rotation matrix A(q), which maps
 !> body axes to global axes. Products satisfy A(p⊗q) = A(p) A(q).

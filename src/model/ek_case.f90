@@ -87,7 +87,7 @@ contains
       if (allocated(case%test)) is_mountable = case%test /= 'table' .or. case%table%rows > 0
    end function is_mountable
 
-   !> Selects the plan of elimination if neither deck nor command line gives a solver: for many designs of one deck.
+   !> Selects the plan of elimination if neither deck nor command line gives a solver. Used for many designs of one deck.
    elemental subroutine prefer_plan(case)
       type(case_t), intent(inout) :: case
       if (.not. case%says_solver) case%uses_plan = .true.
@@ -121,7 +121,7 @@ contains
       scales_loads = any([(len(case%actuations(k)%load) > 0, k=1, size(case%actuations))])
    end function scales_loads
 
-   !> Adds an actuation to a case. It acts on a load or on a driver joint; the other name is empty.
+   !> Adds an actuation of a load or of a driver joint to a case. The other of the two names is empty.
    pure subroutine append_actuation(actuations, load, drive, share, law, values)
       type(actuation_t), allocatable, intent(inout) :: actuations(:)
       character(*), intent(in) :: load, drive

@@ -49,7 +49,7 @@ contains
       end do
    end subroutine find_vectors
 
-   !> Computes a unit vector. If the vector has no direction, it is zero and is_good is .false..
+   !> Computes a unit vector. If the vector has no direction, the result is zero and is_good becomes .false..
    pure subroutine find_direction(plan, x, this, vectors, direction, is_good)
       type(blueprint_t), intent(in) :: plan
       real(wp), intent(in) :: x(:)

@@ -3,8 +3,7 @@
 !>     V = ½ dᵀK_t d + ½ θᵀK_r θ − f0·d − m0·θ
 !>
 !> d is the displacement from marker I to marker J minus its value at design, and θ the relative rotation vector, both in axes fixed
-!> in body i.
-!> A component may have a curve c instead of a rate; ∫c then replaces ½ k d².
+!> in body i. A component may have a curve c instead of a rate; ∫c then replaces ½ k d².
 !>
 !> The generalised force is dV/dz, the gradient of the energy; the force ON the bodies is −dV/dz.
 module ek_elastic
@@ -21,7 +20,7 @@ module ek_elastic
    public :: evaluate_bushing, bushing_force, add_bushing_tangent, add_bushing_material, bushing_load, design_rates
 
    !> The law of a six-axis bushing from marker I on body i to marker J on body j. The markers are parallel at design. They may be
-   !> at two points; their displacement at design causes no force. The numbers that every evaluation reads come first.
+   !> at two points; the displacement between them at design causes no force. The numbers that every evaluation reads come first.
    type :: bushing_t
       ! set by set_bushing_axes: the same law in the axes of body i
       real(num) :: stiffness_t(3, 3) = zero, stiffness_r(3, 3) = zero
@@ -37,7 +36,7 @@ module ek_elastic
       type(law_t), allocatable :: laws(:)    !! six laws if has_curves; a law is used only if it has a curve
    end type bushing_t
 
-   !> A bushing at one pair of poses.
+   !> A bushing evaluated at one pair of poses.
    type :: bushing_evaluation_t
       real(num) :: a(3) = zero, b(3) = zero, d(3) = zero   !! arms, displacement from I to J; global [m]
       real(num) :: frame(3, 3) = identity3                      !! A_i: body-i axes → global axes
@@ -111,7 +110,8 @@ contains
       evaluation%force = rotated(pose_i%a, force)
    end subroutine evaluate_bushing
 
-   !> Computes dV/d(component) without the preload, along and about the marker axes [N, N m], and the slopes [N/m, N m/rad].
+   !> Computes dV/d(component), with the preload subtracted, along and about the marker axes [N, N m], and the slopes [N/m, N
+   !> m/rad].
    pure subroutine evaluate_components(bushing, gap, theta, load, slope)
       type(bushing_t), intent(in) :: bushing
       real(num), intent(in) :: gap(3), theta(3)          !! axes of body i

@@ -1,4 +1,5 @@
-!> Force and tangent of elastic elements of any kind: the only procedures that the assembly of the system calls.
+!> Force and tangent of elastic elements of any kind. The assembly of the system calls only evaluate_element and
+!> add_element_tangent.
 !>
 !> The generalised force is dV/dz, the gradient of the energy; the force ON the bodies is −dV/dz.
 module ek_element_force
@@ -15,7 +16,7 @@ module ek_element_force
    public :: element_evaluation_t, evaluate_element, add_element_tangent, design_stiffness
    public :: spring_tension, add_spring_tangent, add_spring_material
 
-   !> An element at one pair of poses.
+   !> An element evaluated at one pair of poses.
    type :: element_evaluation_t
       real(num) :: generalised_force(12) = zero      !! dV/d[Δr_i Δπ_i Δr_j Δπ_j] [N, N m]
       real(num) :: tension = zero       !! dV/dvalue of an element of one measure; `slope` is its slope

@@ -27,7 +27,7 @@ contains
       count_parts = merge(6, 1, element%kind == bushing_element)
    end function count_parts
 
-   !> Whether a law acts on an angle: its deflection is in rad, and its force in N m.
+   !> Whether a law acts on an angle or a cosine: its deflection is in rad or -, and its force in N m.
    pure logical function is_part_of_angle(element, part) result(is_angle)
       type(element_t), intent(in) :: element
       integer, intent(in) :: part

@@ -28,7 +28,7 @@ module ek_realise
 
 contains
 
-   !> Creates a suspension for `realise`: the only allocation.
+   !> Creates a suspension for `realise`, with all memory except the memory of new curves.
    subroutine new_design(plan, suspension)
       type(blueprint_t), intent(in) :: plan
       type(suspension_t), intent(out) :: suspension

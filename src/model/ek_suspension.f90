@@ -1,7 +1,7 @@
 !> The assembled model: bodies, constraint rows, elastic elements, loads, wheels.
 !>
-!> Built by the reader and ek_realise. The preload trim (`balance`) sets preloads and targets; the solution of a case changes
-!> nothing. All values are in SI, in the vehicle frame x rearward, y right, z up; at design the axes of every
+!> Built by the reader and ek_realise. The preload trim (`balance`) sets preloads and targets; the solution of a case does
+!> not change the model. All values are in SI, in the vehicle frame x rearward, y right, z up; at design the axes of every
 !> body are parallel to the frame. Body 0 is the chassis.
 module ek_suspension
    use ek_kinds, only: wp, units_t
@@ -128,7 +128,8 @@ contains
    end subroutine allocate_lists
 
    !> Copies the numbers of a suspension to another suspension with the same parts. The latter may also have rows, terms and loads
-   !> of a rig after these parts (ek_rig). Copies every number that realise, settle_design or balance sets, without allocation.
+   !> of a rig after these parts (ek_rig). Copies every number that `realise`, `settle_design` or `balance` sets,
+   !> without allocation.
    pure subroutine copy_numbers(from, to)
       type(suspension_t), intent(in) :: from
       type(suspension_t), intent(inout) :: to
