@@ -110,8 +110,8 @@ contains
       evaluation%force = rotated(pose_i%a, force)
    end subroutine evaluate_bushing
 
-   !> Computes dV/d(component), with the preload subtracted, along and about the marker axes [N, N m], and the slopes [N/m, N
-   !> m/rad].
+   !> Computes dV/d(component) [N, N m], with the preload subtracted, along and about the marker axes. Also computes the slopes
+   !> [N/m, N m/rad].
    pure subroutine evaluate_components(bushing, gap, theta, load, slope)
       type(bushing_t), intent(in) :: bushing
       real(num), intent(in) :: gap(3), theta(3)          !! axes of body i
