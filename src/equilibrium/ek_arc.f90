@@ -10,14 +10,14 @@
 !>     [ N  −∂F/∂s ] [Δz Δλ]   [ F ]
 !>     [ t     t_s ] [Δs   ] = [ 0 ]
 !>
-!> which is regular at a limit point, where N alone is not. Lengths are measured in
+!> which is regular at a limit point, where N alone is not. Lengths follow from the scalar product
 !>
 !>     a·b = Σ over bodies (a_r·b_r/L² + a_π·b_π) + a_s b_s/range²        L the size of the model
 !>
 !> and are therefore dimensionless; reactions are ignored. The tangent has the sense of the previous tangent, which
 !> carries the path across a fold. A position where joints lock is passed likewise; the reactions at this position are unbounded.
 !>
-!> A step is accepted if its tangents agree with the motion and differ by a small angle, or at a corner of a law.
+!> A step is accepted if the tangents at its ends agree with the motion and differ by a small angle, or at a corner of a law.
 !> Steps are reproducible: followed again from the same state, a path has the same lengths.
 !> No memory is allocated after new_arc.
 module ek_arc
@@ -34,45 +34,45 @@ module ek_arc
    private
    public :: arc_t, new_arc, begin, advance, probe, find_tangent, find_motion, inner
 
-   real(wp), parameter :: first_step = 1.0e-2_wp      !! of the unit of length
+   real(wp), parameter :: first_step = 1.0e-2_wp      !! length of the first step in the norm above [-]
    real(wp), parameter :: longest_step = 1.0e-1_wp
-   real(wp), parameter :: corner_step = 1.0e-5_wp     !! below it a change of direction is accepted as the corner of a law
-   real(wp), parameter :: min_step = 1.0e-9_wp      !! if no step of this length is found the path has ended
-   real(wp), parameter :: max_rotation = 0.17_wp         !! rad, 10 degrees: between the tangents at the ends of a step
-   real(wp), parameter :: good_turn = 0.1_wp          !! rad: aim for the next step
-   real(wp), parameter :: max_of_corner = 1.5_wp     !! rad, 86 degrees: a larger angle means another path
-   real(wp), parameter :: smooth = 1.0e-2_wp          !! of a step: allowed error of the trapezoidal rule
-   integer, parameter :: max_iterations = 10         !! Newton's method converges quadratically: more would not help
+   real(wp), parameter :: corner_step = 1.0e-5_wp     !! longest step that may have a larger angle: the corner of a law [-]
+   real(wp), parameter :: min_step = 1.0e-9_wp      !! if no step down to this length is accepted, the path has ended [-]
+   real(wp), parameter :: max_rotation = 0.17_wp         !! largest angle between the tangents at the ends of a step [rad]: 10 deg
+   real(wp), parameter :: good_turn = 0.1_wp          !! angle between the tangents at which the next step aims [rad]
+   real(wp), parameter :: max_of_corner = 1.5_wp     !! largest angle at a corner of a law [rad]; above it, another path
+   real(wp), parameter :: smooth = 1.0e-2_wp          !! allowed error of the trapezoidal rule, as a share of the step [-]
+   integer, parameter :: max_iterations = 10         !! largest number of iterations: Newton's method does not need more
 
    !> A segment of the path from a to b, the position of a probe on it, and work space.
    type :: arc_t
       type(schedule_t) :: schedule
-      real(wp) :: range = 1.0_wp                     !! range of swept values equivalent to the size of the model
-      real(wp) :: size = 1.0_wp                      !! characteristic length, or the longest spring [m]
-      real(wp) :: tolerance = 0.0_wp                 !! m
+      real(wp) :: range = 1.0_wp                     !! range of swept values: a change by the range has the length 1
+      real(wp) :: size = 1.0_wp                      !! L [m]: characteristic length, or the longest spring or stop at design
+      real(wp) :: tolerance = 0.0_wp                 !! limit of the last correction [m]
       logical :: is_symmetric = .true.               !! no load makes the true matrix unsymmetric
-      real(wp) :: length = 0.0_wp                    !! length of the path from design to a
-      real(wp) :: width = 0.0_wp                     !! length of the segment; 0: there is none yet
-      real(wp) :: step = first_step                  !! length of the next attempt
+      real(wp) :: length = 0.0_wp                    !! length of the path from design to a [-]
+      real(wp) :: width = 0.0_wp                     !! length of the segment [-]; 0: at the start, or at the end of the path
+      real(wp) :: step = first_step                  !! length of the next step to be tried [-]
       real(wp) :: place_a = 0.0_wp, place_b = 0.0_wp
-      integer :: negative_a = 0, negative_b = 0      !! negative eigenvalues of N
-      real(wp), allocatable :: packed_a(:), packed_b(:)      !! states, see ek_state
-      real(wp), allocatable :: tangent_a(:), tangent_b(:)    !! [twists; reactions; swept value] per length
-      real(wp), allocatable :: tangent_0(:)                  !! likewise at the start
+      integer :: negative_a = 0, negative_b = 0      !! negative eigenvalues of N at a, at b
+      real(wp), allocatable :: packed_a(:), packed_b(:)      !! packed states a and b, see ek_state
+      real(wp), allocatable :: tangent_a(:), tangent_b(:)    !! unit tangents at a and b: [twists; reactions; swept value]
+      real(wp), allocatable :: tangent_0(:)                  !! tangent at the start of the path
       type(state_t) :: state                         !! state of the last probe
-      real(wp) :: place = 0.0_wp                     !! likewise
-      real(wp), allocatable :: tangent(:)            !! its tangent, from find_tangent
-      integer :: factorisations = 0                  !! spent so far
+      real(wp) :: place = 0.0_wp                     !! swept value of the last probe
+      real(wp), allocatable :: tangent(:)            !! unit tangent at the last probe, from find_tangent
+      integer :: factorisations = 0                  !! number of factorisations of the bordered matrix so far
       type(state_t) :: other
-      real(wp), allocatable :: motion(:)             !! [twists; 0; swept value]
+      real(wp), allocatable :: motion(:)             !! step to the last probe (find_motion): [twists; 0; swept value]
       real(wp), allocatable :: residual(:)
-      real(wp), allocatable :: matrix(:, :), rhs(:, :)       !! the bordered system, scaled
+      real(wp), allocatable :: matrix(:, :), rhs(:, :)       !! the bordered system, scaled: matrix and right-hand side
       integer, allocatable :: pivots(:)
    end type arc_t
 
 contains
 
-   !> Allocates the work space for a model.
+   !> The work space for a model, before `begin`.
    function new_arc(suspension, schedule, length, range, tolerance) result(self)
       type(suspension_t), intent(in) :: suspension
       type(schedule_t), intent(in) :: schedule
@@ -121,7 +121,7 @@ contains
       self%tangent_0 = self%tangent
    end subroutine begin
 
-   !> Moves on to the next segment.
+   !> Moves to the next segment: b becomes a, and the next b is found. The step is halved until the tangents at its ends agree.
    subroutine advance(self, suspension, kkt, is_found)
       type(arc_t), intent(inout) :: self
       type(suspension_t), intent(in) :: suspension
@@ -171,7 +171,7 @@ contains
 
    end subroutine advance
 
-   !> Finds the equilibrium at a length beyond state a, and returns it in self%state and self%place.
+   !> Finds the equilibrium at a length along the tangent of a. The result is in self%state and self%place (swept value).
    !> Equation (K.18) of docs/theory/kkt.md.
    subroutine probe(self, suspension, width, kkt, is_found)
       type(arc_t), intent(inout) :: self
@@ -210,7 +210,7 @@ contains
 
    !> Finds the unit tangent at self%state, in self%tangent, with the sense of the tangent at a. N is factorised for its inertia.
    !>
-   !> If N is only the symmetric part of the true matrix, the derivative of the residual along the tangent corrects it.
+   !> If N is only the symmetric part of the true matrix, the derivative of the residual along the tangent corrects the tangent.
    subroutine find_tangent(self, suspension, kkt, is_found)
       type(arc_t), intent(inout) :: self
       type(suspension_t), intent(in) :: suspension
@@ -324,7 +324,8 @@ contains
       place = place + step(size(self%rhs, 1))
    end subroutine move_all
 
-   !> The scalar product a·b of two steps [twists; reactions; swept value].
+   !> Weighted scalar product of two steps [twists; reactions; swept value] [-]: translations are divided by the size L of the
+   !> model, the swept value by its range. Reactions are omitted.
    !> Equation (K.18) of docs/theory/kkt.md.
    pure real(wp) function inner(self, kkt, a, b)
       type(arc_t), intent(in) :: self
@@ -338,7 +339,8 @@ contains
       end do
    end function inner
 
-   !> Finds the step from a state and its swept value to the last probe, in self%motion, and the largest motion of any body.
+   !> Finds the step from a state and its swept value to the last probe, in self%motion, and the largest displacement of the
+   !> reference point of a body.
    subroutine find_motion(self, kkt, packed, place, largest)
       type(arc_t), intent(inout) :: self
       type(kkt_t), intent(in) :: kkt

@@ -12,27 +12,29 @@ module ek_arc_survey
    private
    public :: survey_t, survey, go_to, length_at, print_limits
 
-   integer, parameter, public :: arrived = 0        !! at the end of the case
-   integer, parameter, public :: stuck = 1          !! no step was found
+   integer, parameter, public :: arrived = 0        !! the path reaches the end of the case
+   integer, parameter, public :: stuck = 1          !! no step was accepted
    integer, parameter, public :: gone_far = 2       !! a body, or the swept value, moved further than in any suspension
-   integer, parameter, public :: gone_round = 3     !! the path is closed: it came back to design
-   integer, parameter, public :: gone_on = 4        !! too many steps
+   integer, parameter, public :: gone_round = 3     !! the path is closed: it returns to design
+   integer, parameter, public :: gone_on = 4        !! the path has more than max_steps steps
 
-   integer, parameter, public :: max_limits = 16   !! limit points, and bifurcations, that are reported
-   integer, parameter, public :: max_steps = 20000 !! per path
+   integer, parameter, public :: max_limits = 16   !! largest number of limit points, and of bifurcations, reported
+   integer, parameter, public :: max_steps = 20000 !! largest number of steps of a path
 
-   real(wp), parameter :: far_away = 10.0_wp        !! sizes of the model
-   real(wp), parameter :: farthest = 3.0_wp         !! m: no suspension moves that far
-   real(wp), parameter :: far_off = 100.0_wp        !! ranges
-   real(wp), parameter :: same_way = 0.9_wp         !! cosine
-   real(wp), parameter :: same = 1.0e-14_wp         !! of the range
-   real(wp), parameter :: flat = 1.0e-10_wp         !! of the range: error of a limit point before the correction by its parabola
+   real(wp), parameter :: far_away = 10.0_wp        !! limit of the displacement of a body, in sizes of the model; at least
+                                                    !! `farthest`
+   real(wp), parameter :: farthest = 3.0_wp         !! no body of a suspension moves this far [m]
+   real(wp), parameter :: far_off = 100.0_wp        !! limit of the swept value, in ranges
+   real(wp), parameter :: same_way = 0.9_wp         !! least cosine of the angle between two tangents of the same direction
+   real(wp), parameter :: same = 1.0e-14_wp         !! tolerance of a swept value, as a share of the range
+   real(wp), parameter :: flat = 1.0e-10_wp         !! allowed error of a limit point before the correction by a parabola, as a
+                                                    !! share of the range
 
    !> The findings of `survey` about a path.
    type :: survey_t
       integer :: ending = stuck
-      real(wp) :: near_length = 0.0_wp, far_length = 0.0_wp      !! lengths of the path from design to either end of the states
-      real(wp) :: last_place = 0.0_wp                            !! the swept value to which the path was followed
+      real(wp) :: near_length = 0.0_wp, far_length = 0.0_wp      !! length from design to `near`, and to `far` or the path's end
+      real(wp) :: last_place = 0.0_wp                            !! swept value to which the path was followed
       integer :: limits = 0
       real(wp) :: limit_place(max_limits) = 0.0_wp, limit_length(max_limits) = 0.0_wp
       integer :: crossings = 0
@@ -41,7 +43,8 @@ module ek_arc_survey
 
 contains
 
-   !> Follows the path from design until the swept value `far` is reached for the first time.
+   !> Follows the path from design until the swept value `far` is reached for the first time, or until the path ends. Records the
+   !> limit points and the bifurcations on the way.
    subroutine survey(arc, suspension, settled, near, far, kkt, found)
       type(arc_t), intent(inout) :: arc
       type(suspension_t), intent(in) :: suspension
@@ -91,7 +94,8 @@ contains
 
    contains
 
-      !> How the path has left the useful range; `arrived` if it has not left this range. The last probe is b.
+      !> Reason for the end of the path: gone_far (outside the useful range) or gone_round (closed); `arrived` if the path has not
+      !> ended. The last probe must be b.
       integer function ending()
          real(wp) :: moved, behind
 
@@ -125,7 +129,7 @@ contains
 
    end subroutine survey
 
-   !> The length from design to state k, which is between states `first` and `last`.
+   !> The length of the path from design to state k. States `first` to `last` are at equal distances.
    pure real(wp) function length_at(found, k, first, last) result(length)
       type(survey_t), intent(in) :: found
       integer, intent(in) :: k, first, last
@@ -254,12 +258,12 @@ contains
       end do
    end subroutine find_place
 
-   !> Computes one step of root finding between two values of different sign, by false position. The value at an end that stays is
-   !> halved (Illinois method).
+   !> Computes one step of root finding between two values of different sign, by false position. The value at an end that
+   !> stays for the second time in succession is halved (Illinois method).
    pure subroutine narrow(x, f, low, f_low, high, f_high, side)
       real(wp), intent(in) :: x, f
       real(wp), intent(inout) :: low, f_low, high, f_high
-      integer, intent(inout) :: side         !! the end moved last
+      integer, intent(inout) :: side         !! end moved last: 1 `high`, −1 `low`, 0 neither
 
       if ((f < 0.0_wp) .eqv. (f_high < 0.0_wp)) then
          high = x
@@ -274,7 +278,7 @@ contains
       end if
    end subroutine narrow
 
-   !> Moves to the state at a length from design, in arc%state and arc%place. Its factors are in kkt.
+   !> Moves to the state at a length from design, in arc%state and arc%place. The factors of N at this state are in kkt.
    !>
    !> `begin` must be called first; lengths must increase from call to call.
    subroutine go_to(arc, suspension, length, kkt, is_found)

@@ -1,13 +1,13 @@
 !> Determines preloads for which the design position is in equilibrium under the constant loads.
 !>
-!> `spring`: the spring preloads with which the wheels settle at their design height.
-!> `all`: spring and bushing preloads with which every body stays exactly at design; if there are several solutions,
-!> the one with the smallest complementary energy Σ f²/2k of the bushing preloads (k of a curve: its slope at design).
-!> Dampers, stops, torsion springs and springs with `balance = .false.` have unchanged preloads.
+!> `spring`: the spring preloads for which the wheels are at design height in static equilibrium.
+!> `all`: spring and bushing preloads with which every body stays exactly at design; of several solutions, the
+!> solution with the smallest complementary energy Σ f²/2k of the bushing preloads (k of a curve: its slope at design).
+!> The preloads of dampers, stops, torsion springs, springs on measures and springs with `balance = .false.` are unchanged.
 !>
 !> A driver with a stiffness that acts on the body of a wheel (a tyre modelled as a spring under the contact point) would carry the
-!> wheel instead of the spring: it is excluded from `all` unless its joint sets `balance = .true.`. Other drivers (a rack, a
-!> steering column) are included.
+!> wheel instead of the spring: such a driver is excluded from `all` unless its joint sets `balance = .true.`. Other drivers (a
+!> rack, a steering column) are included unless their joint sets `balance = .false.`.
 module ek_balance
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t, fail, exit_model, exit_convergence
@@ -28,10 +28,10 @@ module ek_balance
    public :: balance_failure_t, balance, set_preloads, fail_balance, balance_remarks
 
    ! why no preloads were found; fail_balance has the messages
-   integer, parameter :: has_no_spring = 1          !! or no wheel
+   integer, parameter :: has_no_spring = 1          !! no spring, or no wheel
    integer, parameter :: does_not_settle = 2
    integer, parameter :: misses_height = 3
-   integer, parameter :: is_singular_there = 4      !! the tangent where the suspension settles
+   integer, parameter :: is_singular_there = 4      !! the matrix is singular at static equilibrium
    integer, parameter :: springs_not_finite = 5
    integer, parameter :: all_not_finite = 6
    integer, parameter :: does_not_hold = 7
@@ -45,7 +45,7 @@ module ek_balance
 
 contains
 
-   !> Sets the preloads according to suspension%balance ('none': no change). Returns a message if there is no solution.
+   !> Sets the preloads according to suspension%balance ('none': no change). Returns an error if there is no solution.
    subroutine balance(suspension, tolerance, error)
       type(suspension_t), intent(inout) :: suspension
       real(wp), intent(in) :: tolerance                    !! m
@@ -57,7 +57,7 @@ contains
       call fail_balance(suspension, failure, error)
    end subroutine balance
 
-   !> Sets the preloads according to suspension%balance ('none': no change). No string is created.
+   !> Sets the preloads like `balance`, but returns a failure as a reason without a message: no string is created.
    subroutine set_preloads(suspension, tolerance, space, failure)
       type(suspension_t), intent(inout) :: suspension
       real(wp), intent(in) :: tolerance                    !! m
@@ -98,7 +98,7 @@ contains
       end select
    end subroutine fail_balance
 
-   !> Lists remarks on a balance: excluded drivers, and preloads that are not unique.
+   !> Lists warnings on the preload trim (`balance`): excluded drivers, and preloads that are not unique.
    subroutine balance_remarks(suspension, words)
       type(suspension_t), intent(in) :: suspension
       type(message_list_t), intent(inout) :: words
@@ -122,7 +122,8 @@ contains
       end select
    end subroutine balance_remarks
 
-   !> Phrase about excluded drivers for an error message: '; driver … is excluded'; '' if there are none.
+   !> Phrase about excluded drivers for an error message: '; driver 'rack' is excluded unless …'; '' without excluded
+   !> drivers.
    function kept_out(suspension) result(text)
       type(suspension_t), intent(in) :: suspension
       character(:), allocatable :: text
@@ -136,9 +137,10 @@ contains
       end do
    end function kept_out
 
-   !> Applies Newton's method to the wheel heights in equilibrium. With more springs than wheels, a change has minimum norm.
+   !> Applies Newton's method to the wheel heights in equilibrium. With more springs than wheels, each change of
+   !> the preloads has minimum norm.
    !>
-   !> The first change is the solution of the linear problem at design, close to the final one. A wheel with too little preload
+   !> The first change solves the linear problem at design and is close to the final change. A wheel with too little preload
    !> would settle on its stop, where the slope would give a change many times too large.
    subroutine balance_springs(suspension, tolerance, failure)
       type(suspension_t), intent(inout) :: suspension

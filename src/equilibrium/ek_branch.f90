@@ -1,16 +1,17 @@
 !> Checks that a step of a path ends on the branch on which it started.
 !>
-!> Newton's method converges to some equilibrium near its guess: beyond a lock, a limit point or a bifurcation this is
-!> another assembly or another branch. A step from state a to state b of width h is accepted only if
+!> Newton's method converges to some equilibrium near its guess: beyond a lock, a limit point or a bifurcation, this
+!> equilibrium may belong to another assembly or another branch. A step from state a to state b of width h is accepted only if
 !>
-!> - the tangents dz/ds = N⁻¹ dF/ds at its ends agree with the motion d of the bodies from a to b:
-!>   |d − h (t_a + t_b)/2| is small against |d| (trapezoidal rule: third order in h on a smooth path);
+!> - the tangents t = dz/ds = N⁻¹ ∂F/∂s at its ends agree with the motion d of the bodies from a to b (z: bodies and reactions,
+!>   s: swept value, F: loads and driven values): |d − h (t_a + t_b)/2| is small against |d| (trapezoidal rule: third order in h on
+!>   a smooth path);
 !> - the matrix N has as many negative eigenvalues at b as at a: N is regular along a smooth path;
 !> - det(Φq(a) Φq(b)ᵀ) > 0: the joints are in the same assembly mode. Where Φq loses rank, the inertia of N does not
-!>   change: det N is proportional to the square of det Φq.
+!>   change: det N is proportional to det(Φq Φqᵀ), which has a double zero there.
 !>
-!> Where laws bend between a and b, tangents with their chords must agree instead (ek_chord). If the step was halved often
-!> enough, d need only lie between h t_a and h t_b, and the direction of motion of no body may change by more than 60
+!> Where laws bend between a and b, the tangents with the chords of these laws must agree instead (ek_chord). If the step was halved
+!> often enough, d need only lie between h t_a and h t_b, and the direction of motion of no body may change by more than 60
 !> degrees. No memory is allocated after new_branch.
 module ek_branch
    use ek_kinds, only: wp
@@ -35,28 +36,31 @@ module ek_branch
    integer, parameter :: crossing = 2      !! the path continues smoothly, but inertia or assembly changed: a bifurcation
    integer, parameter :: doubtful = 3      !! the tangents disagree with the step: a jump, or a step too long to decide
 
-   real(wp), parameter :: same_place = 20.0_wp      !! of the width of a step across a bifurcation
+   real(wp), parameter :: same_place = 20.0_wp      !! closer crossings are one bifurcation: limit in widths of a step across a
+                                                    !! bifurcation
 
    integer, parameter, public :: max_crossings = 8   !! largest number of bifurcations reported
 
-   real(wp), parameter :: shortest = 2.5e3_wp      !! of the least step, 1e-6 of the range: these may bend without a law
-   real(wp), parameter :: even = 0.3_wp            !! change of ln |det N| in a step: near a loss of rank it is above 0.7
-   real(wp), parameter, public :: tiny_step = 1.0e3_wp     !! times the least step: near a lock, states are found in shorter steps
-   real(wp), parameter :: zero = 9.2_wp            !! fall of ln |det N|: less than 1e-4 of it is left
-   real(wp), parameter :: fresh = 1.0e-2_wp        !! of the motion: factors from no further away give a good tangent
-   real(wp), parameter :: exact = 5.0e-4_wp        !! of the motion: a jump across a gap is more, unless the step is 40 times wider
-   real(wp), parameter, public :: long = 0.02_wp   !! of the characteristic length: a motion that may pass over a narrow gap
+   real(wp), parameter :: shortest = 2.5e3_wp      !! times the least step, 1e-6 of the range: shorter steps may bend without a law
+   real(wp), parameter :: even = 0.3_wp            !! limit of the change of ln |det N| in a step; above 0.7 near a loss of rank
+   real(wp), parameter, public :: tiny_step = 1.0e3_wp     !! times the least step: near a lock, only shorter steps are accepted
+   real(wp), parameter :: zero = 9.2_wp            !! fall of ln |det N| after which 1e-4 of |det N| is left
+   real(wp), parameter :: fresh = 1.0e-2_wp        !! distance from which factors give a good tangent, as a share of the motion
+   real(wp), parameter :: exact = 5.0e-4_wp        !! error as a share of the motion: larger in a jump over a gap, unless the
+                                                   !! step is 40 times wider than the gap
+   real(wp), parameter, public :: long = 0.02_wp   !! motion that may pass over a narrow gap, as a share of the characteristic
+                                                   !! length
 
    !> Data of a step from a to b.
    type :: step_t
       type(inputs_t) :: inputs_a, inputs_b, rate
       real(wp) :: width = 0.0_wp            !! h: swept value of b minus swept value of a
-      real(wp) :: rest = 0.0_wp             !! of the tangents' agreement with the motion
+      real(wp) :: rest = 0.0_wp             !! error of the trapezoidal rule, as a share of the motion [-]
       integer :: negative_b = 0             !! negative eigenvalues of N at b
       logical :: is_explained = .false.     !! the tangents at a and b agree with the motion
-      logical :: is_past = .false.          !! they need not, as laws bend between
-      logical :: is_bent = .false.          !! laws bend between
-      logical :: is_regular(2) = .false.    !! N at a, at b, with all slopes that these laws have between
+      logical :: is_past = .false.          !! the step is accepted across a bend, although the tangents disagree
+      logical :: is_bent = .false.          !! laws bend between a and b
+      logical :: is_regular(2) = .false.    !! N at a, at b, is regular with all slopes of these laws between a and b
       logical :: is_new_at_a = .false.      !! the tangents at a are from new factors at a
    end type step_t
 
@@ -64,39 +68,40 @@ module ek_branch
    type :: known_t
       integer :: negative = -1              !! negative eigenvalues of N at the newest state; −1: not known
       real(wp) :: log_determinant = huge(1.0_wp)   !! ln |det N| at the newest state; huge: not known
-      logical :: was_uneven = .true.        !! |det N| changed much in the step to the newest state
+      logical :: was_uneven = .true.        !! |det N| changed by more than `even` in the step to the newest state
       logical :: has_tangent = .false.      !! tangent_a belongs to the newest state
       real(wp) :: width_before = 0.0_wp     !! swept value of a minus swept value of the state before; 0: unknown
-      integer :: serial = -1                !! number of the last factorisation at or near b
+      integer :: serial = -1                !! serial number of the last factorisation at or near b
       real(wp) :: missed = 0.0_wp           !! distance of this factorisation from b [m]
       logical :: is_singular = .false.      !! the joints lose rank at or too near to the end of the step compared last
-      logical :: is_over = .false.          !! the joints are in another assembly mode at the end of this step
-      logical :: was_bent = .false.         !! the step compared last passes a corner of a law
-      logical :: knows_end = .false.        !! tangent_b belongs to the state evaluated last
-      integer :: factorisations = 0         !! number needed by the last comparison
+      logical :: is_over = .false.          !! the joints are in another assembly mode at the end of the step compared last
+      logical :: was_bent = .false.         !! the step compared last was accepted across a bend (the corner of a law)
+      logical :: knows_end = .false.        !! tangent_b is good: it was computed with factors from near the end of the step
+                                            !! compared last
+      integer :: factorisations = 0         !! number of factorisations made by the last comparison
       real(wp) :: least = 0.0_wp            !! shortest step tried before the path is reported to end [swept value]
       real(wp) :: width = 0.0_wp            !! width of the step across a bifurcation [swept value]
-      integer :: crossings = 0              !! bifurcations met so far
+      integer :: crossings = 0              !! number of bifurcations so far
       real(wp) :: crossing_place(max_crossings) = 0.0_wp
    end type known_t
 
-   !> The last states of the path, data of the newest, and work space.
+   !> The last states of the path, data of the newest state, and work space.
    type, extends(known_t) :: branch_t
       type(predictor_t) :: predictor
       real(wp), allocatable :: tangent_a(:), tangent_b(:)  !! dz/ds: twists of the bodies and reactions per swept value
-      real(wp), allocatable :: motion(:), motion_before(:) !! twists of the bodies from a to b, from the state before to a [m, rad]
-      real(wp), allocatable :: chord_a(:), chord_b(:)      !! tangents with the laws replaced by their chords
-      real(wp), allocatable :: twist(:)                    !! of the bodies, where one is handed on [m, rad]
+      real(wp), allocatable :: motion(:), motion_before(:) !! twists of the bodies [m, rad]: from a to b; from the state before to a
+      real(wp), allocatable :: chord_a(:), chord_b(:)      !! tangents at a, at b, with the laws replaced by their chords
+      real(wp), allocatable :: twist(:)                    !! twists of the bodies [m, rad]: work space of go_along
       type(orientation_t) :: orientation
       type(tangent_t) :: work
       type(chord_t) :: chord
-      type(factors_t) :: factors            !! of N at the newest state
+      type(factors_t) :: factors            !! stored factors of N at the newest state
       type(state_t) :: before, shifted
    end type branch_t
 
 contains
 
-   !> Allocates the work space for a model.
+   !> An empty branch with the work space for a model.
    function new_branch(suspension) result(self)
       type(suspension_t), intent(in) :: suspension
       type(branch_t) :: self
@@ -142,10 +147,11 @@ contains
       self%chord_b(:) = 0.0_wp
    end subroutine renew_branch
 
-   !> Continues from another state, of which the tangent and the factors are unknown. Its inertia may be known.
+   !> Continues from another state, of which the tangent and the factors are unknown. The inertia of this
+   !> state may be known.
    pure subroutine leave(self, place, packed, negative)
       type(branch_t), intent(inout) :: self
-      real(wp), intent(in) :: place                 !! of that state
+      real(wp), intent(in) :: place                 !! swept value of this state
       real(wp), contiguous, intent(in) :: packed(:)
       integer, intent(in) :: negative               !! −1: not known
 
@@ -159,14 +165,15 @@ contains
 
    !> Compares both ends of a step. kkt must contain the factors of N at or near b.
    !>
-   !> It first uses these factors and a tangent at a that may be old; if the step disagrees with them, it uses new factors and a
-   !> new tangent. On return, self%tangent_b is the tangent at b; `accept` stores it as the tangent of the newest state.
+   !> `compare` first uses these factors and a tangent at a that may be old. If the step disagrees with them, it uses new factors
+   !> and a new tangent. On return, self%tangent_b is the tangent at b. `accept` stores this tangent for the newest state if the
+   !> factors are from near b.
    !> Equation (K.15) of docs/theory/kkt.md: three states and the tangent at b, as long as the tangent at a is not known.
    subroutine compare(self, suspension, inputs_a, inputs_b, place, state_b, outcome, kkt, verdict)
       type(branch_t), intent(inout) :: self
       type(suspension_t), intent(in) :: suspension
       type(inputs_t), intent(in) :: inputs_a, inputs_b
-      real(wp), intent(in) :: place                          !! of b
+      real(wp), intent(in) :: place                          !! swept value of b
       type(state_t), intent(in) :: state_b
       type(outcome_t), intent(in) :: outcome                 !! of the iteration to b
       type(kkt_t), intent(inout) :: kkt
@@ -225,7 +232,7 @@ contains
    end subroutine compare
 
    !> Evaluates a step in full, with the parts that the first evaluation omits: the tangent at a, the chords of bent laws, and new
-   !> factors at b.
+   !> factors at b. Ends as soon as the step is accepted.
    subroutine evaluate_closer(self, step, suspension, state_b, kkt)
       type(branch_t), intent(inout) :: self
       type(step_t), intent(inout) :: step
@@ -289,8 +296,8 @@ contains
          self%before, step%inputs_a, step%rate, kkt, self%chord_a, step%is_regular(at_a))
    end subroutine evaluate_beginning
 
-   !> Decides whether the tangents agree with the motion. If they do not, decides whether the tangents along the chords of bent laws
-   !> agree and N stays regular.
+   !> Decides whether the tangents agree with the motion. If the tangents do not agree, decides whether the tangents along the
+   !> chords of bent laws agree, N stays regular, and N has as many negative eigenvalues at b as at a.
    pure subroutine decide(self, step, length)
       type(branch_t), intent(in) :: self
       type(step_t), intent(inout) :: step
@@ -307,7 +314,7 @@ contains
    pure subroutine accept(self, outcome, kkt, was_compared)
       type(branch_t), intent(inout) :: self
       type(outcome_t), intent(in) :: outcome     !! of the iteration to b
-      type(kkt_t), intent(in) :: kkt             !! the factors at or near b, unless it was compared
+      type(kkt_t), intent(in) :: kkt             !! factors at or near b, unless the step was compared
       logical, intent(in) :: was_compared
 
       if (.not. was_compared) self%serial = kkt%factorisations
@@ -350,7 +357,8 @@ contains
       call move_as_screw(state, self%twist)
    end subroutine go_along
 
-   !> Records a bifurcation at a swept value, unless it equals the last recorded bifurcation within rounding.
+   !> Records a bifurcation at a swept value, unless the last record is within `same_place` widths. With max_crossings records, the
+   !> last record is replaced.
    pure subroutine note_crossing(self, place)
       type(branch_t), intent(inout) :: self
       real(wp), intent(in) :: place
@@ -362,8 +370,8 @@ contains
       self%crossing_place(self%crossings) = place
    end subroutine note_crossing
 
-   !> Whether the assembly mode of the joints changes in a predicted step that was not compared, or may change because the end of
-   !> the step is singular.
+   !> Whether the assembly mode of the joints changes in a predicted step that was not compared. Also .true. if the joints lose
+   !> rank at the end of the step, where the mode cannot be determined.
    logical function is_overturning(self, suspension, state_b, scale)
       type(branch_t), intent(inout) :: self
       type(suspension_t), intent(in) :: suspension

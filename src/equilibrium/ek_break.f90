@@ -1,9 +1,12 @@
 !> Determines why a path ends: at its last equilibrium either the joints lock or the tangent stiffness vanishes.
 !>
-!> Near the end of a path N is nearly singular, and so is one of two matrices, scaled as in ek_scale: Φq, whose smallest
-!> singular value tends to zero where the joints cannot be assembled further (a lock), or Zᵀ T Z, Z a basis of the motions
-!> that the joints allow, whose smallest eigenvalue tends to zero where the load has its maximum (a limit point) or a body
-!> is released (a mechanism: a slide leaves the stop that held it). Each is compared with its value at design.
+!> Near the end of a path N is nearly singular, and so is one of two matrices, scaled as in ek_scale:
+!>
+!> - Φq: its smallest singular value tends to zero where the joints cannot be assembled further (a lock).
+!> - Zᵀ T Z, with Z a basis of the motions that the joints allow: its eigenvalue closest to zero vanishes where the load has its
+!>   maximum (a limit point) or a body is released (a mechanism: a slide leaves the stop that held it).
+!>
+!> Both values are compared with the values at design.
 module ek_break
    use ek_kinds, only: wp
    use ek_suspension, only: suspension_t
@@ -18,15 +21,18 @@ module ek_break
 
    integer, parameter :: no_reason = 0, lock = 1, limit_point = 2, mechanism = 3
 
-   real(wp), parameter :: vanished = 1.0e-2_wp     !! of the value at design; at 1e-9 of the range from the end it is about 1e-4
-   real(wp), parameter :: gone = 1.0e-6_wp         !! likewise: below it nothing holds a body (a load maximum leaves more)
-   real(wp), parameter :: takes_part = 0.3_wp      !! of the largest part of a left singular vector: joints that are listed
+   real(wp), parameter :: vanished = 1.0e-2_wp     !! limit, as a share of the value at design; 1e-9 of the range before the end,
+                                                   !! the share is about 1e-4
+   real(wp), parameter :: gone = 1.0e-6_wp         !! limit, as a share of the value at design: below it nothing holds a body (a
+                                                   !! load maximum leaves more)
+   real(wp), parameter :: takes_part = 0.3_wp      !! limit, as a share of the largest entry of a left singular vector: joints
+                                                   !! with larger entries are listed
 
-   !> The matrix that is singular at the end of a path, and its null vector.
+   !> The reason why a path ends, and the joints or the motion of the null vector.
    type :: break_t
       integer :: reason = no_reason
-      logical, allocatable :: locks(:)      !! lock: the joints involved
-      integer :: body = 0                   !! the body that moves most without stiffness
+      logical, allocatable :: locks(:)      !! of each joint: whether the joint is involved in a lock
+      integer :: body = 0                   !! limit point or mechanism: index of the body that moves most without stiffness
       real(wp), allocatable :: motion(:)    !! limit point or mechanism: motion without stiffness, scaled unknowns
    end type break_t
 
@@ -58,6 +64,7 @@ contains
    end subroutine why_it_ends
 
    !> Finds the smallest singular value of Φq with its left vector, and the eigenvalue of Zᵀ T Z closest to zero with its motion.
+   !> A value that cannot be found is 1 (no rigid rows, no motion, a decomposition that failed).
    subroutine examine(suspension, state, inputs, kkt, closing, stiffness, left_vector, motion)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state

@@ -30,13 +30,13 @@ module ek_chord
    integer, parameter :: at_a = 1, at_b = 2
    integer, parameter :: least = 1, mean = 2, most = 3
 
-   real(wp), parameter :: bent = 1.0e-2_wp      !! of the largest slope: a smaller change is no bend
+   real(wp), parameter :: bent = 1.0e-2_wp      !! limit, as a share of the largest slope: a smaller change of slope is not a bend
 
    !> Position of a law in the model: its element and component.
    type :: place_t
-      integer :: element = 0, component = 0     !! component of a bushing, 1 to 6; 0: the law of the element
-      type(measure_t) :: measure                !! on which it acts
-      real(wp) :: offset = 0.0_wp               !! its argument is the measure minus this [m]
+      integer :: element = 0, component = 0     !! indices: element; component of a bushing, 0 for other elements
+      type(measure_t) :: measure                !! measure on which the law acts
+      real(wp) :: offset = 0.0_wp               !! argument of the law = measure − offset [m]
    end type place_t
 
    !> The laws in a step, one column per law.
@@ -44,8 +44,8 @@ module ek_chord
       type(place_t), allocatable :: place(:)
       real(wp), allocatable :: value(:, :), force(:, :)    !! (at_a or at_b, law): argument and force at a or b [m, N; rad, N m]
       real(wp), allocatable :: own(:, :)                   !! (at_a or at_b, law): slope at a or b [N/m, N m/rad]
-      real(wp), allocatable :: slope(:, :)                 !! (least, mean or most, law): between them [N/m, N m/rad]
-      real(wp), allocatable :: change(:)                   !! of the slope of each bent law [N/m, N m/rad]
+      real(wp), allocatable :: slope(:, :)                 !! (least, mean or most, law): slope between a and b [N/m, N m/rad]
+      real(wp), allocatable :: change(:)                   !! change of the slope of each bent law [N/m, N m/rad]
       integer, allocatable :: bent_law(:)                  !! indices of the laws that bend in the step
       integer :: bends = 0                                 !! number of laws that bend
       type(dyads_t) :: dyads
@@ -53,7 +53,7 @@ module ek_chord
 
 contains
 
-   !> Finds the laws of a model and allocates the work space.
+   !> The laws of a model, with work space.
    function new_chord(suspension) result(self)
       type(suspension_t), intent(in) :: suspension
       type(chord_t) :: self
@@ -67,7 +67,7 @@ contains
       if (laws > 0) self%dyads = new_dyads(suspension%unknowns() + suspension%constraints(), laws)
    end function new_chord
 
-   !> Renews the chords in place for other numbers of the model.
+   !> Renews the chords for other numbers of the model, in place unless the number of laws that can bend has changed.
    subroutine renew_chord(suspension, self)
       type(suspension_t), intent(in) :: suspension
       type(chord_t), intent(inout) :: self        !! of new_chord, for the same model
@@ -100,11 +100,11 @@ contains
       end do
    end function count_laws
 
-   !> Lists the laws of elements with one measure and of components of bushings. A component of a bushing acts along or about an
-   !> axis of the bushing's marker.
+   !> Lists the laws that can bend: of elements with one measure, and of components of bushings. A component of a bushing acts along
+   !> or about an axis of the bushing's marker.
    pure subroutine find_places(suspension, place)
       type(suspension_t), intent(in) :: suspension
-      type(place_t), intent(out) :: place(:)     !! of each that count_laws counts
+      type(place_t), intent(out) :: place(:)     !! of each law that count_laws counts
       integer :: k, component, law
 
       law = 0
@@ -155,10 +155,10 @@ contains
       is_bent = self%bends > 0
    end subroutine straighten
 
-   !> Computes forces and slopes of a law at both ends and between them.
+   !> Computes the force and slope of a law at both ends, and the least, mean and most slope between the ends.
    pure subroutine draw(self, number, element, component)
       type(chord_t), intent(inout) :: self
-      integer, intent(in) :: number                !! of the law; its values are set
+      integer, intent(in) :: number                !! index of the law, whose values are set
       type(element_t), intent(in) :: element
       integer, intent(in) :: component             !! of a bushing; 0: the law of the element
       real(wp) :: slope
@@ -185,8 +185,8 @@ contains
       self%slope(mean, number) = min(max(slope, self%slope(least, number)), self%slope(most, number))
    end subroutine draw
 
-   !> Computes the tangent of the changed model at one end, with the factors of N at this end, and whether N stays regular for all
-   !> slopes.
+   !> Computes the tangent of the changed model at one end, with the factors of N at this end. Determines whether N is regular for
+   !> all slopes of the laws in the step.
    !> Equation (K.16) of docs/theory/kkt.md.
    subroutine evaluate_along_chord(self, suspension, work, end, state, inputs, rate, kkt, tangent, is_regular)
       type(chord_t), intent(inout) :: self

@@ -1,9 +1,9 @@
 !> Checks that the states of a linear method lie on the path from design.
 !>
 !> The recursive and the corrected increment take one step without a check, and may step across a lock onto another assembly.
-!> Therefore the exact path is followed again in a few long steps checked by ek_reach. At each of them Newton's method is started
-!> from the state of the linear method and must converge to the exact path. States beyond the last swept value at which it
-!> converges are marked as not reached.
+!> Therefore the exact path is followed again in a few long steps checked by ek_reach. At the end of each step, Newton's method
+!> is started from the state of the linear method and must converge to the exact path. States beyond the last swept value at which
+!> Newton's method converges are marked as not reached.
 module ek_confirm
    use ek_kinds, only: wp
    use ek_suspension, only: suspension_t
@@ -18,16 +18,17 @@ module ek_confirm
    private
    public :: confirm
 
-   integer, parameter :: max_evaluations = 10          !! number of comparisons per direction
-   real(wp), parameter :: apart = 1.0e-6_wp       !! m: equilibria further apart are different
+   integer, parameter :: max_evaluations = 10          !! largest number of comparisons per direction
+   real(wp), parameter :: apart = 1.0e-6_wp       !! equilibria further apart are different [m]
 
 contains
 
    !> Checks the states from `first` to `last`, outward from design, and marks states that are not on the path as not reached.
+   !> Without static equilibrium under the constant loads, nothing is checked.
    subroutine confirm(suspension, schedule, place, packed, first, last, least, kkt, is_reached, failure)
       type(suspension_t), intent(in) :: suspension
       type(schedule_t), intent(in) :: schedule
-      real(wp), intent(in) :: place(:)               !! of each state
+      real(wp), intent(in) :: place(:)               !! swept value of each state
       real(wp), intent(in) :: packed(:, :)           !! (coordinate, state)
       integer, intent(in) :: first, last
       real(wp), intent(in) :: least                  !! shortest step [swept value]

@@ -4,13 +4,13 @@
 !> where Z is a basis of the null space of Φq. A redundant constraint is a left null vector of Φq. Both are
 !> found by LAPACK's singular value and eigenvalue decompositions of the scaled matrices.
 !>
-!> A stiffness counts as zero if it is below the rounding error of its own sums, vᵀ T v against |v|ᵀ |T| |v|, or below 1e-7
-!> of the softest spring or bushing (hardpoints rounded to a tenth of a millimetre leave such levers); the limit is lower if
-!> many bodies move. It is not compared with the characteristic stiffness: a coil of 30 N/mm next to bushings of
-!> 1e10 N/mm, or the bending of a chain of 160 bodies, is extremely soft in comparison, but not a mechanism.
+!> The stiffness of a motion v counts as zero if it is below the rounding error of its own sums (vᵀ T v against |v|ᵀ |T| |v|), or
+!> below 1e-7 of the rate of the softest spring or bushing. Hardpoints rounded to a tenth of a millimetre cause such stiffnesses.
+!> The limit is lower if many bodies move. A stiffness is not compared with the characteristic stiffness: a coil of 30 N/mm next to
+!> bushings of 1e10 N/mm, or the bending of a chain of 160 bodies, is extremely soft in comparison, but not a mechanism.
 !>
-!> T includes the geometric stiffness of preloads. A motion without material stiffness (K) is held by preload only and
-!> is reported separately.
+!> T includes the geometric stiffness of preloads. A motion without material stiffness (K) is held by preloads or loads only
+!> and is reported separately.
 !> Equation (K.7) of docs/theory/kkt.md.
 module ek_diagnosis
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
@@ -31,11 +31,14 @@ module ek_diagnosis
    public :: diagnosis_t, diagnose, softest_rate, scaled_parts, modes
    public :: rank_tolerance, no_stiffness, rounding
 
-   real(wp), parameter :: rank_tolerance = 1.0e-9_wp      !! of the largest singular value of scaled Φq
-   real(wp), parameter :: no_stiffness = 1.0e-7_wp        !! of the softest element: a mechanism of one body
-   real(wp), parameter :: rounding = 50.0_wp*epsilon(1.0_wp)   !! per part of a sum of n parts: smaller values count as zero
-   real(wp), parameter :: soft_stiffness = 1.0e-5_wp      !! of the characteristic stiffness: below it a warning is given
-   real(wp), parameter :: takes_part = 1.0e-3_wp          !! of the largest part of a null vector
+   real(wp), parameter :: rank_tolerance = 1.0e-9_wp      !! limit of a singular value of scaled Φq, as a share of the largest
+   real(wp), parameter :: no_stiffness = 1.0e-7_wp        !! limit for a mechanism of one body, as a share of the rate of the
+                                                          !! softest element
+   real(wp), parameter :: rounding = 50.0_wp*epsilon(1.0_wp)   !! error of a sum, per term: smaller sums count as zero
+   real(wp), parameter :: soft_stiffness = 1.0e-5_wp      !! limit, as a share of the characteristic stiffness: below it a warning
+                                                          !! is given
+   real(wp), parameter :: takes_part = 1.0e-3_wp          !! limit, as a share of the largest entry of a null vector: joints with
+                                                          !! larger entries are listed
    character(*), parameter :: failed = 'the model cannot be examined: its forces or stiffnesses are too large to calculate with'
 
    !> Findings about a model at a state.
@@ -45,12 +48,12 @@ module ek_diagnosis
       integer :: freedoms = 0                    !! unknowns − rank: motions held by elastic elements or free
       integer :: negative = 0                    !! negative eigenvalues of the KKT matrix; constraints + compliant rows if stable
       real(wp) :: rcond = 0.0_wp                 !! reciprocal condition number of the scaled KKT matrix
-      real(wp) :: softest = 0.0_wp               !! smallest stiffness of a free motion, relative to the characteristic one
-      type(message_list_t) :: mechanisms         !! one line each
-      type(message_list_t) :: redundancies       !! one line each
-      type(message_list_t) :: failures           !! a decomposition that failed: nothing is known then
-      type(message_list_t) :: warnings           !! soft or unstable motions
-      type(message_list_t) :: preload_held       !! motions held by preloads only
+      real(wp) :: softest = 0.0_wp               !! smallest stiffness of a motion that the joints allow / characteristic stiffness
+      type(message_list_t) :: mechanisms         !! messages on mechanisms, one line each
+      type(message_list_t) :: redundancies       !! messages on redundant constraints, one line each
+      type(message_list_t) :: failures           !! message on a decomposition that failed: nothing is known then
+      type(message_list_t) :: warnings           !! messages on soft or unstable motions
+      type(message_list_t) :: preload_held       !! messages on motions held by preloads or loads only
    contains
       procedure :: is_solvable
       procedure :: words
@@ -58,13 +61,13 @@ module ek_diagnosis
 
 contains
 
-   !> Whether the diagnosis found no mechanism and no redundant constraint. It is also .false. if the diagnosis failed.
+   !> Whether the diagnosis found no mechanism and no redundant constraint. The result is also .false. if the diagnosis failed.
    pure logical function is_solvable(self)
       class(diagnosis_t), intent(in) :: self
       is_solvable = self%mechanisms%count() + self%redundancies%count() + self%failures%count() == 0
    end function is_solvable
 
-   !> The messages on all defects, one per line.
+   !> The messages on mechanisms, redundant constraints and failures, one per line.
    pure function words(self) result(text)
       class(diagnosis_t), intent(in) :: self
       character(:), allocatable :: text
@@ -78,7 +81,8 @@ contains
 
    !> Examines a model at a state: design, or the state at which a solution failed.
    !>
-   !> Driven rows count as constraints. The cost is a few dense decompositions: suitable for a check, but not for an increment.
+   !> Driven rows count as constraints, except drivers with a stiffness. The cost is a few dense decompositions: suitable for a
+   !> check, but not for an increment.
    subroutine diagnose(suspension, state, kkt, diagnosis, wants_preload_held)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
@@ -112,7 +116,8 @@ contains
       call name_preload_held(suspension, state, tangent, material, parts%right(:, parts%rank + 1:), kkt, diagnosis)
    end subroutine diagnose
 
-   !> Finds the rigid rows (without compliance) of the last assembled system, their scaled Φq, and the full scaled stiffness.
+   !> Finds the rigid rows (without compliance) of the last assembled system, their scaled Φq, and the scaled stiffness T
+   !> with the drivers that have a stiffness.
    subroutine scaled_parts(suspension, kkt, rows, jacobian, stiffness)
       type(suspension_t), intent(in) :: suspension
       type(kkt_t), intent(in) :: kkt
@@ -143,7 +148,7 @@ contains
    subroutine name_redundancies(suspension, basis, rows, diagnosis)
       type(suspension_t), intent(in) :: suspension
       real(wp), intent(in) :: basis(:, :)
-      integer, intent(in) :: rows(:)             !! their numbers in the suspension
+      integer, intent(in) :: rows(:)             !! indices of the rigid rows in the suspension
       type(diagnosis_t), intent(inout) :: diagnosis
       real(wp) :: vectors(size(basis, 1), size(basis, 2))
       logical :: is_part(size(suspension%joints)), seen(size(suspension%joints), size(basis, 2))
@@ -245,7 +250,7 @@ contains
       call diagnosis%warnings%add(text)
    end subroutine name_mechanisms
 
-   !> Lists the motions without material stiffness that are held by preloads.
+   !> Lists the motions without material stiffness that are held by preloads or loads.
    subroutine name_preload_held(suspension, state, tangent, material, basis, kkt, diagnosis)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
@@ -275,8 +280,8 @@ contains
       end do
    end subroutine name_preload_held
 
-   !> Finds the eigenvectors of a stiffness within a space of motions, softest first. Also finds for each the limit below which its
-   !> stiffness counts as zero.
+   !> Finds the eigenvectors of a stiffness within a space of motions, softest first. Also finds for each eigenvector the limit
+   !> below which its stiffness counts as zero.
    subroutine modes(stiffness, basis, least, motions, eigenvalue, noise, is_found)
       real(wp), intent(in) :: stiffness(:, :), basis(:, :)
       real(wp), intent(in) :: least              !! rate of the softest element, scaled
@@ -304,7 +309,7 @@ contains
       end do
    end subroutine modes
 
-   !> The number of bodies that share a motion: (Σ p)²/Σ p² of their parts p; 1 for a single body.
+   !> The number of bodies that share a motion: (Σ p)²/Σ p², with p the size of the motion of each body; 1 for a single body.
    pure real(wp) function bodies_in(motion) result(bodies)
       real(wp), intent(in) :: motion(:)
       real(wp) :: part(size(motion)/6)
@@ -312,7 +317,8 @@ contains
       bodies = sum(part)**2/max(sum(part**2), tiny(1.0_wp))
    end function bodies_in
 
-   !> Smallest rate of the springs and bushings relative to the characteristic stiffness; at most 1.
+   !> Smallest translational rate of the springs between two points and of the bushings at design, relative to the characteristic
+   !> stiffness [-]; at most 1.
    real(wp) function softest_rate(suspension, kkt) result(least)
       type(suspension_t), intent(in) :: suspension
       type(kkt_t), intent(in) :: kkt
@@ -339,8 +345,8 @@ contains
       columns = matrix(:, pack([(k, k=1, size(mask))], mask))
    end function pick
 
-   !> Phrase that compares a stiffness with the stiffest bushing: ", 3E+10 times softer than bushing 'x'"; '' if no bushing is much
-   !> stiffer.
+   !> Phrase that compares a stiffness with the stiffest bushing: ", 3E+10 times softer than bushing 'x'"; '' if no bushing is
+   !> 1e6 times stiffer.
    function softer_than(suspension, stiffness) result(text)
       type(suspension_t), intent(in) :: suspension
       real(wp), intent(in) :: stiffness           !! N/m
@@ -361,8 +367,8 @@ contains
       end associate
    end function softer_than
 
-   !> Transforms vectors by Gauss–Jordan elimination with column pivoting. The new vectors span the same space and have few nonzero
-   !> entries, so that two independent defects are reported separately.
+   !> Transforms vectors by Gauss–Jordan elimination, with the largest entry of each vector as pivot. The new vectors span the same
+   !> space and have few nonzero entries, so that two independent defects are reported separately.
    pure subroutine make_sparse(vectors)
       real(wp), intent(inout) :: vectors(:, :)
       integer :: k, l, r

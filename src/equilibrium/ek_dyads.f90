@@ -8,8 +8,8 @@
 !> - N' has as many negative eigenvalues as N and W together, minus the number of s_k > 0: N' and W are the Schur complements
 !>   of [N G; Gᵀ −Σ] (Haynsworth 1968).
 !>
-!> An elastic element whose slope changes by s adds such a dyad, g the gradient of its measure. No memory is allocated after
-!> new_dyads.
+!> An elastic element whose slope changes by s adds the dyad s g gᵀ, with g the gradient of its measure. No memory is allocated
+!> after new_dyads.
 module ek_dyads
    use ek_kinds, only: wp
    use ek_block, only: add_gradient
@@ -20,16 +20,16 @@ module ek_dyads
    private
    public :: dyads_t, new_dyads, add_dyad, solve_columns, set_changes, correct, resist
 
-   !> Gradients, N⁻¹ g, and the small matrix.
+   !> The dyads: gradients g, N⁻¹ g, and the small matrix W.
    type :: dyads_t
-      integer :: number = 0                 !! of the dyads; 0 removes them
+      integer :: number = 0                 !! number of dyads; 0 removes all dyads
       integer :: negative = -1              !! negative eigenvalues of N'; −1: N' is singular
-      integer, allocatable :: at(:, :)      !! (2, dyad): unknowns before each of the two bodies; negative: the chassis
-      real(wp), allocatable :: gradient(:, :)    !! (12, dyad): g
+      integer, allocatable :: at(:, :)      !! (2, dyad): number of unknowns before each of the two bodies; negative: chassis
+      real(wp), allocatable :: gradient(:, :)    !! (12, dyad): gradients g
       real(wp), allocatable :: column(:, :)      !! (unknown, dyad): N⁻¹ g
-      real(wp), allocatable :: product(:, :)     !! gᵀ N⁻¹ g
-      real(wp), allocatable :: change(:)    !! s
-      real(wp), allocatable :: root(:)      !! √|s|
+      real(wp), allocatable :: product(:, :)     !! (dyad, dyad): gᵀ N⁻¹ g
+      real(wp), allocatable :: change(:)    !! (dyad): changes s
+      real(wp), allocatable :: root(:)      !! (dyad): √|s|
       real(wp), allocatable :: small(:)     !! W by columns, then its factors
       real(wp), allocatable :: part(:), work(:)
       integer, allocatable :: pivots(:)

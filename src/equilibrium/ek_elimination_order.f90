@@ -1,48 +1,49 @@
 !> The order of elimination of a sparse symmetric indefinite matrix, found once for all matrices of its pattern.
 !>
-!> At each step the pivot of the least fill is taken, one unknown or a pair of connected unknowns (2×2): the square of the
-!> number of unknowns that it then couples, the rule of Markowitz and of minimum degree. It must be stable in every sample
-!> matrix: |D⁻¹| × the largest entries of its columns stays below 1/threshold, as in I. S. Duff and J. K. Reid, ACM TOMS 9
-!> (1983) 302–325. Where no pivot is stable, the most stable pivot is taken; the factorisation then detects large factors.
+!> At each step the pivot of least cost is taken: one unknown, or a pair of connected unknowns (2×2). The cost is the square of
+!> the number of unknowns that the pivot couples (rule of Markowitz, minimum degree). The pivot must be stable in every sample
+!> matrix: |D⁻¹| × the largest entries of its columns, with D the pivot, is at most 1/threshold, as in I. S. Duff and J. K. Reid,
+!> ACM TOMS 9 (1983) 302–325. Where no pivot is stable, the most stable pivot is taken; the factorisation then detects large
+!> factors.
 module ek_elimination_order
    use ek_kinds, only: wp
    implicit none(type, external)
    private
    public :: order_t, find_order, natural_order
 
-   real(wp), parameter :: threshold = 0.02_wp     !! of stability: factors of the samples stay below about 1/threshold
-   real(wp), parameter :: vanished = 1.0e-30_wp   !! a pivot of a matrix scaled to the order of one that is not divided by
+   real(wp), parameter :: threshold = 0.02_wp     !! stability threshold: factors of the samples are below about 1/threshold
+   real(wp), parameter :: vanished = 1.0e-30_wp   !! limit of a pivot of the scaled matrix: smaller pivots are not divided by
 
-   !> Pivots in the order of elimination, and the unknowns that each couples.
+   !> Pivots in the order of elimination, and the unknowns that each pivot couples.
    type :: order_t
       integer :: blocks = 0
-      integer, allocatable :: pivot(:, :)        !! (2, block): unknowns; the second is 0 for a pivot of one
-      integer, allocatable :: first(:)           !! (blocks + 1): index of its first row in `rows`
-      integer, allocatable :: rows(:)            !! unknowns coupled by the pivot, which are eliminated later
+      integer, allocatable :: pivot(:, :)        !! (2, block): unknowns; the second is 0 for a pivot of one unknown
+      integer, allocatable :: first(:)           !! (blocks + 1): index in `rows` of the first row of each block
+      integer, allocatable :: rows(:)            !! unknowns that each pivot couples and that are eliminated later
    end type order_t
 
-   !> The graph of the unknowns not yet eliminated, with the numbers of all samples.
+   !> The graph of the unknowns not yet eliminated, with the matrix entries of all samples.
    type :: graph_t
       integer :: n = 0, samples = 0, room = 0
       integer, allocatable :: degree(:)
-      integer, allocatable :: next_to(:, :)      !! (neighbour, unknown)
-      real(wp), allocatable :: value(:, :, :)    !! (sample, neighbour, unknown)
-      real(wp), allocatable :: diagonal(:, :)    !! (sample, unknown)
+      integer, allocatable :: next_to(:, :)      !! (neighbour, unknown): index of each neighbour of an unknown
+      real(wp), allocatable :: value(:, :, :)    !! (sample, neighbour, unknown): entries off the diagonal
+      real(wp), allocatable :: diagonal(:, :)    !! (sample, unknown): entries of the diagonal
       logical, allocatable :: is_left(:)
       integer, allocatable :: mark(:)            !! work space: index of a neighbour, or 0
    end type graph_t
 
    !> The best pivot that contains an unknown.
    type :: candidate_t
-      integer :: partner = 0                     !! 0: a pivot of one
+      integer :: partner = 0                     !! the other unknown; 0: a pivot of one unknown
       integer :: cost = huge(0)
-      real(wp) :: size = huge(1.0_wp)            !! of its factors: acceptable below 1/threshold
+      real(wp) :: size = huge(1.0_wp)            !! stability measure (factor_size): stable up to 1/threshold
    end type candidate_t
 
 contains
 
-   !> Finds the order for a pattern of n unknowns. Each entry of the pattern is given once, with its values in the samples; rows
-   !> need not be below columns.
+   !> Finds the order for a pattern of n unknowns. Each entry of the pattern is given once, with its values in the samples; the
+   !> entry may be above or below the diagonal.
    subroutine find_order(n, row, column, values, order)
       integer, intent(in) :: n
       integer, intent(in) :: row(:), column(:)   !! of each entry
@@ -149,7 +150,7 @@ contains
 
    contains
 
-      !> Adds an unknown to the rows of pivot k, unless it is already one of them.
+      !> Adds an unknown to the rows of pivot k, unless the pivot already couples this unknown.
       subroutine add(unknown)
          integer, intent(in) :: unknown
          if (mark(unknown) == k) return
@@ -242,7 +243,7 @@ contains
 
    !> Finds the cheapest stable pivot that contains an unknown. If no pivot is stable, finds the most stable pivot.
    pure subroutine find_candidate(graph, at, best)
-      type(graph_t), intent(inout) :: graph      !! its mark is used and cleared
+      type(graph_t), intent(inout) :: graph      !! graph%mark is used and cleared
       integer, intent(in) :: at
       type(candidate_t), intent(out) :: best
       type(candidate_t) :: this
@@ -313,7 +314,7 @@ contains
       end do
    end function factor_size
 
-   !> Eliminates a pivot. The unknowns that it couples become a clique, with the numbers of all samples.
+   !> Eliminates a pivot. The unknowns that the pivot couples become a clique, with the matrix entries of all samples.
    subroutine eliminate(graph, first, second, coupled, many)
       type(graph_t), intent(inout) :: graph
       integer, intent(in) :: first, second       !! second = 0: a pivot of one

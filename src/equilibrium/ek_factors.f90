@@ -1,6 +1,6 @@
 !> The factors of N at the newest state of a path, stored while Newton's method factorises N elsewhere.
 !>
-!> `exchange` swaps these factors with the factors in kkt_t; nothing is copied or allocated after new_factors.
+!> `exchange` swaps these factors with the factors in kkt_t, without a copy. `keep` allocates memory when it first stores factors.
 module ek_factors
    use ek_kinds, only: wp
    use ek_kkt, only: kkt_t, nothing
@@ -8,13 +8,13 @@ module ek_factors
    private
    public :: factors_t, new_factors, mark, keep, exchange
 
-   !> Factors, and the state to which they belong.
+   !> Stored factors of N, with the number of the factorisation made at their state.
    type :: factors_t
       logical :: is_kept = .false.          !! the object contains the factors of the state
       integer, private :: serial = -1       !! number of the factorisation; −1: the state has no factors
-      integer, private :: negative = 0      !! negative eigenvalues
-      integer, private :: stage = nothing   !! content of `matrix`, as in kkt_t
-      integer, private :: way = 0           !! plan that they follow, as in kkt_t
+      integer, private :: negative = 0      !! number of negative eigenvalues
+      integer, private :: stage = nothing   !! stage of the factors, as in kkt_t
+      integer, private :: way = 0           !! plan of the factors, as in kkt_t
       real(wp), allocatable, private :: matrix(:, :), planned(:)
       integer, allocatable, private :: pivots(:)
    end type factors_t
@@ -30,7 +30,7 @@ contains
    !> Records that the state has changed. The factors of the new state have the serial number `serial` and are still in kkt_t.
    pure subroutine mark(self, serial)
       type(factors_t), intent(inout) :: self
-      integer, intent(in) :: serial         !! kkt%factorisations after them; −1: they are not known
+      integer, intent(in) :: serial         !! kkt%factorisations after the factorisation; −1: not known
 
       self%serial = serial
       self%is_kept = .false.

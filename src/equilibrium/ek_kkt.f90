@@ -1,6 +1,6 @@
 !> The linear system of an increment: assembly, and factorisation by LAPACK or by a plan of elimination.
 !>
-!> Its parts and assembly: ek_kkt_system. Its factors and solutions: ek_kkt_factors. Its plans: ek_kkt_plans.
+!> Parts and assembly of the system: ek_kkt_system. Factors and solutions: ek_kkt_factors. Plans: ek_kkt_plans.
 !> This module creates the system of a model, and re-exports the procedures for callers.
 module ek_kkt
    use ek_kinds, only: wp

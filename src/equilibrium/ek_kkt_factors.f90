@@ -1,6 +1,6 @@
-!> Factors of the KKT matrix, and solutions with them.
+!> Factors of the KKT matrix, and solutions with these factors.
 !>
-!> The matrix S is scaled symmetrically, D S D, before factorisation; D is computed in ek_scale. Two ways to factorise it:
+!> The KKT matrix S is scaled symmetrically, D S D, before factorisation; D is computed in ek_scale. Two ways to factorise D S D:
 !>
 !> - LAPACK (dsytrf) on the dense lower triangle: the reference;
 !> - a plan of elimination (ek_plan) on the numbers that are not zero. Where the factors by plan are large or a pivot is zero,
@@ -19,8 +19,8 @@ module ek_kkt_factors
    public :: allocate_dense, factorise, factorise_within, factorise_by_lapack, solve, solve_many, count_inertia
    public :: max_growth, proven_growth
 
-   real(wp), parameter :: max_growth = 1.0e4_wp     !! of the factors by plan: the error of a solution is some 1e-16 times this
-   real(wp), parameter :: proven_growth = 100.0_wp  !! likewise without a correction: |S − L D Lᵀ| ≈ 1e-16 |S| growth²
+   real(wp), parameter :: max_growth = 1.0e4_wp     !! limit of factors by plan: the error of a solution is some 1e-16 × this
+   real(wp), parameter :: proven_growth = 100.0_wp  !! limit without correction of solutions: |S − L D Lᵀ| ≈ 1e-16 |S| growth²
 
 contains
 
@@ -100,10 +100,11 @@ contains
       end do
    end subroutine spread_lower
 
-   !> Counts negative eigenvalues, and finds smallest over largest |eigenvalue| of the block-diagonal factor, and its determinant.
+   !> Counts the negative eigenvalues of the block-diagonal factor D of L D Lᵀ. Also finds the ratio of its smallest to its largest
+   !> |eigenvalue|, and ln |det D|.
    !>
-   !> By Sylvester's law the matrix has as many negative eigenvalues as its factor D. A stable equilibrium has
-   !> exactly one per constraint row.
+   !> By Sylvester's law the matrix has as many negative eigenvalues as D. A stable equilibrium has exactly one negative
+   !> eigenvalue per constraint row.
    !> Equation (K.6) of docs/theory/kkt.md.
    pure subroutine count_inertia(n, matrix, pivots, negative, ratio, log_determinant)
       integer, intent(in) :: n

@@ -40,10 +40,11 @@ contains
       kkt%stage = nothing
    end subroutine make_plans
 
-   !> Moves every body and sets every reaction by numbers between −1 and 1 that are equal in every run.
+   !> Moves every body and sets every reaction. The sizes are distance, angle and force times numbers between −1 and 1, which are
+   !> equal in every run.
    pure subroutine displace(state, number, distance, angle, force)
       type(state_t), intent(inout) :: state
-      integer, intent(in) :: number              !! of the sequence
+      integer, intent(in) :: number              !! index of the sequence of numbers
       real(wp), intent(in) :: distance, angle, force   !! m, rad, N
       real(wp) :: step(6*(size(state%poses) - 1))
       real(wp), parameter :: golden = 0.6180339887498949_wp

@@ -1,13 +1,13 @@
-!> The KKT system of an increment: its numbers, and how they are assembled.
+!> The KKT system of an increment: its matrix and right-hand side, and their assembly.
 !>
 !>     [ T  Φqᵀ ] [Δq]   [ f_ext − f_el − Φqᵀλ ]
-!>     [ Φq −C  ] [Δλ] = [ c − Φ(q) + Cλ       ]           one step of Newton's method for f_ext = f_el + Φqᵀλ, Φ = c
+!>     [ Φq −C  ] [Δλ] = [ c − Φ(q) + Cλ       ]           one step of Newton's method for f_ext = f_el + Φqᵀλ, Φ = c + Cλ
 !>
-!> C is zero except for drivers with a stiffness k: 1/k on the diagonal, Φ = c + λ/k. With C ≥ 0 a stable equilibrium still
-!> has exactly one negative eigenvalue per row.
+!> c contains the targets of the rows. C is zero except for drivers with a stiffness k: 1/k on the diagonal. With C ≥ 0 a stable
+!> equilibrium still has exactly one negative eigenvalue per row.
 !> T is the Hessian of the energy along screw motions (see `move_as_screw` in ek_state): the increment of a
 !> body is then independent of its reference point.
-!> Unknowns: 6 per body [Δr Δπ], then the rows of Φ. The numbers of the matrix stand in a store (ek_pattern).
+!> Unknowns: 6 per body [Δr Δπ], then the rows of Φ. The entries of the matrix are stored in an array, the store (ek_pattern).
 !> Equations (K.2), (K.3) of docs/theory/kkt.md.
 module ek_kkt_system
    use ek_kinds, only: wp
@@ -25,39 +25,39 @@ module ek_kkt_system
 
    integer, parameter :: nothing = 0, assembled = 1, lapack_factors = 2, plan_factors = 3   !! stages of the matrix
 
-   integer, parameter :: held = 1, released = 2     !! plans: of the matrix of an increment, and with the rows of the rig released
+   integer, parameter :: held = 1, released = 2     !! plans: matrix of an increment; matrix with the rows of the rig released
 
    !> The system and its work space, allocated once per model.
    type :: kkt_t
       integer :: nq = 0, nc = 0, n = 0       !! number of unknowns, of rows, and their sum
-      type(pattern_t) :: pattern             !! where everything stands
-      real(wp), allocatable :: store(:)      !! the numbers of the matrix, not scaled
-      real(wp), allocatable :: scaling(:)    !! of each entry of the pattern
+      type(pattern_t) :: pattern             !! positions of the entries in the store
+      real(wp), allocatable :: store(:)      !! the entries of the matrix, not scaled
+      real(wp), allocatable :: scaling(:)    !! scale factor of each entry of the pattern
       logical :: has_plan = .false.          !! factorise by plan
-      type(plan_t) :: plan(2)                !! held and released
+      type(plan_t) :: plan(2)                !! plans `held` and `released`
       real(wp), allocatable :: planned(:)    !! factors by plan
       real(wp), allocatable :: turned(:, :)  !! (right-hand side, unknown): work space of solve_many
       real(wp), allocatable :: matrix(:, :)  !! factors by LAPACK in the lower triangle; allocated when needed
-      real(wp), allocatable :: rhs(:)        !! [N, N m; m, -, rad]; after `solve` [Δq; Δλ]
+      real(wp), allocatable :: rhs(:)        !! right-hand side [N, N m; m, -, rad]; after `solve` [Δq; Δλ]
       real(wp), allocatable :: gradients(:, :)   !! (12, term): coefficient × gradient of each term
       real(wp), allocatable :: values(:)     !! Φ(q) − c − Cλ of each row [m, -, rad]: constraint violation
-      real(wp), allocatable :: scale(:)      !! D
-      real(wp), allocatable :: factor(:), change(:)   !! of each load and each row, from the inputs [-; m, -, rad]
-      real(wp), allocatable :: imbalance(:)  !! f_ext − f_el at design, for the homotopy of settling
+      real(wp), allocatable :: scale(:)      !! D: scale factors of the unknowns and of the rows (ek_scale)
+      real(wp), allocatable :: factor(:), change(:)   !! factor of each load, change of each row, from the inputs [-; m, -, rad]
+      real(wp), allocatable :: imbalance(:)  !! f_ext − f_el at design, for the homotopy to static equilibrium
       integer, allocatable :: pivots(:), iwork(:)
       real(wp), allocatable :: work(:)
       real(wp) :: length = 1.0_wp            !! characteristic length [m]
       real(wp) :: stiffness = 1.0_wp         !! characteristic stiffness [N/m]
       real(wp) :: norm = 0.0_wp              !! 1-norm of the last matrix passed to `condition`
-      integer :: factorisations = 0          !! so far
-      integer :: solutions = 0               !! so far, of one right-hand side each
-      integer :: fallbacks = 0               !! of these by LAPACK, because those by plan were not sound
+      integer :: factorisations = 0          !! number of factorisations so far
+      integer :: solutions = 0               !! number of solutions for a single right-hand side (`solve`) so far
+      integer :: fallbacks = 0               !! factorisations repeated by LAPACK, because the factors by plan were not sound
       integer :: way = held                  !! plan of the matrix in the store
       integer :: negative = 0                !! negative eigenvalues of the last matrix
       real(wp) :: pivot_ratio = 1.0_wp       !! smallest over largest pivot of the last matrix: a cheap condition estimate
       real(wp) :: log_determinant = 0.0_wp   !! ln |det| of the last matrix, scaled
       logical :: is_singular = .false.       !! the last factorisation met a zero pivot
-      integer :: stage = nothing             !! content of `matrix`
+      integer :: stage = nothing             !! nothing, assembled, lapack_factors or plan_factors
       logical :: is_at_design = .false.      !! matrix, factors and right-hand side belong to design, see `holds`
    end type kkt_t
 
@@ -65,7 +65,7 @@ contains
 
    !> Assembles the matrix (by `mode`) and the right-hand side at a state. λ enters T and the residual.
    !>
-   !> With material_only, the residual is complete as well; the recursion replaces it.
+   !> With material_only, the residual is complete as well; the recursion replaces this residual.
    !> Equation (K.1) of docs/theory/kkt.md.
    pure subroutine assemble(suspension, state, inputs, mode, kkt)
       type(suspension_t), intent(in) :: suspension
@@ -104,7 +104,7 @@ contains
       if (inputs%homotopy > 0.0_wp) call add_multiple(kkt%nq, -inputs%homotopy, kkt%imbalance, kkt%rhs)
    end subroutine assemble
 
-   !> Assembles only the rows of Φ at a state: their gradients and violations, equal to those of `assemble`.
+   !> Assembles only the rows of Φ at a state: gradients and violations, equal to the results of `assemble`.
    pure subroutine assemble_rows(suspension, state, inputs, kkt)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
@@ -130,13 +130,14 @@ contains
       end do
    end subroutine set_change
 
-   !> Assembles the right-hand side for a unit of the path coordinate: the derivative of the inputs, at a state. The solution
-   !> with the factors of T is the tangent of the path, [Δq; Δλ] per unit of the path coordinate.
+   !> Assembles the right-hand side for the tangent of the path at a state: the derivative of the right-hand side with respect to
+   !> the path coordinate. The solution with the factors of the KKT matrix N is the tangent, [Δq; Δλ] per unit of the path
+   !> coordinate.
    !> Equation (K.13) of docs/theory/kkt.md.
    pure subroutine assemble_rate(suspension, state, rate, kkt)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
-      type(inputs_t), intent(in) :: rate         !! derivative of the inputs with the path coordinate
+      type(inputs_t), intent(in) :: rate         !! derivative of the inputs with respect to the path coordinate
       type(kkt_t), intent(inout) :: kkt          !! rhs
       integer :: k
 
@@ -153,11 +154,11 @@ contains
    !> The scale factor of a load that a case scales; 0 if the inputs do not include the load.
    pure real(wp) function load_factor(inputs, load)
       type(inputs_t), intent(in) :: inputs
-      integer, intent(in) :: load      !! number of the load
+      integer, intent(in) :: load      !! index of the load
       load_factor = sum(inputs%factor(:inputs%loads), mask=inputs%load(:inputs%loads) == load)
    end function load_factor
 
-   !> Removes a row of Φ from an assembled matrix. The diagonal of the row becomes −1 of the scaled matrix.
+   !> Removes a row of Φ from an assembled matrix. The diagonal of the row becomes −1 in the scaled matrix.
    !> Equation (C.5) of docs/theory/compliance.md.
    pure subroutine release(row, kkt)
       integer, intent(in) :: row
@@ -186,9 +187,9 @@ contains
       end associate
    end function whole_matrix
 
-   !> Whether the system was assembled and factorised at a state under these inputs. This is the condition after the proof of
-   !> soundness at design (is_at_design), without inputs. After other numbers of the model are set, the system must be renewed
-   !> (renew_kkt).
+   !> Whether the system contains matrix, factors and right-hand side of a state under these inputs. The result is .true. only at
+   !> design without inputs, after the proof of soundness (is_at_design). After numbers of the model are changed, the system must be
+   !> renewed (renew_kkt).
    pure logical function holds(kkt, suspension, state, inputs)
       type(kkt_t), intent(in) :: kkt
       type(suspension_t), intent(in) :: suspension

@@ -17,8 +17,8 @@ module ek_kkt_terms
 
 contains
 
-   !> Assembles blocks of T, gradients of the rows, and right-hand side at a state (see assemble of ek_kkt). With explicit
-   !> shapes, which the compiler turns into tight code.
+   !> Assembles blocks of T, gradients of the rows, and right-hand side at a state (see `assemble` of ek_kkt_system). The
+   !> arrays have explicit shapes, which the compiler turns into fast code.
    !> Equations (K.3), (K.4) of docs/theory/kkt.md.
    !> Equation (M.19) of docs/theory/measures.md.
    !> Equation (R.13) of docs/theory/rotations.md.
@@ -114,14 +114,14 @@ contains
       numbers = 0.0_wp
    end subroutine clear
 
-   !> Assembles the right-hand side for a unit of the path coordinate.
+   !> Assembles the derivative of the right-hand side with respect to the path coordinate (see `assemble_rate` of ek_kkt_system).
    !> Equation (K.13) of docs/theory/kkt.md.
    pure subroutine assemble_rate_terms(nq, loads, poses, factor, change, rhs)
       integer, intent(in) :: nq                  !! unknowns of the bodies
       type(load_t), intent(in) :: loads(:)
       type(pose_t), intent(in) :: poses(0:*)     !! the chassis, then the bodies
-      real(num), intent(in) :: factor(:)         !! of each load, and
-      real(num), intent(in) :: change(:)         !! of each row: derivatives with the path coordinate
+      real(num), intent(in) :: factor(:)         !! derivative of the factor of each load
+      real(num), intent(in) :: change(:)         !! derivative of the change of each row
       real(num), intent(inout) :: rhs(:)
       real(num) :: force(3), moment(3), arm(3)
       integer :: k, at

@@ -1,4 +1,4 @@
-!> Motions of bodies by twists: how large they are, and the poses after them.
+!> Motions of bodies by twists: their size, and the poses after a motion.
 module ek_motion
    use ek_kinds, only: wp
    use ek_number, only: num, mask, one, some
@@ -9,7 +9,7 @@ module ek_motion
    public :: largest_motion, move_all, take_step, unpack_poses, pack_poses, extrapolate, &
       squared_distance, find_motion, trapezoidal_rest, body_motion
 
-   real(wp), parameter, public :: smooth = 4.0e-3_wp      !! of the motion: allowed error of the trapezoidal rule
+   real(wp), parameter, public :: smooth = 4.0e-3_wp      !! allowed error of the trapezoidal rule, as a share of the motion
    real(wp), parameter :: nothing = 1.0e-9_wp      !! a motion below this is rounding [m]
 
 contains
@@ -36,7 +36,7 @@ contains
    end subroutine find_motion
 
 
-   !> The largest |Δr|, or |Δπ| × characteristic length, of any body [m]; huge if one of them is NaN.
+   !> The largest |Δr|, or |Δπ| × characteristic length, of any body [m]; huge if a motion is not finite.
    !> Equation (K.11) of docs/theory/kkt.md.
    pure function largest_motion(motion, length) result(largest)
       real(num), contiguous, intent(in) :: motion(:)   !! [Δr Δπ] of each body [m, rad]
@@ -61,8 +61,8 @@ contains
    !>
    !>     r ← r + V(Δπ) Δr,   V = I + (1 − cos θ)/θ² Δπ̃ + (θ − sin θ)/θ³ Δπ̃²,   A ← exp(Δπ̃) A
    !>
-   !> Agrees with `move` of ek_state to first order. In contrast to it, the result does not depend on the reference
-   !> point of the body: a twist and its exponential belong to the body, not to a point.
+   !> The result agrees with `move` of ek_state to first order. In contrast to `move`, it does not depend on the reference point of
+   !> the body: a twist and its exponential belong to the body, not to a point.
    !> Equations (R.8), (R.12) of docs/theory/rotations.md.
    pure subroutine move_all(bodies, step, poses)
       integer, intent(in) :: bodies
@@ -180,7 +180,8 @@ contains
       size = sqrt(max(twist(1)**2 + twist(2)**2 + twist(3)**2, length**2*(twist(4)**2 + twist(5)**2 + twist(6)**2)))
    end function body_motion
 
-   !> The error of the trapezoidal rule as a share of the motion [-]; huge if the error is NaN.
+   !> The error of the trapezoidal rule as a share of the motion [-]; 0 if the error is within rounding, huge if the
+   !> error is not finite.
    !> Equation (K.14) of docs/theory/kkt.md.
    pure function trapezoidal_rest(motion, tangent_a, tangent_b, width, length) result(rest)
       real(num), contiguous, intent(in) :: motion(:), tangent_a(:), tangent_b(:)

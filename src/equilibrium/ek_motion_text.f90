@@ -11,11 +11,11 @@ module ek_motion_text
    private
    public :: motion_text, body_parts, main_body, place
 
-   real(wp), parameter :: takes_part = 1.0e-3_wp          !! of the largest part of a motion
+   real(wp), parameter :: takes_part = 1.0e-3_wp          !! limit, as a share of the largest motion: smaller motions are omitted
 
 contains
 
-   !> The location as ' (file:line)'; '' if the location is not known.
+   !> The location of a record as ' (file:line)'; '' if the location is not known.
    pure function place(where) result(text)
       character(*), intent(in) :: where
       character(:), allocatable :: text
@@ -23,7 +23,7 @@ contains
       if (len(where) > 0) text = ' ('//where//')'
    end function place
 
-   !> The share of each body in a motion [-].
+   !> The size of the motion of each body: the norm of its six scaled unknowns.
    pure function body_parts(motion) result(part)
       real(wp), intent(in) :: motion(:)            !! scaled unknowns
       real(wp) :: part(size(motion)/6)
@@ -41,8 +41,8 @@ contains
       main_body = max(1, findloc(part >= (1.0_wp - equal)*maxval(part), .true., dim=1))      ! 1: not a number
    end function main_body
 
-   !> Description of the body that moves most, its motion, and the bodies that move with it. One or two such bodies are listed with
-   !> their motion, more bodies by name.
+   !> Description of the body that moves most, its motion, and the bodies that move with it. One or two other bodies are listed
+   !> with their motion; of more bodies, up to six names are listed.
    function motion_text(suspension, state, kkt, motion) result(text)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
@@ -99,7 +99,7 @@ contains
       if (abs(lead) > takes_part*kkt%length) text = text//', sliding '//str(lead/millimetre, 3)//' mm/rad along it'
    end function one_body_text
 
-   !> The axis without rounding errors, and with its largest component positive.
+   !> The axis with components below 1e-6 set to zero, and with its largest component positive.
    pure function tidy(axis) result(clean)
       real(wp), intent(in) :: axis(3)
       real(wp) :: clean(3)
@@ -107,7 +107,7 @@ contains
       if (clean(maxloc(abs(clean), dim=1)) < 0.0_wp) clean = -clean
    end function tidy
 
-   !> The hardpoints on an axis as ' (points a, b)'; '' if there are none.
+   !> Up to four hardpoints on an axis as " (the line of 'a', 'b')"; '' if no hardpoint is on the axis.
    pure function points_on(suspension, axis, through) result(text)
       type(suspension_t), intent(in) :: suspension
       real(wp), intent(in) :: axis(3), through(3)

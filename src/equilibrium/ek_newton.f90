@@ -1,8 +1,8 @@
 !> Finds a state of equilibrium by Newton's method from an initial guess.
 !>
-!> Each iteration assembles T, factorises once, and takes one full step. After a small step, the same
-!> factors are reused for cheaper steps with new residuals, as long as each is much shorter than the one
-!> before. The length of the last step estimates the remaining error, so convergence is measured, not assumed.
+!> Each iteration assembles N, factorises it once, and takes one full step. After a small step, the same factors are reused for
+!> cheaper steps with new residuals, as long as each step is much shorter than the previous step. The length of the last step
+!> estimates the remaining error, so convergence is measured, not assumed.
 module ek_newton
    use ek_kinds, only: wp
    use ek_vector, only: add_multiple
@@ -14,13 +14,13 @@ module ek_newton
    public :: outcome_t, find_equilibrium, ends_here
    public :: max_iterations, max_chords, rest, good_chord
 
-   integer, parameter :: max_iterations = 15   !! Newton's method converges quadratically: more would not help
-   integer, parameter :: max_chords = 4        !! steps with old factors: three cost less than one factorisation
-   real(wp), parameter :: rest = 1.0e-6_wp      !! of the tolerance: allowed error of a state found with old factors
+   integer, parameter :: max_iterations = 15   !! largest number of iterations: Newton's method does not need more
+   integer, parameter :: max_chords = 4        !! largest number of steps with old factors: three cost less than one factorisation
+   real(wp), parameter :: rest = 1.0e-6_wp      !! allowed error of a state found with old factors, as a share of the tolerance
    ! × step²/characteristic length: the error that a full step leaves. Some 0.2 on a smooth path, 130 in the stops of the examples;
    ! near the end of a path, where the stiffness vanishes, 200 has let 1e-12 m pass
    real(wp), parameter :: curvature = 2.0e4_wp
-   real(wp), parameter :: good_chord = 0.03_wp  !! limit of step/step before; above it, new factors are cheaper
+   real(wp), parameter :: good_chord = 0.03_wp  !! limit of step / previous step: above it, new factors are cheaper
 
    !> The outcome of an iteration.
    type :: outcome_t
@@ -28,7 +28,7 @@ module ek_newton
       logical :: is_singular = .false.    !! a matrix could not be factorised
       integer :: factorisations = 0
       real(wp) :: first = 0.0_wp          !! length of the first correction: error of the guess [m]
-      real(wp) :: missed = 0.0_wp         !! distance from the result at which the last factors were computed [m]
+      real(wp) :: missed = 0.0_wp         !! distance of the last factors from the result [m]
       real(wp) :: last = 0.0_wp           !! length of the last correction [m]
       integer :: negative = 0             !! negative eigenvalues of the last matrix
       real(wp) :: pivot_ratio = 1.0_wp    !! cheap condition estimate of the last matrix
@@ -37,7 +37,8 @@ module ek_newton
 
 contains
 
-   !> Iterates by Newton's method to `tolerance`: the last correction of any body [m, rad × characteristic length].
+   !> Iterates by Newton's method until the last correction of every body is within `tolerance` [m, rad × characteristic length].
+   !> With a plan of elimination, `ends_here` decides after a full step.
    !> Equation (K.10) of docs/theory/kkt.md.
    pure subroutine find_equilibrium(suspension, inputs, tolerance, state, kkt, outcome)
       type(suspension_t), intent(in) :: suspension
@@ -89,8 +90,8 @@ contains
       outcome%is_converged = outcome%last <= tolerance
    end subroutine find_equilibrium
 
-   !> Whether the iteration ends with this full step: the step is within the tolerance, or the remaining error is within the error
-   !> allowed with old factors.
+   !> Whether the iteration ends with this full step: the step is within the tolerance, or the estimated remaining error is within
+   !> the error allowed with old factors (`rest` × tolerance).
    pure logical function ends_here(step, tolerance, length)
       real(wp), intent(in) :: step, tolerance   !! m
       real(wp), intent(in) :: length            !! characteristic length [m]

@@ -1,9 +1,9 @@
 !> Checks that the joints of two states are in the same assembly mode: det(Φq(a) Φq(b)ᵀ) > 0, for the rigid rows.
 !>
-!> If Φq loses rank between them, the determinant changes sign, while the inertia of the matrix N of equilibrium is unchanged:
-!> det N is proportional to the square of det Φq. The products of rows that share no body are zero: only the others are
-!> computed and eliminated, row by row (ek_plan). No memory is allocated after new_orientation, but for the LU factors of a large
-!> model.
+!> If Φq loses rank between the two states, the determinant changes sign, while the inertia of the matrix N of equilibrium is
+!> unchanged: det N is proportional to det(Φq Φqᵀ), which has a double zero there. The products of rows that share no body are
+!> zero: only the other products are computed and eliminated, row by row (ek_plan). No memory is allocated after new_orientation,
+!> except for the LU factors of a large model.
 module ek_orientation
    use ek_kinds, only: wp
    use ek_relative_rotation, only: pose_t
@@ -15,38 +15,40 @@ module ek_orientation
    private
    public :: orientation_t, new_orientation, renew_orientation, compare_orientation
 
-   !> Of the largest pivot of Φq Φqᵀ: some 1e-5 rad from a loss of rank, where Newton's method loses half of its digits
+   !> Limit of the smallest pivot of Φq Φqᵀ, as a share of the largest: some 1e-5 rad from a loss of rank, where Newton's method
+   !> loses half of its digits
    real(wp), parameter :: vanished = 2.5e-11_wp
-   !> The share of the smallest pivot at a: b lies so much nearer to a loss of rank than a that its side means nothing
+   !> Limit of the smallest pivot at b, as a share of the smallest pivot at a: below it, b is so near to a loss of rank that the
+   !> sign of the determinant has no meaning
    real(wp), parameter :: near = 1.0e-4_wp
-   !> m, and of a quaternion: poses as near as this are the same but for rounding
+   !> Largest difference of reference points [m] and of quaternions [-] for which two poses are equal but for rounding
    real(wp), parameter :: same = 1.0e-12_wp
 
-   !> Rows up to which the dense memory for LU factors is allocated at once: more than any suspension has
+   !> Number of rows up to which the dense memory for LU factors is allocated at once: more than any suspension has
    integer, parameter :: usual = 250
 
    !> The rigid rows (all except drivers with a stiffness), and work space. The gradient of a row at a body has a slot.
    type :: orientation_t
       private
-      integer, allocatable :: held(:)                      !! number of each rigid row
-      integer, allocatable :: first(:)                     !! (rows + 1): first slot of each
-      integer, allocatable :: body(:), row(:)              !! of each slot
-      integer, allocatable :: slot_of(:, :)                !! (2, term): at body i and j; 0: chassis
-      integer, allocatable :: entry_row(:), entry_column(:)   !! of the products that are not zero, row ≥ column
-      integer, allocatable :: pair(:, :)                   !! (3, pair): a product, and two slots of one body that add to it
-      type(plan_t) :: plan                                 !! of the products
+      integer, allocatable :: held(:)                      !! index of each rigid row in the suspension
+      integer, allocatable :: first(:)                     !! (rows + 1): first slot of each rigid row
+      integer, allocatable :: body(:), row(:)              !! body and rigid row of each slot
+      integer, allocatable :: slot_of(:, :)                !! (2, term): slots of each term at bodies i and j; 0: chassis
+      integer, allocatable :: entry_row(:), entry_column(:)   !! row and column of each product that may be nonzero; row ≥ column
+      integer, allocatable :: pair(:, :)                   !! (3, pair): index of a product, two slots of one body that add to it
+      type(plan_t) :: plan                                 !! plan of elimination of the products
       real(wp), allocatable :: rows_a(:, :), rows_b(:, :)  !! scaled Φq: (6, slot)
-      type(pose_t), allocatable :: poses_b(:)              !! of rows_b
+      type(pose_t), allocatable :: poses_b(:)              !! poses of the state of rows_b
       real(wp) :: min_b = 0.0_wp                           !! smallest pivot of Φq Φqᵀ at b, as a share of the largest
-      real(wp), allocatable :: lower(:), upper(:)          !! the products, row of a × row of b and row of b × row of a
-      real(wp), allocatable :: factors(:)                  !! in the order of the plan
-      real(wp), allocatable :: product(:, :), unit(:, :)   !! for LU factors
+      real(wp), allocatable :: lower(:), upper(:)          !! products in the lower, upper triangle: (row of a) × (row of b)
+      real(wp), allocatable :: factors(:)                  !! factors of the products, in the order of the plan
+      real(wp), allocatable :: product(:, :), unit(:, :)   !! matrix of products and a right-hand side, for LU factors
       integer, allocatable :: pivots(:)
    end type orientation_t
 
 contains
 
-   !> Allocates the work space for a model.
+   !> The rigid rows of a model, with work space.
    function new_orientation(suspension) result(self)
       type(suspension_t), intent(in) :: suspension
       type(orientation_t) :: self
@@ -178,9 +180,10 @@ contains
       self%entry_column = column(:used)
    end subroutine find_products
 
-   !> Compares two states: determines whether det(Φq(a) Φq(b)ᵀ) < 0, and whether Φq loses rank at b, where this sign has no meaning.
+   !> Compares two states: determines whether det(Φq(a) Φq(b)ᵀ) < 0, and whether Φq loses rank at or near b, where this
+   !> sign has no meaning.
    !>
-   !> x·Φq(a) Φq(b)ᵀ x > 0 for all x means a positive determinant; otherwise the LU factors give its sign.
+   !> x·Φq(a) Φq(b)ᵀ x > 0 for all x means a positive determinant; otherwise the LU factors give the sign.
    !> Equation (K.17) of docs/theory/kkt.md.
    pure subroutine compare_orientation(self, suspension, poses_a, poses_b, scale, is_turned_over, is_singular)
       type(orientation_t), intent(inout) :: self
@@ -234,7 +237,7 @@ contains
       are_same = .true.
    end function are_same
 
-   !> Computes the products of all rows of a state.
+   !> Computes the products of all rows of a state that share a body.
    pure subroutine square(self, rows)
       type(orientation_t), intent(inout) :: self
       real(wp), intent(in) :: rows(6, *)
@@ -248,7 +251,7 @@ contains
       end do
    end subroutine square
 
-   !> Computes the products a·b of all rows of two states.
+   !> Computes the products of the rows of a and the rows of b that share a body.
    pure subroutine multiply_out(self, rows_a, rows_b)
       type(orientation_t), intent(inout) :: self
       real(wp), intent(in) :: rows_a(6, *), rows_b(6, *)
@@ -264,11 +267,11 @@ contains
       end do
    end subroutine multiply_out
 
-   !> Eliminates a symmetric matrix of products, or the sum of two such matrices, by Gauss's method.
+   !> Eliminates a symmetric matrix by Gauss's method: `products`, or `products` + `others`, the sum of a matrix and its transpose.
    pure subroutine eliminate(self, products, least, others)
       type(orientation_t), intent(inout) :: self
       real(wp), intent(in) :: products(:)
-      real(wp), intent(out) :: least         !! the smallest pivot as a share of the largest; 0: it is not positive definite
+      real(wp), intent(out) :: least         !! the smallest pivot as a share of the largest; 0: not positive definite
       real(wp), intent(in), optional :: others(:)
       real(wp) :: most, share
       integer :: k, a, b, m, t
@@ -310,7 +313,8 @@ contains
       end associate
    end subroutine allocate_dense
 
-   !> Finds whether det(Φq(a) Φq(b)ᵀ) < 0, by LU factors of the complete matrix of products.
+   !> Finds whether det(Φq(a) Φq(b)ᵀ) < 0, by LU factors of the complete matrix of products. For a singular matrix the
+   !> result is .false.
    pure subroutine find_sign(self, is_negative)
       type(orientation_t), intent(inout) :: self
       logical, intent(out) :: is_negative
@@ -332,7 +336,7 @@ contains
       end do
    end subroutine find_sign
 
-   !> Copies scaled Φq of the rigid rows.
+   !> Computes scaled Φq of the rigid rows at the poses of a state.
    pure subroutine gather_rows(self, suspension, poses, scale, rows)
       type(orientation_t), intent(in) :: self
       type(suspension_t), intent(in) :: suspension

@@ -1,6 +1,6 @@
 !> A sweep: from design outward to both ends of a case, one state after the other.
 !>
-!> A state that does not converge is approached by halved increments; if that fails too, the sweep in
+!> A state that does not converge is approached by halved increments; if no increment converges, the sweep in
 !> that direction ends, and the states before it remain valid. The rows of a table are independent states:
 !> if one state does not converge, the next is reached from design.
 module ek_path
@@ -22,9 +22,10 @@ module ek_path
    private
    public :: path_t, sweep, new_path, walk, walk_t, empty_walk, progress_procedure, suspect, min_step, crossing_step
 
-   real(wp), parameter :: min_step = 4.0e-10_wp     !! of the range: resolution of the end of a path
-   real(wp), parameter :: crossing_step = 1.0e-6_wp   !! likewise; nearer at a bifurcation the matrix is too singular
-   real(wp), parameter :: min_of_row = 0.0078125_wp    !! after the first row of a table that was not found
+   real(wp), parameter :: min_step = 4.0e-10_wp     !! shortest step, as a share of the range: resolution of the end of a path
+   real(wp), parameter :: crossing_step = 1.0e-6_wp   !! width of a step across a bifurcation, as a share of the range: in a
+                                                      !! narrower step the matrix is too singular
+   real(wp), parameter :: min_of_row = 0.0078125_wp    !! shortest step after the first row of a table that did not converge [rows]
 
    real(wp), parameter :: suspect = 1.0e-12_wp         !! pivot ratio below which the condition number is computed
 
@@ -39,15 +40,15 @@ module ek_path
    type :: walk_t
       private
       type(state_t) :: state
-      real(wp) :: here = 0.0_wp        !! swept value, and inputs at it; for the linear methods
+      real(wp) :: here = 0.0_wp        !! swept value of `state`, and the inputs at this value; for the linear methods
       type(inputs_t) :: inputs
       type(schedule_t) :: schedule
-      real(wp), allocatable :: held(:)     !! of the recursion
+      real(wp), allocatable :: held(:)     !! Φqᵀλ of the recursion [N, N m], see start_recursion
       type(branch_t) :: branch
       type(arc_t) :: arc
       logical :: is_along_arc = .false.
       integer :: negative = -1         !! negative eigenvalues of N under the constant loads; −1: not known
-      integer :: done = 0              !! states stored
+      integer :: done = 0              !! number of states stored
    end type walk_t
 
 contains
@@ -59,7 +60,7 @@ contains
    end subroutine empty_walk
 
    !> Sweeps a case; failures are returned in path%failure and never stop the program. States of a linear method that are not
-   !> on the path from design are rejected.
+   !> on the path from design are rejected, except in tables.
    subroutine sweep(suspension, case, path, kkt, progress, reach, space)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
@@ -82,8 +83,8 @@ contains
       end do
    end subroutine sweep
 
-   !> Follows the complete path of new_path, or a path of equilibria around design only as far as `reach`. States have the same bits
-   !> in both cases.
+   !> Follows the complete path of new_path, or a path of equilibria around design only as far as `reach`. The states that
+   !> both paths contain are identical bit for bit.
    subroutine walk(suspension, case, path, kkt, progress, reach, space)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
@@ -91,7 +92,7 @@ contains
       type(kkt_t), intent(inout) :: kkt
       procedure(progress_procedure), optional :: progress
       real(wp), intent(in), optional :: reach      !! swept value; 0: the design state only
-      type(walk_t), intent(inout), optional :: space   !! as for sweep
+      type(walk_t), intent(inout), optional :: space   !! as in `sweep`
       type(walk_t), allocatable :: own
 
       if (present(space)) then
@@ -102,7 +103,7 @@ contains
       end if
    end subroutine walk
 
-   !> Sweeps a case as `sweep` does, with work space.
+   !> Follows a path like `walk`, with `self` as work space.
    subroutine go(self, suspension, case, path, kkt, progress, reach)
       type(walk_t), intent(inout) :: self
       type(suspension_t), intent(in) :: suspension
@@ -296,7 +297,7 @@ contains
       end associate
    end subroutine walk_arc
 
-   !> Returns to the settled state, where all inputs are zero.
+   !> Returns to static equilibrium under the constant loads, where all inputs are zero.
    subroutine restart(self, suspension, case, path, kkt)
       type(walk_t), intent(inout) :: self
       type(suspension_t), intent(in) :: suspension

@@ -1,4 +1,5 @@
-!> The states of a sweep, in storage that serves one design after the other: the swept value of each state, and the findings at it.
+!> The states of a sweep, in storage that serves one design after the other: swept value and findings of
+!> each state.
 module ek_path_states
    use ek_kinds, only: wp
    use ek_case, only: case_t, follows_table
@@ -14,22 +15,24 @@ module ek_path_states
    !> All states of a sweep, in order from…to.
    type :: path_t
       integer :: states = 0
-      integer :: start = 0                        !! index of the design state, 0 if the range leaves it out
-      real(wp), allocatable :: value(:)           !! swept value: factor, or change of the driven value [m, rad]
+      integer :: start = 0                        !! index of the design state; 0 if the range does not contain design
+      real(wp), allocatable :: value(:)           !! swept value: factor, change of the driven value [m, rad], or table row
       real(wp), allocatable :: packed(:, :)       !! (coordinate, state), see ek_state
       logical, allocatable :: is_reached(:)
-      logical, allocatable :: is_stable(:)        !! no negative stiffness
-      integer, allocatable :: iterations(:)       !! factorisations spent on a state
-      real(wp), allocatable :: pivot_ratio(:)     !! cheap condition estimate; where that is tiny, the true one
+      logical, allocatable :: is_stable(:)        !! no motion has a negative stiffness
+      integer, allocatable :: iterations(:)       !! number of factorisations for each state
+      real(wp), allocatable :: pivot_ratio(:)     !! smallest / largest pivot; if tiny, the condition estimate replaces a smaller
+                                                  !! ratio
       real(wp), allocatable :: settled(:)         !! packed state under the constant loads only
       logical :: is_settled = .false.             !! there is an equilibrium under the constant loads
-      logical :: is_table = .false.               !! rows of a table, each an independent state
+      logical :: is_table = .false.               !! the states are rows of a table, independent of each other
       integer :: crossings = 0                    !! number of bifurcations on the path
       real(wp) :: crossing_place(max_crossings) = 0.0_wp   !! swept values of these bifurcations
       integer :: limits = 0                       !! number of limit points (follow = 'arc')
       real(wp) :: limit_place(2*max_limits) = 0.0_wp
       integer :: limit_state(2*max_limits) = 0   !! index of the nearest state; 0: before the range begins
-      type(failure_t) :: failure(2)               !! towards `to`, towards `from`; or while settling; or first failed row of a table
+      type(failure_t) :: failure(2)               !! (1) towards `to`, or of the only direction; (2) towards `from`. (1) is also the
+                                                  !! failure of static equilibrium, or of the first failed row of a table
    end type path_t
 
 contains
@@ -40,7 +43,7 @@ contains
    subroutine new_path(suspension, case, path)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
-      type(path_t), intent(inout) :: path        !! its memory is used again if it fits
+      type(path_t), intent(inout) :: path        !! memory of a suitable size is used again
       integer :: n, before, k
 
       n = case%increments
@@ -75,7 +78,7 @@ contains
 
    !> Allocates storage for the states of a path, and marks all states as not reached.
    pure subroutine clear(numbers, path)
-      integer, intent(in) :: numbers              !! of a state
+      integer, intent(in) :: numbers              !! length of a packed state
       type(path_t), intent(inout) :: path         !! with the number of its states
       logical :: is_alike
       integer :: side
@@ -140,7 +143,7 @@ contains
       end if
    end function ways
 
-   !> The range of a path [swept value]; 1 row for a table.
+   !> The scale of a path [swept value]: its range plus its largest magnitude; 1 row for a table.
    pure real(wp) function span(path)
       type(path_t), intent(in) :: path
       span = 1.0_wp

@@ -1,4 +1,4 @@
-!> Positions of the numbers of the KKT matrix: its blocks, and every entry that may be nonzero.
+!> Positions of the entries of the KKT matrix: blocks, and every entry that may be nonzero.
 !>
 !> Assembly writes into a store: the 6×6 blocks of T (see ek_block: one per body, then one per pair of bodies that an element
 !> or a row couples), then six numbers per row of Φ and body (its gradient), then the diagonal of the rows. `entries` lists the
@@ -20,22 +20,22 @@ module ek_pattern
 
    !> Positions of all entries of the system in its store.
    type :: pattern_t
-      integer :: nq = 0, nc = 0, n = 0           !! unknowns of bodies, rows of Φ, and their sum
-      integer :: bodies = 0, blocks = 0          !! blocks: of bodies and of pairs
-      integer, allocatable :: pair(:, :)         !! (2, blocks): its rows are of the first body, its columns of the second
-      integer, allocatable :: element_at(:, :)   !! (3, element): its blocks, see ek_block
-      integer, allocatable :: term_at(:, :)      !! (3, term)
-      integer, allocatable :: term_slot(:, :)    !! (2, term): number of the gradient of its row at body i and j; 0: chassis
-      integer, allocatable :: first_slot(:)      !! (rows + 1): first gradient of each row
+      integer :: nq = 0, nc = 0, n = 0           !! number of unknowns of bodies, of rows of Φ, and their sum
+      integer :: bodies = 0, blocks = 0          !! number of bodies; number of blocks of bodies and of pairs
+      integer, allocatable :: pair(:, :)         !! (2, block): body of the rows, body of the columns
+      integer, allocatable :: element_at(:, :)   !! (3, element): blocks of each element, see ek_block
+      integer, allocatable :: term_at(:, :)      !! (3, term): blocks of each term, see ek_block
+      integer, allocatable :: term_slot(:, :)    !! (2, term): slots of the gradient of the row at bodies i, j; 0: chassis
+      integer, allocatable :: first_slot(:)      !! (rows + 1): first slot of each row
       integer, allocatable :: body_of_slot(:)
       integer :: jacobian = 0, diagonal = 0      !! position in the store before the gradients, before the diagonal
       integer :: stored = 0                      !! length of the store
       integer :: entries = 0
-      integer, allocatable :: row(:), column(:), from(:)   !! of each entry; position in the store
+      integer, allocatable :: row(:), column(:), from(:)   !! row, column and position in the store of each entry
       ! what it was made from
-      integer, allocatable, private :: element(:, :)   !! (kind of its use, bodies i and j; element)
+      integer, allocatable, private :: element(:, :)   !! (kind_of_use, bodies i and j; element)
       integer, allocatable, private :: term(:, :)      !! (kind, bodies i and j; term)
-      integer, allocatable, private :: row_terms(:, :) !! (first, number; row)
+      integer, allocatable, private :: row_terms(:, :) !! (first term, number of terms; row)
    end type pattern_t
 
 contains
@@ -104,7 +104,7 @@ contains
       if (element%measure%kind == axis_axis .or. element%measure%kind == rotation) kind_of_use = rotation
    end function kind_of_use
 
-   !> Stores the connections of a model, with which same_pattern compares.
+   !> Stores the connections of a model, for comparison in same_pattern.
    pure subroutine note_connections(suspension, self)
       type(suspension_t), intent(in) :: suspension
       type(pattern_t), intent(inout) :: self
@@ -148,8 +148,8 @@ contains
       at(3) = merge(b, -b, j > i)
    end subroutine find_blocks
 
-   !> Marks the parts of blocks that the Hessian of a measure fills; for a spring, also the parts that the product of its gradients
-   !> fills.
+   !> Marks the parts of blocks that the Hessian of a measure fills. For a distance (and for elements, see kind_of_use), also marks
+   !> the parts that the product of the gradients fills.
    pure subroutine use_parts(kind, at, is_used)
       integer, intent(in) :: kind, at(3)
       logical, intent(inout) :: is_used(:, :, :)
@@ -191,7 +191,7 @@ contains
       body_of_slot(slot) = body
    end subroutine find_slot
 
-   !> Lists all positions of the lower triangle, column by column of the blocks, and all positions of the diagonal.
+   !> Lists the entries of the lower triangle that may be nonzero, column by column of the blocks, and all entries of the diagonal.
    subroutine list_entries(self, is_used, has_force)
       type(pattern_t), intent(inout) :: self
       logical, intent(in) :: is_used(:, :, :), has_force(:)

@@ -1,8 +1,8 @@
-!> A plan of elimination for a sparse symmetric matrix: the factors L D Lᵀ, with the order, the pattern with its fill, and every
-!> position of every update found once for all matrices of one pattern.
+!> A plan of elimination for the factors L D Lᵀ of a sparse symmetric matrix. The order, the pattern with its fill, and the
+!> positions of all updates are found once for all matrices of one pattern.
 !>
-!> D has blocks of one or two unknowns (ek_elimination_order). The factors stand in one array: per block the lower triangle of D⁻¹,
-!> then the columns of L. Their numbers: ek_plan_factors.
+!> D has blocks of one or two unknowns (ek_elimination_order). The factors are stored in one array x: per block the lower
+!> triangle of D⁻¹, then the columns of L. ek_plan_factors computes the factors.
 module ek_plan
    use ek_kinds, only: wp
    use ek_elimination_order, only: order_t, find_order, natural_order
@@ -12,13 +12,13 @@ module ek_plan
 
    !> A plan of elimination: order, pattern with fill, and positions of all updates.
    type :: plan_t
-      integer :: n = 0                        !! unknowns
-      integer :: blocks = 0                   !! pivots
-      integer :: length = 0                   !! of x
-      integer, allocatable :: pivot(:, :)     !! (2, block): unknowns; the second is 0 for a pivot of one
-      integer, allocatable :: start(:)        !! index of its D in x
-      integer, allocatable :: first(:)        !! (blocks + 1): index of its first row in `rows`
-      integer, allocatable :: rows(:)         !! unknowns of its column of L
+      integer :: n = 0                        !! number of unknowns
+      integer :: blocks = 0                   !! number of pivots
+      integer :: length = 0                   !! length of x
+      integer, allocatable :: pivot(:, :)     !! (2, block): unknowns; the second is 0 for a pivot of one unknown
+      integer, allocatable :: start(:)        !! index in x of D⁻¹ of each block
+      integer, allocatable :: first(:)        !! (blocks + 1): index in `rows` of the first row of each block
+      integer, allocatable :: rows(:)         !! unknowns of the rows of L, block by block
       integer, allocatable :: places(:)       !! indices in x of all updates, one block after the other
       integer, allocatable :: slot(:)         !! index in x of each entry of the pattern
    end type plan_t

@@ -1,6 +1,7 @@
-!> Factors of a matrix by a plan of elimination, and solutions with them.
+!> Factors of a matrix by a plan of elimination, and solutions with these factors.
 !>
-!> Per pivot: l = D⁻¹ a, x(place) ← x(place) − l a over the indices `places` of the plan, where a are the entries of its columns.
+!> Per pivot: l = D⁻¹ a, x(place) ← x(place) − l a over the indices `places` of the plan, where a are the entries of
+!> the columns of the pivot.
 !> The order is fixed, so a matrix far from the samples may have large factors: the caller checks `growth` and uses LAPACK instead.
 !> Equation (K.23) of docs/theory/kkt.md.
 module ek_plan_factors
@@ -15,19 +16,20 @@ module ek_plan_factors
    ! both solvers judge alike
    real(wp), parameter :: least_ratio = 1.0e-10_wp
 
-   integer, parameter :: several = 6       !! right-hand sides solved together: the loads on a body; they fit in registers
+   integer, parameter :: several = 6       !! number of right-hand sides solved together: six loads on a body; they fit in registers
 
    !> Properties of a factorisation: inertia, eigenvalues of D, determinant, growth.
    type :: soundness_t
       real(num) :: negative = zero            !! number of negative eigenvalues (Sylvester's law: of D)
-      real(num) :: least = zero, most = zero    !! |eigenvalues| of D
+      real(num) :: least = zero, most = zero    !! smallest and largest |eigenvalue| of D
       real(num) :: log_determinant = zero    !! ln |det|
       real(num) :: growth = zero             !! largest |l|; NaN or huge if the matrix is singular or nearly so
    end type soundness_t
 
 contains
 
-   !> Copies the scaled numbers to their positions, and factorises them. Explicit shapes let the compiler generate tight code.
+   !> Copies the scaled entries to their positions in x, and factorises the matrix. Explicit shapes let the compiler generate fast
+   !> code.
    pure subroutine gather_and_factorise(entries, from, plan, store, scaling, x, soundness)
       integer, intent(in) :: entries, from(entries)
       type(plan_t), intent(in) :: plan

@@ -11,13 +11,13 @@ module ek_predictor
    private
    public :: predictor_t, new_predictor, remember, predict, judge, forget, usable, find_weights
 
-   integer, parameter, public :: depth = 6   !! states stored; more would amplify rounding (Σ|w| = 2^depth − 1)
+   integer, parameter, public :: depth = 6   !! number of states stored; more would amplify rounding (Σ|w| = 2^depth − 1)
 
-   real(wp), parameter :: too_near = 1.0e-6_wp   !! of the step ahead: closer states amplify rounding too much
+   real(wp), parameter :: too_near = 1.0e-6_wp   !! distance of states, as a share of the step ahead: closer states amplify rounding
 
-   !> The last states; `slot` lists them from newest to oldest.
+   !> The last states, in a ring of slots, and the number of states that predictions use.
    type :: predictor_t
-      real(wp), allocatable :: packed(:, :)   !! (coordinate, slot)
+      real(wp), allocatable :: packed(:, :)   !! (coordinate, slot): packed states
       real(wp), allocatable :: guess(:)       !! work space: one packed state
       real(wp) :: abscissa(depth) = 0.0_wp
       integer :: newest = 0, count = 0
@@ -26,7 +26,7 @@ module ek_predictor
 
 contains
 
-   !> Allocates storage for states of `length` numbers.
+   !> A predictor without states, with storage for states of `length` numbers.
    pure function new_predictor(length) result(self)
       integer, intent(in) :: length
       type(predictor_t) :: self
@@ -71,9 +71,9 @@ contains
       end do
    end subroutine predict
 
-   !> Adapts to a state that was found, before it is stored. After a good prediction, one more state is used from now on; after a
-   !> poor prediction, the number of states that would have predicted best. `used`: number of packed values that are compared (the
-   !> poses).
+   !> Adapts to a state that was found, before it is stored. After a good prediction, one more state is used from now on. After a
+   !> poor prediction, the number of states that would have predicted best is used, or `depth` if all stored states were best.
+   !> `used`: number of packed values that are compared (the poses).
    pure subroutine judge(self, abscissa, packed, used, is_good)
       type(predictor_t), intent(inout) :: self
       real(wp), intent(in) :: abscissa

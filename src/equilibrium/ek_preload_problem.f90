@@ -2,8 +2,9 @@
 !>
 !>     min ½ |x|²   subject to   W x + F y = b
 !>
-!> The columns of W are the forces of the bushings' components on the bodies, times the root of their rates: ½ |x|² is their
-!> complementary energy Σ f²/2k. The columns of F, of springs and joints, do not contribute to it. All rows are scaled by D
+!> The columns of W are the forces of the components of bushings on the bodies, times the square root of the rate of the component:
+!> ½ |x|² is the complementary energy Σ f²/2k of the bushings. The columns of F are the forces of springs and joints on the bodies;
+!> y is not part of the minimised energy. All rows are scaled by D
 !> (ek_scale). With multipliers v, displacements of the bodies, x = Wᵀ v:
 !>
 !>     [ W Wᵀ  F ] [v]   [b]
@@ -23,17 +24,17 @@ module ek_preload_problem
    private
    public :: preload_problem_t, set_problem, clear_preloads, is_free, takes_part
 
-   !> The columns as gradients of two bodies.
+   !> The problem: the columns of W and F as gradients at two bodies, and b.
    type :: preload_problem_t
-      integer :: nq = 0                          !! rows: unknowns of the bodies
-      integer :: nx = 0                          !! columns of W: six per bushing
-      integer :: ny = 0                          !! columns of F: scalar elements, then rows of Φ
+      integer :: nq = 0                          !! number of rows: unknowns of the bodies
+      integer :: nx = 0                          !! number of columns of W: six per bushing
+      integer :: ny = 0                          !! number of columns of F: elements of one measure, then rows of Φ
       real(wp), allocatable :: load(:)           !! b, scaled
-      real(wp), allocatable :: root(:)           !! of the rates: preload = root × x
+      real(wp), allocatable :: root(:)           !! square root of each rate: preload = root × x
       real(wp), allocatable :: weighted(:, :)    !! (12, nx) W, scaled
       integer, allocatable :: at(:, :)           !! (2, bushing) unknowns before each of the two bodies; negative: the chassis
       real(wp), allocatable :: piece(:, :)       !! (12, piece) parts of the columns of F, scaled
-      integer, allocatable :: piece_at(:, :)     !! (2, piece)
+      integer, allocatable :: piece_at(:, :)     !! (2, piece) unknowns before each of the two bodies
       integer, allocatable :: piece_of(:)        !! the position in `used` of the column to which a piece belongs
       integer :: pieces = 0
       integer, allocatable :: used(:)            !! the columns of F that may carry a force
@@ -42,14 +43,14 @@ module ek_preload_problem
 
 contains
 
-   !> Whether balance may change the preload of an element.
+   !> Whether the preload trim (`balance`) may change the preload of a spring; .false. for other elements.
    elemental logical function is_free(element)
       type(element_t), intent(in) :: element
       is_free = element_kinds(element%kind)%is_axial_spring .and. element%is_balanced
    end function is_free
 
-   !> Whether a row may carry a force at design. Drivers with a stiffness that act on the body of a wheel may not, unless `balance`
-   !> of their joint overrides this.
+   !> Whether a row may carry a force at design. A driver with a stiffness may not if its joint sets `balance = .false.`, or if it
+   !> acts on the body of a wheel and its joint does not give `balance`.
    pure logical function takes_part(suspension, row)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: row
@@ -68,7 +69,7 @@ contains
       end do
    end function takes_part
 
-   !> Sets all preloads that balance may change to zero.
+   !> Sets all preloads that `balance = 'all'` may change to zero.
    pure subroutine clear_preloads(suspension)
       type(suspension_t), intent(inout) :: suspension
       integer :: k
@@ -86,7 +87,7 @@ contains
    !> Creates the problem of a suspension at design. The memory of the previous design is used again.
    !> Equation (K.21) of docs/theory/kkt.md.
    subroutine set_problem(suspension, problem)
-      type(suspension_t), intent(in) :: suspension    !! with zero for the preloads that are sought: `clear_preloads`
+      type(suspension_t), intent(in) :: suspension    !! after `clear_preloads`: the preloads that are sought are zero
       type(preload_problem_t), intent(inout) :: problem
       type(state_t) :: state
       type(evaluation_t) :: evaluation

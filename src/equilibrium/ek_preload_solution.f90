@@ -1,6 +1,6 @@
 !> Solves the linear problem of ek_preload_problem: forces in bushings (x), springs and joints (y) that hold the loads at design.
 !>
-!> `hold_by_elimination` solves its system by elimination (ek_saddle), which is nearly as sparse as the tangent.
+!> `hold_by_elimination` solves the system of the problem by elimination (ek_saddle). The system is nearly as sparse as the tangent.
 !> `hold_by_singular_values` needs twenty times as long, and is the way for problems without a unique solution: redundant rows,
 !> dependent springs and joints, bodies that nothing holds.
 module ek_preload_solution
@@ -14,10 +14,11 @@ module ek_preload_solution
    private
    public :: hold_by_elimination, hold_by_singular_values, rank_share
 
-   real(wp), parameter :: rank_share = 1.0e-11_wp       !! of the largest singular value: smaller values are rounding
+   real(wp), parameter :: rank_share = 1.0e-11_wp       !! limit of a singular value, as a share of the largest: smaller values are
+                                                        !! rounding
    real(wp), parameter :: moderate = 1.0e100_wp         ! largest number whose products cannot overflow
    integer, parameter :: most_corrections = 3
-   real(wp), parameter :: last_correction = 1.0e-8_wp   ! of the solution: the next one would be smaller by the same factor, or its root
+   real(wp), parameter :: last_correction = 1.0e-8_wp   ! of the solution: the next is smaller by this factor, or its root
    real(wp), parameter :: closed = 1.0e-10_wp           ! of |b|: remainder of W x + F y = b
 
 contains

@@ -1,5 +1,5 @@
-!> Reaches an equilibrium along a path: predict, iterate, halve the step if that fails, and report the
-!> cause if that fails too.
+!> Reaches an equilibrium along a path: predicts a state, iterates, halves the step if the iteration fails, and reports the cause if
+!> no step succeeds.
 module ek_reach
    use ek_kinds, only: wp
    use ek_suspension, only: suspension_t
@@ -16,44 +16,44 @@ module ek_reach
    private
    public :: failure_t, reach, settle, good_guess, quick
 
-   real(wp), parameter :: good_guess = 1.0e-3_wp      !! of the motion: a prediction this close confirms that the path is smooth
-   real(wp), parameter :: widest = 100.0_wp           !! of branch%width: a step across a bifurcation that is too near for tangents
-   integer, parameter :: quick = 6                    !! iterations: Newton's method needs more only where N is singular
-   real(wp), parameter :: coarse = 10.0_wp            !! of branch%width: a step across a loss of rank of the joints
-   real(wp), parameter :: away = 0.6_wp               !! times a step that ends at a loss of rank: the next step
-   integer, parameter :: max_attempts = 400          !! per increment
+   real(wp), parameter :: good_guess = 1.0e-3_wp      !! error of a prediction that confirms a smooth path, as a share of the motion
+   real(wp), parameter :: widest = 100.0_wp           !! × branch%width: longest step across a bifurcation too near for tangents
+   integer, parameter :: quick = 6                    !! number of iterations: Newton's method needs more only where N is singular
+   real(wp), parameter :: coarse = 10.0_wp            !! × branch%width: longest step across a loss of rank of the joints
+   real(wp), parameter :: away = 0.6_wp               !! next step, as a share of a step that ends at a loss of rank
+   integer, parameter :: max_attempts = 400          !! largest number of steps tried per increment
 
-   !> Where and how a sweep stopped.
+   !> The failure of a sweep: location, cause and last equilibrium.
    type :: failure_t
       integer :: state = 0                 !! index of the first state that did not converge, 0: none
       real(wp) :: value = 0.0_wp           !! swept value of the nearest attempt that failed
       real(wp) :: reached = 0.0_wp         !! swept value of the last equilibrium
       logical :: is_singular = .false.
       logical :: is_off_path = .false.     !! a linear method continued, but not along the path from design
-      integer :: ending = 0                !! how a walk by arc length ended, see ek_arc_survey; 0: it was none
-      integer :: body = 0                  !! body that moved most in the failed attempt
-      real(wp) :: moved = 0.0_wp           !! its motion [m]
-      integer :: row = 0                   !! constraint with the largest violation
-      real(wp) :: gap = 0.0_wp             !! its violation [m, - or rad]
+      integer :: ending = 0                !! end of a walk by arc length, see ek_arc_survey; 0 for other walks
+      integer :: body = 0                  !! index of the body that moved most in the failed attempt; 0: none
+      real(wp) :: moved = 0.0_wp           !! motion of this body [m]
+      integer :: row = 0                   !! index of the row of Φ with the largest violation; 0: none
+      real(wp) :: gap = 0.0_wp             !! violation of this row [m, - or rad]
       real(wp), allocatable :: last(:)     !! packed state of the last equilibrium
    end type failure_t
 
    !> A step from the newest stored state, a, to b.
    type :: step_t
-      real(wp) :: place = 0.0_wp                 !! of b
+      real(wp) :: place = 0.0_wp                 !! swept value of b
       type(inputs_t) :: inputs_a, inputs_b
-      type(outcome_t) :: outcome                 !! of the iteration to b
-      integer :: verdict = doubtful              !! of ek_branch
+      type(outcome_t) :: outcome                 !! outcome of the iteration to b
+      integer :: verdict = doubtful              !! same_branch, crossing or doubtful (ek_branch)
       logical :: was_compared = .false.
-      integer :: iterations = 0                  !! factorisations spent, in all attempts
+      integer :: iterations = 0                  !! number of factorisations in all attempts
    end type step_t
 
 contains
 
    !> Moves from design to equilibrium under the constant loads and preloads only.
    !>
-   !> This takes one step if possible; otherwise the imbalance of the design position is applied gradually (homotopy): its share
-   !> is the swept value on the path.
+   !> This takes one step if possible. Otherwise the imbalance of the design position is applied gradually (homotopy): the share of
+   !> the imbalance that acts is the swept value of the path.
    subroutine settle(suspension, tolerance, state, kkt, failure, space)
       type(suspension_t), intent(in) :: suspension
       real(wp), intent(in) :: tolerance          !! m
@@ -84,8 +84,9 @@ contains
 
    !> Moves from the newest stored state to equilibrium at the swept value `goal` of a path, in one step if the path allows it.
    !>
-   !> A step is halved if no equilibrium is found, or if the equilibrium found is not on the path (ek_branch); it is doubled again
-   !> after an accepted step. A step shorter than branch%least means the end of the path: `state` is then the last equilibrium.
+   !> A step is halved if no equilibrium is found, or if the equilibrium found is not on the path (ek_branch). The step is doubled
+   !> again after an accepted step. A step shorter than branch%least means the end of the path: `state` is then the last
+   !> equilibrium.
    subroutine reach(suspension, schedule, goal, tolerance, branch, state, kkt, iterations, failure, found)
       type(suspension_t), intent(in) :: suspension
       type(schedule_t), intent(in) :: schedule
@@ -96,7 +97,7 @@ contains
       type(kkt_t), intent(inout) :: kkt          !! with `found`, factors near the goal
       integer, intent(out) :: iterations         !! factorisations spent
       type(failure_t), intent(inout) :: failure
-      type(outcome_t), intent(in), optional :: found     !! how it was found from branch%predictor%guess; it is to be judged
+      type(outcome_t), intent(in), optional :: found     !! outcome of the iteration from branch%predictor%guess to the goal
       type(step_t) :: step
       real(wp) :: here, width
       real(wp) :: lost        ! place of the nearest attempt that failed
@@ -172,7 +173,7 @@ contains
       type(suspension_t), intent(in) :: suspension
       type(schedule_t), intent(in) :: schedule
       integer, intent(in) :: points              !! earlier states that may be used
-      logical, intent(in) :: has_tangent         !! use it rather than two states
+      logical, intent(in) :: has_tangent         !! use the tangent instead of two states
       real(wp), intent(in) :: tolerance
       type(branch_t), intent(inout) :: branch
       type(state_t), intent(inout) :: state
@@ -192,7 +193,8 @@ contains
       step%iterations = step%iterations + step%outcome%factorisations
    end subroutine find_end
 
-   !> Judges whether the end of a step is on the path: the prediction was close, or a comparison with the beginning confirms it.
+   !> Judges whether the end of a step is on the path: the prediction was close, or a comparison with the beginning
+   !> confirms the step.
    subroutine judge_end(suspension, tolerance, branch, state, kkt, step)
       type(suspension_t), intent(in) :: suspension
       real(wp), intent(in) :: tolerance
@@ -230,7 +232,7 @@ contains
       type(state_t), intent(inout) :: state
       type(kkt_t), intent(inout) :: kkt
       type(step_t), intent(inout) :: step
-      logical, intent(out) :: is_there           !! otherwise nothing has changed
+      logical, intent(out) :: is_there           !! .false.: the path does not continue, and the branch has not advanced
       real(wp) :: here, share
       integer :: older
 
@@ -255,13 +257,14 @@ contains
       is_there = .true.
    end subroutine step_over
 
-   !> Whether the path was smooth: the prediction from earlier states was close, and the inertia is unchanged.
+   !> Whether the path was smooth: the prediction from earlier states was close, or the motion is below 10 tolerances, and the
+   !> inertia is unchanged.
    logical function is_foreseen(predictor, state, negative, negative_before, tolerance, length, is_long)
       type(predictor_t), intent(in) :: predictor     !! with the guess
-      type(state_t), intent(in) :: state             !! result of Newton's method from it
+      type(state_t), intent(in) :: state             !! result of Newton's method from the guess
       integer, intent(in) :: negative, negative_before
       real(wp), intent(in) :: tolerance, length      !! m
-      logical, intent(out) :: is_long                !! it may yet have passed over a narrow gap of the assembly
+      logical, intent(out) :: is_long                !! the step may have passed over a narrow gap of the assembly
       real(wp) :: moved, missed
 
       moved = squared_distance(size(state%poses) - 1, state%poses, predictor%packed(:, predictor%newest), length)

@@ -13,10 +13,11 @@ module ek_recursion
 
 contains
 
-   !> Starts the recursion before the first increment: λ⁻¹ is the reaction in the design state (zero without preload).
+   !> Starts the recursion before the first increment: λ⁻¹ is the reaction in the design state (zero without preloads and
+   !> constant loads).
    !>
-   !> It is the λ of [K Φqᵀ; Φq 0][Δq; λ] = [f_ext − f_el; 0] at design; Δq vanishes if the preloads
-   !> balance the constant loads.
+   !> λ⁻¹ is the λ of [K Φqᵀ; Φq −C][Δq; λ] = [f_ext − f_el; c − Φ] at design; Δq vanishes if the preloads balance the constant
+   !> loads.
    !> Equation (K.8) of docs/theory/kkt.md.
    subroutine start_recursion(suspension, state, kkt, held)
       type(suspension_t), intent(in) :: suspension
@@ -34,8 +35,8 @@ contains
    !>
    !>     [K(qⁿ) Φqᵀ; Φq −C][Δqⁿ; λⁿ] = [Δf; Δc] + [Φq(qⁿ⁻¹)ᵀ λⁿ⁻¹; −Cλⁿ⁻¹],  K = −(19)
    !>
-   !> (C is not in the paper: 1/stiffness of a driver with a stiffness, zero otherwise)
-   !> It never evaluates the elastic forces or Φ(q) in the new configuration; this is a property of the paper's formula.
+   !> C is not in the paper: 1/stiffness of a driver with a stiffness, zero otherwise. The increment never evaluates the elastic
+   !> forces or Φ(q) in the new configuration; this is a property of the paper's formula.
    !> Equations (K.8), (K.9) of docs/theory/kkt.md.
    pure subroutine recursive_increment(suspension, before, after, state, kkt, held)
       type(suspension_t), intent(in) :: suspension
@@ -55,9 +56,9 @@ contains
       if (.not. kkt%is_singular) call move(state, kkt%rhs(:kkt%nq))
    end subroutine recursive_increment
 
-   !> Makes one full Newton step towards the next inputs, once per increment: same matrix size, one solution.
+   !> Makes one full Newton step towards the next inputs. The matrix has the size of the recursive formula, with one solution.
    !>
-   !>     [T Φqᵀ; Φq 0][Δq; Δλ] = [f_ext(Fₙ₊₁, qⁿ) − f_el(qⁿ) − Φqᵀλⁿ; cₙ₊₁ − Φ(qⁿ)]
+   !>     [T Φqᵀ; Φq −C][Δq; Δλ] = [f_ext(Fₙ₊₁, qⁿ) − f_el(qⁿ) − Φqᵀλⁿ; cₙ₊₁ − Φ(qⁿ) + Cλⁿ]
    !>
    !> Equation (K.10) of docs/theory/kkt.md.
    pure subroutine corrected_increment(suspension, after, state, kkt)

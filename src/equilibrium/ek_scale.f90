@@ -1,6 +1,6 @@
 !> The scale of a model: a characteristic length and stiffness, and the scaling of the system derived from them.
 !>
-!>     D S D     with D = 1/√k for Δr, 1/(L√k) for Δπ, √k for rows in metres, L√k for rows between directions
+!>     D S D     with D = 1/√k for Δr, 1/(L√k) for Δπ, √k for rows in metres, L√k for rows of cosines and angles
 !>
 !> With L [m] and k [N/m] all blocks of the matrix are of order one, so that pivots and condition numbers are independent of
 !> the size of the model. D is rounded to powers of two, which makes the scaling exact.
@@ -17,8 +17,8 @@ module ek_scale
 
 contains
 
-   !> Computes the size of the mechanism (mean distance of its attachment points from the reference points)
-   !> and the geometric mean of its stiffnesses at design.
+   !> Computes the characteristic length (mean length of the arms of joints and bushings) and the characteristic stiffness
+   !> (geometric mean of the rates of springs and bushings at design). If all these rates are zero, rotational rates / L² are used.
    subroutine characteristic(suspension, length, stiffness)
       type(suspension_t), intent(in) :: suspension
       real(wp), intent(out) :: length       !! L [m], at least 1 mm
@@ -108,7 +108,7 @@ contains
       end do
    end subroutine scale_factors
 
-   !> The power of two at or below a positive number.
+   !> The power of two at or below a positive number; a number that is not finite is returned unchanged.
    pure real(wp) function power_of_two(x)
       real(wp), intent(in) :: x
       power_of_two = x                              ! of a number that is not finite: itself

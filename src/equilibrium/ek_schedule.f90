@@ -1,7 +1,7 @@
 !> The inputs of a case along its path: the indices of loads and rows, and their values.
 !>
 !> The path coordinate (`place`) is one number, the swept value: the factor of a load, the travel of a wheel, the roll angle,
-!> or the row number of a table. Each actuation of a case is a function of it.
+!> or the row of a table. Each actuation of a case is a function of the swept value.
 module ek_schedule
    use ek_kinds, only: wp
    use ek_case, only: max_driven, case_t, follows_place, follows_tangent, follows_table
@@ -13,9 +13,9 @@ module ek_schedule
 
    !> An actuation with indices instead of names.
    type :: actuator_t
-      integer :: law = 0                      !! of ek_case
+      integer :: law = 0                      !! follows_place, follows_tangent or follows_table (ek_case)
       real(wp) :: share = 1.0_wp
-      real(wp), allocatable :: values(:)      !! of follows_table, SI
+      real(wp), allocatable :: values(:)      !! values of the table [SI], for follows_table
    end type actuator_t
 
    !> The actuations of a case, with their names resolved.
@@ -23,13 +23,14 @@ module ek_schedule
       integer :: loads = 0, rows = 0
       logical :: is_settling = .false.  !! no case: the swept value is the share of the imbalance at design that acts
       integer :: rest = 0               !! table row at which all inputs count as zero: the next row is reached from there
-      integer :: load(max_driven) = 0, row(max_driven) = 0     !! their numbers in the suspension
+      integer :: load(max_driven) = 0, row(max_driven) = 0     !! indices of the loads and rows in the suspension
       type(actuator_t), allocatable :: load_actuator(:), row_actuator(:)
    end type schedule_t
 
 contains
 
-   !> Resolves the names of the actuations of a case. The suspension must already contain all loads and rows (see ek_rig).
+   !> The schedule of a case, with the names of its actuations resolved. The suspension must already contain all loads and rows (see
+   !> ek_rig).
    function new_schedule(suspension, case) result(schedule)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
@@ -37,7 +38,7 @@ contains
       call make_schedule(suspension, case, schedule)
    end function new_schedule
 
-   !> Creates the schedule of one design after the other in the same memory.
+   !> Creates the schedule of a case in the memory of an earlier schedule, for one design after the other.
    subroutine make_schedule(suspension, case, schedule)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
@@ -103,7 +104,7 @@ contains
       if (allocated(values)) this%values = values
    end subroutine put
 
-   !> Whether two schedules give the same inputs at all swept values.
+   !> Whether two schedules give the same inputs at all swept values; .false. if they use a table.
    pure logical function same_schedule(a, b)
       type(schedule_t), intent(in) :: a, b
       integer :: k
@@ -149,7 +150,7 @@ contains
    end subroutine inputs_at
 
    !> Value of an actuation: share × swept value, share × tan(swept value), or the value of the table. Table values are linear
-   !> between rows. Before the next row, they are linear from 0 at swept value `rest` (initially from swept value 0 to row 1).
+   !> between rows. From swept value `rest` (initially 0) to the next row, they change linearly from 0.
    pure real(wp) function value_at(actuation, place, rest) result(value)
       type(actuator_t), intent(in) :: actuation
       real(wp), intent(in) :: place

@@ -1,9 +1,9 @@
 !> A cheap proof that the diagnosis would not report a defect of a model: one factorisation instead of the decompositions of the
 !> diagnosis.
 !>
-!> With v a motion that counts as a mechanism, or a row of forces y that counts as redundant, the scaled KKT matrix S gives
-!> |S z| ≤ s |z| for z = (v, μ) or (0, y), where s is the limit below which `diagnose` takes a stiffness or a singular value for
-!> zero. So |S⁻¹| ≥ 1/s, and a condition number that is small enough excludes both:
+!> Let v be a motion that counts as a mechanism, or y a row of forces that counts as redundant. Then the scaled KKT matrix S gives
+!> |S z| ≤ s |z| for z = (v, μ) or (0, y). s is the limit below which `diagnose` counts a stiffness or a singular value as zero. So
+!> |S⁻¹| ≥ 1/s, and a condition number that is small enough excludes both v and y:
 !>
 !>     1/|S⁻¹|₁ > s,   s = max(stiffness that counts as zero, rank_tolerance |S|₁)
 !>
@@ -18,7 +18,8 @@ module ek_soundness
    private
    public :: is_surely_sound
 
-   real(wp), parameter :: doubt = 10.0_wp     !! `condition` estimates |S⁻¹| from below, seldom by more than a factor of 3
+   real(wp), parameter :: doubt = 10.0_wp     !! safety factor: `condition` estimates |S⁻¹| from below, seldom by more than a factor
+                                              !! of 3
 
 contains
 

@@ -16,18 +16,18 @@ module ek_state
    !> Poses of bodies 0 … n (index 1 is the chassis, which is fixed) and the reactions λ.
    type :: state_t
       type(pose_t), allocatable :: poses(:)
-      real(wp), allocatable :: reaction(:)   !! λ, one per constraint row [N, or N m for a row without length]
+      real(wp), allocatable :: reaction(:)   !! λ, one per constraint row [N; N m for rows of cosines and angles]
    end type state_t
 
    !> The inputs of one state: scaled loads and prescribed values, in addition to the constant loads. The size
    !> is fixed, so that passing it allocates no memory.
    type :: inputs_t
-      integer :: loads = 0, rows = 0               !! number of each
-      integer :: load(max_driven) = 0             !! numbers of the scaled loads
-      integer :: row(max_driven) = 0              !! numbers of the driven constraint rows
-      real(wp) :: factor(max_driven) = 0.0_wp     !! of each load [-]
-      real(wp) :: change(max_driven) = 0.0_wp     !! of each row's value [m, rad]
-      real(wp) :: homotopy = 0.0_wp       !! homotopy: share of the design imbalance removed, 1 at design, 0 in the real problem
+      integer :: loads = 0, rows = 0               !! number of scaled loads, of driven rows
+      integer :: load(max_driven) = 0             !! indices of the scaled loads
+      integer :: row(max_driven) = 0              !! indices of the driven constraint rows
+      real(wp) :: factor(max_driven) = 0.0_wp     !! factor of each load [-]
+      real(wp) :: change(max_driven) = 0.0_wp     !! change of the value of each row [m, -, rad]
+      real(wp) :: homotopy = 0.0_wp       !! share of the design imbalance removed: 1 at design, 0 in the real problem
    end type inputs_t
 
 contains
@@ -77,7 +77,7 @@ contains
       state%reaction(:) = 0.0_wp
    end subroutine return_to_design
 
-   !> Whether a state equals the design state, to the bit.
+   !> Whether a state equals the design state exactly.
    pure logical function is_design(suspension, state)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state

@@ -10,22 +10,23 @@ module ek_tangent
    private
    public :: tangent_t, new_tangent, renew_tangent, find_tangent, is_bend
 
-   real(wp), parameter :: bent = 5.0e-2_wp         !! of the motion: allowed in the shortest steps
-   real(wp), parameter :: takes_part = 5.0e-2_wp   !! of the largest motion: bodies whose direction is checked
-   real(wp), parameter :: min_cosine = 0.5_wp    !! between the directions of a body at both ends of a bend
+   real(wp), parameter :: bent = 5.0e-2_wp         !! error allowed in the shortest steps, as a share of the motion
+   real(wp), parameter :: takes_part = 5.0e-2_wp   !! limit, as a share of the largest motion: the direction of larger motions is
+                                                   !! checked
+   real(wp), parameter :: min_cosine = 0.5_wp    !! least cosine between the directions of a body at both ends of a bend: 60 deg
 
-   !> Work space, and the terms of the loads in the matrix.
+   !> Work space, and whether the loads leave the true matrix symmetric.
    type :: tangent_t
       private
-      real(wp), allocatable :: whole(:), defect(:)         !! [Δq; Δλ] per swept value, and a right-hand side
-      real(wp), allocatable :: twist(:)                    !! of the bodies [m, rad]
+      real(wp), allocatable :: whole(:), defect(:)         !! tangent [Δq; Δλ] per swept value; a right-hand side
+      real(wp), allocatable :: twist(:)                    !! twists of the bodies [m, rad]
       logical :: is_symmetric = .true.      !! no load makes the tangent unsymmetric
       type(state_t) :: shifted
    end type tangent_t
 
 contains
 
-   !> Allocates the work space for a model.
+   !> The work space of find_tangent for a model.
    function new_tangent(suspension) result(self)
       type(suspension_t), intent(in) :: suspension
       type(tangent_t) :: self
@@ -43,7 +44,8 @@ contains
       self%is_symmetric = has_symmetric_loads(suspension)
    end subroutine renew_tangent
 
-   !> Whether the motion lies between the tangents at both ends, and no body changes its direction of motion.
+   !> Whether the motion lies between the tangents at both ends (within `bent`), and no body changes its direction of motion by more
+   !> than 60 deg.
    pure logical function is_bend(motion, tangent_a, tangent_b, width, length)
       real(wp), contiguous, intent(in) :: motion(:), tangent_a(:), tangent_b(:)
       real(wp), intent(in) :: width, length
@@ -76,7 +78,8 @@ contains
       is_bend = rest <= bent*largest
    end function is_bend
 
-   !> Computes dz/ds = N⁻¹ dF/ds of the bodies at a state, with the current factors.
+   !> Computes the tangent dz/ds = N⁻¹ ∂F/∂s of bodies and reactions at a state, with the current factors of N (symbols as in
+   !> ek_branch).
    !>
    !> With a constant moment, a load that rotates with its body, or the imbalance at design, the true matrix is not symmetric and N
    !> is its symmetric part. The derivative of the residual along the tangent then corrects the tangent.
@@ -88,7 +91,7 @@ contains
       type(inputs_t), intent(in) :: inputs, rate
       type(kkt_t), intent(inout) :: kkt
       real(wp), intent(out) :: tangent(:)
-      type(dyads_t), intent(inout), optional :: dyads     !! the matrix is N plus these
+      type(dyads_t), intent(inout), optional :: dyads     !! the matrix is N plus these dyads
       integer, parameter :: max_refinements = 6
       real(wp), parameter :: enough = 4.0e-4_wp           ! of the motion: a tenth of what a comparison of tangents allows
       real(wp), parameter :: small_motion = 1.0e-6_wp     ! of the characteristic length: the difference's step

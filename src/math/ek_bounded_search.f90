@@ -7,14 +7,14 @@
 !>     end do
 !>     … search%best, search%residuals, search%jacobian, search%held …
 !>
-!> Each step is a Gauss-Newton step, the smallest if several are as good, and solved with the bounds as part of the
-!> problem (an active set: an unknown stays at a bound if r would grow on its other side). Where a step fails, because r
-!> grows or has no value, it is damped as Levenberg and Marquardt do. For as many conditions as unknowns this is Newton's method.
+!> Each step is a Gauss-Newton step, the shortest if several are equally good. The bounds are part of the problem (an active set: an
+!> unknown stays at a bound if the sum would grow away from the bound). If a step fails, because |r| grows or r has no value, the
+!> step is damped as Levenberg and Marquardt do. For as many conditions as unknowns this is Newton's method.
 !>
-!> Reasons against libraries: the codes of MINPACK (lmder) do not support bounds. With bounds by a change of variable, a solution
-!> at a bound has the derivative zero there, from which no step leaves and no covariance follows; and MINPACK does not find the
-!> rank of the problem, for which LAPACK is needed anyway. NLopt has bounds, but no method for least squares: it would have to
-!> find from many gradients the curvature that the Jacobian gives at once. This module is short, since LAPACK (dgelsd) does the
+!> Reasons against libraries: the codes of MINPACK (lmder) do not support bounds. With bounds by a change of variable, the
+!> derivative is zero at a bound: no step leaves the bound, and no covariance follows. MINPACK does not find the rank of the
+!> problem, for which LAPACK is needed anyway. NLopt has bounds, but no method for least squares: NLopt would find from
+!> many gradients the curvature that the Jacobian gives at once. This module is short, since LAPACK (dgelsd) does the
 !> numerical work.
 module ek_bounded_search
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
@@ -35,21 +35,22 @@ module ek_bounded_search
    type :: bounded_search_t
       logical :: is_finished = .false.
       integer :: ended = 0                           !! one of the constants above
-      integer :: trials = 0, steps = 0               !! evaluations; of these, steps that were taken
-      real(wp), allocatable :: x(:)                  !! to be evaluated next
-      real(wp), allocatable :: best(:)               !! the best x so far, with its r and Jacobian
+      integer :: trials = 0, steps = 0               !! number of evaluations; number of steps taken
+      real(wp), allocatable :: x(:)                  !! x to be evaluated next
+      real(wp), allocatable :: best(:)               !! the best x so far; `residuals` and `jacobian` are r and J at `best`
       real(wp), allocatable :: residuals(:), jacobian(:, :)
-      integer, allocatable :: held(:)                !! −1, +1: held at its lower or upper bound; 0: free
+      integer, allocatable :: held(:)                !! of each unknown: −1 held at its lower, +1 at its upper bound; 0 free
       real(wp), allocatable, private :: lower(:), upper(:), scale(:)
-      real(wp), private :: damping = 0.0_wp          !! in squares of the largest singular value
-      real(wp), private :: predicted = 0.0_wp        !! reduction of |r|² that the last step promised
+      real(wp), private :: damping = 0.0_wp          !! μ of bounded_step
+      real(wp), private :: predicted = 0.0_wp        !! reduction of |r|² predicted for the last step
    end type bounded_search_t
 
    real(wp), parameter :: far = 1.0e100_wp                 !! a bound farther away is ignored; far/scale is finite
-   real(wp), parameter :: tiny_step = 1.0e-10_wp           !! of the scale
-   real(wp), parameter :: tiny_gain = 1.0e-13_wp           !! of |r|²: rounding
+   real(wp), parameter :: tiny_step = 1.0e-10_wp           !! length of a step that ends the search, as a share of the scale
+   real(wp), parameter :: tiny_gain = 1.0e-13_wp           !! predicted gain that ends the search, as a share of |r|²: rounding
    real(wp), parameter :: first_damping = 1.0e-3_wp, most_damping = 1.0e7_wp, least_damping = 1.0e-8_wp
-   real(wp), parameter :: rank_share = 1.0e-10_wp          !! smaller singular values are errors of the derivatives
+   real(wp), parameter :: rank_share = 1.0e-10_wp          !! singular values below this share of the largest are errors of the
+                                                           !! derivatives
 
 contains
 
@@ -66,7 +67,7 @@ contains
       allocate (search%held(size(start)), source=0)
    end subroutine begin_search
 
-   !> Stores r and its Jacobian at search%x, and sets the next x.
+   !> Uses r and its Jacobian at search%x: stores both if |r| is the smallest so far, and sets the next x or ends the search.
    subroutine advance_search(r, jacobian, is_valid, search)
       real(wp), intent(in) :: r(:)
       real(wp), intent(in) :: jacobian(:, :)             !! (residual, unknown)
@@ -138,11 +139,11 @@ contains
 
    end subroutine advance_search
 
-   !> Finds the d with low ≤ d ≤ high and the smallest |J d + r|² + μ s² |d|², s² the largest square of a column's norm.
+   !> Finds the d with low ≤ d ≤ high and the smallest |J d + r|² + μ s² |d|², with s the largest norm of a column of J.
    !>
-   !> An active set: the free unknowns are solved for; where they leave the bounds, d goes as far as the first bound, and this
-   !> unknown is then held; when all are inside, an unknown that its bound does not restrict is freed. Every cycle reduces the
-   !> sum, so it ends.
+   !> An active set: the free unknowns are solved for. If they leave the bounds, d goes as far as the first bound, and the unknown
+   !> of this bound is then held. If all are inside, a held unknown is freed if the sum decreases away from its bound. Every cycle
+   !> reduces the sum, so that the cycles end.
    !> Equation (E.4) of docs/theory/derivatives.md.
    subroutine bounded_step(jacobian, r, low, high, damping, d, held)
       real(wp), intent(in) :: jacobian(:, :), r(:)
@@ -150,7 +151,7 @@ contains
       real(wp), intent(in) :: damping                    !! μ
       real(wp), intent(out) :: d(:)
       integer, intent(out) :: held(:)                    !! −1 at low, +1 at high, 0 free
-      real(wp), parameter :: rounding = 1.0e-12_wp       !! of the slopes: a smaller one frees nothing
+      real(wp), parameter :: rounding = 1.0e-12_wp       !! limit of a scaled slope: smaller slopes free no unknown
       real(wp) :: z(size(d)), slope(size(d)), mu, share, this
       integer :: j, cycles, worst
 
@@ -196,7 +197,7 @@ contains
       end do
    end subroutine bounded_step
 
-   !> Finds the shortest z of the free unknowns with the smallest |J z + r|² + μ |z|²; the others are zero.
+   !> Finds the shortest z of the free unknowns with the smallest |J z + r|² + mu |z|². z of the other unknowns is zero.
    subroutine solve_free(jacobian, r, mu, is_free, z)
       real(wp), intent(in) :: jacobian(:, :), r(:), mu
       logical, intent(in) :: is_free(:)

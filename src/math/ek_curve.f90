@@ -1,7 +1,7 @@
 !> A curve through points: the law of a rubber bushing, a progressive spring or a bump stop.
 !>
-!> Between the points: piecewise cubics y = c1 + c2 t + c3 t² + c4 t³, t = x − x_k. Beyond them: a straight line with the
-!> end slope. The kinds differ only in the slopes d_k at the points (`linear` has two at each point, left and right):
+!> Between the points: piecewise cubics y = c1 + c2 t + c3 t² + c4 t³, t = x − x_k. Outside the points: straight lines with
+!> the end slopes. The kinds differ only in the slopes d_k at the points (`linear` has two slopes at each point, left and right):
 !>
 !> | kind   | slopes                                                              | smooth |
 !> |--------|---------------------------------------------------------------------|--------|
@@ -20,11 +20,11 @@ module ek_curve
 
    !> A curve, in the units of its points.
    type :: curve_t
-      character(:), allocatable :: name            !! for messages; may be unallocated
+      character(:), allocatable :: name            !! name for messages; may be unallocated
       real(num), allocatable :: breaks(:)           !! x of the n points, increasing
       real(num), allocatable :: coefficients(:, :)  !! (4, n−1): c1 … c4 of each piece
       real(num) :: end_value = zero               !! y of the last point
-      real(num) :: end_slope = zero               !! slope beyond it
+      real(num) :: end_slope = zero               !! slope beyond the last point
    end type curve_t
 
 contains
@@ -32,7 +32,7 @@ contains
    !> Copies the numbers of a curve to another curve. The memory of the latter is used again if the number of points is equal.
    pure subroutine copy_curve(from, to)
       type(curve_t), intent(in) :: from
-      type(curve_t), intent(inout) :: to          !! its name is then unchanged
+      type(curve_t), intent(inout) :: to          !! in this case the name is unchanged
       logical :: is_alike
 
       is_alike = allocated(to%breaks)

@@ -9,7 +9,7 @@ module ek_lapack_routines
 
    interface
       !> Factorises a symmetric positive definite matrix by Cholesky's method. info is the order of the first minor that is not
-      !> positive.
+      !> positive, or 0.
       pure subroutine dpotrf(uplo, n, a, lda, info)
          import :: wp
          implicit none(type, external)
@@ -70,7 +70,7 @@ module ek_lapack_routines
          integer, intent(inout) :: isave(3)
       end subroutine dlacn2
 
-      !> Factorises and solves in one call. Its time is the unit of the benchmark.
+      !> Factorises a symmetric indefinite matrix and solves in one call. The time of this routine is the unit of the benchmark.
       pure subroutine dsysv(uplo, n, nrhs, a, lda, ipiv, b, ldb, work, lwork, info)
          import :: wp
          implicit none(type, external)

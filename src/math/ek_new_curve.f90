@@ -1,4 +1,4 @@
-!> Curves through points: the slopes at the points by the kind of a curve, and from these the cubics between them.
+!> Curves through points: the slopes at the points by the kind of a curve, and the cubics between the points.
 module ek_new_curve
    use ek_kinds, only: wp
    use ek_curve, only: curve_t
@@ -66,8 +66,9 @@ contains
          all(abs(curve%coefficients(1, :) - y(:n - 1)*y_unit) <= 0.0_wp)
    end function has_points
 
-   !> Akima (1970), eqs. 1, 8 and 9: d = (|m4 − m3| m2 + |m2 − m1| m3)/(|m4 − m3| + |m2 − m1|), m1 … m4 the two chords
-   !> on either side; if both differences vanish, the mean of m2 and m3. Two chords are extrapolated beyond each end.
+   !> Slopes d of Akima (1970), eqs. 1, 8 and 9: d = (|m4 − m3| m2 + |m2 − m1| m3)/(|m4 − m3| + |m2 − m1|), with m1 … m4 the slopes
+   !> of the two chords on either side. If both differences vanish, d is the mean of m2 and m3. Two chords are extrapolated beyond
+   !> each end.
    pure function akima_slopes(chord) result(slope)
       real(wp), intent(in) :: chord(:)
       real(wp) :: slope(size(chord) + 1), m(-1:size(chord) + 2), before, after, least
@@ -92,7 +93,8 @@ contains
       end do
    end function akima_slopes
 
-   !> Slopes of the natural cubic spline: continuous curvature, zero at the ends.
+   !> Slopes d of the natural cubic spline: continuous curvature, zero at the ends. h are the lengths in x and m the slopes of the
+   !> chords:
    !>
    !>     d_{k−1}/h_{k−1} + 2 d_k (1/h_{k−1} + 1/h_k) + d_{k+1}/h_k = 3 (m_{k−1}/h_{k−1} + m_k/h_k)
    !>

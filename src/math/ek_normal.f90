@@ -34,7 +34,8 @@ contains
       end if
    end function normal_between
 
-   !> Φ⁻¹(p): the value below which a share p lies, to some 1e-15 of its size. p outside (0, 1) gives ∓37.5, where Φ underflows.
+   !> Φ⁻¹(p): the value below which a share p lies, to some 1e-15 of its size. p ≤ 0 gives −37.5,
+   !> p ≥ 1 gives 37.5, where the probability of the tail underflows.
    !>
    !> Source: M. J. Wichura, Algorithm AS 241: the percentage points of the normal distribution, Applied Statistics 37 (1988)
    !> 477–484, PPND16: rational functions of q = p − 1/2 in the middle, of r = √(−ln min(p, 1 − p)) in the tails.

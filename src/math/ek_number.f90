@@ -1,7 +1,8 @@
 !> The numbers of kernels: the values that differ between designs.
 !>
-!> A kernel is compiled twice from one source. Here its numbers `real(num)` are reals. The build also makes a copy of it
-!> (src/lanes/make_lanes.cmake) in which they are `type(lanes_t)`, the numbers of four designs, and this module is `ek_lanes`.
+!> A kernel is compiled twice from one source. With this module, the numbers `real(num)` of a kernel are reals. The build also makes
+!> a copy of the kernel (src/lanes/make_lanes.cmake) in which the numbers are `type(lanes_t)`, the numbers of four designs, and
+!> `ek_lanes` replaces this module.
 !> "How a kernel is written" in docs/compilers.md gives the rules.
 module ek_number
    use ek_kinds, only: wp
@@ -13,7 +14,7 @@ module ek_number
    integer, parameter :: mask = kind(.true.)    !! logical(mask): a condition on such numbers
    integer, parameter :: piece = kind(1)        !! integer(piece): a position in a table, found by such numbers
 
-   real(num), parameter :: zero = 0.0_num, one = 1.0_num     !! for initial values of components and for constants
+   real(num), parameter :: zero = 0.0_num, one = 1.0_num     !! 0 and 1 for initial values of components and for constants
 
 contains
 

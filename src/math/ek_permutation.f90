@@ -1,8 +1,9 @@
 !> A random permutation of 0 … n − 1 that is computed, not stored: the image of one number takes some 50 ns regardless of n.
 !>
 !> The numbers are written as pairs (l, r), i = l b + r, with l below a = ⌈√n⌉ and r below b = ⌈n/a⌉. Every round adds a keyed
-!> hash of one half to the other half, modulo its size, and can therefore be undone; a result of n or more (there are fewer than
-!> √n) is permuted again. Source: J. Black, P. Rogaway, Ciphers with arbitrary finite domains, CT-RSA 2002, sections 3 and 5.
+!> hash of one half to the other half, modulo the size of the other half, and can therefore be undone. A result of n or more (there
+!> are fewer than √n such results) is permuted again. Source: J. Black, P. Rogaway, Ciphers with arbitrary finite domains, CT-RSA
+!> 2002, sections 3 and 5.
 module ek_permutation
    use ek_kinds, only: wp, i8
    use ek_philox, only: fill_words
@@ -12,7 +13,7 @@ module ek_permutation
 
    integer, parameter :: rounds = 6
    integer(i8), parameter :: low_word = int(z'FFFFFFFF', i8)
-   integer(i8), parameter :: largest_permutation = 2_i8**40    !! largest n: a half fits a word, and its root is exact
+   integer(i8), parameter :: largest_permutation = 2_i8**40    !! largest n: a half fits a word, and √n is exact
 
    type :: permutation_t
       private
@@ -60,7 +61,7 @@ contains
    end function image_of
 
    !> A number from 0 to n − 1, mixed from a number and a key: n w / 2³² with a word w. With multipliers below 2³¹, all products are
-   !> within 63 bits; they and the shifts are from C. Wellons, Hash Prospector (public domain),
+   !> within 63 bits. The multipliers and the shifts are from C. Wellons, Hash Prospector (public domain),
    !> https://github.com/skeeto/hash-prospector.
    pure integer(i8) function below(n, number, key)
       integer(i8), intent(in) :: n             !! up to 2³¹

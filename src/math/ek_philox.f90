@@ -1,4 +1,4 @@
-!> Random numbers by number: the generator Philox4x32-10, a function without any state.
+!> Random numbers by index: the generator Philox4x32-10, a function without any state.
 !>
 !> The same seed, stream, design and factor give the same number on every machine, in any order and with any number of workers.
 !> A stream separates the uses of one seed: the designs, the scrambling of a sequence, a bootstrap.
@@ -22,7 +22,8 @@ contains
    !> Computes four random integers from a key of two and a counter of four integers, all from 0 to 2³² − 1.
    !>
    !> A round replaces (c₁, c₂, c₃, c₄) by (hi(m₂c₃) ⊕ c₂ ⊕ k₁, lo(m₂c₃), hi(m₁c₁) ⊕ c₄ ⊕ k₂, lo(m₁c₁)), where hi and lo are the
-   !> upper and lower 32 bits of a product; ten rounds, between which the key grows by the increments (section 3.3 of the source).
+   !> upper and lower 32 bits of a product. There are ten rounds; after each round, the key grows by the increments (section 3.3 of
+   !> the source).
    pure subroutine philox(key, counter, words)
       integer(i8), intent(in) :: key(2), counter(4)
       integer(i8), intent(out) :: words(4)
@@ -43,8 +44,8 @@ contains
       end do
    end subroutine philox
 
-   !> Computes the upper and lower 32 bits of a product. In halves of b, because 64 bits with a sign cannot hold the product:
-   !> a b = (a b₁) 2¹⁶ + a b₀, each below 2⁴⁸.
+   !> Computes the upper and lower 32 bits of a product. b is split into halves, because 64 bits with a sign cannot hold the
+   !> product: a b = (a b₁) 2¹⁶ + a b₀, with both products below 2⁴⁸.
    pure subroutine product_of_words(a, b, high, low)
       integer(i8), intent(in) :: a, b
       integer(i8), intent(out) :: high, low
@@ -56,8 +57,8 @@ contains
       low = ior(shiftl(iand(second, 65535_i8), 16), iand(first, 65535_i8))
    end subroutine product_of_words
 
-   !> Computes the random integers of one counter: block m = 1, 2, … of a design, which holds the numbers of the factors 2m − 1
-   !> and 2m.
+   !> Computes the random integers of one counter: block m = 1, 2, … of a design, which contains the numbers of the factors
+   !> 2m − 1 and 2m.
    pure subroutine words_of(seed, stream, design, block, words)
       integer(i8), intent(in) :: seed, design
       integer, intent(in) :: stream, block

@@ -1,4 +1,4 @@
-!> Small rotations and vectors: quaternions (scalar first), rotation vectors, skew matrices.
+!> Rotations and vectors of three components: quaternions (scalar first), rotation vectors, skew matrices.
 !>
 !> A unit quaternion q = (cos φ/2, n sin φ/2) represents the rotation matrix A(q), which maps
 !> body axes to global axes. Products satisfy A(p⊗q) = A(p) A(q).
@@ -42,7 +42,7 @@ contains
    end function unit_vector
 
    !> A unit vector perpendicular to z, chosen deterministically: the global axis with the smallest
-   !> component along z, made perpendicular to it.
+   !> component along z, made perpendicular to z.
    pure function perpendicular(z) result(x)
       real(num), intent(in) :: z(3)   !! unit vector
       real(num) :: x(3)
@@ -100,8 +100,7 @@ contains
       q(2:4) = v*factor
    end function quaternion_of_vector
 
-   !> exp(ṽ) applied on the left of q, then normalised, so that rounding does not accumulate
-   !> over any number of increments.
+   !> The unit quaternion q(v) ⊗ q, normalised so that rounding does not accumulate over any number of increments.
    !> Equation (R.5) of docs/theory/rotations.md.
    pure function rotate_quaternion(v, q) result(turned)
       real(num), intent(in) :: v(3)     !! rotation vector, global axes [rad]

@@ -3,11 +3,11 @@
 !>     [ K   F ] [v]   [b]
 !>     [ Fᵀ  0 ] [y] = [0]
 !>
-!> One column of F after the other takes its largest element as pivot (P F = L [U; 0]); the same row operations on both sides
-!> of K leave Zᵀ K Z, where the columns of Z span the null space of Fᵀ, and Cholesky's method factorises it. Zeros are skipped: for
-!> matrices of bodies with few connections this takes a fraction of the time of LAPACK's dsytrf on the whole.
+!> The columns of F are eliminated one after the other, with the largest element of the column as pivot: P F = L [U; 0]. The same
+!> operations on rows and columns of K leave Zᵀ K Z, where the columns of Z span the null space of Fᵀ. Cholesky's method factorises
+!> Zᵀ K Z. Zeros are skipped: for bodies with few connections this takes a fraction of the time of LAPACK's dsytrf on the whole.
 !>
-!> The matrix counts as regular only where there is no doubt about it: see `pivot_share` and `stiffness_share`. Other matrices
+!> The matrix counts as regular only if its rank is beyond doubt: see `pivot_share` and `stiffness_share`. Other matrices
 !> require a decomposition in singular values (ek_singular_values).
 module ek_saddle
    use ek_kinds, only: wp
@@ -18,7 +18,7 @@ module ek_saddle
    public :: saddle_t, new_saddle, eliminate, reduce, spread_motion, solve_forces
 
    ! A pivot of F up to this share of its largest element leaves a doubt. Columns count as dependent in ek_preload_problem where a
-   ! singular value is below 1e-11: between the two there is room for the factor between pivots and singular values, seldom over 100.
+   ! singular value is below 1e-11: between the two there is room for the factor from pivots to singular values, seldom over 100.
    real(wp), parameter :: pivot_share = 1.0e-6_wp
    ! … and a pivot of Zᵀ K Z, in the units of K, up to this share of the largest diagonal element of K. It is a square: 1e-22
    ! of the largest counts as nothing there.
@@ -26,12 +26,13 @@ module ek_saddle
 
    !> The matrix of a saddle-point system, later its factors.
    type :: saddle_t
-      integer :: n = 0                           !! rows of K
-      integer :: m = 0                           !! columns of F
-      real(wp), allocatable :: k(:, :)           !! (n, n) lower triangle; then from row and column m + 1 on: the factor of Zᵀ K Z
-      real(wp), allocatable :: f(:, :)           !! (n, m); then U, and below its diagonal L
+      integer :: n = 0                           !! number of rows of K
+      integer :: m = 0                           !! number of columns of F
+      real(wp), allocatable :: k(:, :)           !! (n, n) lower triangle of K; after `eliminate` the factor of Zᵀ K Z, from row m +
+                                                 !! 1 on
+      real(wp), allocatable :: f(:, :)           !! (n, m) F; after `eliminate` U, and L below the diagonal
       integer, allocatable :: swapped(:)         !! (m): the row that was exchanged with row k
-      logical :: is_regular = .false.            !! F and Zᵀ K Z have full rank without a doubt
+      logical :: is_regular = .false.            !! F and Zᵀ K Z have full rank beyond doubt
    end type saddle_t
 
 contains
@@ -56,7 +57,7 @@ contains
       call eliminate_arrays(saddle%n, saddle%m, saddle%k, saddle%f, saddle%swapped, saddle%is_regular)
    end subroutine eliminate
 
-   !> Does the work of eliminate, with explicit shapes.
+   !> Factorises the arrays of a saddle matrix for `eliminate`, with explicit shapes. Returns early if the matrix is not regular.
    !> Equation (K.22) of docs/theory/kkt.md.
    pure subroutine eliminate_arrays(n, m, k, f, swapped, is_regular)
       integer, intent(in) :: n, m

@@ -16,9 +16,9 @@ module ek_singular_values
    type :: singular_values_t
       logical :: is_found = .false.          !! false: A has elements that are not finite, or LAPACK did not converge
       integer :: rank = 0                    !! number of singular values that count as nonzero
-      real(wp), allocatable :: values(:)     !! largest first; min(rows, columns) values
+      real(wp), allocatable :: values(:)     !! min(rows, columns) singular values, largest first
       real(wp), allocatable :: left(:, :)    !! U (rows, rows)
-      real(wp), allocatable :: right(:, :)   !! V (columns, columns); without its null space: (columns, min(rows, columns))
+      real(wp), allocatable :: right(:, :)   !! V (columns, columns); without null space (columns, min(rows, columns))
    end type singular_values_t
 
 contains
@@ -28,7 +28,7 @@ contains
       real(wp), intent(in) :: a(:, :)
       real(wp), intent(in) :: share          !! singular values up to this share of the largest count as zero
       type(singular_values_t), intent(out) :: parts
-      real(wp), intent(in), optional :: whole    !! … or of this number, if it is larger: the norm of a matrix that A is a part of
+      real(wp), intent(in), optional :: whole    !! … or of this number if larger: the norm of a matrix that contains A
       logical, intent(in), optional :: wants_null_space      !! all columns of V; default .false.
       real(wp), allocatable :: copy(:, :), transposed(:, :), work(:)
       real(wp) :: query(1), most

@@ -1,4 +1,4 @@
-!> Sobol' points by number: each coordinate directly from the index, without the points before it.
+!> Sobol' points by index: each coordinate directly from the index, without the points before it.
 !>
 !> Coordinate j of point n is the sum (exclusive or) of the direction numbers v_j,k for which bit k of g = n ⊕ ⌊n/2⌋ is set:
 !>
@@ -25,7 +25,7 @@ module ek_sobol
    type :: sobol_t
       private
       integer(i8), allocatable :: directions(:, :)   !! (k, j): v_j,k as an integer below 2³²
-      integer(i8), allocatable :: shift(:)           !! of each dimension
+      integer(i8), allocatable :: shift(:)           !! random digital shift of each dimension; 0 without a seed
    end type sobol_t
 
 contains
@@ -65,7 +65,7 @@ contains
    !> Equation (D.3) of docs/theory/sampling.md.
    pure subroutine set_directions(dimension, degree, first, v)
       integer, intent(in) :: dimension, degree
-      integer, intent(in) :: first                   !! where its m₁ stands in the table
+      integer, intent(in) :: first                   !! index of m₁ of this dimension in initial_numbers
       integer(i8), intent(out) :: v(digits)
       integer :: i, k
 

@@ -28,7 +28,7 @@ module ek_sobol_numbers
 
    integer, parameter :: largest_dimension = 337
 
-   !> Of dimensions 2, 3, …: the primitive polynomial, the bit 2ᵏ being the coefficient of xᵏ. Dimension 1 needs none.
+   !> The primitive polynomials of dimensions 2, 3, …: bit k is the coefficient of xᵏ. Dimension 1 has no polynomial.
    integer, parameter :: polynomials(336) = [ &
       3, 7, 11, 13, 19, 25, 37, 41, 47, 55, 59, 61, 67, 91, 97, 103, 109, 115, 131, 137, 143, 145, 157, 167, 171, 185, 191, &
       193, 203, 211, 213, 229, 239, 241, 247, 253, 285, 299, 301, 333, 351, 355, 357, 361, 369, 391, 397, 425, 451, 463, 487, &
@@ -47,7 +47,7 @@ module ek_sobol_numbers
       3635, 3641, 3655, 3659, 3669, 3679, 3697, 3707, 3709, 3713, 3731, 3743, 3747, 3771, 3791, 3805, 3827, 3833, 3851, 3865, &
       3889, 3895, 3933, 3947, 3949, 3957, 3971, 3985, 3991, 3995, 4007, 4013, 4021, 4045, 4051, 4069, 4073]
 
-   !> Of dimensions 2, 3, …: m₁ … m_s, s being the degree of the polynomial, one dimension after the other.
+   !> The initial numbers m₁ … m_s of dimensions 2, 3, …, one dimension after the other; s is the degree of the polynomial.
    integer, parameter :: initial_numbers(3305) = [ &
       1, 1, 3, 1, 3, 1, 1, 1, 1, 1, 1, 3, 3, 1, 3, 5, 13, 1, 1, 5, 5, 17, 1, 1, 5, 5, 5, 1, 1, 7, 11, 19, 1, 1, 5, 1, 1, 1, 1, &
       1, 3, 11, 1, 3, 5, 5, 31, 1, 3, 3, 9, 7, 49, 1, 1, 1, 15, 21, 21, 1, 3, 1, 13, 27, 49, 1, 1, 1, 15, 7, 5, 1, 3, 1, 15, &

@@ -1,7 +1,7 @@
 !> The solution with the factors P L D Lᵀ Pᵀ of LAPACK's dsytrf, for one right-hand side.
 !>
 !> LAPACK's dsytrs makes two BLAS calls per column; at the few dozen unknowns of a suspension these calls cost more than
-!> the arithmetic: 2.3 against 0.8 µs at 27 unknowns, 8 against 4 at 85. This is the same algorithm in plain loops. For
+!> the arithmetic: 2.3 against 0.8 µs at 27 unknowns, 8 against 4 at 85. `substitute` is the same algorithm in plain loops. For
 !> many right-hand sides dsytrs is faster.
 module ek_substitution
    use ek_kinds, only: wp
@@ -72,7 +72,7 @@ contains
       x(j) = kept
    end subroutine swap
 
-   !> Σ a b in eight partial sums, which the compiler can vectorise.
+   !> The sum Σ a b, computed in eight partial sums, which the compiler can vectorise.
    pure real(wp) function product_sum(n, a, b) result(total)
       integer, intent(in) :: n
       real(wp), intent(in) :: a(n), b(n)

@@ -1,4 +1,4 @@
-!> One thread for the linear algebra: matrices of this size gain nothing from more, and a second thread of OpenBLAS,
+!> One thread for the linear algebra: matrices of this size gain nothing from more threads, and a second thread of OpenBLAS,
 !> once active, occupies a processor that another job of a batch queue could use. See also src/ek_one_thread.F90.
 module ek_threads
    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_procpointer, c_funptr, c_int, c_null_char, c_null_ptr, c_ptr
@@ -45,8 +45,8 @@ contains
    end function processor_count
 
    !> The number of threads for which the free memory is sufficient, 1 to `wanted`. Without room for the work space of a thread,
-   !> OpenBLAS would try again forever, and the process would not hear SIGTERM. The first thread has its work space, heap and
-   !> stack.
+   !> OpenBLAS would try again forever, and the process would not respond to SIGTERM. The first thread already has its
+   !> work space, heap and stack.
    integer function threads_in_memory(wanted, bytes) result(threads)
       integer, intent(in) :: wanted
       integer(i8), intent(in) :: bytes                        !! required by a thread in addition
@@ -62,7 +62,7 @@ contains
    !> Sets the number of threads of OpenBLAS to one if OpenBLAS is loaded. Other libraries have neither this function nor the work
    !> space.
    subroutine use_one_thread(error)
-      type(error_t), allocatable, intent(out) :: error        !! exit_file: too little memory for it
+      type(error_t), allocatable, intent(out) :: error        !! exit_file: too little memory for the work space
       type(c_funptr) :: address
       procedure(set_threads), pointer :: openblas_set_num_threads
 

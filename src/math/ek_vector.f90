@@ -1,7 +1,7 @@
 !> Vectors of any length, changed in place: no temporary and no reallocation, with any compiler.
 !>
-!> An assignment to a whole allocatable array checks its shape at run time, and flang asks for memory for the right-hand side
-!> where that may overlap the left-hand side.
+!> An assignment to a whole allocatable array checks its shape at run time, and flang allocates memory for the
+!> right-hand side if the right-hand side may overlap the left-hand side.
 module ek_vector
    use ek_number, only: num
    implicit none(type, external)

@@ -43,7 +43,7 @@ contains
 
    !> Adds the weight of every body with a mass as a constant load; `realise` sets its point and force.
    !>
-   !> Its name contains blanks, so that it cannot coincide with a name in the deck.
+   !> The name of the load contains blanks, so that it cannot coincide with a name in the deck.
    pure subroutine add_gravity(self)
       type(suspension_t), intent(inout) :: self
       type(load_t) :: load

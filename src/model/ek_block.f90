@@ -1,10 +1,11 @@
-!> The blocks of the tangent matrix of bodies, six unknowns each [Δr Δπ], and adding 3×3 parts to them.
+!> The blocks of the tangent matrix of the bodies, six unknowns per body [Δr Δπ], and procedures that add 3×3 parts to the blocks.
 !>
-!> `blocks(:, :, b)` for b up to the number of bodies is the diagonal block of body b, of which only the lower triangle is used; the
-!> others contain the coupling of two bodies, rows of the body with the larger number, columns of the other body. An element or a
-!> measure between bodies i and j finds its three blocks by `at`: at(1) = i and at(2) = j are its diagonal blocks (0: the chassis,
-!> which has no unknowns), at(3) is the number of its coupling block, negative if body i has the larger number, 0 if there is
-!> none. A 3×3 part is named by its rows and columns, each one of r_i, pi_i, r_j, pi_j. Parts on the diagonal are added in full.
+!> `blocks(:, :, b)` for b up to the number of bodies is the diagonal block of body b. Only the lower triangle of this block is
+!> used. The other blocks contain the coupling of two bodies: the rows are of the body with the larger index, the columns of the
+!> other body. The array `at` locates the three blocks of an element or a measure between bodies i and j. at(1) = i and at(2) = j
+!> are the diagonal blocks (0: the chassis, which has no unknowns). at(3) is the index of the coupling block, negative if body i has
+!> the larger index, 0 without a coupling block. A 3×3 part is named by its rows and columns, each one of r_i, pi_i, r_j, pi_j.
+!> Parts on the diagonal are added in full.
 module ek_block
    use ek_kinds, only: wp
    use ek_number, only: num
@@ -131,7 +132,8 @@ contains
       call add_block(x, pi_i, r_j, at, blocks)
    end subroutine add_link_stiffness
 
-   !> Adds the Hessian of f·d, f fixed in body i (any length: the measure is linear in f).
+   !> Adds the Hessian of f·d, with d the displacement between the points at the arms a and b, and f fixed in body i (f may have any
+   !> length, as the measure is linear in f).
    !>
    !> π_iπ_i: S(a+d,f);  π_jπ_j: S(b,f);  π_i r_j = f̃ = −π_i r_i;  π_iπ_j = (f·b)I − b fᵀ
    !> Equation (M.5) of docs/theory/measures.md.

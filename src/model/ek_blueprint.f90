@@ -1,10 +1,10 @@
 !> The blueprint of a suspension: the connections of the parts, and the index of each number in the parameters.
 !>
-!> The numbers of a design are the vector x [SI, axes of the deck]; everything here is an index into it, or the number of another
-!> part. `realise` of ek_realise computes the suspension from (blueprint, x). A point stays a point: everything placed
-!> on it refers to its number in `vectors`.
+!> The numbers of a design are the vector x [SI, axes of the deck]; everything here is an index into x, or the index of another
+!> part. `realise` of ek_realise computes the suspension from (blueprint, x). Everything placed on a point refers to the index of
+!> the point in `vectors`.
 !>
-!> 0 as the number of a parameter means that the deck does not give it, and 0 as the number of a vector that there is none.
+!> Index 0 of a parameter means that the deck does not give the parameter. Index 0 of a vector means no vector.
 module ek_blueprint
    use ek_kinds, only: wp
    use ek_element, only: element_numbers
@@ -17,98 +17,98 @@ module ek_blueprint
    public :: new_blueprint, add_vector, inward, number_at, triple_at
 
    ! kinds of vector
-   integer, parameter :: fixed = 0         !! `value`
-   integer, parameter :: hardpoint = 1     !! a point: three parameters
+   integer, parameter :: fixed = 0         !! the constant vector `value`
+   integer, parameter :: hardpoint = 1     !! point given by three parameters
    integer, parameter :: along = 2         !! unit vector from vector a to vector b
    integer, parameter :: given = 3         !! unit vector along three parameters
-   integer, parameter :: chosen = 4        !! perpendicular to the direction a, the same choice in either frame of a deck
-   integer, parameter :: chosen_right = 5  !! the mirror image of the choice for the mirror image of a
-   integer, parameter :: across = 6        !! horizontal and perpendicular to the direction a: symmetric on a mirrored axle
+   integer, parameter :: chosen = 4        !! unit vector perpendicular to vector a: the same choice in either frame of a deck
+   integer, parameter :: chosen_right = 5  !! mirror image of the `chosen` vector for the mirror image of a
+   integer, parameter :: across = 6        !! horizontal unit vector perpendicular to vector a: symmetric on a mirrored axle
 
    ! where a hardpoint must stay, or the deck has another topology
-   integer, parameter, public :: anywhere = 0, in_plane = 1, off_left = 2, off_right = 3   !! of the plane of &mirror
+   integer, parameter, public :: anywhere = 0, in_plane = 1, off_left = 2, off_right = 3   !! side of the plane of &mirror
 
-   integer, parameter, public :: upright = 1   !! number of the vector z, the first of every blueprint
+   integer, parameter, public :: upright = 1   !! index of the vector z (up), the first of every blueprint
 
    !> A point [m] or a unit vector at design, x rearward.
    type :: vector_t
       integer :: kind = fixed
-      integer :: first = 0              !! number of the first of three parameters
-      integer :: a = 0, b = 0           !! other vectors, with smaller numbers
-      integer :: stays = anywhere       !! of a hardpoint
+      integer :: first = 0              !! index of the first of three parameters
+      integer :: a = 0, b = 0           !! indices of other vectors, smaller than the index of this vector
+      integer :: stays = anywhere       !! required position of a hardpoint
       real(wp) :: value(3) = 0.0_wp
    end type vector_t
 
    type :: body_plan_t
-      integer :: origin = 0, centre = 0     !! vectors
-      integer :: mass = 0                   !! parameter
+      integer :: origin = 0, centre = 0     !! indices of vectors
+      integer :: mass = 0                   !! index of the parameter
    end type body_plan_t
 
    !> An additional mass of a body.
    type :: mass_plan_t
       integer :: body = 0
-      integer :: kg = 0                     !! parameter
-      integer :: at = 0                     !! vector
+      integer :: kg = 0                     !! index of the parameter
+      integer :: at = 0                     !! index of the vector
    end type mass_plan_t
 
    type :: readout_plan_t
-      integer :: ends(2) = 0                !! vectors: points
-      integer :: u = 0, v = 0               !! vectors: directions
+      integer :: ends(2) = 0                !! indices of vectors: points
+      integer :: u = 0, v = 0               !! indices of vectors: directions
    end type readout_plan_t
 
    !> A joint: of geometry (ends, axes), or of measures (driver, coupler).
    type :: joint_plan_t
-      integer :: ends(2) = 0, axes(2) = 0   !! vectors
-      integer, allocatable :: readouts(:)   !! measures of a driver or coupler
-      integer, allocatable :: ratios(:)     !! parameters of a coupler
+      integer :: ends(2) = 0, axes(2) = 0   !! indices of vectors
+      integer, allocatable :: readouts(:)   !! indices of the readouts: the measures of a driver or coupler
+      integer, allocatable :: ratios(:)     !! indices of the parameters: ratios of a coupler
       real(wp), allocatable :: units(:)     !! SI value of the deck unit of each measure
-      integer :: stiffness = 0              !! parameter of a driver [N, or N m, per deck unit of the measure]
+      integer :: stiffness = 0              !! index of the parameter: stiffness of a driver [N or N m per deck unit]
    end type joint_plan_t
 
    !> An elastic element of one measure.
    type :: element_plan_t
-      integer :: ends(2) = 0, axis = 0      !! vectors
-      integer :: readout = 0                !! measure of a spring on a measure
-      integer :: numbers(element_numbers) = 0   !! parameters, in the order of ek_element
-      integer :: curve = 0                  !! number of the curve
-      real(wp) :: value_unit = 1.0_wp, force_unit = 1.0_wp   !! SI per deck unit, of the curve
+      integer :: ends(2) = 0, axis = 0      !! indices of vectors
+      integer :: readout = 0                !! index of the readout of a spring on a measure
+      integer :: numbers(element_numbers) = 0   !! indices of parameters, in the order of ek_element
+      integer :: curve = 0                  !! index of the curve; 0: none
+      real(wp) :: value_unit = 1.0_wp, force_unit = 1.0_wp   !! SI per deck unit of the x, of the y of the curve
    end type element_plan_t
 
    type :: bushing_plan_t
-      integer :: ends(2) = 0, z = 0, x = 0  !! vectors
-      integer :: kt = 0, kr = 0, preload_force = 0, preload_moment = 0   !! the first of three parameters
-      integer :: curves(6) = 0              !! indices of curves
+      integer :: ends(2) = 0, z = 0, x = 0  !! indices of vectors
+      integer :: kt = 0, kr = 0, preload_force = 0, preload_moment = 0   !! index of the first of three parameters
+      integer :: curves(6) = 0              !! indices of the curves of the components; 0: none
    end type bushing_plan_t
 
    type :: wheel_plan_t
-      integer :: centre = 0, contact = 0, spin = 0, steer_axis(2) = 0   !! vectors
-      integer :: toe = 0, camber = 0, radius = 0, tyre_rate = 0, tyre_width = 0, sprung_mass = 0   !! parameters
+      integer :: centre = 0, contact = 0, spin = 0, steer_axis(2) = 0   !! indices of vectors
+      integer :: toe = 0, camber = 0, radius = 0, tyre_rate = 0, tyre_width = 0, sprung_mass = 0   !! indices of parameters
    end type wheel_plan_t
 
    type :: load_plan_t
-      integer :: at = 0                     !! vector
-      integer :: force = 0, moment = 0      !! the first of three parameters
+      integer :: at = 0                     !! index of the vector
+      integer :: force = 0, moment = 0      !! index of the first of three parameters
    end type load_plan_t
 
    !> A curve, in the deck units of the element that uses it.
    type :: curve_plan_t
-      integer :: points = 0                 !! their number
-      integer :: x = 0, y = 0               !! the first of the parameters, one per point
+      integer :: points = 0                 !! number of points
+      integer :: x = 0, y = 0               !! indices of the first parameters of x and of y, one per point
       character(:), allocatable :: kind, name
    end type curve_plan_t
 
    !> The numbers of a case, as indices of parameters.
    type :: case_plan_t
       integer :: from = 0, to = 0, offset = 0
-      integer :: steer_from = 0, steer_to = 0      !! 0 in a grid: to the ends of the travel of &steering
+      integer :: steer_from = 0, steer_to = 0      !! indices of parameters; 0 in a grid: ± travel of &steering
    end type case_plan_t
 
    type :: blueprint_t
       type(suspension_t) :: prototype       !! names, connections, and the numbers of the deck
       logical :: is_iso = .false.           !! the axes of the deck are ISO 8855
       real(wp) :: force_unit = 1.0_wp, length_unit = 1.0_wp, angle_unit = 1.0_wp   !! SI per deck unit
-      integer :: gravity = 0                !! parameter
-      integer, allocatable :: points(:)     !! vector of each point of the prototype
+      integer :: gravity = 0                !! index of the parameter
+      integer, allocatable :: points(:)     !! index of the vector of each point of the prototype
       type(vector_t), allocatable :: vectors(:)
       type(body_plan_t), allocatable :: bodies(:)
       type(mass_plan_t), allocatable :: masses(:)
@@ -121,7 +121,7 @@ module ek_blueprint
       type(curve_plan_t), allocatable :: curves(:)
       type(case_plan_t), allocatable :: cases(:)
       ! &axle: wheelbase, cg_height, mass, brake_share, drive_share, front_overhang, front_width; &steering: ratio, travel
-      integer :: axle(7) = 0, steering(2) = 0   !! parameters
+      integer :: axle(7) = 0, steering(2) = 0   !! indices of parameters
    end type blueprint_t
 
 contains

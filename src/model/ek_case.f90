@@ -11,14 +11,15 @@ module ek_case
 
    character(*), parameter :: method_names(3) = [character(11) :: 'recursive', 'corrected', 'equilibrium']
    character(*), parameter :: follow_names(2) = [character(6) :: 'factor', 'arc']
-   character(*), parameter :: solver_names(2) = [character(6) :: 'lapack', 'plan']      !! see ek_kkt
-   integer, parameter :: max_increments = 1000000   !! a state needs about 3 kB of memory
-   integer, parameter :: max_driven = 24   !! loads, and rows, that one case may drive: nine loads per wheel and a few more
-   real(wp), parameter :: default_tolerance = 1.0e-10_wp   !! m, that is 1e-7 mm
+   character(*), parameter :: solver_names(2) = [character(6) :: 'lapack', 'plan']      !! names of the solvers, see ek_kkt
+   integer, parameter :: max_increments = 1000000   !! largest number of increments; a state needs about 3 kB
+   integer, parameter :: max_driven = 24   !! largest number of loads, and of rows, that one case may drive: nine loads per wheel
+                                           !! and a few more
+   real(wp), parameter :: default_tolerance = 1.0e-10_wp   !! default of case_t%tolerance [m]: 1e-7 mm
 
    integer, parameter :: follows_place = 1     !! share × swept value
    integer, parameter :: follows_tangent = 2   !! share × tan(swept value): heights of a rolling axle
-   integer, parameter :: follows_table = 3     !! the value in a row of a table, the row number being the swept value
+   integer, parameter :: follows_table = 3     !! value in a row of a table; the swept value is the index of the row
 
    !> The actuation of one load or one driver over the swept value. One of `load` and `drive` is empty.
    type :: actuation_t
@@ -26,23 +27,23 @@ module ek_case
       character(:), allocatable :: drive      !! name of the driver joint
       integer :: law = follows_place
       real(wp) :: share = 1.0_wp
-      real(wp), allocatable :: values(:)      !! of follows_table, SI
+      real(wp), allocatable :: values(:)      !! values of the table [SI], for follows_table
    end type actuation_t
 
    !> A column of a load table: a load or a height of a wheel, or the value of a driver joint, in every row.
    type :: table_column_t
-      character(:), allocatable :: name       !! its column heading; of a driver joint the name of the joint
-      integer :: wheel = 0                    !! number of the wheel; 0: a driver joint of the deck
+      character(:), allocatable :: name       !! column heading; for a driver joint, the name of the joint
+      integer :: wheel = 0                    !! index of the wheel; 0: a driver joint of the deck
       integer :: component = 0                !! 1–3 force and 4–6 moment at the contact point, 7–9 force at the centre; 0: a height
-      real(wp), allocatable :: values(:)      !! N, N m, m or rad
+      real(wp), allocatable :: values(:)      !! value in each row [N, N m, m or rad]
    end type table_column_t
 
    !> A load table as read with the deck. The table has no rows if it has errors or if its file cannot be read.
    type :: load_table_t
       integer :: rows = 0
       type(table_column_t), allocatable :: columns(:)
-      type(message_list_t) :: mistakes        !! all of them, with their lines
-      character(:), allocatable :: fault      !! why its file cannot be read, for the message when the case is run
+      type(message_list_t) :: mistakes        !! all errors of the table, with their lines
+      character(:), allocatable :: fault      !! reason why the file cannot be read, for the message when the case is run
    end type load_table_t
 
    !> A case as given in the deck, in SI. Without a `test`, either `load` or `drive` is not empty.
@@ -50,10 +51,10 @@ module ek_case
       character(:), allocatable :: name, where
       character(:), allocatable :: load     !! name of the load scaled by the case
       character(:), allocatable :: drive    !! 'wheel_travel', or the name of a driver joint
-      integer :: wheel = 1                  !! number of the wheel whose travel is driven
+      integer :: wheel = 1                  !! index of the wheel whose travel is driven
       real(wp) :: from = 0.0_wp, to = 0.0_wp   !! swept values: factor of the load [-], or change of the driven value [m, rad]
       integer :: increments = 100
-      real(wp) :: steer_from = 0.0_wp, steer_to = 0.0_wp   !! of a grid: changes of the steering driver [m, rad]
+      real(wp) :: steer_from = 0.0_wp, steer_to = 0.0_wp   !! changes of the steering driver in a grid [m, rad]
       integer :: steer_increments = 12
       character(:), allocatable :: method   !! one of method_names
       logical :: uses_plan = .false.        !! solver 'plan': factorises by a plan of elimination; else by LAPACK
@@ -65,15 +66,15 @@ module ek_case
       character(:), allocatable :: vertical !! how wheels are held: 'centre', 'patch', 'road', 'force'; '': default of the test
       logical :: is_anti = .false.          !! anti-phase: the load on the right wheel is reversed
       real(wp) :: offset = 0.0_wp           !! trail of a lateral force aft of the contact point [m]
-      character(:), allocatable :: file     !! name of a load table
-      type(load_table_t) :: table           !! its content
-      character(:), allocatable :: target   !! 'column=value', '' for none
+      character(:), allocatable :: file     !! name of the file of a load table
+      type(load_table_t) :: table           !! content of this file
+      character(:), allocatable :: target   !! target 'column=value'; '' without a target
       logical :: is_good = .true.           !! .false.: the case has an error and cannot be mounted on the rig
-      logical :: has_all = .false.          !! write the compliance matrix and the quantities derived from it at every state
+      logical :: has_all = .false.          !! the compliance matrix and the quantities derived from it are written at every state
       ! of a case on the rig, see ek_rig; not allocated in the deck, except for a case that names several loads
       type(actuation_t), allocatable :: actuations(:)
       real(wp) :: unit = 1.0_wp             !! SI value of the unit of the swept value
-      character(:), allocatable :: unit_name, place_name   !! 'mm', 'wheel travel'
+      character(:), allocatable :: unit_name, place_name   !! unit and name of the swept value, such as 'mm', 'wheel travel'
    end type case_t
 
 contains
@@ -86,14 +87,14 @@ contains
       if (allocated(case%test)) is_mountable = case%test /= 'table' .or. case%table%rows > 0
    end function is_mountable
 
-   !> Selects the plan of elimination if neither deck nor command line gives a solver: for many designs of one deck.
+   !> Selects the plan of elimination if neither deck nor command line gives a solver. Used for many designs of one deck.
    elemental subroutine prefer_plan(case)
       type(case_t), intent(inout) :: case
       if (.not. case%says_solver) case%uses_plan = .true.
    end subroutine prefer_plan
 
-   !> Copies the numbers of a case to the case of another design, without allocation. If this case is empty, the complete case is
-   !> copied.
+   !> Copies the numbers of a case to the case of another design, without allocation. If the other case is empty, the complete case
+   !> is copied.
    pure subroutine copy_case_numbers(from, to)
       type(case_t), intent(in) :: from
       type(case_t), intent(inout) :: to
@@ -120,7 +121,7 @@ contains
       scales_loads = any([(len(case%actuations(k)%load) > 0, k=1, size(case%actuations))])
    end function scales_loads
 
-   !> Adds an actuation to a case. It acts on a load or on a driver joint; the other name is empty.
+   !> Adds an actuation of a load or of a driver joint to a case. The other of the two names is empty.
    pure subroutine append_actuation(actuations, load, drive, share, law, values)
       type(actuation_t), allocatable, intent(inout) :: actuations(:)
       character(*), intent(in) :: load, drive

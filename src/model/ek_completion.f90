@@ -85,7 +85,7 @@ contains
       value = measure_value(measure, pose_i, pose_j)
    end function design_value
 
-   !> Sets the reference point of each body that has none to the mean of its attachment points.
+   !> Sets the reference point of each body for which the deck gives no reference point: the mean of the attachment points.
    pure subroutine settle_origins(self)
       type(suspension_t), intent(inout) :: self
       integer :: k, first, last

@@ -10,12 +10,13 @@ module ek_design_vector
    private
    public :: find_vectors, marker_axes, spin_of, plane
 
-   real(wp), parameter :: plane = 1.0e-9_wp           !! m: a point closer to y = 0 exists once on a mirrored axle
-   real(wp), parameter :: min_angle = 0.01_wp       !! deg between x and z of a marker, below which x is undefined
+   real(wp), parameter :: plane = 1.0e-9_wp           !! distance from y = 0 [m]: a closer point exists once on a mirrored axle
+   real(wp), parameter :: min_angle = 0.01_wp       !! smallest angle between x and z of a marker [deg]: below it, x is undefined
 
 contains
 
-   !> Computes all points [m] and directions; vector 0 is zero.
+   !> Computes all points [m] and directions; vector 0 must be zero. is_good is .false. if a vector has no direction, or if a
+   !> hardpoint has left its side of the plane of &mirror, or this plane.
    pure subroutine find_vectors(plan, x, vectors, is_good, only)
       type(blueprint_t), intent(in) :: plan
       real(wp), intent(in) :: x(:)
@@ -48,7 +49,7 @@ contains
       end do
    end subroutine find_vectors
 
-   !> Computes a unit vector. If the vector has no direction, it is zero and is_good is .false..
+   !> Computes a unit vector. If the vector has no direction, the result is zero and is_good becomes .false..
    pure subroutine find_direction(plan, x, this, vectors, direction, is_good)
       type(blueprint_t), intent(in) :: plan
       real(wp), intent(in) :: x(:)
@@ -80,8 +81,8 @@ contains
       if (norm2(direction) > 0.0_wp) direction = unit_vector(direction)
    end subroutine find_direction
 
-   !> Computes the marker axes. z is unchanged, x is made perpendicular to z, and y = z × x. The default is the global axes of the
-   !> deck.
+   !> Computes the marker axes. z is unchanged, x is made perpendicular to z, and y = z × x. If z or x is zero, the axes are the
+   !> global axes of the deck.
    pure subroutine marker_axes(plan, z, x, axes, is_good)
       type(blueprint_t), intent(in) :: plan
       real(wp), intent(in) :: z(3), x(3)          !! unit vectors, or both zero
@@ -103,8 +104,8 @@ contains
       axes(:, 3) = z
    end subroutine marker_axes
 
-   !> Computes the spin axis of a wheel, from its direction or from toe and camber. Outboard:
-   !> w = (−cos γ sin δ, side cos γ cos δ, −sin γ), δ toe-in, γ camber (top outboard), which inverts
+   !> Computes spin axis, toe and camber of a wheel, from the direction of the axis or from toe and camber. The axis points
+   !> outboard: w = (−cos γ sin δ, side cos γ cos δ, −sin γ), with δ toe-in and γ camber (top outboard). The inverse is
    !> toe = atan2(−w_x, side w_y), camber = asin(−w_z).
    pure subroutine spin_of(side, toe, camber, direction, wheel)
       integer, intent(in) :: side

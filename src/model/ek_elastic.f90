@@ -2,10 +2,10 @@
 !>
 !>     V = ½ dᵀK_t d + ½ θᵀK_r θ − f0·d − m0·θ
 !>
-!> d is the gap from marker I to marker J and θ the relative rotation vector, both in the axes of marker I (fixed in body i).
-!> A component may have a curve c instead of a rate; ∫c then replaces ½ k d².
+!> d is the displacement from marker I to marker J minus its value at design, and θ the relative rotation vector, both in axes fixed
+!> in body i. A component may have a curve c instead of a rate; ∫c then replaces ½ k d².
 !>
-!> "Pull" below means the generalised force dV/dz, the gradient of the energy; the force ON the bodies is −dV/dz.
+!> The generalised force is dV/dz, the gradient of the energy; the force ON the bodies is −dV/dz.
 module ek_elastic
    use ek_number, only: num, zero
    use ek_law, only: law_t, look_up_law
@@ -20,27 +20,27 @@ module ek_elastic
    public :: evaluate_bushing, bushing_force, add_bushing_tangent, add_bushing_material, bushing_load, design_rates
 
    !> The law of a six-axis bushing from marker I on body i to marker J on body j. The markers are parallel at design. They may be
-   !> at two points; the design gap causes no force. The numbers that every evaluation reads come first.
+   !> at two points; the displacement between them at design causes no force. The numbers that every evaluation reads come first.
    type :: bushing_t
       ! set by set_bushing_axes: the same law in the axes of body i
       real(num) :: stiffness_t(3, 3) = zero, stiffness_r(3, 3) = zero
       real(num) :: force0(3) = zero, moment0(3) = zero
-      real(num) :: gap0(3) = zero           !! design gap, axes of body i [m]
+      real(num) :: gap0(3) = zero           !! displacement from I to J at design, axes of body i [m]
       logical :: has_curves = .false.
       real(num) :: axes(3, 3) = identity3     !! columns: marker axes x, y, z at design, global
-      real(num) :: kt(3) = zero             !! N/m along the marker axes
-      real(num) :: kr(3) = zero             !! N m/rad about the marker axes
-      real(num) :: preload_force(3) = zero  !! on body j at design, marker axes [N]
-      real(num) :: preload_moment(3) = zero !! on body j at design, marker axes [N m]
+      real(num) :: kt(3) = zero             !! rates along the marker axes [N/m]
+      real(num) :: kr(3) = zero             !! rates about the marker axes [N m/rad]
+      real(num) :: preload_force(3) = zero  !! force on body j at design, marker axes [N]
+      real(num) :: preload_moment(3) = zero !! moment on body j at design, marker axes [N m]
       ! curves instead of rates, in the order: along x, y, z, about x, y, z of the marker
-      type(law_t), allocatable :: laws(:)    !! six if has_curves; a component without a curve has its rate
+      type(law_t), allocatable :: laws(:)    !! six laws if has_curves; a law is used only if it has a curve
    end type bushing_t
 
-   !> A bushing at one pair of poses.
+   !> A bushing evaluated at one pair of poses.
    type :: bushing_evaluation_t
-      real(num) :: a(3) = zero, b(3) = zero, d(3) = zero   !! arms and gap, global [m]
-      real(num) :: frame(3, 3) = identity3                      !! A_i
-      real(num) :: gap(3) = zero        !! gap minus design gap, axes of body i [m]
+      real(num) :: a(3) = zero, b(3) = zero, d(3) = zero   !! arms, displacement from I to J; global [m]
+      real(num) :: frame(3, 3) = identity3                      !! A_i: body-i axes → global axes
+      real(num) :: gap(3) = zero        !! displacement minus its value at design, axes of body i [m]
       real(num) :: force(3) = zero      !! dV/dd, global [N]
       real(num) :: moment(3) = zero     !! dV/dθ, axes of body i [N m]
       type(relative_rotation_t) :: rotation
@@ -110,7 +110,8 @@ contains
       evaluation%force = rotated(pose_i%a, force)
    end subroutine evaluate_bushing
 
-   !> Computes dV/d(component) without the preload, along and about the marker axes [N, N m], and the slopes [N/m, N m/rad].
+   !> Computes dV/d(component) [N, N m], with the preload subtracted, along and about the marker axes. Also computes the slopes
+   !> [N/m, N m/rad].
    pure subroutine evaluate_components(bushing, gap, theta, load, slope)
       type(bushing_t), intent(in) :: bushing
       real(num), intent(in) :: gap(3), theta(3)          !! axes of body i
@@ -135,8 +136,8 @@ contains
    end subroutine evaluate_components
 
    !> Computes force and moment of the bushing law on body j, marker axes: preload minus restoring force of rates or curves [N,
-   !> N m]. The force is the force on body j. The moment is conjugate to θ (−dV/dθ); the moment on body j is ∂θ/∂δᵀ times it, as in
-   !> bushing_force.
+   !> N m]. The force is the force on body j. The moment is conjugate to θ (−dV/dθ); the moment on body j is ∂θ/∂δᵀ times this
+   !> moment, as in bushing_force.
    pure subroutine bushing_load(bushing, evaluation, force, moment)
       type(bushing_t), intent(in) :: bushing
       type(bushing_evaluation_t), intent(in) :: evaluation      !! of evaluate_bushing
@@ -148,7 +149,7 @@ contains
       moment = -load(4:6)
    end subroutine bushing_load
 
-   !> The six rates at design in marker axes [N/m, N m/rad]; for curves, the slopes of the curves.
+   !> The six rates at design in marker axes [N/m, N m/rad]; for curves, the slopes at design.
    pure function design_rates(bushing) result(rates)
       type(bushing_t), intent(in) :: bushing
       real(num) :: rates(6), load(6)
@@ -157,7 +158,8 @@ contains
       call evaluate_components(bushing, none, none, load, rates)
    end function design_rates
 
-   !> dV/dz = [−f, −(a+d)×f − w, f, b×f + w], w = A_i ∂θ/∂δᵀ m.
+   !> The generalised force dV/dz = [−f, −(a+d)×f − w, f, b×f + w], with f and m force and moment of the law, and
+   !> w = A_i ∂θ/∂δᵀ m. Here d is the complete displacement from I to J.
    !> Equation (M.16) of docs/theory/measures.md.
    pure function bushing_force(evaluation) result(generalised_force)
       type(bushing_evaluation_t), intent(in) :: evaluation
@@ -171,7 +173,7 @@ contains
       generalised_force(10:12) = cross(evaluation%b, evaluation%force) + w
    end function bushing_force
 
-   !> Adds the full tangent d²V/dz²: material, and force × Hessian of the gap and of θ.
+   !> Adds the full tangent d²V/dz²: material, and force × Hessian of the displacement and of θ.
    !> Equation (M.17) of docs/theory/measures.md.
    pure subroutine add_bushing_tangent(evaluation, at, blocks)
       type(bushing_evaluation_t), intent(in) :: evaluation

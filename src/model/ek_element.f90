@@ -6,15 +6,15 @@
 !> | damper  | gas_rate (L − L_design) − gas_force; damping does not act in statics                  |
 !> | stop    | −f(e), e = (L_design − clearance) − L (bump); f(e), e = L − (L_design + clearance) (rebound) |
 !> | torsion | rate φ − preload, or c(φ) − preload; φ = m·θ, the rotation about its axis             |
-!> | measure | as a spring, of a gap; as a torsion spring, of a rotation or a cosine, φ = value − design value |
+!> | measure | as a spring, of a displacement; as a torsion spring, of a rotation or a cosine, φ = value − design value |
 !> | bushing | six components, see ek_elastic                                                        |
 !>
 !> f is one-sided and rounded (ek_law). All kinds but the bushing act along one measure: the force ON the bodies is
 !> −T × gradient of the measure. Forces and tangents of all kinds: ek_element_force.
 !>
-!> A new kind of one measure: its number and its row in `element_kinds`, here; its group, keys and reader in the deck layer. A new
-!> number of the deck: also its position in the list of numbers and its line in `set_numbers`. A formula that ek_law does not
-!> have: its case in `look_up_element`, `element_slopes` and `is_linear`.
+!> A new kind of one measure needs its index and its row in `element_kinds`, here, and its group, keys and reader in the deck layer.
+!> A new number of the deck also needs its position in the list of numbers and its line in `set_numbers`. A formula that ek_law does
+!> not have needs its case in `look_up_element`, `element_slopes` and `is_linear`.
 module ek_element
    use ek_kinds, only: wp
    use ek_number, only: num, mask, zero, some
@@ -34,7 +34,7 @@ module ek_element
    integer, parameter :: bushing_element = 1
    integer, parameter :: axial_spring = 2
    integer, parameter :: torsion_spring = 3
-   integer, parameter :: measure_spring = 4  !! on a displacement, a rotation or a cosine; balance leaves its preload unchanged
+   integer, parameter :: measure_spring = 4  !! spring on a displacement, rotation or cosine; `balance` leaves its preload unchanged
    integer, parameter :: stop_spring = 5
    integer, parameter :: damper = 6
 
@@ -50,13 +50,13 @@ module ek_element
 
    !> The properties of a kind of element.
    type :: element_kind_t
-      character(8) :: label       !! in messages: the group of the deck
-      character(20) :: one, many  !! counted by `check`, in the order of the table; '': not counted
-      logical :: carries          !! its rate at design carries the car (a deck without such an element gives a warning)
-      logical :: has_gap          !! a stop: free up to contact; its column is the clearance, not the value of its measure
-      logical :: is_axial_spring        !! its preload may be set by balance; its motion ratio is reported
-      integer :: shape            !! in pictures, of an element on a distance, or a bushing
-      integer :: share            !! class of its share in a rate
+      character(8) :: label       !! group of the deck, for messages
+      character(20) :: one, many  !! names in the counts of `check`, in the order of the table; '': not counted
+      logical :: carries          !! the rate at design carries the car (a deck without such an element gives a warning)
+      logical :: has_gap          !! a stop: free up to contact; the result column is the clearance, not the value of the measure
+      logical :: is_axial_spring        !! the preload trim (`balance`) may set its preload; its motion ratio is reported
+      integer :: shape            !! shape in pictures, for an element on a distance or a bushing
+      integer :: share            !! class of the share of an element in a wheel rate or roll rate
    end type element_kind_t
 
    type(element_kind_t), parameter :: element_kinds(*) = [ &
@@ -70,14 +70,14 @@ module ek_element
    !> An elastic element. The numbers that the solution reads come first.
    type :: element_t
       integer :: kind = axial_spring
-      logical :: is_balanced = .true.       !! spring: balance may change its preload
-      type(measure_t) :: measure            !! its bodies and points; the length, angle or other measure of its action; 0: bushing
+      logical :: is_balanced = .true.       !! spring: the preload trim (`balance`) may change its preload
+      type(measure_t) :: measure            !! bodies, points, and the measure on which the element acts; kind 0: bushing
       real(num) :: preload = zero          !! compression at design [N], moment on body j about the axis [N m]
-      type(law_t) :: law                    !! of the measure; the preload is subtracted [N, N m]
+      type(law_t) :: law                    !! law of the measure, from which the preload is subtracted [N, N m]
       type(bushing_t) :: bushing            !! the six components of a bushing
-      real(num) :: design_length = zero    !! value at design: m, rad, -
-      real(num) :: free_length = zero      !! m; 0: not given
-      real(num) :: clearance = zero        !! of a stop [m]
+      real(num) :: design_length = zero    !! value of the measure at design [m, rad, -]
+      real(num) :: free_length = zero      !! free length [m]; 0: not given
+      real(num) :: clearance = zero        !! clearance of a stop [m]
       character(:), allocatable :: name, where
    end type element_t
 
@@ -110,7 +110,8 @@ contains
 
    !> Sets the design value of the measure, from which the deflection counts. All other numbers must be set.
    !>
-   !> A free length sets the preload from the design length. With a curve, compression is measured from the free length.
+   !> Without a curve, a free length sets the preload: rate × (free length − design length). With a curve, compression is measured
+   !> from the free length.
    pure subroutine set_design_value(element, value)
       type(element_t), intent(inout) :: element
       real(num), intent(in) :: value       !! m, rad, -
@@ -169,8 +170,8 @@ contains
       end do
    end subroutine copy_bushing
 
-   !> Finds the force of an element with one measure at a value of the measure, without its preload (derivative of the energy), and
-   !> the slope of the force.
+   !> Finds the force of an element with one measure (the derivative of its energy) and the slope of the force, at a value of the
+   !> measure. The preload is not included.
    pure subroutine look_up_element(element, value, force, slope)
       type(element_t), intent(in) :: element
       real(num), intent(in) :: value               !! m, rad, -
@@ -178,7 +179,7 @@ contains
       call look_up_law(element%law, value, force, slope)
    end subroutine look_up_element
 
-   !> Finds the smallest and the largest slope of this force between two values of the measure.
+   !> Finds the smallest and the largest slope of the force of an element with one measure, between two values of the measure.
    pure subroutine element_slopes(element, from, to, least, most)
       type(element_t), intent(in) :: element
       real(num), intent(in) :: from, to            !! m, rad, -

@@ -1,6 +1,7 @@
-!> Force and tangent of elastic elements of any kind: the only procedures that the assembly of the system calls.
+!> Force and tangent of elastic elements of any kind. The assembly of the system calls only evaluate_element and
+!> add_element_tangent.
 !>
-!> "Pull" is the generalised force dV/dz, the gradient of the energy; the force ON the bodies is −dV/dz.
+!> The generalised force is dV/dz, the gradient of the energy; the force ON the bodies is −dV/dz.
 module ek_element_force
    use ek_kinds, only: wp
    use ek_number, only: num, zero
@@ -15,10 +16,10 @@ module ek_element_force
    public :: element_evaluation_t, evaluate_element, add_element_tangent, design_stiffness
    public :: spring_tension, add_spring_tangent, add_spring_material
 
-   !> An element at one pair of poses.
+   !> An element evaluated at one pair of poses.
    type :: element_evaluation_t
       real(num) :: generalised_force(12) = zero      !! dV/d[Δr_i Δπ_i Δr_j Δπ_j] [N, N m]
-      real(num) :: tension = zero       !! dV/dvalue and its slope, of an element of one measure
+      real(num) :: tension = zero       !! dV/dvalue of an element of one measure; `slope` is its slope
       real(num) :: slope = zero
       type(evaluation_t) :: measure
       type(bushing_evaluation_t) :: bushing
@@ -55,7 +56,7 @@ contains
       tension = tension - spring%preload
    end subroutine spring_tension
 
-   !> Adds d²V/dz² of an element: the material part, and force × Hessian.
+   !> Adds d²V/dz² of an element: the material part, and force × Hessian unless is_material.
    pure subroutine add_element_tangent(element, evaluation, is_material, at, blocks)
       type(element_t), intent(in) :: element
       type(element_evaluation_t), intent(in) :: evaluation          !! of evaluate_element
@@ -73,8 +74,8 @@ contains
       end if
    end subroutine add_element_tangent
 
-   !> Adds slope g gᵀ + tension × Hessian of the measure, with g its gradient. For a distance this is Jᵀ[slope e eᵀ + tension/L (I −
-   !> e eᵀ)]J and the arm terms, which equal the arm terms of a displacement along e.
+   !> Adds slope g gᵀ + tension × Hessian of the measure, with g its gradient. For a distance the sum is Jᵀ[slope e eᵀ + tension/L
+   !> (I − e eᵀ)]J and the arm terms, which equal the arm terms of a displacement along e.
    !> Equation (M.13) of docs/theory/measures.md.
    pure subroutine add_spring_tangent(kind, evaluation, tension, slope, at, blocks)
       integer, intent(in) :: kind                       !! of the measure

@@ -2,7 +2,7 @@
 !> geometric stiffness of its forces.
 !>
 !> The tangent of an element is Σ c g gᵀ + Σ F Hess: c the slope of a law, g the gradient of its measure. A bushing has six laws, of
-!> gaps and rotations along and about the axes of its marker on body i; every other element has one.
+!> displacements and rotations along and about the axes of its marker on body i; every other element has one law.
 module ek_element_part
    use ek_kinds, only: wp
    use ek_relative_rotation, only: pose_t
@@ -15,8 +15,8 @@ module ek_element_part
 
    !> One law of an element at a state.
    type :: element_part_t
-      real(wp) :: slope = 0.0_wp             !! c [N/m, N m/rad]
-      real(wp) :: gradient(12) = 0.0_wp      !! g, of the deflection [-, m]
+      real(wp) :: slope = 0.0_wp             !! c: slope of the law [N/m, N m/rad]
+      real(wp) :: gradient(12) = 0.0_wp      !! g: gradient of the deflection [-, m]
    end type element_part_t
 
 contains
@@ -27,7 +27,7 @@ contains
       count_parts = merge(6, 1, element%kind == bushing_element)
    end function count_parts
 
-   !> Whether a law acts on an angle: its deflection is in rad, and its force in N m.
+   !> Whether a law acts on an angle or a cosine: its deflection is in rad or -, and its force in N m.
    pure logical function is_part_of_angle(element, part) result(is_angle)
       type(element_t), intent(in) :: element
       integer, intent(in) :: part
@@ -49,8 +49,9 @@ contains
       end if
    end function has_rate
 
-   !> Finds the deflection of each law that is a rate, which is the change of its force per change of the rate. The deflection is 0
-   !> at design, where the preload is the force. An exception is a spring whose preload follows from its rate and its free length.
+   !> Finds the deflection of each law that is a rate: the change of the force per change of the rate. The deflection is counted
+   !> from design, where the force is the preload. For a spring whose preload follows from rate and free length, the deflection is
+   !> counted from the free length.
    pure subroutine find_deflections(element, pose_i, pose_j, deflection)
       type(element_t), intent(in) :: element
       type(pose_t), intent(in) :: pose_i, pose_j

@@ -2,23 +2,23 @@
 !>
 !> | joint             | rows                                                     | removes |
 !> |-------------------|----------------------------------------------------------|---------|
-!> | spherical         | 3 global gaps                                            | 3       |
+!> | spherical         | 3 global displacements                                   | 3       |
 !> | universal         | spherical + axis·axis2                                   | 4       |
 !> | constant_velocity | spherical + twist u1·v2 − u2·v1                          | 4       |
 !> | revolute          | spherical + 2 axis·axis                                  | 5       |
-!> | cylindrical       | 2 axis·axis + 2 gaps across the axis                     | 4       |
+!> | cylindrical       | 2 axis·axis + 2 displacements across the axis            | 4       |
 !> | translational     | cylindrical + 1 axis·axis                                | 5       |
 !> | fixed             | spherical + 3 axis·axis                                  | 6       |
 !> | distance          | distance                                                 | 1       |
-!> | in_plane          | 1 gap along a direction of the first body                | 1       |
-!> | in_line           | 2 gaps across a direction of the first body              | 2       |
+!> | in_plane          | 1 displacement along a direction of the first body       | 1       |
+!> | in_line           | 2 displacements across a direction of the first body     | 2       |
 !> | perpendicular     | axis·axis2                                               | 1       |
 !> | parallel          | 2 axis·axis                                              | 2       |
 !> | driver            | a measure = its design value + prescribed change (+ λ/stiffness) | 1 |
 !> | coupler           | Σ ratio × measure = its design value                     | 1       |
 !>
-!> To add a joint: its row in `joint_table`, its terms in `joint_terms`, both here, its row in the table above, and a test. Reader,
-!> solver and pictures do not depend on the names.
+!> A new joint needs its row in `joint_table` and its terms in `joint_terms`, both here, its row in the table above, and a test.
+!> Reader, solver and pictures do not depend on the names.
 module ek_joint
    use ek_kinds, only: wp
    use ek_row, only: row_t, term_t
@@ -34,7 +34,7 @@ module ek_joint
 
    ! directions that define a joint, those of axis and axis_2
    integer, parameter :: no_axis = 0, one_axis = 1, one_or_two = 2, two_axes = 3
-   integer, parameter :: either_axis = 4      !! the other one is then chosen perpendicular to it
+   integer, parameter :: either_axis = 4      !! axis or axis_2; the program chooses the other axis perpendicular
    ! angle between axis and axis_2
    integer, parameter :: any_angle = 0, right_angle = 1, no_angle = 2, not_opposed = 3
    ! parts in pictures: without an attachment point; with one that is not drawn; drawn
@@ -43,8 +43,8 @@ module ek_joint
    !> The properties of a kind of joint.
    type :: joint_kind_t
       character(17) :: name
-      integer :: min_points, max_points   !! of `at`; 2 and 2: two that do not coincide
-      integer :: axes, angle                 !! one of the constants above
+      integer :: min_points, max_points   !! number of points in `at`; 2 and 2: two points that do not coincide
+      integer :: axes, angle                 !! constants above: directions and angle that the joint requires
       integer :: part
       logical :: is_of_measures = .false.    !! made of named measures, not of points and axes
    end type joint_kind_t
@@ -71,14 +71,14 @@ module ek_joint
    type :: joint_t
       character(:), allocatable :: name
       character(:), allocatable :: kind      !! one of joint_kinds
-      integer :: number = 0                  !! of its kind, in joint_table
+      integer :: number = 0                  !! index of the kind in joint_table
       character(:), allocatable :: where     !! 'file:line' for messages
       integer :: body_i = 0, body_j = 0
-      real(wp) :: arm_j(3) = 0.0_wp          !! point where its force acts on body j, body axes [m]
+      real(wp) :: arm_j(3) = 0.0_wp          !! point where the joint force acts on body j, body axes [m]
       integer :: first_row = 0, rows = 0
       integer :: chosen_axis = 0             !! universal: 1 or 2 if the program chose this axis; 0: both given
       real(wp) :: axis(3, 2) = 0.0_wp        !! universal: axis and axis_2, unit vectors, global at design
-      real(wp) :: across(3) = 0.0_wp         !! the direction of the rows across the axis is nearest to this one; 0: free choice
+      real(wp) :: across(3) = 0.0_wp         !! direction to which the first row across the axis is nearest; 0: free choice
       logical :: is_of_measures = .false.    !! driver, coupler: its reaction is one number, not a force at a point
       logical :: says_balance = .false.      !! driver with a stiffness: the deck gives `balance`
       logical :: is_balanced = .true.        !! the value of `balance`
@@ -87,10 +87,10 @@ module ek_joint
    !> The geometry that defines a joint: design position, global axes, SI.
    type :: joint_geometry_t
       integer :: body_i = 0, body_j = 0
-      real(wp) :: point_i(3) = 0.0_wp, point_j(3) = 0.0_wp   !! equal unless two points are given
-      real(wp) :: axis_i(3) = [0.0_wp, 0.0_wp, 1.0_wp]       !! unit, fixed in body i
-      real(wp) :: axis_j(3) = [0.0_wp, 0.0_wp, 1.0_wp]       !! unit, fixed in body j
-      real(wp) :: across(3) = 0.0_wp                         !! as in joint_t
+      real(wp) :: point_i(3) = 0.0_wp, point_j(3) = 0.0_wp   !! points on i and j [m], equal unless two are given
+      real(wp) :: axis_i(3) = [0.0_wp, 0.0_wp, 1.0_wp]       !! unit vector fixed in body i
+      real(wp) :: axis_j(3) = [0.0_wp, 0.0_wp, 1.0_wp]       !! unit vector fixed in body j
+      real(wp) :: across(3) = 0.0_wp                         !! direction of the first row across the axis; 0: free choice
    end type joint_geometry_t
 
 contains
@@ -195,8 +195,8 @@ contains
 
    end subroutine joint_terms
 
-   !> The direction perpendicular to shaft j obtained from x, perpendicular to shaft i, by the shortest
-   !> rotation that carries shaft i onto shaft j. With it u1·v2 − u2·v1 = 0 at design.
+   !> The direction x, which is perpendicular to shaft i, after the shortest rotation that carries shaft i onto shaft j. The result
+   !> is perpendicular to shaft j, and u1·v2 − u2·v1 = 0 at design.
    pure function shaft_frame(z_i, z_j, x) result(v)
       real(wp), intent(in) :: z_i(3), z_j(3), x(3)
       real(wp) :: v(3), axis(3), c

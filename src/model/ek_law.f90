@@ -1,4 +1,4 @@
-!> A law of one scalar measure other than rate × deflection: along a curve, one-sided, or reflected.
+!> A law of one scalar measure: a rate × deflection or a curve, possibly one-sided or reflected.
 !>
 !>     force = s y(p),   p = e or its one-sided part,   e = s (value − reference)
 !>
@@ -14,11 +14,11 @@ module ek_law
    private
    public :: law_t, copy_law, look_up_law, deflection, find_slopes
 
-   !> Units depend on the measure: m and N, or rad and N m.
+   !> A law of one measure. Its units depend on the measure: m and N, or rad (or -) and N m.
    type :: law_t
-      real(num) :: sign = one             !! s
+      real(num) :: sign = one             !! sign s: 1, or −1 if e is a compression
       real(num) :: reference = zero        !! value at which e = 0
-      real(num) :: rate = zero             !! used without a curve
+      real(num) :: rate = zero             !! rate of a law without a curve
       logical :: has_curve = .false.
       logical :: is_one_sided = .false.
       real(num) :: rounding = zero         !! r of a one-sided law, above 0
@@ -27,7 +27,7 @@ module ek_law
 
 contains
 
-   !> Copies the numbers of a law to another law of its kind; nothing is allocated.
+   !> Copies the numbers of a law to another law of the same kind; nothing is allocated.
    pure subroutine copy_law(from, to)
       type(law_t), intent(in) :: from
       type(law_t), intent(inout) :: to
@@ -45,7 +45,7 @@ contains
       call copy_curve(from%curve, to%curve)
    end subroutine copy_law
 
-   !> Finds the force (derivative of the energy) at a value of the measure, and its slope.
+   !> Finds the force (derivative of the energy) at a value of the measure, and the slope of the force.
    !> Equation (M.14) of docs/theory/measures.md.
    pure subroutine look_up_law(law, value, force, slope)
       type(law_t), intent(in) :: law
@@ -78,7 +78,8 @@ contains
       slope = slope*share
    end subroutine look_up_law
 
-   !> The argument e of a law: compression of a spring, or penetration of a stop (negative: its clearance) [m or rad].
+   !> The argument e of a law [m, rad or -]: compression of a spring, increase of an angle, or penetration of a stop (negative: the
+   !> clearance).
    pure real(num) function deflection(law, value)
       type(law_t), intent(in) :: law
       real(num), intent(in) :: value

@@ -14,10 +14,10 @@ module ek_load
       character(:), allocatable :: name, where
       integer :: body = 0
       real(num) :: arm(3) = zero         !! point of application from the reference point, body axes [m]
-      real(num) :: force(3) = zero       !! N, global axes at design
-      real(num) :: moment(3) = zero      !! N m
-      logical :: follows = .false.        !! rotates with the body
-      logical :: is_case = .false.        !! scaled by the case that refers to it; otherwise always acting
+      real(num) :: force(3) = zero       !! force [N], global axes at design
+      real(num) :: moment(3) = zero      !! moment [N m], global axes at design
+      logical :: follows = .false.        !! force and moment rotate with the body
+      logical :: is_case = .false.        !! scaled by the case that refers to this load; otherwise constant
       logical :: is_weight = .false.      !! gravity of the body, not a load of the deck or the rig
    end type load_t
 
@@ -42,13 +42,13 @@ contains
       moment = moment + cross(arm, force)
    end subroutine wrench
 
-   !> Adds the stiffness of a load, −d(force, moment)/dz. For a load of constant direction it is −S(arm, force). For a load that
-   !> rotates with its body, δf = π×f gives T_rπ = f̃; half of it is added to the block rπ, half to πr.
+   !> Adds the stiffness of a load, −d(force, moment)/dz. For a load of constant direction the stiffness is −S(arm, force). For a
+   !> load that rotates with its body, δf = π×f gives T_rπ = f̃; ½ f̃ is added to the block rπ, and its transpose to πr.
    !> Equation (K.4) of docs/theory/kkt.md.
    pure subroutine add_load_tangent(load, force, arm, body, blocks)
       type(load_t), intent(in) :: load
       real(num), intent(in) :: force(3), arm(3)      !! of wrench, the force times its factor [N]; [m]
-      integer, intent(in) :: body                    !! its diagonal block
+      integer, intent(in) :: body                    !! index of its diagonal block
       real(num), intent(inout) :: blocks(6, 6, *)
       real(num) :: block(3, 3), backward(3)
 

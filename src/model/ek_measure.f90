@@ -53,7 +53,7 @@ module ek_measure
    type :: evaluation_t
       real(num) :: value = zero
       real(num) :: gradient(12) = zero
-      real(num) :: u(3) = zero, v(3) = zero   !! directions, or e and (m·θ): A_i g
+      real(num) :: u(3) = zero, v(3) = zero   !! directions; distance: u = e; rotation: u = m, v = A_i g
       real(num) :: a(3) = zero, b(3) = zero, d(3) = zero
       real(num) :: frame(3, 3) = zero           !! A_i, stored for `rotation`
       type(relative_rotation_t) :: rotation

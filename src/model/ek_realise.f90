@@ -1,8 +1,8 @@
 !> realise: (blueprint, x) → suspension, for one design after the other.
 !>
 !> The suspension is a copy of the blueprint's prototype; all its numbers are computed anew in place, so that no memory is
-!> allocated and no name is looked up. Every number comes from the same formula as for a suspension built part by part:
-!> the rows of a joint from `joint_terms`, arms and design values from `settle_design`.
+!> allocated (except for curves with new points) and no name is looked up. Every number comes from the same formula as for a
+!> suspension built part by part: the rows of a joint from `joint_terms`, arms and design values from `settle_design`.
 !>
 !> Where x is outside the range for which the blueprint is valid (an axis without length, a point that leaves its side), `is_good`
 !> is .false. and the suspension must not be used; the deck reader reports the reason.
@@ -24,11 +24,11 @@ module ek_realise
    private
    public :: new_design, realise, realise_cases
 
-   real(wp), parameter, public :: steepest_roll = 0.5_wp      !! rad: largest axle roll of a test
+   real(wp), parameter, public :: steepest_roll = 0.5_wp      !! largest axle roll of a test [rad]
 
 contains
 
-   !> Creates a suspension for `realise`: the only allocation.
+   !> Creates a suspension for `realise`, with all memory except the memory of new curves.
    subroutine new_design(plan, suspension)
       type(blueprint_t), intent(in) :: plan
       type(suspension_t), intent(out) :: suspension

@@ -12,7 +12,7 @@ module ek_relative_rotation
    private
    public :: pose_t, relative_rotation_t, relative_rotation, rotation_gradient, rotation_jacobian, add_rotation_hessian
 
-   !> The pose of a body. Stored contiguously (128 bytes), because every measure reads all of it.
+   !> The pose of a body. Stored contiguously (128 bytes), because every measure reads the complete pose.
    type :: pose_t
       real(num) :: r(3) = zero                          !! reference point, global [m]
       real(num) :: q(4) = [one, zero, zero, zero]  !! unit quaternion of a
@@ -73,7 +73,7 @@ contains
       turn%theta = turn%alpha*p
    end subroutine relative_rotation
 
-   !> g = Pᵀ w, the gradient of m·θ in δ, with P = q0 I − q̃v and w = (αI + 2α' p pᵀ) m.
+   !> The gradient g = Pᵀ w of m·θ with respect to δ, with P = q0 I − q̃v and w = (αI + 2α' p pᵀ) m.
    !> Equation (M.10) of docs/theory/measures.md.
    pure function rotation_gradient(turn, m) result(g)
       type(relative_rotation_t), intent(in) :: turn
@@ -83,7 +83,7 @@ contains
       g = turn%q0*w + cross(turn%qv, w)
    end function rotation_gradient
 
-   !> G = ∂θ/∂δ = (αI + 2α' p pᵀ)(q0 I − q̃v), δ = A_iᵀ(π_j − π_i).
+   !> The Jacobian G = ∂θ/∂δ = (αI + 2α' p pᵀ)(q0 I − q̃v), where δ = A_iᵀ(π_j − π_i) to first order.
    !> Equation (M.11) of docs/theory/measures.md.
    !> Equation (R.9) of docs/theory/rotations.md.
    pure function rotation_jacobian(turn) result(jacobian)
@@ -98,11 +98,12 @@ contains
       end do
    end function rotation_jacobian
 
-   !> Adds the Hessian of m·θ to the rotation blocks of i and j, and `inner`, a symmetric
-   !> 3×3 stiffness in δ (body-i axes), with the same chain rule.
+   !> Adds two terms to the rotation blocks of i and j: the Hessian of m·θ, and `inner`, a symmetric 3×3 stiffness in δ (body-i
+   !> axes).
    !>
-   !> In δ: Pᵀ[2α'(m pᵀ + p mᵀ) + 2α'(m·p)I + 4α''(m·p) p pᵀ]P − ½(w·qv) I; then
-   !> δ = A_iᵀ(π_j − π_i − ½ π_i×π_j) brings the block π_iπ_j += ½ [A_i g]~.
+   !> With P = q0 I − q̃v, w = αm + 2α'(m·p)p and g = Pᵀw, the Hessian in δ is
+   !> Pᵀ[2α'(m pᵀ + p mᵀ) + 2α'(m·p)I + 4α''(m·p) p pᵀ]P − ½(w·qv) I.
+   !> The second-order part of δ = A_iᵀ(π_j − π_i − ½ π_i×π_j) adds ½ [A_i g]~ to the block π_iπ_j.
    !> Equations (M.8), (M.9), (M.10), (M.12) of docs/theory/measures.md.
    !> Equation (R.11) of docs/theory/rotations.md.
    pure subroutine add_rotation_hessian(turn, m, inner, a_i, at, blocks)

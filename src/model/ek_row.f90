@@ -14,9 +14,9 @@ module ek_row
 
    !> One equation Σ terms = target.
    type :: row_t
-      integer :: first = 0, terms = 1      !! its terms are first … first+terms−1 of the suspension
-      real(num) :: target = zero           !! value at design [m, - or rad]
-      integer :: joint = 0                 !! number of the joint
+      integer :: first = 0, terms = 1      !! index of the first term in the suspension; number of terms
+      real(num) :: target = zero           !! value at which Σ terms is held [m, - or rad]
+      integer :: joint = 0                 !! index of the joint
       logical :: is_driver = .false.
       real(num) :: compliance = zero       !! driver with a stiffness: Σ terms = target + compliance × λ [m/N, rad/(N m)]
    end type row_t

@@ -1,7 +1,7 @@
 !> The assembled model: bodies, constraint rows, elastic elements, loads, wheels.
 !>
-!> Built by the reader and ek_realise; never changed by a solution.
-!> All values are in SI, in the vehicle frame x rearward, y right, z up; at design the axes of every
+!> Built by the reader and ek_realise. The preload trim (`balance`) sets preloads and targets; the solution of a case does
+!> not change the model. All values are in SI, in the vehicle frame x rearward, y right, z up; at design the axes of every
 !> body are parallel to the frame. Body 0 is the chassis.
 module ek_suspension
    use ek_kinds, only: wp, units_t
@@ -21,10 +21,10 @@ module ek_suspension
    type :: body_t
       character(:), allocatable :: name, where
       real(wp) :: origin(3) = 0.0_wp      !! reference point r at design [m]
-      logical :: has_origin = .false.     !! given in the deck; otherwise the mean of its attachment points
-      integer :: attached = 0             !! number of those points
+      logical :: has_origin = .false.     !! `origin` is given in the deck; otherwise it is the mean of the attachment points
+      integer :: attached = 0             !! number of attachment points
       real(wp) :: mass = 0.0_wp           !! kg
-      real(wp) :: centre(3) = 0.0_wp      !! centre of gravity: arm from the reference point, body axes [m]; if there is a mass
+      real(wp) :: centre(3) = 0.0_wp      !! centre of gravity of a body with a mass: arm from the reference point, body axes [m]
    end type body_t
 
    !> A named hardpoint, design position.
@@ -39,13 +39,13 @@ module ek_suspension
       character(:), allocatable :: name, where
       integer :: body = 0
       integer :: side = -1                !! −1 left, +1 right
-      real(wp) :: centre(3) = 0.0_wp      !! arms from the carrier's reference point, body axes [m]
-      real(wp) :: contact(3) = 0.0_wp
-      real(wp) :: spin(3) = [0.0_wp, -1.0_wp, 0.0_wp]   !! unit, outboard, body axes
+      real(wp) :: centre(3) = 0.0_wp      !! wheel centre: arm from the carrier's reference point, body axes [m]
+      real(wp) :: contact(3) = 0.0_wp     !! contact point: arm from the carrier's reference point, body axes [m]
+      real(wp) :: spin(3) = [0.0_wp, -1.0_wp, 0.0_wp]   !! spin axis: unit vector, outboard, body axes
       real(wp) :: toe = 0.0_wp, camber = 0.0_wp         !! static angles, given in the deck or derived from the spin axis [rad]
       real(wp) :: radius = 0.0_wp         !! m
       real(wp) :: tyre_rate = 0.0_wp      !! vertical stiffness of the tyre [N/m]; 0: not given
-      real(wp) :: tyre_width = 0.0_wp     !! of the tread [m]; 0: not given
+      real(wp) :: tyre_width = 0.0_wp     !! width of the tread [m]; 0: not given
       real(wp) :: sprung_mass = 0.0_wp    !! sprung mass carried by this wheel [kg]; 0: not given
       logical :: has_steer_axis = .false.
       real(wp) :: steer_axis(3, 2) = 0.0_wp             !! two points on the carrier, arms [m]
@@ -55,7 +55,7 @@ module ek_suspension
    type :: readout_t
       character(:), allocatable :: name, where
       type(measure_t) :: measure
-      real(wp) :: design_value = 0.0_wp   !! m, - or rad
+      real(wp) :: design_value = 0.0_wp   !! value at design [m, - or rad]
    end type readout_t
 
    !> Data of the vehicle, for characteristics of the axle that depend on the complete car.
@@ -64,11 +64,11 @@ module ek_suspension
       character(:), allocatable :: where
       logical :: is_front = .true.
       real(wp) :: wheelbase = 0.0_wp      !! m
-      real(wp) :: cg_height = 0.0_wp      !! centre of gravity of the car above the ground [m]
-      real(wp) :: mass = 0.0_wp           !! of the car [kg]; 0: not given
+      real(wp) :: cg_height = 0.0_wp      !! height of the centre of gravity of the car above the ground [m]
+      real(wp) :: mass = 0.0_wp           !! mass of the car [kg]; 0: not given
       real(wp) :: brake_share = 0.0_wp    !! share of the car's braking force that acts on the FRONT axle, 0 to 1
       real(wp) :: drive_share = 1.0_wp    !! share of the car's driving force that acts on THIS axle, 0 to 1
-      real(wp) :: front_overhang = 0.0_wp !! front corner of the car ahead of the wheels [m]; 0: not given
+      real(wp) :: front_overhang = 0.0_wp !! distance of the front corner of the car ahead of the wheels [m]; 0: not given
       real(wp) :: front_width = 0.0_wp    !! width of the car at its front corners [m]; given together with front_overhang
       logical :: drives_at_patch = .false.   !! the axle carries the drive torque (solid axle): driving force acts at contact point;
                                              !! otherwise (independent suspension) at the wheel centre
@@ -78,14 +78,14 @@ module ek_suspension
    type :: steering_t
       logical :: has_steering = .false.   !! the deck has a &steering
       character(:), allocatable :: where
-      character(:), allocatable :: driver !! name of the driver joint; its row: driver_row
+      character(:), allocatable :: driver !! name of the driver joint (driver_row gives the row)
       real(wp) :: ratio = 0.0_wp          !! rack travel per revolution of the steering wheel [m]; sign as given in the deck
       real(wp) :: travel = 0.0_wp         !! largest rack travel each way [m]
    end type steering_t
 
    type :: suspension_t
       character(:), allocatable :: name, title, where
-      type(units_t) :: units = units_t()  !! units of the deck, used in remarks on its numbers
+      type(units_t) :: units = units_t()  !! units of the deck, used in remarks on implausible numbers
       logical :: is_plausible_wanted = .true.   !! report implausible numbers
       real(wp) :: gravity = 0.0_wp        !! m/s²
       logical :: is_iso = .false.         !! the deck uses ISO 8855 axes: vectors are written in that frame
@@ -97,9 +97,9 @@ module ek_suspension
       type(term_t), allocatable :: terms(:)
       type(element_t), allocatable :: elements(:)
       integer :: scalars = 0   !! elements(:scalars) act along one measure: springs, dampers, stops, torsion springs, in this order
-                               !! if built from a deck; the others have six components: bushings
+                               !! if built from a deck; the other elements have six components: bushings
       type(load_t), allocatable :: loads(:)
-      integer :: rig_rows = 0                  !! the last rows, which belong to the rig on which it stands, see ek_rig
+      integer :: rig_rows = 0                  !! number of rows of the rig, which are the last rows, see ek_rig
       type(wheel_t), allocatable :: wheels(:)
       type(readout_t), allocatable :: readouts(:)
       type(axle_t) :: axle = axle_t()
@@ -128,7 +128,8 @@ contains
    end subroutine allocate_lists
 
    !> Copies the numbers of a suspension to another suspension with the same parts. The latter may also have rows, terms and loads
-   !> of a rig after these parts (ek_rig). Copies every number that realise, settle_design or balance sets, without allocation.
+   !> of a rig after these parts (ek_rig). Copies every number that `realise`, `settle_design` or `balance` sets,
+   !> without allocation.
    pure subroutine copy_numbers(from, to)
       type(suspension_t), intent(in) :: from
       type(suspension_t), intent(inout) :: to
@@ -209,7 +210,7 @@ contains
    end function constraints
 
    !> The number of rows of Φ without the rows of the rig, which are last. λ(:own_rows) belongs to the suspension. λ(own_rows+1:)
-   !> belongs to the rig: these are the forces of the ground that hold heights.
+   !> belongs to the rig: the forces of the ground that hold heights.
    pure integer function own_rows(self)
       class(suspension_t), intent(in) :: self
       own_rows = self%constraints() - self%rig_rows
@@ -247,7 +248,7 @@ contains
       end do
    end function driver_row
 
-   !> The unit of the value of a driver in results: mm, deg or '-'. For drivers of the rig it is mm.
+   !> The unit of the value of a driver in results: mm, deg or '-'; mm also for a name that is not a driver of the deck.
    pure function driver_unit(self, name) result(unit)
       type(suspension_t), intent(in) :: self
       character(*), intent(in) :: name

@@ -28,7 +28,7 @@ contains
    end subroutine left_and_right
 
    !> The track of an axle: lateral distance of the contact points at design [m]. All roll angles, roll moments and
-   !> Ackermann angles use it, on the rig and in the columns.
+   !> Ackermann angles use this track, on the rig and in the columns.
    pure real(wp) function design_track(suspension) result(track)
       type(suspension_t), intent(in) :: suspension      !! an axle
       real(wp) :: y(2)
@@ -65,7 +65,8 @@ contains
       if (size(suspension%wheels) == 1) side = suspension%wheels(1)%side
    end function single_side
 
-   !> Prefix of the column names of a wheel: 'left_' or 'right_' for two wheels, '' for one wheel.
+   !> Prefix of the column names of a wheel: 'left_' or 'right_' on an axle, '' for a single wheel; otherwise the name of the wheel
+   !> and '_'.
    pure function prefix_of(suspension, wheel) result(prefix)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: wheel
