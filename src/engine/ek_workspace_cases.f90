@@ -21,7 +21,7 @@ module ek_workspace_cases
 
 contains
 
-   !> Reads a deck without listing its cases, for a command that chooses its cases itself.
+   !> Reads a deck without listing its cases, for a command that chooses its cases.
    subroutine open_model(deck, workspace, error, needs_tables)
       type(deck_t), intent(in) :: deck
       type(workspace_t), intent(inout) :: workspace          !! its former content is deleted
@@ -100,14 +100,14 @@ contains
 
    end subroutine open_workspace
 
-   !> Reads a deck for selected cases ('': the first case of the deck). Examines the deck on the rig of each case, and balances it
-   !> with the tolerance of the first. Errors in other cases are ignored.
+   !> Reads a deck for selected cases ('': the first case of the deck). Examines the deck on the rig of each case, and balances the
+   !> model with the tolerance of the first case. Errors in other cases are ignored.
    subroutine open_cases(deck, names, workspace, error, increments)
       type(deck_t), intent(in) :: deck
       character(*), intent(in) :: names(:)
       type(workspace_t), intent(inout) :: workspace          !! its former content is deleted
       type(error_t), allocatable, intent(out) :: error     !! exit_deck, exit_file, exit_model, exit_convergence
-      integer, intent(in), optional :: increments          !! of all cases; absent or 0: the increments of the deck
+      integer, intent(in), optional :: increments !! number of increments of all cases; absent or 0: the increments of the deck
       type(diagnosis_t) :: diagnosis
       logical :: is_whole
       integer :: k
@@ -143,15 +143,15 @@ contains
       call balance_or_explain(workspace%cases(1)%case%tolerance, workspace, error)
    end subroutine open_cases
 
-   !> Empties a workspace. This is one procedure because gfortran writes out the deallocation of a workspace at each call.
+   !> Empties a workspace. This procedure exists because gfortran writes out the deallocation of a workspace at each call.
    subroutine empty_workspace(workspace)
       type(workspace_t), intent(out) :: workspace
       workspace%stage = numbers_given
    end subroutine empty_workspace
 
-   !> Finds a case of the deck, or a standard test of the report that the deck does not define.
+   !> Finds a case of the deck, or a standard test that the deck does not define. A case with follow = 'arc' is an error.
    subroutine take_case(file, name, cases, suspension, found, error)
-      character(*), intent(in) :: file, name           !! '': the first of the deck
+      character(*), intent(in) :: file, name           !! name: '' for the first case of the deck
       type(case_t), intent(in) :: cases(:)
       type(suspension_t), intent(in) :: suspension
       type(case_work_t), intent(inout) :: found
@@ -192,7 +192,7 @@ contains
       found%case = cases(k)
    end subroutine take_case
 
-   !> Lists the cases in the order of the report, with the present numbers.
+   !> Lists the cases of the report, in the order of the report, with the present numbers.
    subroutine report_cases(workspace, cases)
       type(workspace_t), intent(in) :: workspace
       type(case_t), allocatable, intent(out) :: cases(:)
@@ -204,7 +204,7 @@ contains
       end do
    end subroutine report_cases
 
-   !> Restricts the report to the chosen cases, with their method and number of increments.
+   !> Restricts the report to the chosen cases, which replace the cases of the workspace with the same names.
    subroutine restrict_cases(chosen, workspace)
       type(case_t), intent(in) :: chosen(:)
       type(workspace_t), intent(inout) :: workspace
@@ -222,7 +222,7 @@ contains
       end do
    end subroutine restrict_cases
 
-   !> Lists all columns that the table of a case has.
+   !> Lists the headings of all columns of the table of a case.
    subroutine heads_of_case(k, workspace, heads)
       integer, intent(in) :: k
       type(workspace_t), intent(in) :: workspace
