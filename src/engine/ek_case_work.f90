@@ -25,14 +25,16 @@ module ek_case_work
       integer :: stage = not_examined
       type(known_case_t) :: known                 !! properties proved at the first design for all designs
       class(observer_t), allocatable :: observer  !! observer of the columns of its results
-      class(case_result_t), allocatable :: result !! result of the present design; contains the case on the rig. Classes: gfortran
-                                                  !! copies a type that holds one by calling a procedure; otherwise it writes out
-                                                  !! the copy at each use, and the program grows
+      class(case_result_t), allocatable :: result !! result of the present design; contains the case on the rig. Reason for the
+                                                  !! class: gfortran copies a type with a class component by calling a procedure.
+                                                  !! Without the class, gfortran writes out the copy at each use, and the program
+                                                  !! grows
    end type case_work_t
 
 contains
 
-   !> Renews the numbers of a case at a design. A standard test is adapted to the rack travel.
+   !> Renews the numbers of a case at a design. The numbers of a case of the deck come from the design; a standard test is adapted
+   !> to the rack travel of the design.
    subroutine renew_case(suspension, design, this)
       type(suspension_t), intent(in) :: suspension
       type(design_t), intent(in) :: design                 !! design with the cases of the present numbers

@@ -50,7 +50,7 @@ module ek_workspace
       integer :: stage = numbers_given
       type(suspension_t) :: raw                         !! model with these numbers, without the preload trim
       type(suspension_t) :: suspension                  !! model with the preload trim
-      type(case_work_t), allocatable :: cases(:)        !! see ek_workspace_cases
+      type(case_work_t), allocatable :: cases(:)        !! cases of the workspace, see ek_workspace_cases
       integer, allocatable :: report_order(:)           !! index in `cases` of each case of the report
       real(wp), private :: tolerance = 0.0_wp           !! tolerance of the last preload trim [m]
       type(balance_failure_t), private :: failure       !! outcome of the last preload trim
@@ -83,8 +83,8 @@ contains
       if (is_done) workspace%stage = realised
    end subroutine take_numbers
 
-   !> Balances the suspension once for all cases with the same tolerance. `workspace%failure` is the outcome; its reason is 0 if the
-   !> preload trim succeeded. No string is created.
+   !> Balances the suspension with a tolerance, unless the suspension is already balanced with this tolerance. `workspace%failure`
+   !> is the outcome; its reason is 0 if the preload trim succeeded. No string is created.
    subroutine balance_once(tolerance, workspace)
       real(wp), intent(in) :: tolerance                    !! tolerance of the preload trim [m]
       type(workspace_t), intent(inout) :: workspace        !! realised
@@ -146,8 +146,8 @@ contains
    end subroutine ready_cases
 
    !> Puts a case on the rig with the present numbers, balanced, and solves nothing. No string is created. The numbers are not
-   !> examined, because they are close to the numbers of an examined design. is_done is .false. if the numbers are outside the range
-   !> of the blueprint, or if the preload trim failed.
+   !> examined: they must be close to the numbers of an examined design. is_done is .false. if the numbers are outside the range of
+   !> the blueprint, or if the preload trim failed.
    subroutine mount_numbers(k, tolerance, workspace, is_done)
       integer, intent(in) :: k
       real(wp), intent(in) :: tolerance                    !! tolerance of the preload trim [m]
@@ -224,9 +224,9 @@ contains
    end subroutine solve_or_explain
 
    !> Examines the needed cases of the report at the present numbers, and balances the suspension as the report does. No string is
-   !> created if these cases were examined before.
+   !> created if the needed cases were examined before.
    subroutine settle_numbers(is_needed, workspace, outcome)
-      logical, intent(in) :: is_needed(:)                  !! of each case, in the order of the report
+      logical, intent(in) :: is_needed(:)                  !! whether each case is needed, in the order of the report
       type(workspace_t), intent(inout) :: workspace
       integer, intent(out) :: outcome                      !! `succeeded`: the needed cases are examined, and the model is balanced
       logical :: is_done
@@ -252,7 +252,7 @@ contains
    !> Examines and balances like settle_numbers, but examines the needed cases in full and creates messages. is_done is .false. if
    !> the design must be read from the deck's strings.
    subroutine settle_or_explain(is_needed, workspace, is_solvable, defects, is_done, error)
-      logical, intent(in) :: is_needed(:)                  !! of each case, in the order of the report
+      logical, intent(in) :: is_needed(:)                  !! whether each case is needed, in the order of the report
       type(workspace_t), intent(inout) :: workspace
       logical, intent(out) :: is_solvable(:)
       type(message_list_t), intent(out) :: defects         !! defects of all needed cases, without repetition

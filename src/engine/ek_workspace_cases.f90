@@ -24,7 +24,7 @@ contains
    !> Reads a deck without listing its cases, for a command that chooses its cases.
    subroutine open_model(deck, workspace, error, needs_tables)
       type(deck_t), intent(in) :: deck
-      type(workspace_t), intent(inout) :: workspace          !! its former content is deleted
+      type(workspace_t), intent(inout) :: workspace          !! workspace, whose former content is deleted
       type(error_t), allocatable, intent(out) :: error       !! exit_deck, exit_file: all errors together
       logical, intent(in), optional :: needs_tables          !! if .true., a missing table is an error, also of a case not run
 
@@ -62,7 +62,7 @@ contains
    !> Reads a deck and lists its cases, then the standard tests that the deck does not define. Reports all errors together.
    subroutine open_workspace(deck, workspace, error)
       type(deck_t), intent(in) :: deck
-      type(workspace_t), intent(inout) :: workspace          !! its former content is deleted
+      type(workspace_t), intent(inout) :: workspace          !! workspace, whose former content is deleted
       type(error_t), allocatable, intent(out) :: error       !! exit_deck
       type(case_t), allocatable :: tests(:), all(:)         ! of the report; with those on request
       integer :: own, k
@@ -105,7 +105,7 @@ contains
    subroutine open_cases(deck, names, workspace, error, increments)
       type(deck_t), intent(in) :: deck
       character(*), intent(in) :: names(:)
-      type(workspace_t), intent(inout) :: workspace          !! its former content is deleted
+      type(workspace_t), intent(inout) :: workspace          !! workspace, whose former content is deleted
       type(error_t), allocatable, intent(out) :: error     !! exit_deck, exit_file, exit_model, exit_convergence
       integer, intent(in), optional :: increments !! number of increments of all cases; absent or 0: the increments of the deck
       type(diagnosis_t) :: diagnosis
@@ -157,7 +157,7 @@ contains
       type(case_work_t), intent(inout) :: found
       type(error_t), allocatable, intent(out) :: error
       type(case_t), allocatable :: tests(:)
-      character(word_length), allocatable :: names(:)      !! of all cases and tests that could be meant
+      character(word_length), allocatable :: names(:)      !! names of all cases and tests that could be meant
       integer :: k, j
 
       call make_room(found)

@@ -10,7 +10,7 @@ module ek_lane_conditions
    public :: operator(<), operator(<=), operator(>), operator(>=), operator(.and.), operator(.or.), operator(.not.)
    public :: some, every, merge, min, max, abs, pieces_below, entry
 
-   !> One condition for each of the four designs: 1 if it holds, 0 otherwise.
+   !> One condition for each of the four designs: 1 if the condition holds, 0 otherwise.
    type :: mask_t
       real(wp) :: v(lanes)
    end type mask_t

@@ -110,7 +110,8 @@ contains
       end do
    end function count_of
 
-   !> Defines dimensions, variables and attributes. The last dimension of Fortran is the first one that ncdump shows.
+   !> Defines dimensions, variables and attributes. ncdump shows the dimensions in reverse order: the last dimension in Fortran is
+   !> the first dimension in ncdump.
    subroutine define(store, file)
       type(store_t), intent(in) :: store
       type(file_t), intent(inout) :: file

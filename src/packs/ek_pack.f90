@@ -57,7 +57,7 @@ contains
    !> Creates the work space for designs with the connections of this suspension.
    subroutine new_pack(suspension, kkt, path, pack)
       type(suspension_t), intent(in) :: suspension
-      type(kkt_t), intent(in) :: kkt                     !! with a plan
+      type(kkt_t), intent(in) :: kkt                     !! KKT system with a plan
       type(path_t), intent(in) :: path                   !! path created by new_path
       type(pack_t), intent(out) :: pack
       type(lanes_t) :: zero

@@ -109,8 +109,8 @@ contains
       end do
    end subroutine assemble
 
-   !> Factorises the matrices at the present poses. The factors of designs whose iteration has ended are unchanged, so that these
-   !> designs do not depend on the others.
+   !> Factorises the matrices at the present poses. The factors of designs whose iteration has ended are unchanged, so that the
+   !> results of these designs do not depend on the other designs.
    subroutine factorise(pack, is_going, soundness)
       type(pack_t), intent(inout) :: pack
       logical, intent(in) :: is_going(lanes)

@@ -30,8 +30,8 @@ module ek_pack_walk
 
 contains
 
-   !> Whether a case can be solved in packs by method and path: its states are equilibria along the swept value, on a path through
-   !> design.
+   !> Whether packs can solve a case: its states are equilibria along the swept value, on a path through design that no table
+   !> defines.
    pure logical function can_walk(case, path)
       type(case_t), intent(in) :: case
       type(path_t), intent(in) :: path
@@ -41,7 +41,7 @@ contains
    !> Walks the paths of all members, which new_path has created with the same swept values. is_walked of a member is .true. if its
    !> path is complete. Members that are not wanted or that cannot walk are skipped.
    subroutine walk_pack(self, members)
-      type(walker_t), intent(inout) :: self      !! its pack was created for these designs
+      type(walker_t), intent(inout) :: self      !! walker with a pack that was created for these designs
       type(member_t), intent(inout) :: members(lanes)
       type(place_t), allocatable :: places(:)
 

@@ -42,7 +42,7 @@ module ek_walker
    type :: walker_t
       type(pack_t) :: pack
       type(predictor_t) :: history               !! swept values of the stored states; the states are in the pack
-      type(branch_t), allocatable :: branch(:)   !! of each design, for steps of this design alone
+      type(branch_t), allocatable :: branch(:)   !! branch of each design, for steps of this design alone
       logical :: is_fresh(lanes) = .false.       !! the branch belongs to the present design
       type(state_t) :: state
       type(place_t), allocatable :: places(:)    !! position of each design; reused as work space
@@ -85,8 +85,8 @@ contains
       end do
    end subroutine set_inputs
 
-   !> Finds the weights of the stored states for each design, for the number of states that the design trusts, and the slots of
-   !> these states.
+   !> Finds the weights of the stored states for each design, for the number of states that the design trusts, and the slots of the
+   !> stored states.
    subroutine find_lane_weights(history, value, trusted, weight, slot, states)
       type(predictor_t), intent(in) :: history
       real(wp), intent(in) :: value

@@ -28,7 +28,7 @@ contains
    !> Finds ∂y/∂z of all columns at a state, and two parts of the error of ∂y/∂z (see find_quotients).
    !> Equation (E.9) of docs/theory/derivatives.md.
    subroutine find_gradients(suspension, state, inputs, kkt, observer, values, moved, gradients)
-      type(suspension_t), intent(in) :: suspension         !! on the rig
+      type(suspension_t), intent(in) :: suspension         !! suspension on the rig
       type(state_t), intent(in) :: state
       type(inputs_t), intent(in) :: inputs
       type(kkt_t), intent(inout) :: kkt                    !! work space

@@ -31,7 +31,7 @@ contains
 
    !> Creates an observer of the requested columns. Columns that the model does not define are omitted. Creates strings.
    subroutine new_column_observer(suspension, case, columns, self)
-      type(suspension_t), intent(in) :: suspension         !! on the rig
+      type(suspension_t), intent(in) :: suspension         !! suspension on the rig
       type(case_t), intent(in) :: case
       character(*), intent(in) :: columns(:)
       type(column_observer_t), intent(out) :: self
@@ -53,7 +53,7 @@ contains
    !> Computes the values of the columns at an equilibrium. With the data `kept`, stored at an equilibrium, the values may be
    !> computed at a state close to the equilibrium.
    subroutine observe_columns(suspension, state, inputs, kkt, self, values, kept)
-      type(suspension_t), intent(in) :: suspension         !! on the rig
+      type(suspension_t), intent(in) :: suspension         !! suspension on the rig
       type(state_t), intent(in) :: state
       type(inputs_t), intent(in) :: inputs
       type(kkt_t), intent(inout) :: kkt                    !! work space
@@ -76,7 +76,7 @@ contains
       values(self%quantities + 1:) = self%matrix(self%entries)
    end subroutine observe_columns
 
-   !> Whether all columns follow from a state alone. No column needs the compliance matrix, or a model in addition to the state.
+   !> Whether all columns follow from a state alone, without the compliance matrix and without a model in addition to the state.
    pure logical function reads_states(self)
       type(column_observer_t), intent(in) :: self
       reads_states = size(self%entries) == 0 .and. .not. reads_matrix(self%observer)
@@ -88,7 +88,8 @@ contains
       reads_wheels_only = size(self%entries) == 0 .and. reads_poses_of_wheels(self%observer)
    end function reads_wheels_only
 
-   !> Number of unit loads whose responses are stored: the loads of the compliance matrix if it is observed, otherwise 0.
+   !> Number of unit loads whose responses are stored: the loads of the compliance matrix, or 0 if no entry of the matrix is
+   !> observed.
    pure integer function kept_loads(self)
       type(column_observer_t), intent(in) :: self
       kept_loads = merge(6*size(self%wheels), 0, size(self%entries) > 0)
@@ -96,7 +97,7 @@ contains
 
    !> Stores the data of an observed equilibrium for observe_columns at states close to the equilibrium.
    pure subroutine keep_state(self, kept)
-      type(column_observer_t), intent(in) :: self          !! after observe_columns
+      type(column_observer_t), intent(in) :: self          !! observer after observe_columns
       real(wp), intent(inout) :: kept(:, :)                !! (kept_loads, unknown)
       if (size(kept, 1) > 0) call keep_responses(self%compliance, kept)
    end subroutine keep_state

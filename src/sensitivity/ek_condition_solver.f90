@@ -25,7 +25,7 @@ module ek_condition_solver
    !> The result of the search: unknowns, values before and after, effects and conflicts.
    type :: findings_t
       real(wp), allocatable :: x(:)                  !! values of the unknowns, in the units of their directions
-      integer, allocatable :: held(:)                !! of each unknown: −1, +1 at its lower or upper bound; 0 between the bounds
+      integer, allocatable :: held(:)                !! −1, +1: an unknown is at its lower or upper bound; 0: between the bounds
       real(wp), allocatable :: before(:), after(:)   !! values of the wanted numbers at the start and at the end
       logical, allocatable :: is_reached(:)          !! whether each condition is satisfied
       real(wp), allocatable :: effect(:, :)          !! (condition, unknown): change if the unknown moves by the width of its
@@ -93,7 +93,7 @@ contains
 
    contains
 
-      !> Records the findings at the last point if it satisfies all conditions, otherwise at the best point.
+      !> Records the findings at the last point if the last point satisfies all conditions, otherwise at the best point.
       subroutine conclude()
          type(singular_values_t) :: parts
          real(wp), allocatable :: effect(:, :)

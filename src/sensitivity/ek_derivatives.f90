@@ -82,8 +82,8 @@ contains
       allocate (self%can_move(size(directions)), source=.true.)
    end subroutine begin_derivatives
 
-   !> Rejects a case without derivatives. In a case with derivatives, each state is an equilibrium, and the inputs follow from its
-   !> swept value.
+   !> Rejects a case that has no derivatives. A case has derivatives if each of its states is an equilibrium, under inputs that
+   !> follow from the swept value of the state.
    subroutine refuse_case(case, error)
       type(case_t), intent(in) :: case
       type(error_t), allocatable, intent(out) :: error     !! exit_usage
@@ -183,8 +183,8 @@ contains
       real(wp), intent(in) :: x(:)                         !! numbers of the design
       type(case_result_t), intent(inout) :: result
       integer, intent(in) :: first, last
-      type(inputs_t), intent(in) :: inputs(first:)         !! of each state
-      type(change_t), intent(in) :: changes(:)             !! of learn_number
+      type(inputs_t), intent(in) :: inputs(first:)         !! inputs of each state
+      type(change_t), intent(in) :: changes(:)             !! changes from learn_number, of each number
       real(wp), intent(in) :: values(:, first:)            !! (column, state)
       real(wp), intent(in) :: kept(:, :, first:)           !! (load, unknown, state): data from keep_state
       type(point_t), intent(inout) :: points(first:)
@@ -218,8 +218,8 @@ contains
       real(wp), intent(in) :: x(:)                         !! numbers of the design
       type(case_result_t), intent(inout) :: result
       integer, intent(in) :: first, last
-      type(inputs_t), intent(in) :: inputs(first:)         !! of each state
-      type(change_t), intent(in) :: changes(:)             !! of learn_number
+      type(inputs_t), intent(in) :: inputs(first:)         !! inputs of each state
+      type(change_t), intent(in) :: changes(:)             !! changes from learn_number, of each number
       real(wp), intent(in) :: values(:, first:)            !! (column, state)
       real(wp), intent(in) :: kept(:, :, first:)           !! (load, unknown, state): data from keep_state
       type(point_t), intent(inout) :: points(first:)

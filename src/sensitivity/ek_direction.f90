@@ -54,7 +54,7 @@ contains
    !> to several directions.
    subroutine find_directions(design, deck, paths, directions, error)
       type(design_t), intent(in) :: design
-      type(deck_t), intent(in) :: deck                     !! of the design
+      type(deck_t), intent(in) :: deck                     !! deck of the design
       type(message_list_t), intent(in) :: paths
       type(direction_t), allocatable, intent(out) :: directions(:)
       type(error_t), allocatable, intent(out) :: error !! exit_usage: messages on all paths that lead to no number, with suggestions

@@ -44,7 +44,8 @@ module ek_fit_problem
       logical :: knows_deviation = .false.                 !! the targets give standard deviations
    end type fit_problem_t
 
-   real(wp), parameter :: steps = 1.0e3_wp                 !! number of steps of a direction that count as large: 10 % of a rate
+   real(wp), parameter :: steps = 1.0e3_wp                 !! number of steps of a direction that count as large: 100 mm, 5.7 deg,
+                                                           !! the largest value of a rate
 
 contains
 

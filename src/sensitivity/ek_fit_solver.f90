@@ -18,7 +18,7 @@ module ek_fit_solver
 
    type :: fit_result_t
       real(wp), allocatable :: x(:)                  !! values of the factors, in their units
-      integer, allocatable :: held(:)                !! of each factor: −1, +1 at its lower or upper bound; 0 between the bounds
+      integer, allocatable :: held(:)                !! −1, +1: a factor is at its lower or upper bound; 0: between the bounds
       real(wp), allocatable :: before(:), after(:)   !! values of the points, at the start and at the end
       real(wp), allocatable :: jacobian(:, :)        !! (point, factor): derivatives of the points, in their units
       real(wp) :: sum_before = 0.0_wp, sum_after = 0.0_wp     !! sum that is minimised, at the start and at the end

@@ -138,9 +138,10 @@ contains
       end do
    end subroutine covariance_of
 
-   !> The quantile of Student's distribution, p ≥ 1/2. The quantile is exact for one and two degrees of freedom. Otherwise it is the
-   !> expansion by Cornish and Fisher in 1/freedom. Its error is below 1 % from three degrees of freedom on, and below 1e-3 from six
-   !> on. Source: M. Abramowitz, I. Stegun, Handbook of Mathematical Functions, 1964, 26.7.5.
+   !> The quantile of Student's distribution, p ≥ 1/2. The quantile is exact for one and two degrees of freedom. For three or more
+   !> degrees of freedom, the quantile is the expansion in 1/freedom by Cornish and Fisher. The error of the expansion is below 1 %,
+   !> and below 1e-3 from six degrees of freedom on. Source: M. Abramowitz, I. Stegun, Handbook of Mathematical Functions, 1964,
+   !> 26.7.5.
    pure real(wp) function student_quantile(p, freedom) result(t)
       real(wp), intent(in) :: p
       integer, intent(in) :: freedom

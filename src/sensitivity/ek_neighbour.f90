@@ -20,7 +20,7 @@ module ek_neighbour
    real(wp), parameter :: balance_tolerance = 1.0e-13_wp      !! tolerance of the preload trim [m]: balance 'spring' iterates, and
                                                               !! its error is divided by a step
 
-   !> The neighbour of a design: a design close to it.
+   !> A neighbouring design: a design close to a given design.
    type :: neighbour_t
       integer :: case = 0                                  !! index of the case in the workspace
       class(workspace_t), allocatable :: workspace         !! the deck at the numbers of the neighbour; a class for the reason given

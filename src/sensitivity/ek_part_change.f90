@@ -332,7 +332,7 @@ contains
       laws(k)%measure = here%measure
    end subroutine keep_neighbour
 
-   !> Stores the load of neighbour k, if it differs from the load of the design.
+   !> Stores the load of neighbour k, if the load differs from the load of the design.
    pure subroutine learn_load(here, there, number, k, change)
       type(load_t), intent(in) :: here, there
       integer, intent(in) :: number, k

@@ -38,7 +38,7 @@ contains
    end function weight_of
 
    !> The weight of the value at a point in half the difference of the slopes on both sides, per step h; point 0 is the middle. The
-   !> weighted sum is of order h³ if there is no corner. One-sided stencils cannot detect a corner.
+   !> weighted sum is of order h³ without a corner. One-sided stencils cannot detect a corner.
    !> Equation (E.2) of docs/theory/derivatives.md.
    pure real(wp) function corner_weight(stencil, k) result(weight)
       type(stencil_t), intent(in) :: stencil
@@ -48,7 +48,7 @@ contains
       if (sees_corners(stencil)) weight = corner_weights(k)
    end function corner_weight
 
-   !> Whether a stencil has points on both sides of the middle, so that it detects corners.
+   !> Whether a stencil has points on both sides of the middle, so that the stencil detects corners.
    pure logical function sees_corners(stencil)
       type(stencil_t), intent(in) :: stencil
       sees_corners = stencil%at(1)*stencil%at(4) < 0.0_wp

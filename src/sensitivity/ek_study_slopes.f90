@@ -33,7 +33,7 @@ module ek_study_slopes
       real(wp), allocatable :: sweep(:)                      !! swept values of the states of a curve
       integer, allocatable, private :: columns(:)            !! indices of the curves among the differentiated columns
       type(reading_t), allocatable, private :: readings(:)
-      integer, allocatable, private :: case_of(:)            !! of each response: index in `cases`
+      integer, allocatable, private :: case_of(:)            !! index in `cases` of the case of each response
       type(case_slopes_t), allocatable, private :: cases(:)
       type(direction_t), allocatable, private :: directions(:)
       type(factor_paths_t), allocatable, private :: paths(:)
@@ -46,7 +46,7 @@ contains
    subroutine begin_study_slopes(study, deck, designer, self, error)
       type(study_t), intent(in) :: study
       type(deck_t), intent(in) :: deck
-      type(designer_t), intent(in) :: designer               !! of the study (new_designer)
+      type(designer_t), intent(in) :: designer               !! designer of the study (new_designer)
       class(study_slopes_t), allocatable, intent(out) :: self
       type(error_t), allocatable, intent(out) :: error       !! exit_deck: factors or cases without derivatives; exit_model
       type(message_list_t) :: mistakes

@@ -40,7 +40,7 @@ contains
    subroutine find_tolerance(study, deck, designer, tolerance, error)
       type(study_t), intent(in) :: study
       type(deck_t), intent(in) :: deck
-      type(designer_t), intent(in) :: designer               !! of the study (new_designer)
+      type(designer_t), intent(in) :: designer               !! designer of the study (new_designer)
       type(tolerance_t), intent(out) :: tolerance
       type(error_t), allocatable, intent(out) :: error       !! exit_deck, exit_model: numbers without a derivative, and the reason
       class(study_slopes_t), allocatable :: slopes

@@ -31,7 +31,7 @@ module ek_wanted_number
       integer :: wheel = 1                       !! key number: 1 left or single wheel, or axle; 2 right
       integer :: source = 0 !! key number: index of the source that has the value; 0: not yet known, or all sources
       integer, allocatable :: cases(:)           !! index in the workspace of the case of each source
-      real(wp), allocatable :: reach(:)          !! of each source: swept value [SI] beyond which no state is needed
+      real(wp), allocatable :: reach(:)          !! swept value [SI] beyond which no state of each source is needed
    end type wanted_number_t
 
    character(*), parameter :: no_quantities(7) = [character(16) :: 'state', 'factor', 'converged', 'stable', 'near_singular', &
@@ -61,12 +61,13 @@ contains
          ', no entry of its compliance matrix and no key number'//hint)
    end subroutine find_wanted
 
-   !> Finds a column of a case, to be read at a value of another column. wanted%case is 0 if the case has no such quantity.
+   !> Finds a column of a case, to be read at a value of another column. `wanted%case` is 0 if the case does not have both columns,
+   !> or if the column describes only the solution.
    subroutine find_column(workspace, k, name, over, at, wanted, heads)
       type(workspace_t), intent(in) :: workspace
       integer, intent(in) :: k                             !! index of the case
       character(*), intent(in) :: name, over
-      real(wp), intent(in) :: at                           !! in the unit of `over`
+      real(wp), intent(in) :: at                           !! value of the column `over`, in its unit
       type(wanted_number_t), intent(out) :: wanted
       character(name_length), allocatable, intent(out) :: heads(:)     !! all columns, and entries of the compliance matrix, for
                                                                        !! suggestions
@@ -128,7 +129,7 @@ contains
       type(wanted_number_t), intent(in) :: wanted
       integer, intent(in) :: source                        !! key number: index of the source to be read
       type(table_t), intent(in) :: table                   !! table of the case
-      real(wp), intent(inout) :: value !! on entry, value from the preceding sources; NaN before the first source
+      real(wp), intent(inout) :: value !! on entry, the value from the preceding sources; NaN before the first source
       real(wp) :: both(2)
       logical :: is_final
 

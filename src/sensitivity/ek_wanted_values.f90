@@ -40,7 +40,7 @@ module ek_wanted_values
       type(direction_t), allocatable :: directions(:)
       real(wp), allocatable :: values(:)                     !! values of the numbers, in their units
       real(wp), allocatable :: jacobian(:, :)                !! (number, direction): derivatives per unit of the direction
-      logical, allocatable :: can_move(:)                    !! of each direction: the number of the deck may change at this design
+      logical, allocatable :: can_move(:) !! whether the number of the deck of each direction may change at this design
       integer :: sweeps = 0                                  !! number of designs that were solved
       logical, private :: is_fresh = .false.                 !! begin_values has solved the design at distance 0
       real(wp), allocatable, private :: start(:)             !! numbers of the deck at distance 0
@@ -194,8 +194,8 @@ contains
       end if
    end subroutine settle
 
-   !> Solves a case for the first time, unless it was already solved. An error is returned if a state that the number needs did not
-   !> converge.
+   !> Solves a case for the first time, unless the case was already solved. An error is returned if a state that the number needs
+   !> did not converge.
    subroutine solve_first(this, reach, workspace, error)
       type(needed_t), intent(inout) :: this
       real(wp), intent(in) :: reach                          !! swept value up to which the number needs the path
@@ -272,7 +272,7 @@ contains
    !> Reads all numbers from the tables of the cases, or from the moved tables.
    subroutine read_values(self, is_moved, values)
       type(wanted_values_t), intent(in) :: self
-      logical, intent(in) :: is_moved                        !! from the moved tables
+      logical, intent(in) :: is_moved                        !! whether the moved tables are read
       real(wp), intent(out) :: values(:)
       integer :: j, k, n
 

@@ -19,13 +19,13 @@ module ek_design_cause
    type :: cause_t
       integer :: design = 0                        !! index of the design in the chunk, from 1
       logical :: is_unread = .false.               !! the design must be read from the deck's strings; its cause is found only then
-      type(error_t) :: error !! of the first case that was not run; message not allocated if all cases were run
+      type(error_t) :: error !! error of the first case that was not run; its message is not allocated if all cases were run
       real(wp), allocatable :: lost(:, :)          !! (side, case): first swept value without an equilibrium; NaN if all states of
                                                    !! the side converged
       real(wp), allocatable :: open(:, :)          !! (2, case): swept value of the first state of open_states, and its |Φ| [m or
                                                    !! rad]; NaN if there is no such state
-      integer, allocatable :: faults(:)            !! of each response: reason code of read_response, 0 if the response has a value
-      type(table_t), allocatable :: tables(:)      !! of each case; filled only for cases in which a response has no value
+      integer, allocatable :: faults(:) !! reason code of each response, from read_response; 0 if the response has a value
+      type(table_t), allocatable :: tables(:)      !! table of each case, filled only for cases in which a response has no value
    end type cause_t
 
    !> The causes of a chunk, in the order of the designs.
@@ -66,8 +66,8 @@ contains
    !> Finds why a design is incomplete. No string is created if all cases of the design were run.
    subroutine find_cause(design, case_of, faults, workspace, cause)
       integer, intent(in) :: design
-      integer, intent(in) :: case_of(:), faults(:)         !! of each response: index of its case, reason code of read_response
-      type(workspace_t), intent(in) :: workspace           !! with the results of its cases
+      integer, intent(in) :: case_of(:), faults(:)         !! index of the case, and reason code of read_response, for each response
+      type(workspace_t), intent(in) :: workspace           !! workspace with the results of its cases
       type(cause_t), intent(out) :: cause
       type(error_t), allocatable :: error
       integer :: c, j, side, row
@@ -101,9 +101,9 @@ contains
    !> The message on a failed design, from its cause.
    function cause_text(cause, case_of, readings, workspace) result(text)
       type(cause_t), intent(in) :: cause
-      integer, intent(in) :: case_of(:)                    !! of each response: index of its case
+      integer, intent(in) :: case_of(:)                    !! index of the case of each response
       type(reading_t), intent(in) :: readings(:)
-      type(workspace_t), intent(in) :: workspace           !! with the names of the cases
+      type(workspace_t), intent(in) :: workspace           !! workspace with the names of the cases
       character(:), allocatable :: text
       type(message_list_t) :: words
       integer :: c, j, side

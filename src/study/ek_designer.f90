@@ -26,16 +26,16 @@ module ek_designer
    !> Data that one thread stores from design to design.
    type :: designer_t
       class(workspace_t), allocatable :: workspace !! allocated by begin_designer; a class for the reason given at case_work_t
-      class(pack_space_t), allocatable :: packs                       !! for designs that are solved together
-      type(factor_paths_t), allocatable :: paths(:)        !! of each factor: the numbers of the deck that it changes
-      character(name_length), allocatable :: case_names(:) !! of the cases to be solved; '': the first case of the deck
-      type(solve_options_t), allocatable :: options(:)     !! of each case, with the columns to compute
+      class(pack_space_t), allocatable :: packs                       !! work space for designs that are solved together
+      type(factor_paths_t), allocatable :: paths(:)        !! numbers of the deck that each factor changes
+      character(name_length), allocatable :: case_names(:) !! names of the cases to be solved; '': the first case of the deck
+      type(solve_options_t), allocatable :: options(:)     !! options of each case, with the columns to compute
       type(reading_t), allocatable :: readings(:)
-      integer, allocatable :: case_of(:)                   !! of each response: index of its case
+      integer, allocatable :: case_of(:)                   !! index of the case of each response
       integer :: increments = 0                            !! number of increments of all cases; 0: the increments of the deck
       integer :: states = 0                                !! number of states of the first case, in the design of the deck
-      character(name_length), allocatable :: units(:)      !! of each factor, '' if it has no unit: 'N/mm'
-      character(name_length), allocatable :: heads(:)      !! column heading of each factor: 'rate_n_per_mm'
+      character(name_length), allocatable :: units(:)      !! unit of each factor, for instance 'N/mm'; '' if the factor has no unit
+      character(name_length), allocatable :: heads(:)      !! column heading of each factor, for instance 'rate_n_per_mm'
    end type designer_t
 
 contains
@@ -64,7 +64,8 @@ contains
       call check_planes(study, designer%workspace%design, designer%paths, error)
    end subroutine begin_designer
 
-   !> Reads the deck, and checks all paths, columns and responses against it. All cases of the design of the deck must be solvable.
+   !> Reads the deck, and checks all paths, columns and responses of the study against the deck. All cases must be solvable in the
+   !> design of the deck.
    subroutine new_designer(study, deck, home, designer, error)
       type(study_t), intent(in) :: study
       type(deck_t), intent(in) :: deck

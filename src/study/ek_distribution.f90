@@ -29,7 +29,7 @@ module ek_distribution
       real(wp) :: lower = 0.0_wp, upper = 1.0_wp       !! bounds, ∓`unbounded` if there is no bound
       real(wp) :: first = 0.0_wp, last = 1.0_wp        !! ends of a triangular distribution before it is truncated
       real(wp) :: center = 0.5_wp                      !! mean of x (normal) or of ln x (log-normal), peak of a triangle
-      real(wp) :: deviation = 1.0_wp                   !! of x (normal) or of ln x (log-normal)
+      real(wp) :: deviation = 1.0_wp                   !! standard deviation of x (normal) or of ln x (log-normal)
       real(wp) :: from = 0.0_wp, to = 1.0_wp           !! F of the bounds, before truncation; reflected: 1 − F(upper), 1 − F(lower)
       logical :: is_reflected = .false. !! both bounds are above the median of a normal distribution: the mirrored bounds are used
    end type distribution_t
@@ -273,7 +273,7 @@ contains
       end associate
    end subroutine moments
 
-   !> The product z φ(z) at the score z of a bound; 0 if there is no bound.
+   !> The product z φ(z) at the score z of a bound; 0 without a bound.
    pure real(wp) function weighted(z)
       real(wp), intent(in) :: z
 

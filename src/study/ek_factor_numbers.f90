@@ -16,12 +16,12 @@ module ek_factor_numbers
 
 contains
 
-   !> Changes the workspace to the design with these factor values, from the numbers alone, and puts its cases on the rig. `is_done`
-   !> is .false. if the design must be read from the deck's strings. This is necessary if a path leads to no parameter, a value is
+   !> Changes the workspace to the design with the given factor values, from the numbers alone, and puts the cases of the workspace
+   !> on the rig. `is_done` is .false. if the design must be read from the deck's strings: a path leads to no parameter, a value is
    !> outside its range, or the design may have a defect.
    subroutine change_design(factors, values, workspace, is_done)
       type(factor_paths_t), intent(in) :: factors(:)
-      real(wp), intent(in) :: values(:)                    !! in the units of the deck
+      real(wp), intent(in) :: values(:)                    !! value of each factor, in the units of the deck
       type(workspace_t), intent(inout) :: workspace
       logical, intent(out) :: is_done
       real(wp) :: x(size(workspace%x))
@@ -44,8 +44,8 @@ contains
    pure subroutine put_factor(factor, value, parameters, x)
       type(factor_paths_t), intent(in) :: factor
       real(wp), intent(in) :: value
-      type(parameters_t), intent(in) :: parameters         !! of the deck
-      real(wp), intent(inout) :: x(:)                      !! of the parameters [SI, axes of the deck]
+      type(parameters_t), intent(in) :: parameters         !! parameters of the deck
+      real(wp), intent(inout) :: x(:)                      !! numbers of the parameters [SI, axes of the deck]
       integer :: j
 
       do j = 1, size(factor%found)

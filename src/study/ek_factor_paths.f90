@@ -55,7 +55,7 @@ contains
    subroutine check_planes(study, design, paths, error)
       type(study_t), intent(in) :: study
       type(design_t), intent(in) :: design
-      type(factor_paths_t), intent(in) :: paths(:)         !! of the factors
+      type(factor_paths_t), intent(in) :: paths(:)         !! paths of each factor
       type(error_t), allocatable, intent(out) :: error     !! exit_deck
       type(message_list_t) :: mistakes
       character(:), allocatable :: names

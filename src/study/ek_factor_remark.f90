@@ -22,8 +22,8 @@ contains
    !> `each = .true.` creates many factors.
    subroutine factor_remarks(study, design, paths, words)
       type(study_t), intent(in) :: study
-      type(design_t), intent(in) :: design                 !! of the deck
-      type(factor_paths_t), intent(in) :: paths(:)         !! of the factors
+      type(design_t), intent(in) :: design                 !! design of the deck
+      type(factor_paths_t), intent(in) :: paths(:)         !! paths of each factor
       type(message_list_t), intent(inout) :: words
       logical :: is_moved(size(design%records)), is_new(2)
       character(:), allocatable :: list
@@ -55,7 +55,7 @@ contains
    subroutine find_moved(design, paths, is_moved)
       type(design_t), intent(in) :: design
       type(factor_paths_t), intent(in) :: paths
-      logical, intent(out) :: is_moved(:)                  !! of each record
+      logical, intent(out) :: is_moved(:)                  !! whether each record is a point that the factor moves
       integer :: j
 
       is_moved = .false.
@@ -130,7 +130,7 @@ contains
    !> Finds the locations of all points whose three coordinates are numbers of the deck.
    subroutine place_points(design, at, is_point)
       type(design_t), intent(in) :: design
-      real(wp), intent(out) :: at(:, :)                    !! of each record [m]
+      real(wp), intent(out) :: at(:, :)                    !! location of each record [m]
       logical, intent(out) :: is_point(:)
       integer :: k, given(size(is_point))
 

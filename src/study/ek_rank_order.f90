@@ -29,8 +29,8 @@ contains
    !> Orders the intervals, 0 … n − 1, of the factors that have a correlation, by rank. The intervals of all other factors follow
    !> from their permutations alone.
    pure subroutine order_ranks(permutations, copula, tied, designs, intervals, error)
-      type(permutation_t), intent(in) :: permutations(:)   !! of the intervals of each factor
-      type(copula_t), intent(in) :: copula                 !! of all factors
+      type(permutation_t), intent(in) :: permutations(:)   !! permutation of the intervals of each factor
+      type(copula_t), intent(in) :: copula                 !! copula of all factors
       integer, intent(in) :: tied(:)                       !! indices of the factors with a correlation, ascending
       integer(i8), intent(in) :: designs
       integer, allocatable, intent(out) :: intervals(:, :) !! (position in `tied`, design)
@@ -60,9 +60,9 @@ contains
       end do
    end subroutine order_ranks
 
-   !> Changes the scores of a sample, which have mean 0, so that they have the correlations of the copula: exactly if the sample has
-   !> more designs than correlated factors and its matrix is regular. Otherwise the accidental correlations of the sample remain in
-   !> the scores.
+   !> Changes the scores of a sample, which have mean 0, so that the scores have the correlations of the copula. The correlations
+   !> are exact if the sample has more designs than correlated factors, and if the correlation matrix of the sample is regular.
+   !> Otherwise the accidental correlations of the sample remain in the scores.
    pure subroutine tie(copula, tied, factors, scores)
       type(copula_t), intent(in) :: copula
       integer, intent(in) :: tied(:), factors              !! indices of the correlated factors; number of all factors

@@ -21,11 +21,11 @@ contains
 
    !> Whether a case needs the compliance matrix, and no response or curve reads a K&C quantity at all states.
    pure logical function reads_few_states(readings, case_of, case, columns, observer, table)
-      type(reading_t), intent(in) :: readings(:)           !! of all cases
-      integer, intent(in) :: case_of(:), case              !! of each reading: index of its case; index of this case
-      character(*), intent(in) :: columns(:)               !! of the curves of this case, read at every state
-      type(observer_t), intent(in) :: observer             !! of this case
-      type(table_t), intent(in) :: table                   !! of this case, in the design of the deck
+      type(reading_t), intent(in) :: readings(:)           !! readings of all cases
+      integer, intent(in) :: case_of(:), case              !! index of the case of each reading; index of this case
+      character(*), intent(in) :: columns(:)               !! columns of the curves of this case, read at every state
+      type(observer_t), intent(in) :: observer             !! observer of this case
+      type(table_t), intent(in) :: table                   !! table of this case, in the design of the deck
       integer :: j
 
       reads_few_states = reads_matrix(observer)
@@ -48,11 +48,11 @@ contains
 
    end function reads_few_states
 
-   !> Observes the K&C quantities of a case at the states where responses read such quantities.
+   !> Observes the K&C quantities of a case at the states where a response reads a K&C quantity.
    subroutine observe_read_states(readings, case_of, case, observer, result)
-      type(reading_t), intent(in) :: readings(:)           !! of all cases
-      integer, intent(in) :: case_of(:), case              !! of each reading: index of its case; index of this case
-      type(observer_t), intent(inout) :: observer          !! of this case
+      type(reading_t), intent(in) :: readings(:)           !! readings of all cases
+      integer, intent(in) :: case_of(:), case              !! index of the case of each reading; index of this case
+      type(observer_t), intent(inout) :: observer          !! observer of this case
       type(case_result_t), intent(inout) :: result         !! solved with defers_kandc
       logical :: is_read(size(result%table%values, 2))
       integer :: column, j

@@ -56,7 +56,7 @@ contains
 
    contains
 
-      !> Adds a column name, unless it is already listed.
+      !> Adds a column name, unless the name is already listed.
       subroutine add(name)
          character(*), intent(in) :: name
          if (.not. any(names == name)) names = [character(len(names)) :: names, name]
@@ -119,8 +119,8 @@ contains
       if (message /= '') message = asked%where//': response '//quoted(asked%name)//': '//message
    end subroutine prepare_reading
 
-   !> Prepares a response that is a difference of two responses, which must already be prepared. `message` is not '' if they have
-   !> different units.
+   !> Prepares a response that is a difference of two responses, which must already be prepared. `message` gives the error if the
+   !> two responses have different units, and is '' otherwise.
    subroutine prepare_difference(asked, first, second, reading, message)
       type(response_t), intent(in) :: asked
       type(reading_t), intent(in) :: first, second
@@ -137,7 +137,7 @@ contains
    end subroutine prepare_difference
 
    !> Finds the columns, the window, the sign and the zero limit of a gradient of the report. `message` gives the reason if the test
-   !> has no such gradient.
+   !> does not have the gradient.
    subroutine find_gradient(test, reading, message)
       type(test_result_t), intent(in), optional :: test
       type(reading_t), intent(inout) :: reading

@@ -16,7 +16,7 @@ module ek_response_value
    type :: reading_t
       type(response_t) :: asked
       character(:), allocatable :: over      !! slope, gradient: name of the column over which it is taken
-      character(:), allocatable :: head      !! its column heading, with the unit
+      character(:), allocatable :: head      !! column heading of the response, with the unit
       real(wp) :: size = 1.0_wp !! slope: factor from the units of the columns to the units of the response; gradient: its sign
       real(wp) :: noise = 0.0_wp !! gradient: a change of the column over half the window up to this number is rounded to zero
       integer :: of = 0                      !! kind of response, one of the constants below
@@ -131,7 +131,7 @@ contains
    pure subroutine mark_states(reading, table, is_read)
       type(reading_t), intent(in) :: reading
       type(table_t), intent(in) :: table         !! swept values, and the column over which a slope is taken
-      logical, intent(inout) :: is_read(:)       !! of each state; marks of other states are unchanged
+      logical, intent(inout) :: is_read(:)       !! whether each state is read; marks of other states are unchanged
       logical :: is_near(size(is_read))
       real(wp) :: x(size(is_read)), centre
       integer :: over, k
@@ -227,8 +227,8 @@ contains
       end do
    end subroutine find_window
 
-   !> Whether each state may lie in the window of a slope although the column over which the slope is taken has no value at the
-   !> state. Such a state has converged, and a state before or after it is in the window.
+   !> Whether each state may lie in the window of a slope although its abscissa, the column over which the slope is taken, has no
+   !> value. Such a state has converged, and the state before or after it is in the window.
    pure function unplaced_states(reading, table, over, is_near) result(is_unplaced)
       type(reading_t), intent(in) :: reading
       type(table_t), intent(in) :: table
@@ -281,8 +281,8 @@ contains
       if (abs(at - high) <= rounding*(high - low)) rounded = high
    end function nearest_end
 
-   !> Index of the column with a name; 0 if there is no such column. The index `usual`, from the table of the design of the deck, is
-   !> tried first.
+   !> Index of the column with a name; 0 if the table has no such column. The index `usual`, from the table of the design of the
+   !> deck, is tried first.
    pure integer function place_of_column(table, name, usual) result(place)
       type(table_t), intent(in) :: table
       character(*), intent(in) :: name

@@ -10,7 +10,7 @@ contains
 
    !> Computes the mean and the standard deviation in two passes: s² = Σ (x − x̄)²/(n − 1). The deviation is 0 for one value.
    pure subroutine mean_and_deviation(values, mean, deviation)
-      real(wp), intent(in) :: values(:)            !! at least one
+      real(wp), intent(in) :: values(:)            !! sample of at least one value
       real(wp), intent(out) :: mean, deviation
       integer :: k, n
 
@@ -25,7 +25,7 @@ contains
 
    !> Standard error of the standard deviation s of a sample of n values: s √((κ − 1)/4n), where κ s⁴ is the fourth central moment.
    pure real(wp) function error_of_deviation(values) result(error)
-      real(wp), intent(in) :: values(:)            !! not all equal
+      real(wp), intent(in) :: values(:)            !! sample; the values are not all equal
       real(wp) :: mean, deviation
       integer :: n
 
@@ -37,7 +37,7 @@ contains
    !> Finds the order in which values ascend: values(order(1)) is the smallest. Equal values remain in their order (merge sort).
    pure subroutine ascending_order(values, order)
       real(wp), intent(in) :: values(:)
-      integer, intent(out) :: order(:)             !! as many as values
+      integer, intent(out) :: order(:)             !! indices of the values, in ascending order of the values
       integer, allocatable :: old(:)
       integer :: n, width, first, middle, last, i, j, k
 
@@ -99,7 +99,7 @@ contains
    !> Equation (D.13) of docs/theory/sampling.md.
    pure subroutine percentile_interval(n, p, confidence, lower, upper, coverage)
       integer, intent(in) :: n
-      real(wp), intent(in) :: p, confidence        !! in (0, 1)
+      real(wp), intent(in) :: p, confidence        !! share and confidence, both between 0 and 1
       integer, intent(out) :: lower, upper         !! ranks, 1 … n
       real(wp), intent(out) :: coverage            !! probability that the interval contains the percentile
       real(wp) :: below, tail

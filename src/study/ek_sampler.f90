@@ -342,7 +342,7 @@ contains
    !> The change of the factor from the previous design, as a fraction of its range: ±p/(2(p − 1)), with p levels.
    pure real(wp) function morris_change(sampler, design, factor) result(change)
       type(sampler_t), intent(in) :: sampler
-      integer(i8), intent(in) :: design            !! not the first of its trajectory
+      integer(i8), intent(in) :: design            !! index of the design, which is not the first of its trajectory
       integer, intent(in) :: factor                !! changed_factor of this design
       type(trajectory_t) :: trajectory
 

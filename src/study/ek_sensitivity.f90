@@ -42,9 +42,9 @@ module ek_sensitivity
 
 contains
 
-   !> Computes first-order and total indices from the responses of a Saltelli design. The designs are those of a sampler, or a list
-   !> in the same order (see saltelli_block). Here f_A, f_B and f_i are the responses of a row in the blocks A, B and AB_i (A with
-   !> factor i from B), less the mean of all responses. V is the variance of f_A and f_B together:
+   !> Computes first-order and total indices from the responses of a Saltelli design. The designs come from a sampler, or from a
+   !> list in the order of the sampler (see saltelli_block). Here f_A, f_B and f_i are the responses of a row in the blocks A, B and
+   !> AB_i (A with factor i from B), less the mean of all responses. V is the variance of f_A and f_B together:
    !>
    !>     S_i = ⟨f_B (f_i − f_A)⟩ / V           Saltelli et al., Comput. Phys. Commun. 181 (2010) 259–270, table 2 (b)
    !>     T_i = ⟨(f_A − f_i)²⟩ / (2 V)          Jansen, Comput. Phys. Commun. 117 (1999) 35–43; Saltelli et al., table 2 (f)
@@ -96,9 +96,9 @@ contains
       end do
    end subroutine sobol_indices
 
-   !> The number of designs per row of a Saltelli design, as SALib writes it. The number is k + 2 without second order (A, AB₁ …
-   !> AB_k, B), and 2 k + 2 with second order (A, AB₁ … AB_k, BA₁ … BA_k, B). The result is 0 if the designs are not a Saltelli
-   !> design of two or more rows. AB_i is A with factor i from B; BA_i is B with factor i from A.
+   !> The number of designs per row of a Saltelli design (written by a sampler of elastokin or by SALib). The number is k + 2
+   !> without second order (A, AB₁ … AB_k, B), and 2 k + 2 with second order (A, AB₁ … AB_k, BA₁ … BA_k, B). The result is 0 if the
+   !> designs are not a Saltelli design of two or more rows. AB_i is A with factor i from B; BA_i is B with factor i from A.
    pure integer function saltelli_block(x) result(block)
       real(wp), intent(in) :: x(:, :)                        !! (factor, design)
       integer :: k, k2, r, i
@@ -195,7 +195,7 @@ contains
    !>
    !> Equation (D.12) of docs/theory/sampling.md.
    subroutine morris_effects(sampler, responses, effects)
-      type(sampler_t), intent(in) :: sampler                 !! of kind morris
+      type(sampler_t), intent(in) :: sampler                 !! sampler of kind morris
       real(wp), intent(in) :: responses(:)
       type(morris_effects_t), intent(out) :: effects
       real(wp), allocatable :: d(:, :)                       ! (effect, factor)
@@ -227,7 +227,7 @@ contains
 
    !> Finds the range of the response for each factor when only this factor changes.
    subroutine tornado(sampler, responses, bars)
-      type(sampler_t), intent(in) :: sampler                 !! of kind one_at_a_time
+      type(sampler_t), intent(in) :: sampler                 !! sampler of kind one_at_a_time
       real(wp), intent(in) :: responses(:)
       type(tornado_t), intent(out) :: bars
       integer(i8) :: design

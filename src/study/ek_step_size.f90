@@ -34,8 +34,8 @@ module ek_step_size
 contains
 
    !> Writes the study as CSV: column `method`, then the columns named in `columns`, with one row for each method and N. If a method
-   !> does not reach the end, its numbers are NaN and `reached` is 0. Each row is also passed to `writer` as soon as it is
-   !> available.
+   !> does not reach the end with N increments, the numbers of the row are NaN and `reached` is 0. Each row is also passed to
+   !> `writer` as soon as the row is available.
    subroutine step_size_text(study, deck, text, error, writer)
       type(study_t), intent(in) :: study
       type(deck_t), intent(in) :: deck

@@ -1,5 +1,6 @@
-!> The results of a large study as one NetCDF-4 file. This module decides whether to write the file, describes it, and calls the
-!> program elastokin-netcdf. This program is in the same folder as elastokin if elastokin was built with NetCDF-Fortran.
+!> The results of a large study as one NetCDF-4 file, the store. This module decides whether to write the store, describes the
+!> store, and calls the program elastokin-netcdf. If elastokin was built with NetCDF-Fortran, elastokin-netcdf is in the folder of
+!> elastokin.
 module ek_store
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t, fail, exit_file
@@ -37,8 +38,8 @@ module ek_store
 
 contains
 
-   !> Stores the contents of the study file and the deck file as they are now, and the settings of --set. The content is '' for a
-   !> path that is not a file.
+   !> Stores the present contents of the study file and of the deck file, and the settings of --set. The content is '' for a path
+   !> that is not a file.
    subroutine keep_texts(study, deck, changes, texts)
       character(*), intent(in) :: study, deck              !! paths
       type(message_list_t), intent(in) :: changes          !! settings of --set
@@ -65,8 +66,8 @@ contains
       wants_store = study%format == 'netcdf' .or. (study%format == '' .and. designs > many_designs)
    end function wants_store
 
-   !> Decides whether the results are written to a store. They are written if the helper program exists, and the study requests a
-   !> store or has many designs and gives no format.
+   !> Decides whether the results are written to a store. The helper program must exist, and the study must request a store, or have
+   !> many designs and give no format.
    subroutine choose_store(study, plan, is_wanted, error)
       type(study_t), intent(in) :: study
       type(study_plan_t), intent(in) :: plan

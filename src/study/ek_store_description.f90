@@ -24,7 +24,7 @@ module ek_store_description
    character(*), parameter :: factor_role = 'factor', response_role = 'response', curve_role = 'curve'
    character(*), parameter :: text_kind = 'text', whole_kind = 'whole', real_kind = 'real'
 
-   !> Attributes of a variable or of the store, in the order in which they are written.
+   !> Attributes of a variable or of the store, in the order of writing.
    type :: attributes_t
       type(message_list_t) :: names, texts, kinds
    contains
@@ -42,12 +42,12 @@ module ek_store_description
 
    !> A store. The variables have the order of the chunk: factors, responses, swept value and columns.
    type :: store_t
-      character(:), allocatable :: identity       !! of the study
+      character(:), allocatable :: identity       !! identity of the study
       integer :: designs = 0, chunks = 0          !! numbers of designs and of chunk files
       integer :: states = 0                       !! largest number of states of a design
       integer :: reason = 0                       !! length of the longest reason of a failed design
       logical :: has_limits = .false.
-      type(attributes_t) :: attributes            !! of the store itself
+      type(attributes_t) :: attributes            !! attributes of the store itself
       type(store_variable_t), allocatable :: variables(:)
    end type store_t
 

@@ -29,7 +29,7 @@ module ek_study
    !> A factor: numbers of the deck that change together, and the range of the change in units of the deck.
    type :: study_factor_t
       character(:), allocatable :: name
-      character(note_length), allocatable :: paths(:)      !! as in --set
+      character(note_length), allocatable :: paths(:)      !! paths of the factor, as in --set
       logical :: is_each = .false.                         !! every number of the paths becomes a separate factor, see ek_study_each
       logical :: is_of_pattern = .false.                   !! the factor is one of several numbers of a path with *
       integer :: change = by_value

@@ -29,14 +29,14 @@ module ek_study_design
 
 contains
 
-   !> Solves designs `first` … `last` of a chunk (at most `lanes`) with the factors in the chunk, and fills the rows of these
-   !> designs. Adds the cause of each design that must be completed.
+   !> Solves designs `first` … `last` of a chunk (at most `lanes`) with the factors in the chunk, and fills the rows of the designs.
+   !> Adds the cause of each design that must be completed.
    subroutine solve_designs(study, designer, first, last, chunk, causes)
       type(study_t), intent(in) :: study
       type(designer_t), intent(inout) :: designer
       integer, intent(in) :: first, last
       type(chunk_t), intent(inout) :: chunk
-      type(causes_t), intent(inout) :: causes          !! of designs to be completed by complete_design; emptied if first = 1
+      type(causes_t), intent(inout) :: causes !! causes of the designs to be completed by complete_design; emptied if first = 1
       logical :: is_done(lanes), is_walked(lanes, size(designer%options))
       integer :: k, l, c
 
@@ -88,9 +88,9 @@ contains
    subroutine finish_design(study, designer, is_walked, k, workspace, chunk, causes)
       type(study_t), intent(in) :: study
       type(designer_t), intent(in) :: designer
-      logical, intent(in) :: is_walked(:)         !! of each case
+      logical, intent(in) :: is_walked(:)         !! whether packs have solved each case
       integer, intent(in) :: k
-      type(workspace_t), intent(inout) :: workspace     !! with the numbers of the design; its cases are on the rig
+      type(workspace_t), intent(inout) :: workspace     !! workspace with the numbers of the design; its cases are on the rig
       type(chunk_t), intent(inout) :: chunk
       type(causes_t), intent(inout) :: causes
       type(cause_t) :: cause
@@ -167,7 +167,7 @@ contains
    !> Computes the K&C quantities that solve_case omitted (defers_kandc), at the states from which a response is read.
    subroutine complete_tables(designer, workspace)
       type(designer_t), intent(in) :: designer
-      type(workspace_t), intent(inout) :: workspace     !! its cases are solved
+      type(workspace_t), intent(inout) :: workspace     !! workspace with solved cases
       integer :: c
 
       do c = 1, size(workspace%cases)
@@ -180,7 +180,7 @@ contains
    subroutine take_row(study, designer, workspace, k, chunk, faults)
       type(study_t), intent(in) :: study
       type(designer_t), intent(in) :: designer
-      type(workspace_t), intent(in) :: workspace        !! with the results of its cases
+      type(workspace_t), intent(in) :: workspace        !! workspace with the results of its cases
       integer, intent(in) :: k
       type(chunk_t), intent(inout) :: chunk
       integer, intent(out) :: faults(:)           !! reason code of each response, see read_response

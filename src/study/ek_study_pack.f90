@@ -22,10 +22,10 @@ module ek_study_pack
    !> Work space of one thread for packs.
    type :: pack_space_t
       ! classes for the reason given at case_work_t
-      class(workspace_t), allocatable :: workspaces(:)     !! of all designs of a pack except the first; the first design uses the
-                                                           !! workspace of the study
+      class(workspace_t), allocatable :: workspaces(:)     !! workspaces of all designs of a pack except the first design, which
+                                                           !! uses the workspace of the study
       class(walker_t), allocatable :: walkers(:)     !! one per case
-      logical, allocatable :: is_used(:)             !! of each case: whether packs walk the case
+      logical, allocatable :: is_used(:)             !! whether packs walk each case
    end type pack_space_t
 
 contains
@@ -50,9 +50,9 @@ contains
    !> packs do not walk the case.
    subroutine walk_case(c, workspace, is_wanted, space, is_walked)
       integer, intent(in) :: c
-      type(workspace_t), intent(inout), target :: workspace        !! of the first design
+      type(workspace_t), intent(inout), target :: workspace        !! workspace of the first design
       logical, intent(in) :: is_wanted(lanes) !! the case of the design is on the rig; .false. also if there is no such design
-      type(pack_space_t), intent(inout), target :: space     !! with the workspaces of the other designs
+      type(pack_space_t), intent(inout), target :: space     !! work space with the workspaces of the other designs
       logical, intent(out) :: is_walked(lanes)
       type(member_t) :: members(lanes)
       integer :: l, filler

@@ -21,7 +21,7 @@ module ek_study_plan
    public :: study_plan_t, new_plan, plan_sampler, begin_chunk, first_of, designs_in
 
    integer, parameter :: max_designs = 2000000000
-   integer, parameter :: usual_chunks = 400       !! number of chunks of a large study
+   integer, parameter :: usual_chunks = 400       !! usual number of chunks of a study
    integer, parameter :: min_chunk = 50, max_chunk = 5000       !! limits of the number of designs in a chunk
    integer, parameter :: chunks_of_a_shard = 4    !! least number of chunks per shard, so that the shards have similar numbers of
                                                   !! designs
@@ -107,7 +107,7 @@ contains
       type(study_t), intent(in) :: study
       character(*), intent(in) :: home                     !! folder of the study with its slash
       type(designer_t), intent(in) :: designer
-      type(sampler_settings_t), intent(out) :: settings    !! with the rows of a list
+      type(sampler_settings_t), intent(out) :: settings    !! settings of the sampler, with the rows of a list
       type(sampler_t), intent(out) :: sampler
       type(error_t), allocatable, intent(out) :: error     !! exit_deck, exit_file
       type(factor_t) :: factors(size(study%factors))

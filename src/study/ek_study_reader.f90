@@ -361,7 +361,7 @@ contains
    !> Reads the two responses of a difference. Any other response must have a column.
    subroutine take_difference(reading, study, this)
       type(deck_reading_t), intent(inout) :: reading
-      type(study_t), intent(in) :: study                   !! with the responses that precede this response
+      type(study_t), intent(in) :: study                   !! study with the responses that precede this response
       type(response_t), intent(inout) :: this
       character(*), parameter :: others(7) = [character(6) :: 'column', 'case', 'side', 'at', 'over', 'window', 'file']
       integer :: j, k

@@ -39,8 +39,9 @@ module ek_study_run
    !> The options of a run of a study.
    type :: run_options_t
       integer :: jobs = 1                         !! number of threads
-      integer :: shard = 1, shards = 1            !! this run computes the chunks shard, shard + shards, …
-      real(wp) :: time_limit = huge(1.0_wp)       !! limit of the computing time [s]
+      integer :: shard = 1, shards = 1            !! index of the shard, number of shards: this run computes the chunks shard, shard
+                                                  !! + shards, …
+      real(wp) :: time_limit = huge(1.0_wp)       !! limit of the elapsed time [s]
       logical :: is_quiet = .false.
    end type run_options_t
 
@@ -87,8 +88,8 @@ contains
       folder = join_path(out, study%name//'.parts')
    end function parts_folder
 
-   !> Opens the folder of the chunks: creates it if necessary, and begins the scratch folder `hold`. Rejects a folder with chunks of
-   !> another study or of another build of this program.
+   !> Opens the folder of the chunks: creates the folder if necessary, and begins the scratch folder `hold`. Rejects a folder with
+   !> chunks of another study or of another build of this program.
    subroutine open_parts(study, plan, out, hold, error)
       type(study_t), intent(in) :: study
       type(study_plan_t), intent(in) :: plan
@@ -214,8 +215,8 @@ contains
       character(*), intent(in) :: out
       type(scratch_t), intent(in) :: hold                  !! scratch folder from open_parts; ended on all ranks except the first
       type(run_options_t), intent(in) :: options
-      type(designer_t), intent(in) :: designer             !! with the design of the deck
-      type(ranks_t), intent(inout) :: ranks                !! with all counters at zero
+      type(designer_t), intent(in) :: designer             !! designer with the design of the deck
+      type(ranks_t), intent(inout) :: ranks                !! ranks of the run, with all counters at zero
       type(run_state_t), intent(out) :: state
       procedure(report_procedure) :: report
       type(error_t), allocatable, intent(out) :: error     !! error of a chunk, not caused by a design
@@ -262,7 +263,7 @@ contains
    subroutine list_pending(plan, options, shared)
       type(study_plan_t), intent(in) :: plan
       type(run_options_t), intent(in) :: options
-      type(shared_t), intent(inout) :: shared     !! with the folder
+      type(shared_t), intent(inout) :: shared     !! shared data with the folder of the chunks
       type(chunk_t) :: chunk
       logical :: is_pending(plan%chunks), is_good
       integer :: k, designs

@@ -159,7 +159,7 @@ contains
 
    !> The BLAS kernels for a header: ', BLAS kernel Haswell'; '' if no kernel is known.
    pure function kernel_words(kernels) result(text)
-      character(*), intent(in) :: kernels            !! of kernels_text
+      character(*), intent(in) :: kernels            !! result of kernels_text
       character(:), allocatable :: text
 
       text = ''
@@ -252,7 +252,7 @@ contains
 
       !> Appends the numbers of a design and the reason of its failure.
       subroutine add_line(line)
-         character(*), intent(in) :: line            !! with its line end
+         character(*), intent(in) :: line            !! line of CSV, with its line end
          call rows%add(line(:len(line) - 1)//','//quoted_field(reason_of(chunk, k))//new_line('a'))
       end subroutine add_line
 

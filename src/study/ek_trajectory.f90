@@ -19,7 +19,7 @@ module ek_trajectory
 
 contains
 
-   !> Finds the trajectory that contains a design, and the step of the design on it.
+   !> Finds the trajectory that contains a design, and the step of the trajectory at which the design lies.
    pure subroutine find_trajectory(settings, factors, design, trajectory)
       type(sampler_settings_t), intent(in) :: settings
       integer, intent(in) :: factors               !! k, number of factors
@@ -70,7 +70,7 @@ contains
 
    !> The change of a factor at its step, as a fraction of its range: ±p/(2(p − 1)), with p levels.
    pure real(wp) function change_of_level(trajectory, factor) result(change)
-      type(trajectory_t), intent(in) :: trajectory     !! at or after the step of the factor
+      type(trajectory_t), intent(in) :: trajectory     !! trajectory at or after the step of the factor
       integer, intent(in) :: factor
       integer(i8) :: level
 
