@@ -23,7 +23,7 @@ module ek_case_work
       type(case_t) :: case                        !! the case at the present design, as in the deck
       integer :: number = 0                       !! index in the deck; 0: a standard test
       integer :: stage = not_examined
-      type(known_case_t) :: known                 !! properties proved at the first design for all designs
+      type(known_case_t) :: known                 !! properties that examine_case has proved for all designs
       class(observer_t), allocatable :: observer  !! observer of the columns of its results
       class(case_result_t), allocatable :: result !! result of the present design; contains the case on the rig. Reason for the
                                                   !! class: gfortran copies a type with a class component by calling a procedure.

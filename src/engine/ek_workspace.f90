@@ -293,7 +293,7 @@ contains
       call fail(error, exit_model, 'the model cannot be solved'//new_line('a')//defects%text())
    end subroutine fail_unsolvable
 
-   !> Balances the model at the present numbers as the report does, if a case can be solved. Creates messages.
+   !> Balances the model at the present numbers like the report, unless all examined cases have defects. Creates messages.
    subroutine settle_model(workspace, is_balanced, is_done, error)
       type(workspace_t), intent(inout) :: workspace
       logical, intent(out) :: is_balanced

@@ -285,7 +285,7 @@ contains
 
    end subroutine write_names
 
-   !> Writes the designs of a chunk. Reasons are written only for chunks with reasons.
+   !> Writes the designs of a chunk. Reasons are written for failed designs only.
    subroutine write_chunk(store, chunk, file)
       type(store_t), intent(in) :: store
       type(chunk_t), intent(in) :: chunk

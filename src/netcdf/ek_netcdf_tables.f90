@@ -23,7 +23,7 @@ module ek_netcdf_tables
    integer, parameter :: block = 8192             !! number of designs that are read at once
    integer, parameter :: curve_block = 64         !! number of designs whose curves are read at once
 
-   !> The open store.
+   !> The open store, with the ids of its variables.
    type :: store_file_t
       integer :: id = 0, fault = nf90_noerr       !! id of the file; status of the first error
       integer :: designs = 0, states = 0

@@ -92,7 +92,7 @@ contains
       real(wp), intent(in) :: value
       integer, intent(in) :: trusted(lanes)
       type(lanes_t), intent(out) :: weight(depth)
-      integer, intent(out) :: slot(depth), states        !! states: largest number that a design uses
+      integer, intent(out) :: slot(depth), states !! slots of the stored states; states: largest number of states that a design uses
       real(wp) :: own(depth)
       integer :: l, j, n, most, last
 

@@ -12,7 +12,7 @@
 !>
 !> The state z ⊕ h dz/dp follows the path of equilibria to first order, which is sufficient for a derivative. So every column of the
 !> table is differentiated by the formula with which it is observed, and a new column needs no code here. If there are few columns
-!> and many numbers, the adjoint method (ek_column_gradient) replaces both steps.
+!> and many numbers, the adjoint method (ek_column_gradient) replaces the motions of the state.
 !>
 !> With the same difference at 2h, Richardson's extrapolation removes the error of order h². The difference of both quotients is the
 !> reported error. The reported error is an upper limit if the column is smooth. The error is large if the column has a corner
@@ -57,7 +57,7 @@ module ek_derivatives
       real(wp), allocatable :: values(:, :)                !! (column, state): values as in the table of the case
       real(wp), allocatable :: slopes(:, :, :) !! (column, direction, state): derivatives, unit of the column per unit of the number
       real(wp), allocatable :: errors(:, :, :)             !! estimated errors of `slopes`
-      logical, allocatable :: can_move(:)                  !! whether the number of each direction may change at this design
+      logical, allocatable :: can_move(:)                  !! whether each direction can be varied at this design
       type(neighbour_t), private :: neighbour
       type(column_observer_t), private :: observer
    end type derivatives_t

@@ -30,7 +30,7 @@ module ek_fit_problem
       logical :: is_positive = .false.                     !! the factor cannot be negative (a rate, a mass, a multiple)
    end type fit_variable_t
 
-   !> One result that is fitted to a target value.
+   !> One point of a target: a result that is fitted to a value, or to limits.
    type :: fit_point_t
       integer :: target = 0
       real(wp) :: value, low, high                         !! target value and limits; NaN if not given
@@ -41,7 +41,7 @@ module ek_fit_problem
       type(fit_variable_t), allocatable :: variables(:)
       type(fit_point_t), allocatable :: points(:)
       type(wanted_number_t), allocatable :: wanted(:)      !! requested number of each point
-      logical :: knows_deviation = .false.                 !! the targets give standard deviations
+      logical :: knows_deviation = .false.                 !! at least one target gives a standard deviation
    end type fit_problem_t
 
    real(wp), parameter :: steps = 1.0e3_wp                 !! number of steps of a direction that count as large: 100 mm, 5.7 deg,

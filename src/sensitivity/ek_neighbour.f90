@@ -78,8 +78,8 @@ contains
       end do
    end subroutine keep_choices
 
-   !> Whether the bushing axes of two neighbouring designs are close. If a deck gives one axis, the other axis is chosen. If this
-   !> choice changes between the designs, rates and columns have no derivative.
+   !> Whether the bushing axes of two neighbouring designs are close. If a deck gives one axis only, the program chooses the other
+   !> axis. If this choice changes between the designs, rates and columns have no derivative.
    pure logical function has_same_axes(a, b)
       type(suspension_t), intent(in) :: a, b
       real(wp), parameter :: close = 0.1_wp

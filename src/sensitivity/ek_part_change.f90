@@ -56,7 +56,7 @@ module ek_part_change
       type(load_t) :: there(4)
    end type load_change_t
 
-   !> The parts that a number of the deck changes.
+   !> The parts that a number of the deck changes, with their changes.
    type :: change_t
       type(term_change_t), allocatable :: terms(:)
       type(row_change_t), allocatable :: rows(:)
@@ -66,7 +66,7 @@ module ek_part_change
       real(wp) :: weight(4) = 0.0_wp, corner(4) = 0.0_wp !! weights of the neighbours in a derivative, and in half the change of a
                                                          !! slope
       real(wp) :: doubt = 0.0_wp                         !! corner of preloads, as a share of the change of the preloads
-      logical :: moves_wheels = .false.                  !! numbers of wheels change
+      logical :: moves_wheels = .false.                  !! numbers of the wheels change
       logical :: has_axes = .false.                      !! the rates of a bushing change, in the axes of body i
       logical :: has_curves = .false.                    !! a law that is not linear changes: F may have a corner
    end type change_t

@@ -25,7 +25,7 @@ module ek_part_response
       real(wp) :: value = 0.0_wp               !! value of the measure [m, rad, -]
       real(wp) :: tension = 0.0_wp, slope = 0.0_wp     !! tension of an element of one measure, and its derivative by the measure
       real(wp) :: gradient(12) = 0.0_wp        !! gradient of the measure
-      real(wp) :: force(12) = 0.0_wp           !! g
+      real(wp) :: force(12) = 0.0_wp           !! force g
       real(wp) :: by_arms(12, 6) = 0.0_wp      !! ∂g with respect to the arms of both markers, axes of their bodies
       real(wp) :: value_by_arms(6) = 0.0_wp    !! derivatives of the value of the measure with respect to the arms
       real(wp) :: by_load(12, 6) = 0.0_wp      !! ∂g with respect to force and moment of a bushing, axes of body i

@@ -19,7 +19,7 @@ module ek_wanted_number
    private
    public :: wanted_number_t, find_column, find_key_number, find_wanted, read_number
 
-   !> One requested number.
+   !> A requested number of the results, with its sources.
    type :: wanted_number_t
       character(:), allocatable :: name          !! name, as the user gave it
       character(:), allocatable :: unit          !! unit, for instance 'deg'; '' if there is no unit
@@ -31,7 +31,7 @@ module ek_wanted_number
       integer :: wheel = 1                       !! key number: 1 left or single wheel, or axle; 2 right
       integer :: source = 0 !! key number: index of the source that has the value; 0: not yet known, or all sources
       integer, allocatable :: cases(:)           !! index in the workspace of the case of each source
-      real(wp), allocatable :: reach(:)          !! swept value [SI] beyond which no state of each source is needed
+      real(wp), allocatable :: reach(:)          !! swept value [SI] of each source beyond which no state is needed
    end type wanted_number_t
 
    character(*), parameter :: no_quantities(7) = [character(16) :: 'state', 'factor', 'converged', 'stable', 'near_singular', &

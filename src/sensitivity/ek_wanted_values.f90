@@ -40,7 +40,7 @@ module ek_wanted_values
       type(direction_t), allocatable :: directions(:)
       real(wp), allocatable :: values(:)                     !! values of the numbers, in their units
       real(wp), allocatable :: jacobian(:, :)                !! (number, direction): derivatives per unit of the direction
-      logical, allocatable :: can_move(:) !! whether the number of the deck of each direction may change at this design
+      logical, allocatable :: can_move(:) !! whether each direction can be varied at this design
       integer :: sweeps = 0                                  !! number of designs that were solved
       logical, private :: is_fresh = .false.                 !! begin_values has solved the design at distance 0
       real(wp), allocatable, private :: start(:)             !! numbers of the deck at distance 0

@@ -35,12 +35,12 @@ module ek_chunk
    !> The results of a chunk: designs first … first + size(status) − 1.
    type :: chunk_t
       integer(i8) :: first = 1
-      integer, allocatable :: status(:)           !! one of design_*, per design
+      integer, allocatable :: status(:)           !! status of each design, one of design_*
       integer, allocatable :: states(:)           !! number of rows in `curves` of each design
       real(wp), allocatable :: factors(:, :)      !! (factor, design), units of the deck
       real(wp), allocatable :: responses(:, :)    !! (response, design), units of the column headings
       real(wp), allocatable :: curves(:, :)       !! (swept value and columns; state, design after design)
-      integer :: rows = 0                         !! used rows of `curves`
+      integer :: rows = 0                         !! number of used rows of `curves`
       type(reason_t), allocatable :: reasons(:)
       type(error_t), allocatable :: error         !! too little memory, or a file cannot be read (not caused by a design): the chunk
                                                   !! is not stored
@@ -73,7 +73,7 @@ contains
       allocate (self%reasons(0))
    end subroutine new_chunk
 
-   !> Records why a design of the chunk failed.
+   !> Records the reason why a design of the chunk failed.
    pure subroutine add_reason(self, design, text)
       type(chunk_t), intent(inout) :: self
       integer, intent(in) :: design               !! index of the design in the chunk, from 1

@@ -63,7 +63,7 @@ contains
       causes%list(causes%used) = cause
    end subroutine add_cause
 
-   !> Finds why a design is incomplete. No string is created if all cases of the design were run.
+   !> Finds the causes for which a design is incomplete. No string is created if all cases of the design were run.
    subroutine find_cause(design, case_of, faults, workspace, cause)
       integer, intent(in) :: design
       integer, intent(in) :: case_of(:), faults(:)         !! index of the case, and reason code of read_response, for each response

@@ -23,7 +23,7 @@ module ek_designer
    private
    public :: designer_t, begin_designer, new_designer
 
-   !> Data that one thread stores from design to design.
+   !> Data that one thread of a study stores from design to design.
    type :: designer_t
       class(workspace_t), allocatable :: workspace !! allocated by begin_designer; a class for the reason given at case_work_t
       class(pack_space_t), allocatable :: packs                       !! work space for designs that are solved together
@@ -173,7 +173,7 @@ contains
       if (mistakes%count() > 0) call fail(error, exit_deck, mistakes%text())
    end subroutine check_columns
 
-   !> Checks that no two columns of the table of responses have the same heading.
+   !> Checks that no two columns of the table of designs have the same heading.
    subroutine check_heads(study, designer, mistakes)
       type(study_t), intent(in) :: study
       type(designer_t), intent(in) :: designer
@@ -201,7 +201,7 @@ contains
 
    contains
 
-      !> Reports a column name that is used twice.
+      !> Reports a column heading that is used twice.
       subroutine add(who, head, other)
          character(*), intent(in) :: who, head, other
          call mistakes%add(who//': its column would have the name '//quoted(head)//', like that of '//other//'; rename one')

@@ -21,14 +21,14 @@ module ek_distribution
    character(10), parameter :: distribution_kinds(4) = [character(10) :: 'uniform', 'normal', 'log_normal', 'triangular']
 
    real(wp), parameter :: unbounded = huge(1.0_wp)
-   real(wp), parameter :: tolerance_deviations = 3.0_wp   !! standard deviations in a tolerance
+   real(wp), parameter :: tolerance_deviations = 3.0_wp   !! number of standard deviations in a tolerance
 
    type :: distribution_t
       private
       integer :: kind = uniform_kind
       real(wp) :: lower = 0.0_wp, upper = 1.0_wp       !! bounds, ∓`unbounded` if there is no bound
       real(wp) :: first = 0.0_wp, last = 1.0_wp        !! ends of a triangular distribution before it is truncated
-      real(wp) :: center = 0.5_wp                      !! mean of x (normal) or of ln x (log-normal), peak of a triangle
+      real(wp) :: center = 0.5_wp !! mean of x (normal) or of ln x (log-normal), peak of a triangular distribution
       real(wp) :: deviation = 1.0_wp                   !! standard deviation of x (normal) or of ln x (log-normal)
       real(wp) :: from = 0.0_wp, to = 1.0_wp           !! F of the bounds, before truncation; reflected: 1 − F(upper), 1 − F(lower)
       logical :: is_reflected = .false. !! both bounds are above the median of a normal distribution: the mirrored bounds are used
@@ -303,8 +303,8 @@ contains
          0.86113631159405258_wp]
       real(wp), parameter :: share(4) = [0.34785484513745386_wp, 0.65214515486254614_wp, 0.65214515486254614_wp, &
          0.34785484513745386_wp]
-      integer, parameter :: intervals = 100                !! of a normal distribution
-      real(wp), parameter :: far = 10.0_wp                 !! standard deviations: nothing lies beyond
+      integer, parameter :: intervals = 100                !! number of intervals of a normal distribution
+      real(wp), parameter :: far = 10.0_wp                 !! limit of the scores [standard deviations]: nothing lies beyond
       real(wp), allocatable :: ends(:)
       real(wp) :: low, high
       integer :: k

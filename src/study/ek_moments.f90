@@ -14,7 +14,7 @@ module ek_moments
 
    !> A response expanded about the centre of the factors.
    type :: expansion_t
-      real(wp) :: value = 0.0_wp                   !! y₀
+      real(wp) :: value = 0.0_wp                   !! y₀: response at the centre of the factors
       real(wp), allocatable :: slopes(:)           !! a: derivative of the response by u, per standard deviation of each factor
       real(wp), allocatable :: curvatures(:, :)    !! b, second derivatives by u, symmetric; zero if only the slopes are known
    end type expansion_t
@@ -23,7 +23,7 @@ module ek_moments
    type :: moments_t
       real(wp) :: mean = 0.0_wp
       real(wp) :: linear = 0.0_wp                  !! standard deviation from the slopes alone
-      real(wp) :: deviation = 0.0_wp               !! standard deviation
+      real(wp) :: deviation = 0.0_wp               !! standard deviation, with the curvatures
       real(wp) :: linear_skewness = 0.0_wp         !! skewness from the slopes alone: 0 if the factors are symmetric
       real(wp) :: skewness = 0.0_wp
       real(wp), allocatable :: first(:)            !! share of the variance due to each factor alone: first-order Sobol index

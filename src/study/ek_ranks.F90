@@ -33,13 +33,13 @@ module ek_ranks
    ! what is counted over all ranks
    integer, parameter :: ticket_counter = 1, done_counter = 2, failed_counter = 3, stopped_counter = 4, counters = 4
 
-   !> The rank of this process among the processes of the study.
+   !> The position of this process among the processes of the study, and the access to the counters of the processes.
    type :: ranks_t
       integer :: rank = 0, count = 1              !! index of this process, 0 … count − 1; number of processes
-      logical :: is_first = .true.                !! rank 0: it prints, and writes the tables
+      logical :: is_first = .true.                !! this process is rank 0, which prints and writes the tables
       logical :: has_threads = .true.             !! several threads of this rank may call MPI, one at a time
       integer, private :: values(counters) = 0    !! the counters, in a run without MPI
-      logical, private :: is_started = .false.    !! MPI was called
+      logical, private :: is_started = .false.    !! MPI was started
       integer, private :: window = 0              !! MPI's handle of the window to the counters, which are in the memory of rank 0
    end type ranks_t
 
@@ -114,7 +114,7 @@ contains
    !> Increases a counter by `by`, which may be 0. Returns the value before the increase.
    subroutine count_up(ranks, counter, by, before)
       type(ranks_t), intent(inout) :: ranks
-      integer, intent(in) :: counter              !! one of *_counter
+      integer, intent(in) :: counter              !! index of the counter, one of *_counter
       integer, intent(in) :: by
       integer, intent(out) :: before
 
@@ -142,7 +142,7 @@ contains
 #endif
    end subroutine help_others
 
-   !> Copies the list of rank 0 to all ranks.
+   !> Copies the list of rank 0 to all ranks. Without MPI, the list is unchanged.
    subroutine share(ranks, list)
       type(ranks_t), intent(in) :: ranks
       integer, allocatable, intent(inout) :: list(:)

@@ -223,7 +223,7 @@ contains
       curve = table%values([x, y], :)
    end subroutine read_curve
 
-   !> The reason why a response cannot be read.
+   !> The reason why a response cannot be read from a table, for messages.
    function fault_text(reading, table, fault) result(text)
       type(reading_t), intent(in) :: reading
       type(table_t), intent(in) :: table

@@ -314,7 +314,7 @@ contains
    !> Finds the row with x = at, or the two rows between which x = at lies.
    pure subroutine neighbours(x, at, first, last)
       real(wp), intent(in) :: x(:), at
-      integer, intent(out) :: first, last        !! 0: outside the range of x
+      integer, intent(out) :: first, last        !! indices of the rows; 0 outside the range of x
       integer :: k
 
       first = 0

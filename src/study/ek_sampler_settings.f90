@@ -25,7 +25,7 @@ module ek_sampler_settings
       integer(i8) :: size = 0                  !! n: number of designs, base points or trajectories
       integer :: levels = 2 !! number of levels of a factor without values, evenly spaced over its range; even for morris
       integer(i8) :: seed = 1
-      logical :: is_scrambled = .true.         !! sobol, saltelli: scrambled by the seed
+      logical :: is_scrambled = .true.         !! sobol, saltelli: the points are scrambled by the seed
       real(wp), allocatable :: rows(:, :)      !! (factor, design): the designs of a list
       integer, allocatable :: pairs(:, :)      !! (2, m): indices of two factors
       real(wp), allocatable :: correlations(:) !! (m): correlation of each pair
@@ -33,7 +33,7 @@ module ek_sampler_settings
 
 contains
 
-   !> Checks the settings of a sampler.
+   !> Checks the settings of a sampler and its lists of values. Settings that the kind does not allow are errors.
    pure subroutine check_settings(settings, factors, error)
       type(sampler_settings_t), intent(in) :: settings
       type(factor_t), intent(in) :: factors(:)

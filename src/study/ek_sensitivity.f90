@@ -14,7 +14,7 @@ module ek_sensitivity
    private
    public :: sobol_indices_t, sobol_indices, saltelli_block, morris_effects_t, morris_effects, tornado_t, tornado
 
-   real(wp), parameter :: normal_95 = 1.959963984540054_wp      !! standard errors in half of a 95 % interval
+   real(wp), parameter :: normal_95 = 1.959963984540054_wp      !! number of standard errors in half of a 95 % interval
 
    !> Shares of the variance of a response due to each factor. The indices are NaN if fewer than two rows remain, or if the response
    !> is constant.

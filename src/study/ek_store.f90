@@ -51,7 +51,7 @@ contains
       texts%changes = changes%text()
    end subroutine keep_texts
 
-   !> The file name of the store.
+   !> The file name of the store of a study.
    pure function store_name(study) result(name)
       type(study_t), intent(in) :: study
       character(:), allocatable :: name

@@ -33,7 +33,7 @@ module ek_store_description
 
    !> A variable of the store.
    type :: store_variable_t
-      character(:), allocatable :: name           !! unique in the store
+      character(:), allocatable :: name           !! name, unique in the store
       character(:), allocatable :: role           !! factor_role and response_role: one number per design; curve_role: one per state
                                                   !! of each design
       type(attributes_t) :: attributes

@@ -43,8 +43,8 @@ module ek_study
    type :: response_t
       character(:), allocatable :: name
       character(:), allocatable :: column         !! column heading; gradient: name of the gradient
-      character(:), allocatable :: case           !! '': the case of the study
-      character(:), allocatable :: of             !! one of of_names
+      character(:), allocatable :: case           !! name of the case; '': the case of the study
+      character(:), allocatable :: of             !! kind of the response, one of of_names
       character(:), allocatable :: side           !! gradient: 'left' or 'right'; '': the left wheel, or a gradient of the axle
       real(wp) :: at = 0.0_wp !! swept value of the case at which the column is read (value) or the window is centred (slope)
       character(:), allocatable :: over           !! column over which the slope is taken; '': the wheel travel

@@ -176,7 +176,8 @@ contains
       end do
    end subroutine complete_tables
 
-   !> Reads the responses and the curves of a design. A response of a case that did not reach all states has no value.
+   !> Reads the responses and the curves of a design, and marks an incomplete design. A response of a case that did not reach all
+   !> states has no value.
    subroutine take_row(study, designer, workspace, k, chunk, faults)
       type(study_t), intent(in) :: study
       type(designer_t), intent(in) :: designer
@@ -210,7 +211,8 @@ contains
       is_whole = result%outcome == solved
    end function is_whole
 
-   !> Inserts the states of a design after the states of the previous designs. Columns that its model does not define are NaN.
+   !> Inserts the states of a design after the states of the previous designs. Columns that the model of the design does not define
+   !> are NaN.
    pure subroutine take_curves(study, table, k, chunk)
       type(study_t), intent(in) :: study
       type(table_t), intent(in) :: table

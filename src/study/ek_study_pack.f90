@@ -16,7 +16,7 @@ module ek_study_pack
    private
    public :: pack_space_t, begin_packs, walk_case, lanes, are_lanes_fast
 
-   !> gfortran compiles lanes to vector instructions; flang calls its run-time library for lanes
+   !> Whether lanes are fast: gfortran compiles lanes to vector instructions; flang calls its run-time library for lanes.
    logical, parameter :: are_lanes_fast = index(compiler_version(), 'GCC') > 0
 
    !> Work space of one thread for packs.

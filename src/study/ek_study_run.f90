@@ -32,7 +32,7 @@ module ek_study_run
 
    character(*), parameter :: identity_name = 'study.txt', build_word = 'build '
    integer, parameter :: nobody = 0, this_machine = 1, other_machine = 2      !! the machine of a run that still needs the chunks
-   real(wp), parameter :: an_hour = 3600.0_wp     !! s
+   real(wp), parameter :: an_hour = 3600.0_wp     !! one hour [s]
    character(*), parameter :: line_end = new_line('a')
    integer(i8), parameter :: of_a_design = 2_i8**25         !! work space of a thread [bytes]
 
@@ -176,7 +176,7 @@ contains
       type(study_t), intent(in) :: study
       type(study_plan_t), intent(in) :: plan
       character(*), intent(in) :: out
-      integer, intent(out) :: done                !! designs
+      integer, intent(out) :: done                !! number of designs
       type(shared_t) :: shared
 
       shared%folder = parts_folder(study, out)
@@ -362,7 +362,7 @@ contains
       integer, intent(in) :: number
       type(chunk_t), intent(inout) :: chunk
       logical, intent(in) :: is_whole
-      real(wp), intent(in) :: time                   !! s
+      real(wp), intent(in) :: time                   !! time of the chunk [s]
       type(ranks_t), intent(inout) :: ranks
       type(shared_t), intent(inout) :: shared
       procedure(report_procedure) :: report

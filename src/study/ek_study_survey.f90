@@ -14,7 +14,7 @@ module ek_study_survey
 
    integer(i8), parameter :: least_time = 20        !! least period of a rate [s]; file times are integers
 
-   !> The content of the folder of the chunks.
+   !> The progress of a study, from the folder of its chunks.
    type :: survey_t
       integer :: done = 0, failed = 0                !! number of finished designs (with failed designs); number of failed designs
       logical :: is_at_work = .false.                !! a run uses the folder

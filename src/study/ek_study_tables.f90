@@ -106,7 +106,7 @@ contains
       call curves%abandon()
    end subroutine write_tables
 
-   !> Counts the designs by status; writes nothing.
+   !> Counts the designs by status, and the sizes that the tables need. No table is written.
    subroutine count_designs(study, plan, out, counts, error)
       type(study_t), intent(in) :: study
       type(study_plan_t), intent(in) :: plan
@@ -202,7 +202,7 @@ contains
       end do
    end subroutine count_chunk
 
-   !> The header lines and the column names of a table.
+   !> The header lines and the column headings of a table.
    function head_of(study, plan, counts, columns) result(text)
       type(study_t), intent(in) :: study
       type(study_plan_t), intent(in) :: plan
@@ -281,7 +281,7 @@ contains
       keeps_limits = keeps(responses, study%responses%lower, study%responses%upper)
    end function keeps_limits
 
-   !> Number of designs between two empty lines of the table of responses; 0 if the table has no empty lines.
+   !> Number of designs between two empty lines of the table of designs; 0 if the table has no empty lines.
    pure integer function block_of(study)
       type(study_t), intent(in) :: study
 
