@@ -240,7 +240,7 @@ contains
       end associate
    end subroutine heads_of_case
 
-   !> Index of the case with a name; 1 for ''; 0 if no case has the name.
+   !> Index of the case with a name; 0 if no case has the name. The index is 1 for ''.
    pure integer function case_number(name, workspace) result(k)
       character(*), intent(in) :: name
       type(workspace_t), intent(in) :: workspace

@@ -1,6 +1,9 @@
-!> elastokin-netcdf PARTS OUT.nc: writes the store of a study from the folder of its chunks. elastokin runs this command when all
-!> designs are finished. elastokin-netcdf --csv STORE.nc FOLDER [N]: writes the tables of a store as CSV, with the curves of every
-!> N-th design. elastokin-netcdf is a separate program because the NetCDF libraries would make every start of elastokin 6 ms longer.
+!> elastokin-netcdf PARTS OUT.nc writes the store of a study from the folder of its chunks. elastokin runs this command when all
+!> designs are finished.
+!>
+!> elastokin-netcdf --csv STORE.nc FOLDER [N] writes the tables of a store as CSV, with the curves of every N-th design.
+!>
+!> elastokin-netcdf is a separate program because the NetCDF libraries would make every start of elastokin 6 ms longer.
 program elastokin_netcdf
    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
    use, intrinsic :: iso_c_binding, only: c_int

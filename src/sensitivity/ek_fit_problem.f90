@@ -136,8 +136,8 @@ contains
 
    end subroutine add_factor
 
-   !> The direction of a factor that contains its first number only. The value is the number itself; for a factor that adds, 0; for
-   !> a factor that multiplies, 1.
+   !> The direction of a factor that contains its first number only. The value of the direction is the number itself. For a factor
+   !> that adds, the value is 0; for a factor that multiplies, the value is 1.
    function first_member(factor, weight, number) result(direction)
       type(fit_factor_t), intent(in) :: factor
       real(wp), intent(in) :: weight

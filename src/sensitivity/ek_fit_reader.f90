@@ -1,5 +1,5 @@
-!> Reads a fit from its namelist file, with the scanner and the messages of the deck reader: `&fit` names the deck, `&factor`
-!> defines numbers that may change, as in a study, and `&target` defines a result with its target.
+!> Reads a fit from its namelist file, with the scanner and the messages of the deck reader. `&fit` names the deck. `&factor`
+!> defines numbers that may change, as in a study. `&target` defines a result with its target.
 module ek_fit_reader
    use ek_kinds, only: wp
    use ek_error, only: error_t, fail, exit_deck

@@ -6,8 +6,8 @@
 !>
 !>     δg = H[:, r_i] e + [0; e×g_r; 0; 0]
 !>
-!> because a marker that moves with its body and a marker that moves on its body differ in the arm only. In all other numbers, g is
-!> linear: forces and moments of a bushing, the tension of an element of one measure, the directions of a measure.
+!> The reason is that a marker that moves with its body and a marker that moves on its body differ in the arm only. In all other
+!> numbers, g is linear: forces and moments of a bushing, the tension of an element of one measure, the directions of a measure.
 module ek_part_response
    use ek_kinds, only: wp
    use ek_rotation, only: cross

@@ -116,9 +116,10 @@ contains
       allocate (self%slopes(size(self%values), size(self%directions)))
    end subroutine place_curves
 
-   !> Computes values and derivatives at a design. No string is created. is_valid is .false. if the design has a defect, if a number
-   !> of the deck is outside its range or cannot be varied, if a state did not converge, or if a response or its derivative has no
-   !> value.
+   !> Computes values and derivatives at a design. No string is created. is_valid is .false. in these cases:
+   !> - The design has a defect, or a number of the deck is outside its range or cannot be varied.
+   !> - A state did not converge.
+   !> - A response or its derivative has no value.
    subroutine find_study_slopes(values, self, is_valid)
       real(wp), intent(in) :: values(:)                      !! values of the factors
       type(study_slopes_t), intent(inout) :: self

@@ -232,8 +232,8 @@ contains
       end do
    end subroutine mark_used
 
-   !> Computes values and derivatives of a design. is_valid is .false. if a number has no value or no derivative, because the design
-   !> has a defect, a number of the deck is outside its range, or a required state did not converge.
+   !> Computes values and derivatives of a design. is_valid is .false. if a number has no value or no derivative. Reasons are a
+   !> defect of the design, a number of the deck outside its range, or a required state that did not converge.
    subroutine find_values(distances, workspace, self, is_valid)
       real(wp), intent(in) :: distances(:)                   !! distances along the directions, in their units
       type(workspace_t), intent(inout) :: workspace

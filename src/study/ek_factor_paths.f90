@@ -1,5 +1,5 @@
-!> The paths of the factors of a study: the numbers of the deck to which the paths lead, errors in the paths, and the settings (as
-!> for --set) that define a design.
+!> The paths of the factors of a study: the numbers of the deck to which the paths lead, and errors in the paths. Also creates the
+!> settings (as for --set) that define a design.
 module ek_factor_paths
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t, fail, exit_deck

@@ -1,5 +1,5 @@
-!> Messages on the factors of a study that move hardpoints: a pattern that also moves the points of a wheel, and a point that is
-!> moved away from another point at the same location.
+!> Messages on factors of a study that move hardpoints. One message names points of a wheel that a pattern also moves. The other
+!> names a point that is moved away from another point at the same location.
 module ek_factor_remark
    use ek_kinds, only: wp
    use ek_error, only: message_list_t

@@ -177,8 +177,8 @@ contains
       end if
    end subroutine find_gradient
 
-   !> Phrase about the tests that have a gradient: "; this gradient belongs to 'lateral_force': give …". '' if no test has the
-   !> gradient.
+   !> Phrase for a message about the tests that have a gradient, or '' if no test has the gradient. Example: "; this gradient
+   !> belongs to 'lateral_force': give …".
    function of_other_test(quantity) result(words)
       character(*), intent(in) :: quantity
       character(:), allocatable :: words

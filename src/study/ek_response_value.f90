@@ -1,6 +1,6 @@
-!> The value of a response, read from the table of a design: a value at a swept value, a slope, a span, an extreme, the deviation
-!> from a given curve, or a gradient of the report. ek_response has found the columns in the table of the design of the deck; the
-!> responses of every design are read from these columns.
+!> Reads the value of a response from the table of a design. The value is a value at a swept value, a slope, a span, an extreme, the
+!> deviation from a given curve, or a gradient of the report. ek_response has found the columns in the table of the design of the
+!> deck. The responses of every design are read from these columns.
 module ek_response_value
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan, ieee_is_finite
    use ek_kinds, only: wp
@@ -45,10 +45,10 @@ contains
       if (fault == no_fault .and. .not. ieee_is_finite(value)) fault = is_undefined
    end subroutine read_response
 
-   !> Reads a response from one table. The kinds are: the value at a swept value (linear between states), the least-squares slope in
-   !> a window around the swept value, the span or an extreme over all states, the root mean square of the deviations from a curve
-   !> at its points, or the gradient of the report. The response has no value if the column is undefined at a state that is read.
-   !> (minval and maxval would ignore such a state.)
+   !> Reads a response from one table. A value is read at a swept value, linear between states. A slope is the least-squares slope
+   !> in a window around the swept value. A gradient is the slope that the report computes, over a window around design. A span or
+   !> an extreme is read over all states, and rms is the root mean square of the deviations from a curve at its points.
+   !> The response has no value if the column is undefined at a state that is read. (minval and maxval would ignore such a state.)
    subroutine read_value(reading, table, value, fault)
       type(reading_t), intent(in) :: reading
       type(table_t), intent(in) :: table
@@ -126,8 +126,9 @@ contains
       reads_all_states = reading%of == a_span .or. reading%of == a_least .or. reading%of == a_most .or. reading%of == a_gradient
    end function reads_all_states
 
-   !> Marks the states at which read_response reads the column of a response: the neighbours of a value, the states in the window of
-   !> a slope, the neighbours of each point of a curve, or all states (see reads_all_states).
+   !> Marks the states at which read_response reads the column of a response. For a value, these are its neighbours; for a slope,
+   !> the states in its window; for rms, the neighbours of each point of the curve. For all other kinds, all states are marked (see
+   !> reads_all_states).
    pure subroutine mark_states(reading, table, is_read)
       type(reading_t), intent(in) :: reading
       type(table_t), intent(in) :: table         !! swept values, and the column over which a slope is taken

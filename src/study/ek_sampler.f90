@@ -313,7 +313,7 @@ contains
    end function is_ordered
 
    !> Index of the only factor that differs: from the nominal design (one_at_a_time), from the previous design (morris), or from A
-   !> (saltelli). 0 for the nominal design, the start of a trajectory, A, B, and all designs of other kinds.
+   !> (saltelli). The result is 0 for the nominal design, the start of a trajectory, A, B, and all designs of other kinds.
    pure integer function changed_factor(sampler, design) result(factor)
       type(sampler_t), intent(in) :: sampler
       integer(i8), intent(in) :: design

@@ -1,8 +1,8 @@
 !> Step-size convergence: error and time of each method as a function of the number of increments.
 !>
 !> For every number N of increments, the case is run from design to one of its ends in N increments. Two kinds of errors are
-!> reported: |Φ|, the violation of the joint constraints (equation (31) of the paper by Kang), and the deviations from the
-!> equilibrium, which |Φ| does not contain.
+!> reported. |Φ| is the violation of the joint constraints, equation (31) of the paper by Kang. The deviations from the equilibrium
+!> are reported in addition, because |Φ| does not contain them.
 module ek_step_size
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp, degree, millimetre

@@ -1,4 +1,4 @@
-!> Solves one design of a study: the factors become a model, the cases of the study are solved, and their tables become a row of
+!> Solves one design of a study: the factors become a model, and the cases of the study are solved. Their tables become a row of
 !> responses and the rows of the curves.
 !>
 !> solve_designs computes numbers only. After the last design of a chunk, complete_design completes the designs that failed or must

@@ -23,9 +23,9 @@ module ek_study_each
 
 contains
 
-   !> Replaces each factor with each = .true. by one factor per number, except numbers that the deck does not give, zeros that
-   !> would be scaled, and y of a point in the centre plane of a mirrored deck (unless `shared` names the point). The two sides of a
-   !> mirrored axle are one factor, unless the path contains the side.
+   !> Replaces each factor with each = .true. by one factor per number. The following numbers are omitted: numbers that the deck
+   !> does not give, zeros that would be scaled, and y of a point in the centre plane of a mirrored deck, unless `shared` names the
+   !> point. The two sides of a mirrored axle are one factor, unless the path contains the side.
    subroutine expand_factors(study, deck, error)
       type(study_t), intent(inout) :: study
       type(deck_t), intent(in) :: deck

@@ -1,8 +1,8 @@
 !> The designs of a study in packs. The numbers of the designs are set one design after the other. The paths of all designs of a
 !> pack are followed together.
 !>
-!> The plan of elimination, the scale and the swept values of the states come from the deck's own design, so that the result of a
-!> design does not depend on the other designs of the pack. The designs are solved one by one in a case that packs cannot solve:
+!> The plan of elimination, the scale and the swept values of the states come from the deck's own design. The result of a design
+!> therefore does not depend on the other designs of the pack. The designs are solved one by one in a case that packs cannot solve:
 !> linear methods, `follow = 'arc'`, tables, and paths that do not pass through design. They are also solved one by one with LAPACK
 !> as solver, and in builds by compilers whose lanes are slow.
 module ek_study_pack
@@ -16,7 +16,7 @@ module ek_study_pack
    private
    public :: pack_space_t, begin_packs, walk_case, lanes, are_lanes_fast
 
-   !> Whether lanes are fast: gfortran compiles lanes to vector instructions; flang calls its run-time library for lanes.
+   !> Whether lanes are fast. gfortran compiles lanes to vector instructions, but flang calls its run-time library for lanes.
    logical, parameter :: are_lanes_fast = index(compiler_version(), 'GCC') > 0
 
    !> Work space of one thread for packs.
@@ -46,8 +46,8 @@ contains
       allocate (space%workspaces(merge(lanes - 1, 0, any(space%is_used))), source=workspace)
    end subroutine begin_packs
 
-   !> Solves case c of several designs together. is_walked: whether the path of each design is complete; .false. for all designs if
-   !> packs do not walk the case.
+   !> Solves case c of several designs together. is_walked is .true. for each design whose path is complete. If packs do not walk
+   !> the case, is_walked is .false. for all designs.
    subroutine walk_case(c, workspace, is_wanted, space, is_walked)
       integer, intent(in) :: c
       type(workspace_t), intent(inout), target :: workspace        !! workspace of the first design

@@ -204,7 +204,7 @@ contains
       end associate
    end subroutine take_settings
 
-   !> Reads a &factor: a list of values; or from, to, count and spacing; or a range.
+   !> Reads a &factor. Its values are a list, or steps (from, to, count and spacing), or a range.
    subroutine take_factor(reading, study)
       type(deck_reading_t), intent(inout) :: reading
       type(study_t), intent(inout) :: study

@@ -157,7 +157,7 @@ contains
       end do
    end function kernels_text
 
-   !> The BLAS kernels for a header: ', BLAS kernel Haswell'; '' if no kernel is known.
+   !> The BLAS kernels for a header, for instance ', BLAS kernel Haswell'; '' if no kernel is known.
    pure function kernel_words(kernels) result(text)
       character(*), intent(in) :: kernels            !! result of kernels_text
       character(:), allocatable :: text
@@ -219,7 +219,7 @@ contains
       text = csv_head(table)
    end function head_of
 
-   !> The seed for a header: ', seed 1'; '' for a kind that draws no random numbers.
+   !> The seed for a header, for instance ', seed 1'; '' for a kind that draws no random numbers.
    function seed_of(study) result(text)
       type(study_t), intent(in) :: study
       character(:), allocatable :: text
@@ -291,8 +291,7 @@ contains
       if (allocated(study%factors(size(study%factors))%values)) block_of = size(study%factors(size(study%factors))%values)
    end function block_of
 
-   !> A string as a CSV field (RFC 4180) on one line: in quotes, with '; ' instead of each line end. An empty string is an empty
-   !> field.
+   !> A string as a quoted CSV field (RFC 4180) on one line, with '; ' instead of each line end. An empty string is an empty field.
    pure function quoted_field(text) result(field)
       character(*), intent(in) :: text
       character(:), allocatable :: field
