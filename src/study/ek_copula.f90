@@ -22,7 +22,8 @@ module ek_copula
 
 contains
 
-   !> Creates the copula of n factors from pairs of factors and their correlations. All other pairs are independent.
+   !> Creates the copula of n factors from pairs of factors and their correlations. All other pairs are independent. Correlations
+   !> that contradict each other are an error.
    pure subroutine new_copula(n, pairs, correlations, copula, error)
       integer, intent(in) :: n
       integer, intent(in) :: pairs(:, :)          !! (2, m): two different factors each

@@ -177,7 +177,8 @@ contains
       end associate
    end function quantile_of_score
 
-   !> The value x of a normal or log-normal distribution without bounds, z standard deviations above the mean.
+   !> The value x of a normal or log-normal distribution without bounds at the score z: z standard deviations above the mean of x
+   !> (normal), or of ln x (log-normal).
    pure real(wp) function of_score(distribution, z) result(x)
       type(distribution_t), intent(in) :: distribution
       real(wp), intent(in) :: z

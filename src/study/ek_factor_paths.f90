@@ -151,7 +151,7 @@ contains
       label = label(2:)
    end function label_of
 
-   !> The shortest string that is read as the same number, rounded to nine or more significant digits: -5, 0.1, 1E-05.
+   !> The shortest string that is read back as `value`, rounded to nine or more significant digits, for instance -5, 0.1 or 1E-05.
    function shortest(value) result(text)
       real(wp), intent(in) :: value
       character(:), allocatable :: text

@@ -33,7 +33,7 @@ module ek_factor_unit
 contains
 
    !> The unit of a factor, for instance 'N/mm'. The unit is '' for a multiple of the deck's number, for numbers without a known
-   !> unit, and if the paths have different units.
+   !> unit, and for numbers of different units.
    function factor_unit(design, paths) result(unit)
       type(design_t), intent(in) :: design
       type(factor_paths_t), intent(in) :: paths

@@ -128,8 +128,8 @@ contains
       ranks%values(counter) = before + by
    end subroutine count_up
 
-   !> Handles accesses of other ranks to the counters, on networks that need the help of rank 0 to read its memory. Rank 0 must call
-   !> this procedure from time to time; on other ranks the procedure has no effect.
+   !> Handles accesses of other ranks to the counters, on networks on which other ranks cannot read the memory of rank 0 without the
+   !> help of rank 0. Rank 0 must call this procedure from time to time; on other ranks the procedure has no effect.
    subroutine help_others(ranks)
       type(ranks_t), intent(in) :: ranks
 #ifdef EK_MPI

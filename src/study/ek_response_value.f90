@@ -228,8 +228,8 @@ contains
       end do
    end subroutine find_window
 
-   !> Whether each state may lie in the window of a slope although its abscissa, the column over which the slope is taken, has no
-   !> value. Such a state has converged, and the state before or after it is in the window.
+   !> Whether each state may lie in the window of a slope although the state has no abscissa: the column over which the slope is
+   !> taken is undefined. The result is .true. for a converged state next to a state in the window.
    pure function unplaced_states(reading, table, over, is_near) result(is_unplaced)
       type(reading_t), intent(in) :: reading
       type(table_t), intent(in) :: table

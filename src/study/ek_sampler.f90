@@ -103,7 +103,7 @@ contains
       sampler%position = sampler%position*[(sum(sampler%position(:j)), j=1, size(factors))]
    end subroutine new_sampler
 
-   !> Counts the designs of a sampler.
+   !> Counts the designs of a sampler. More than 2⁴⁰ designs of a grid are an error.
    pure subroutine count_designs(sampler, error)
       type(sampler_t), intent(inout) :: sampler
       type(error_t), allocatable, intent(out) :: error

@@ -23,7 +23,7 @@ module ek_sampler_settings
    type :: sampler_settings_t
       integer :: kind = grid_kind
       integer(i8) :: size = 0                  !! n: number of designs, base points or trajectories
-      integer :: levels = 2 !! number of levels of a factor without values, evenly spaced over its range; even for morris
+      integer :: levels = 2 !! number of levels of a factor without values, evenly spaced over its range; an even number for morris
       integer(i8) :: seed = 1
       logical :: is_scrambled = .true.         !! sobol, saltelli: the points are scrambled by the seed
       real(wp), allocatable :: rows(:, :)      !! (factor, design): the designs of a list
