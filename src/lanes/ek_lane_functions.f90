@@ -43,8 +43,8 @@ contains
       end do
    end function sqrt_lanes
 
-   ! gfortran takes sin, cos, atan2 and log of several numbers from a vector library, which has other last bits than the scalar functions:
-   ! these loops are not vectorised
+   ! these loops are not vectorised: gfortran would use sin, cos, atan2 and log of a vector library, whose last bits differ from the
+   ! scalar functions
 
    !> The sine of an angle a [rad], lane by lane.
    elemental type(lanes_t) function sin_lanes(a) result(y)

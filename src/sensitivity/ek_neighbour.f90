@@ -63,9 +63,9 @@ contains
       call keep_choices(workspace%raw, self%workspace%raw)
    end subroutine follow_design
 
-   !> Copies to the neighbours the directions perpendicular to an axis that the rows of joints use. Each such direction is computed
-   !> from the global axis with the smallest component along the joint axis. If two components are equal, the choice would change
-   !> between neighbours, and λ would have a different meaning in each.
+   !> Copies to the neighbour the directions across the joint axes that the rows of joints use. Each direction is computed from the
+   !> global axis with the smallest component along the joint axis. If two components are equal, neighbours could use different
+   !> global axes, and λ would have a different meaning in each neighbour.
    subroutine keep_choices(design, neighbour)
       type(suspension_t), intent(in) :: design
       type(suspension_t), intent(inout) :: neighbour
