@@ -43,8 +43,8 @@ module ek_part_change
       real(wp) :: preload = 0.0_wp, reference = 0.0_wp, rate = 0.0_wp               ! one measure
       real(wp) :: load(6) = 0.0_wp, gap(3) = 0.0_wp, stiffness_t(3, 3) = 0.0_wp, stiffness_r(3, 3) = 0.0_wp   ! bushing
       type(element_t), allocatable :: there(:)   ! of the neighbours, with the markers of the design: laws that are not linear
-      ! of each neighbour: preload and reference, or preloads and gap of a bushing with curves. The change of a law may be a rounding
-      ! error that some of the neighbours do not have
+      ! of each neighbour: preload and reference, or preloads and gap of a bushing with curves. The change of a law may be a
+      ! rounding error that some of the neighbours do not have
       real(wp) :: held(9, 4) = 0.0_wp
       logical :: is_held(4) = .false.
    end type element_change_t

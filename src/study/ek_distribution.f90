@@ -348,8 +348,8 @@ contains
 
    !> Finds the range that grids, tornados and Morris' method explore: from bound to bound. Without a bound within three standard
    !> deviations from the mean (of ln x for a log-normal distribution), the range ends at three standard deviations. A normal
-   !> `nominal ± tolerance` is thus explored over its tolerance. If the whole distribution lies beyond three standard deviations,
-   !> the range begins at the nearer bound and is at most three standard deviations wide.
+   !> `nominal ± tolerance` is thus explored over its tolerance. If the distribution lies completely beyond three standard
+   !> deviations, the range begins at the nearer bound and is at most three standard deviations wide.
    pure subroutine ends_of(distribution, low, high)
       type(distribution_t), intent(in) :: distribution
       real(wp), intent(out) :: low, high

@@ -17,9 +17,9 @@ module ek_study
    public :: define_factor, is_given, not_given
 
    ! how a factor changes a number of the deck
-   integer, parameter :: by_value = 1       !! number of the design = factor
-   integer, parameter :: by_delta = 2       !! number of the design = number of the deck + factor
-   integer, parameter :: by_scale = 3       !! number of the design = number of the deck × factor
+   integer, parameter :: by_value = 1       !! the factor replaces the number of the deck
+   integer, parameter :: by_delta = 2       !! the factor is added to the number of the deck
+   integer, parameter :: by_scale = 3       !! the factor multiplies the number of the deck
    character(*), parameter :: change_names(3) = [character(8) :: 'absolute', 'delta', 'scale']
 
    ! the kinds: those of the samplers, and two names of this module

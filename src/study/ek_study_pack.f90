@@ -30,7 +30,7 @@ module ek_study_pack
 
 contains
 
-   !> Prepares packs for the cases of a workspace, whose cases must have been solved.
+   !> Prepares packs for the cases of a workspace. The cases must have been solved.
    subroutine begin_packs(workspace, space)
       type(workspace_t), intent(in) :: workspace
       type(pack_space_t), intent(out) :: space

@@ -19,7 +19,7 @@ module ek_trajectory
 
 contains
 
-   !> Finds the trajectory that contains a design, and the step of the trajectory at which the design lies.
+   !> Finds the trajectory that contains a design, and the step of the design on the trajectory.
    pure subroutine find_trajectory(settings, factors, design, trajectory)
       type(sampler_settings_t), intent(in) :: settings
       integer, intent(in) :: factors               !! k, number of factors
