@@ -1,4 +1,4 @@
-!> A case of a workspace: its numbers, the stage of its present design, and its solution.
+!> A case of a workspace: its numbers, its stage at the present design, and its solution.
 module ek_case_work
    use ek_suspension, only: suspension_t
    use ek_reader, only: design_t
@@ -15,26 +15,29 @@ module ek_case_work
 
    ! stages of a case at the present numbers, each after the one before
    integer, parameter :: not_examined = 0
-   integer, parameter :: examined = 1       !! its model has no defect
-   integer, parameter :: on_rig = 2         !! and the model is on the rig, without the preloads of balance
+   integer, parameter :: examined = 1       !! the model on the rig of the case has no defect
+   integer, parameter :: on_rig = 2         !! the case is examined and on the rig, with a model without the preloads of the preload
+                                            !! trim (`balance`)
 
    type :: case_work_t
-      type(case_t) :: case                        !! of the present design, as in the deck
-      integer :: number = 0                       !! in the deck; 0: a standard test
+      type(case_t) :: case                        !! the case at the present design, as in the deck
+      integer :: number = 0                       !! index in the deck; 0: a standard test
       integer :: stage = not_examined
-      type(known_case_t) :: known                 !! properties proved at the first design for all designs
-      class(observer_t), allocatable :: observer  !! of the columns of its results
-      class(case_result_t), allocatable :: result !! of the present design; holds the case on the rig. Classes: gfortran copies
-                                                  !! a type that holds one by calling a procedure; otherwise it writes out the copy
-                                                  !! at each use, and the program grows
+      type(known_case_t) :: known                 !! properties that examine_case has proved for all designs
+      class(observer_t), allocatable :: observer  !! observer of the columns of its results
+      class(case_result_t), allocatable :: result !! result of the present design; contains the case on the rig. Reason for the
+                                                  !! class: gfortran copies a type with a class component by calling a procedure.
+                                                  !! Without the class, gfortran writes out the copy at each use, and the program
+                                                  !! grows
    end type case_work_t
 
 contains
 
-   !> Renews the numbers of a case at a design. The numbers come from the deck, or from the standard test.
+   !> Renews the numbers of a case at a design. The numbers of a case of the deck come from the design; a standard test is adapted
+   !> to the rack travel of the design.
    subroutine renew_case(suspension, design, this)
       type(suspension_t), intent(in) :: suspension
-      type(design_t), intent(in) :: design                 !! with the cases of these numbers
+      type(design_t), intent(in) :: design                 !! design with the cases of the present numbers
       type(case_work_t), intent(inout) :: this
 
       if (this%number > 0) then
@@ -51,11 +54,11 @@ contains
       if (.not. allocated(this%observer)) allocate (this%observer)
    end subroutine make_room
 
-   !> Renews the numbers of a case and examines the design on its rig. is_sound is .false. if the case cannot be put on the rig, or
-   !> if the design may have a defect. examine_case then finds the reason and creates strings.
+   !> Renews the numbers of a case and examines the design on the rig of the case. is_sound is .false. if the case cannot be put on
+   !> the rig, or if the design may have a defect. examine_case then finds the reason and creates strings.
    subroutine examine_again(suspension, design, this, is_sound)
-      type(suspension_t), intent(in) :: suspension         !! realised, not balanced
-      type(design_t), intent(in) :: design                 !! with the cases of these numbers
+      type(suspension_t), intent(in) :: suspension         !! realised, without the preload trim
+      type(design_t), intent(in) :: design                 !! design with the cases of the present numbers
       type(case_work_t), intent(inout) :: this
       logical, intent(out) :: is_sound
 
@@ -67,7 +70,8 @@ contains
       if (is_sound) this%stage = on_rig
    end subroutine examine_again
 
-   !> Puts a case on the rig with a balanced model, unless it is already on the rig with the same numbers.
+   !> Puts a case on the rig with a balanced model. If the model needs no preload trim (balance = 'none'), a case that is already on
+   !> the rig is unchanged.
    subroutine put_on_rig(suspension, this)
       type(suspension_t), intent(in) :: suspension         !! balanced
       type(case_work_t), intent(inout) :: this

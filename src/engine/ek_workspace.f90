@@ -1,15 +1,16 @@
 !> The data of a deck that one thread owns: present numbers, their model, and each case on its rig with its last solution.
 !>
-!> This module defines the ordered stages of a design. put_numbers resets all of them; each is reached again on request, by one
+!> This module defines the ordered stages of a design. put_numbers resets all stages. Each stage is reached again on request, by one
 !> procedure:
 !>
 !>     workspace:  numbers_given → realised → balanced        put_numbers, take_numbers, balance_once
 !>     a case:     not_examined → examined → on_rig           prove_case or examine_again, put_on_rig
 !>
-!> solve_numbers and settle_numbers compute numbers and return a code. They create no strings, nor do ready_cases and balance_once.
-!> solve_or_explain and settle_or_explain examine the cases in full, call solve_numbers or settle_numbers, and explain a failure.
-!> balance_or_explain calls balance_once and explains a failure. These three create strings. gfortran stores the length of a string
-!> that a function returns in one location for all threads, so that only one thread at a time may call these three.
+!> solve_numbers and settle_numbers compute numbers and return a code. These two procedures, ready_cases and balance_once create no
+!> strings. solve_or_explain and settle_or_explain examine the cases in full, call solve_numbers or settle_numbers, and explain a
+!> failure. balance_or_explain calls balance_once and explains a failure. The procedures with `explain` in their names and
+!> settle_model create strings. gfortran stores the length of a string that a function returns in one location for all threads, so
+!> that only one thread at a time may call them.
 module ek_workspace
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t, fail, exit_model
@@ -33,33 +34,34 @@ module ek_workspace
 
    ! stages of the numbers, each after the one before
    integer, parameter :: numbers_given = 0
-   integer, parameter :: realised = 1       !! raw and the cases of the design have these numbers
-   integer, parameter :: balanced = 2       !! suspension has these numbers and the preloads of balance
+   integer, parameter :: realised = 1       !! `raw` and the cases of the design have these numbers
+   integer, parameter :: balanced = 2       !! `suspension` has these numbers and the preloads of the preload trim (`balance`)
 
    ! outcomes of solve_numbers and settle_numbers
    integer, parameter :: succeeded = 0
-   integer, parameter :: out_of_range = 1   !! of the blueprint: the design must be read from the deck's strings
-   integer, parameter :: in_doubt = 2       !! the design may have a defect: prove_case finds it
-   integer, parameter :: not_balanced = 3   !! fail_balance explains it
+   integer, parameter :: out_of_range = 1   !! a number is outside the range of the blueprint: the design must be read from the
+                                            !! deck's strings
+   integer, parameter :: in_doubt = 2       !! the design may have a defect: prove_case decides
+   integer, parameter :: not_balanced = 3   !! the preload trim failed: fail_balance gives the message
 
    type :: workspace_t
       type(design_t) :: design
       real(wp), allocatable :: x(:)                     !! present numbers [SI, axes of the deck]; changed by put_numbers
       integer :: stage = numbers_given
-      type(suspension_t) :: raw                         !! with these numbers, not balanced
-      type(suspension_t) :: suspension                  !! balanced
-      type(case_work_t), allocatable :: cases(:)        !! see ek_workspace_cases
-      integer, allocatable :: report_order(:)           !! the cases in the order of the report
-      real(wp), private :: tolerance = 0.0_wp           !! of the balance [m]
-      type(balance_failure_t), private :: failure       !! of the last balance
-      type(preload_problem_t), private :: space         !! of balance
+      type(suspension_t) :: raw                         !! model with these numbers, without the preload trim
+      type(suspension_t) :: suspension                  !! model with the preload trim
+      type(case_work_t), allocatable :: cases(:)        !! cases of the workspace, see ek_workspace_cases
+      integer, allocatable :: report_order(:)           !! index in `cases` of each case of the report
+      real(wp), private :: tolerance = 0.0_wp           !! tolerance of the last preload trim [m]
+      type(balance_failure_t), private :: failure       !! outcome of the last preload trim
+      type(preload_problem_t), private :: space         !! work space of the preload trim
    end type workspace_t
 
 contains
 
-   !> Stores new numbers, which the next solution uses.
+   !> Stores new numbers for the next solution. All stages are reset.
    pure subroutine put_numbers(x, workspace)
-      real(wp), intent(in) :: x(:)                      !! of all parameters [SI, axes of the deck]
+      real(wp), intent(in) :: x(:)                      !! numbers of all parameters [SI, axes of the deck]
       type(workspace_t), intent(inout) :: workspace
 
       workspace%x(:) = x
@@ -67,8 +69,8 @@ contains
       workspace%cases%stage = not_examined
    end subroutine put_numbers
 
-   !> Realises the suspension and the cases with the present numbers, unless this was done. is_done is .false. if the numbers are
-   !> outside the range of the blueprint; the design must then be read from the deck's strings.
+   !> Realises the suspension and the cases with the present numbers, unless this was already done. is_done is .false. if the
+   !> numbers are outside the range of the blueprint; the design must then be read from the deck's strings.
    subroutine take_numbers(workspace, is_done)
       type(workspace_t), intent(inout) :: workspace
       logical, intent(out) :: is_done
@@ -81,9 +83,10 @@ contains
       if (is_done) workspace%stage = realised
    end subroutine take_numbers
 
-   !> Balances the suspension once for all cases with the same tolerance. workspace%failure is the outcome. No string is created.
+   !> Balances the suspension with a tolerance, unless the suspension is already balanced with this tolerance. `workspace%failure`
+   !> is the outcome; its reason is 0 if the preload trim succeeded. No string is created.
    subroutine balance_once(tolerance, workspace)
-      real(wp), intent(in) :: tolerance                    !! m
+      real(wp), intent(in) :: tolerance                    !! tolerance of the preload trim [m]
       type(workspace_t), intent(inout) :: workspace        !! realised
 
       if (workspace%stage == balanced .and. abs(tolerance - workspace%tolerance) <= 0.0_wp) return
@@ -99,7 +102,7 @@ contains
 
    !> Balances the suspension as balance_once does. Returns a message if no preloads hold the suspension.
    subroutine balance_or_explain(tolerance, workspace, error)
-      real(wp), intent(in) :: tolerance                    !! m
+      real(wp), intent(in) :: tolerance                    !! tolerance of the preload trim [m]
       type(workspace_t), intent(inout) :: workspace        !! realised
       type(error_t), allocatable, intent(out) :: error     !! exit_model, exit_convergence
 
@@ -107,7 +110,7 @@ contains
       call fail_balance(workspace%suspension, workspace%failure, error)
    end subroutine balance_or_explain
 
-   !> Examines a case in full. The case is examined afterwards, or `defects` lists its defects.
+   !> Examines a case in full. If the case can be solved, its stage is `examined`; otherwise `defects` lists its defects.
    subroutine prove_case(k, workspace, defects)
       integer, intent(in) :: k
       type(workspace_t), intent(inout) :: workspace        !! realised
@@ -123,8 +126,8 @@ contains
    end subroutine prove_case
 
    !> Prepares the current numbers up to the mounted rigs of all cases, balanced with the tolerance of the first case. Creates no
-   !> strings. is_done is .false. if a number is outside its range, or if the design may have a defect; the design must then be read
-   !> from the deck's strings.
+   !> strings. is_done is .false. if a number is outside its range, if the design may have a defect, or if the preload trim failed.
+   !> The design must then be read from the deck's strings.
    subroutine ready_cases(workspace, is_done)
       type(workspace_t), intent(inout) :: workspace
       logical, intent(out) :: is_done
@@ -143,11 +146,11 @@ contains
    end subroutine ready_cases
 
    !> Puts a case on the rig with the present numbers, balanced, and solves nothing. No string is created. The numbers are not
-   !> examined, because they are close to the numbers of an examined design. is_done is .false. if the numbers are outside the range
-   !> of the blueprint.
+   !> examined: they must be close to the numbers of an examined design. is_done is .false. if the numbers are outside the range of
+   !> the blueprint, or if the preload trim failed.
    subroutine mount_numbers(k, tolerance, workspace, is_done)
       integer, intent(in) :: k
-      real(wp), intent(in) :: tolerance                    !! of balance [m]
+      real(wp), intent(in) :: tolerance                    !! tolerance of the preload trim [m]
       type(workspace_t), intent(inout) :: workspace
       logical, intent(out) :: is_done
 
@@ -166,7 +169,7 @@ contains
       integer, intent(in) :: k
       type(solve_options_t), intent(in) :: options
       type(workspace_t), intent(inout) :: workspace
-      integer, intent(out) :: outcome                    !! succeeded, or the reason why nothing was solved
+      integer, intent(out) :: outcome                    !! `succeeded`, or the reason why nothing was solved
       logical :: is_done
 
       outcome = out_of_range
@@ -187,7 +190,7 @@ contains
       outcome = succeeded
    end subroutine solve_numbers
 
-   !> Solves a case at the present numbers, with full examination and messages. is_done is .false. if these numbers are outside the
+   !> Solves a case at the present numbers, with full examination and messages. is_done is .false. if the numbers are outside the
    !> range of the blueprint; the design must then be read from the deck's strings.
    subroutine solve_or_explain(k, options, workspace, is_done, error)
       integer, intent(in) :: k
@@ -221,11 +224,11 @@ contains
    end subroutine solve_or_explain
 
    !> Examines the needed cases of the report at the present numbers, and balances the suspension as the report does. No string is
-   !> created if these cases were examined before.
+   !> created if the needed cases were examined before.
    subroutine settle_numbers(is_needed, workspace, outcome)
-      logical, intent(in) :: is_needed(:)                  !! in the order of the report
+      logical, intent(in) :: is_needed(:)                  !! whether each case is needed, in the order of the report
       type(workspace_t), intent(inout) :: workspace
-      integer, intent(out) :: outcome                      !! succeeded: the cases are examined, the model is balanced
+      integer, intent(out) :: outcome                      !! `succeeded`: the needed cases are examined, and the model is balanced
       logical :: is_done
       integer :: j, k
 
@@ -246,13 +249,13 @@ contains
       outcome = merge(succeeded, not_balanced, workspace%stage == balanced)
    end subroutine settle_numbers
 
-   !> Examines and balances as settle_numbers does, but examines the needed cases in full and creates messages. is_done is .false.
-   !> if the design must be read from the deck's strings.
+   !> Examines and balances like settle_numbers, but examines the needed cases in full and creates messages. is_done is .false. if
+   !> the design must be read from the deck's strings.
    subroutine settle_or_explain(is_needed, workspace, is_solvable, defects, is_done, error)
-      logical, intent(in) :: is_needed(:)                  !! in the order of the report
+      logical, intent(in) :: is_needed(:)                  !! whether each case is needed, in the order of the report
       type(workspace_t), intent(inout) :: workspace
       logical, intent(out) :: is_solvable(:)
-      type(message_list_t), intent(out) :: defects         !! defects of the other cases, without repetition
+      type(message_list_t), intent(out) :: defects         !! defects of all needed cases, without repetition
       logical, intent(out) :: is_done
       type(error_t), allocatable, intent(out) :: error     !! exit_model: no case can be solved; exit_convergence
       character(:), allocatable :: name, words
@@ -290,12 +293,13 @@ contains
       call fail(error, exit_model, 'the model cannot be solved'//new_line('a')//defects%text())
    end subroutine fail_unsolvable
 
-   !> Balances the model at the present numbers as the report does, if a case can be solved. Creates messages.
+   !> Balances the model at the present numbers like the report, unless all examined cases have defects. Creates messages.
    subroutine settle_model(workspace, is_balanced, is_done, error)
       type(workspace_t), intent(inout) :: workspace
       logical, intent(out) :: is_balanced
       logical, intent(out) :: is_done                      !! .false.: the design must be read from the deck's strings
-      type(error_t), allocatable, intent(out) :: error     !! exit_model, exit_convergence: why no case can be solved
+      type(error_t), allocatable, intent(out) :: error     !! exit_model, exit_convergence: reason why no case can be solved, or why
+                                                           !! the preload trim failed
       type(message_list_t) :: defects
       character(:), allocatable :: words
       integer :: k

@@ -21,10 +21,10 @@ module ek_workspace_cases
 
 contains
 
-   !> Reads a deck without listing its cases, for a command that chooses its cases itself.
+   !> Reads a deck without listing its cases, for a command that chooses its cases.
    subroutine open_model(deck, workspace, error, needs_tables)
       type(deck_t), intent(in) :: deck
-      type(workspace_t), intent(inout) :: workspace          !! its former content is deleted
+      type(workspace_t), intent(inout) :: workspace          !! workspace, whose former content is deleted
       type(error_t), allocatable, intent(out) :: error       !! exit_deck, exit_file: all errors together
       logical, intent(in), optional :: needs_tables          !! if .true., a missing table is an error, also of a case not run
 
@@ -62,7 +62,7 @@ contains
    !> Reads a deck and lists its cases, then the standard tests that the deck does not define. Reports all errors together.
    subroutine open_workspace(deck, workspace, error)
       type(deck_t), intent(in) :: deck
-      type(workspace_t), intent(inout) :: workspace          !! its former content is deleted
+      type(workspace_t), intent(inout) :: workspace          !! workspace, whose former content is deleted
       type(error_t), allocatable, intent(out) :: error       !! exit_deck
       type(case_t), allocatable :: tests(:), all(:)         ! of the report; with those on request
       integer :: own, k
@@ -100,14 +100,14 @@ contains
 
    end subroutine open_workspace
 
-   !> Reads a deck for selected cases ('': the first case of the deck). Examines the deck on the rig of each case, and balances it
-   !> with the tolerance of the first. Errors in other cases are ignored.
+   !> Reads a deck for selected cases ('': the first case of the deck). Examines the deck on the rig of each case, and balances the
+   !> model with the tolerance of the first case. Errors in other cases are ignored.
    subroutine open_cases(deck, names, workspace, error, increments)
       type(deck_t), intent(in) :: deck
       character(*), intent(in) :: names(:)
-      type(workspace_t), intent(inout) :: workspace          !! its former content is deleted
+      type(workspace_t), intent(inout) :: workspace          !! workspace, whose former content is deleted
       type(error_t), allocatable, intent(out) :: error     !! exit_deck, exit_file, exit_model, exit_convergence
-      integer, intent(in), optional :: increments          !! of all cases; absent or 0: the increments of the deck
+      integer, intent(in), optional :: increments !! number of increments of all cases; absent or 0: the increments of the deck
       type(diagnosis_t) :: diagnosis
       logical :: is_whole
       integer :: k
@@ -143,21 +143,21 @@ contains
       call balance_or_explain(workspace%cases(1)%case%tolerance, workspace, error)
    end subroutine open_cases
 
-   !> Empties a workspace. This is one procedure because gfortran writes out the deallocation of a workspace at each call.
+   !> Empties a workspace. This procedure exists because gfortran writes out the deallocation of a workspace at each call.
    subroutine empty_workspace(workspace)
       type(workspace_t), intent(out) :: workspace
       workspace%stage = numbers_given
    end subroutine empty_workspace
 
-   !> Finds a case of the deck, or a standard test of the report that the deck does not define.
+   !> Finds a case of the deck, or a standard test that the deck does not define. A case with follow = 'arc' is an error.
    subroutine take_case(file, name, cases, suspension, found, error)
-      character(*), intent(in) :: file, name           !! '': the first of the deck
+      character(*), intent(in) :: file, name           !! name: '' for the first case of the deck
       type(case_t), intent(in) :: cases(:)
       type(suspension_t), intent(in) :: suspension
       type(case_work_t), intent(inout) :: found
       type(error_t), allocatable, intent(out) :: error
       type(case_t), allocatable :: tests(:)
-      character(word_length), allocatable :: names(:)      !! of all cases and tests that could be meant
+      character(word_length), allocatable :: names(:)      !! names of all cases and tests that could be meant
       integer :: k, j
 
       call make_room(found)
@@ -192,7 +192,7 @@ contains
       found%case = cases(k)
    end subroutine take_case
 
-   !> Lists the cases in the order of the report, with the present numbers.
+   !> Lists the cases of the report, in the order of the report, with the present numbers.
    subroutine report_cases(workspace, cases)
       type(workspace_t), intent(in) :: workspace
       type(case_t), allocatable, intent(out) :: cases(:)
@@ -204,7 +204,7 @@ contains
       end do
    end subroutine report_cases
 
-   !> Restricts the report to the chosen cases, with their method and number of increments.
+   !> Restricts the report to the chosen cases, which replace the cases of the workspace with the same names.
    subroutine restrict_cases(chosen, workspace)
       type(case_t), intent(in) :: chosen(:)
       type(workspace_t), intent(inout) :: workspace
@@ -222,7 +222,7 @@ contains
       end do
    end subroutine restrict_cases
 
-   !> Lists all columns that the table of a case has.
+   !> Lists the headings of all columns of the table of a case.
    subroutine heads_of_case(k, workspace, heads)
       integer, intent(in) :: k
       type(workspace_t), intent(in) :: workspace
@@ -240,7 +240,7 @@ contains
       end associate
    end subroutine heads_of_case
 
-   !> Index of the case with a name; 1 for ''; 0 if no case has the name.
+   !> Index of the case with a name; 0 if no case has the name. The index is 1 for ''.
    pure integer function case_number(name, workspace) result(k)
       character(*), intent(in) :: name
       type(workspace_t), intent(in) :: workspace

@@ -1,4 +1,4 @@
-!> Conditions on numbers of four designs, and functions of them.
+!> Conditions on the numbers of four designs, and functions of these conditions.
 !>
 !> A condition is stored as 1 or 0 in a real: SSE2 has no comparison of 64-bit integers.
 module ek_lane_conditions
@@ -10,12 +10,12 @@ module ek_lane_conditions
    public :: operator(<), operator(<=), operator(>), operator(>=), operator(.and.), operator(.or.), operator(.not.)
    public :: some, every, merge, min, max, abs, pieces_below, entry
 
-   !> One condition for each of the designs.
+   !> One condition for each of the four designs: 1 if the condition holds, 0 otherwise.
    type :: mask_t
       real(wp) :: v(lanes)
    end type mask_t
 
-   !> One position in a table for each of the designs.
+   !> One position in a table for each of the four designs.
    type :: piece_t
       integer :: v(lanes)
    end type piece_t
@@ -66,7 +66,7 @@ contains
       end do
    end function less
 
-   !> The condition a < b, lane by lane.
+   !> The condition a < b, lane by lane, with one b for all designs.
    elemental type(mask_t) function less_real(a, b) result(y)
       type(lanes_t), intent(in) :: a
       real(wp), intent(in) :: b
@@ -87,7 +87,7 @@ contains
       end do
    end function less_or_equal
 
-   !> The condition a ≤ b, lane by lane.
+   !> The condition a ≤ b, lane by lane, with one b for all designs.
    elemental type(mask_t) function less_or_equal_real(a, b) result(y)
       type(lanes_t), intent(in) :: a
       real(wp), intent(in) :: b
@@ -108,7 +108,7 @@ contains
       end do
    end function greater
 
-   !> The condition a > b, lane by lane.
+   !> The condition a > b, lane by lane, with one b for all designs.
    elemental type(mask_t) function greater_real(a, b) result(y)
       type(lanes_t), intent(in) :: a
       real(wp), intent(in) :: b
@@ -129,7 +129,7 @@ contains
       end do
    end function greater_or_equal
 
-   !> The condition a ≥ b, lane by lane.
+   !> The condition a ≥ b, lane by lane, with one b for all designs.
    elemental type(mask_t) function greater_or_equal_real(a, b) result(y)
       type(lanes_t), intent(in) :: a
       real(wp), intent(in) :: b
@@ -170,20 +170,20 @@ contains
       end do
    end function opposite
 
-   !> Whether the condition holds in any lane.
+   !> Whether a condition holds in any lane.
    elemental logical function some(condition)
       type(mask_t), intent(in) :: condition
       some = (condition%v(1) + condition%v(2)) + (condition%v(3) + condition%v(4)) > 0.0_wp
    end function some
 
-   !> Whether the condition holds in every lane.
+   !> Whether a condition holds in every lane.
    elemental logical function every(condition)
       type(mask_t), intent(in) :: condition
       every = (condition%v(1) + condition%v(2)) + (condition%v(3) + condition%v(4)) > 3.5_wp
    end function every
 
-   !> The value a where the condition holds, otherwise b, lane by lane. Both are read first, because gfortran branches lane by lane
-   !> where a read depends on a condition.
+   !> The value a if the condition holds, otherwise b, lane by lane. Both values are read first, because gfortran branches lane by
+   !> lane if a read depends on a condition.
    elemental type(lanes_t) function merge_lanes(a, b, condition) result(y)
       type(lanes_t), intent(in) :: a, b
       type(mask_t), intent(in) :: condition
@@ -217,7 +217,7 @@ contains
       end do
    end function max_lanes
 
-   !> |a|
+   !> The absolute value |a|, lane by lane.
    elemental type(lanes_t) function abs_lanes(a) result(y)
       type(lanes_t), intent(in) :: a
       integer :: l

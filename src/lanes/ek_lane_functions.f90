@@ -1,4 +1,4 @@
-!> Functions of numbers of four designs. Each lane has the value of the intrinsic function with the same name.
+!> Functions of the numbers of four designs. Each lane has the value of the intrinsic function with the same name.
 module ek_lane_functions
    use ek_kinds, only: wp
    use ek_lane_numbers, only: lanes, lanes_t, zero, operator(+), operator(*)
@@ -33,7 +33,7 @@ module ek_lane_functions
 
 contains
 
-   !> √a
+   !> The square root of a, lane by lane.
    elemental type(lanes_t) function sqrt_lanes(a) result(y)
       type(lanes_t), intent(in) :: a
       integer :: l
@@ -43,10 +43,10 @@ contains
       end do
    end function sqrt_lanes
 
-   ! gfortran takes sin, cos, atan2 and log of several numbers from a vector library, which has other last bits than the scalar functions:
-   ! these loops are not vectorised
+   ! these loops are not vectorised: gfortran would use sin, cos, atan2 and log of a vector library, whose last bits differ from the
+   ! scalar functions
 
-   !> sin a
+   !> The sine of an angle a [rad], lane by lane.
    elemental type(lanes_t) function sin_lanes(a) result(y)
       type(lanes_t), intent(in) :: a
       integer :: l
@@ -56,7 +56,7 @@ contains
       end do
    end function sin_lanes
 
-   !> ln a
+   !> The natural logarithm of a, lane by lane.
    elemental type(lanes_t) function log_lanes(a) result(y)
       type(lanes_t), intent(in) :: a
       integer :: l
@@ -66,7 +66,7 @@ contains
       end do
    end function log_lanes
 
-   !> cos a
+   !> The cosine of an angle a [rad], lane by lane.
    elemental type(lanes_t) function cos_lanes(a) result(y)
       type(lanes_t), intent(in) :: a
       integer :: l
@@ -86,7 +86,7 @@ contains
       end do
    end function atan2_lanes
 
-   !> The scalar product a·b, summed from the first component on, as by the intrinsic function.
+   !> The scalar product a·b, summed from the first component on, as in the intrinsic function.
    pure type(lanes_t) function dot_product_lanes(a, b) result(y)
       type(lanes_t), intent(in) :: a(:), b(:)
       integer :: k
@@ -96,7 +96,7 @@ contains
       end do
    end function dot_product_lanes
 
-   !> The scalar product a·b, with a equal for all designs.
+   !> The scalar product a·b, with one a for all designs.
    pure type(lanes_t) function dot_product_real(a, b) result(y)
       real(wp), intent(in) :: a(:)
       type(lanes_t), intent(in) :: b(:)
@@ -107,7 +107,7 @@ contains
       end do
    end function dot_product_real
 
-   !> The sum of all components, from the first on.
+   !> The sum of all components of a vector, from the first component on, lane by lane.
    pure type(lanes_t) function sum_lanes(a) result(y)
       type(lanes_t), intent(in) :: a(:)
       integer :: k
@@ -117,7 +117,7 @@ contains
       end do
    end function sum_lanes
 
-   !> |a|
+   !> The Euclidean norm |a| of a vector, lane by lane.
    pure type(lanes_t) function norm2_lanes(a) result(y)
       type(lanes_t), intent(in) :: a(:)
       real(wp) :: x(size(a))

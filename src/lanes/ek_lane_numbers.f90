@@ -1,6 +1,6 @@
-!> Numbers of four designs, computed together: arithmetic.
+!> Numbers of four designs that are computed together: arithmetic.
 !>
-!> The result of a lane never depends on its neighbours, and equals the result of the scalar operation to the bit.
+!> The result in a lane never depends on the other lanes, and is identical bit for bit to the result of the scalar operation.
 module ek_lane_numbers
    use ek_kinds, only: wp
    implicit none(type, external)
@@ -8,9 +8,9 @@ module ek_lane_numbers
    public :: lanes, lanes_t, zero, one
    public :: assignment(=), operator(+), operator(-), operator(*), operator(/), operator(**)
 
-   integer, parameter :: lanes = 4       !! gfortran does not hold eight lanes in registers
+   integer, parameter :: lanes = 4       !! number of designs: gfortran does not hold eight lanes in registers
 
-   !> One number of each of the designs.
+   !> One number for each of the four designs.
    type :: lanes_t
       real(wp) :: v(lanes)
    end type lanes_t
@@ -50,7 +50,7 @@ contains
       end do
    end subroutine assign_real
 
-   !> a + b
+   !> The sum a + b, lane by lane.
    elemental type(lanes_t) function add(a, b) result(y)
       type(lanes_t), intent(in) :: a, b
       integer :: l
@@ -60,7 +60,7 @@ contains
       end do
    end function add
 
-   !> a + b
+   !> The sum a + b, lane by lane, with one a for all designs.
    elemental type(lanes_t) function add_to_real(a, b) result(y)
       real(wp), intent(in) :: a
       type(lanes_t), intent(in) :: b
@@ -71,7 +71,7 @@ contains
       end do
    end function add_to_real
 
-   !> a + b
+   !> The sum a + b, lane by lane, with one b for all designs.
    elemental type(lanes_t) function add_real(a, b) result(y)
       type(lanes_t), intent(in) :: a
       real(wp), intent(in) :: b
@@ -82,7 +82,7 @@ contains
       end do
    end function add_real
 
-   !> a − b
+   !> The difference a − b, lane by lane.
    elemental type(lanes_t) function subtract(a, b) result(y)
       type(lanes_t), intent(in) :: a, b
       integer :: l
@@ -92,7 +92,7 @@ contains
       end do
    end function subtract
 
-   !> a − b
+   !> The difference a − b, lane by lane, with one a for all designs.
    elemental type(lanes_t) function subtract_from_real(a, b) result(y)
       real(wp), intent(in) :: a
       type(lanes_t), intent(in) :: b
@@ -103,7 +103,7 @@ contains
       end do
    end function subtract_from_real
 
-   !> a − b
+   !> The difference a − b, lane by lane, with one b for all designs.
    elemental type(lanes_t) function subtract_real(a, b) result(y)
       type(lanes_t), intent(in) :: a
       real(wp), intent(in) :: b
@@ -114,7 +114,7 @@ contains
       end do
    end function subtract_real
 
-   !> a b
+   !> The product a b, lane by lane.
    elemental type(lanes_t) function multiply(a, b) result(y)
       type(lanes_t), intent(in) :: a, b
       integer :: l
@@ -124,7 +124,7 @@ contains
       end do
    end function multiply
 
-   !> a b
+   !> The product a b, lane by lane, with one a for all designs.
    elemental type(lanes_t) function multiply_real(a, b) result(y)
       real(wp), intent(in) :: a
       type(lanes_t), intent(in) :: b
@@ -135,7 +135,7 @@ contains
       end do
    end function multiply_real
 
-   !> a b
+   !> The product a b, lane by lane, with one b for all designs.
    elemental type(lanes_t) function multiply_by_real(a, b) result(y)
       type(lanes_t), intent(in) :: a
       real(wp), intent(in) :: b
@@ -146,7 +146,7 @@ contains
       end do
    end function multiply_by_real
 
-   !> a/b
+   !> The quotient a/b, lane by lane.
    elemental type(lanes_t) function divide(a, b) result(y)
       type(lanes_t), intent(in) :: a, b
       integer :: l
@@ -156,7 +156,7 @@ contains
       end do
    end function divide
 
-   !> a/b
+   !> The quotient a/b, lane by lane, with one a for all designs.
    elemental type(lanes_t) function divide_real(a, b) result(y)
       real(wp), intent(in) :: a
       type(lanes_t), intent(in) :: b
@@ -167,7 +167,7 @@ contains
       end do
    end function divide_real
 
-   !> a/b
+   !> The quotient a/b, lane by lane, with one b for all designs.
    elemental type(lanes_t) function divide_by_real(a, b) result(y)
       type(lanes_t), intent(in) :: a
       real(wp), intent(in) :: b
@@ -178,7 +178,7 @@ contains
       end do
    end function divide_by_real
 
-   !> −a
+   !> The negative −a, lane by lane.
    elemental type(lanes_t) function minus(a) result(y)
       type(lanes_t), intent(in) :: a
       integer :: l
@@ -188,7 +188,7 @@ contains
       end do
    end function minus
 
-   !> a to the power 2, 3 or any n ≥ 0, multiplied in the order of gfortran's scalar powers.
+   !> The power aⁿ, lane by lane, for n ≥ 0, multiplied in the order of gfortran's scalar powers.
    elemental type(lanes_t) function power(a, n) result(y)
       type(lanes_t), intent(in) :: a
       integer, intent(in) :: n

@@ -1,4 +1,5 @@
-!> The numbers of kernels for four designs at a time: replaces `ek_number` in the copies of the kernels that the build makes.
+!> The numbers of kernels for four designs at a time. This module replaces `ek_number` in the copies of the kernels that the build
+!> makes.
 module ek_lanes
    use ek_lane_numbers, only: lanes, lanes_t, zero, one, assignment(=), operator(+), operator(-), operator(*), operator(/), &
       operator(**)

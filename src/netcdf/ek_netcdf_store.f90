@@ -1,9 +1,9 @@
-!> The store of a study in NetCDF-4, from its chunks.
+!> Writes the store of a study in NetCDF-4 from its chunks.
 !>
-!> Factors and responses are variables over design, the swept value and the columns of the curves over (design, state). Chunks are
-!> read one after the other, and the sizes of the blocks in the file are fixed: the memory does not grow with the number of
-!> designs, and two stores of the same results have the same bytes. Each block has a checksum (fletcher32), so that a block that was
-!> damaged cannot be read.
+!> Factors and responses are variables over design. The swept value and the columns of the curves are variables over (design,
+!> state). Chunks are read one after the other, so that the memory does not grow with the number of designs. The sizes of the blocks
+!> in the file do not depend on the sizes of the chunks, so that two stores of the same results have the same bytes. Each block has
+!> a checksum (fletcher32), so that a damaged block cannot be read.
 module ek_netcdf_store
    use, intrinsic :: iso_fortran_env, only: int8, int64
    use, intrinsic :: iso_c_binding, only: c_int, c_size_t, c_float
@@ -20,7 +20,8 @@ module ek_netcdf_store
    public :: write_store_file
 
    interface
-      !> The cache of a variable, of the C library: the Fortran interface sets it in megabytes, too much for a thousand variables.
+      !> Sets the cache of a variable, by the C library; returns the status. The Fortran interface sets the cache in megabytes, too
+      !> much for a thousand variables.
       integer(c_int) function nc_set_var_chunk_cache(file, variable, size, slots, preemption) bind(c)
          import :: c_int, c_size_t, c_float
          implicit none(type, external)
@@ -30,25 +31,25 @@ module ek_netcdf_store
       end function nc_set_var_chunk_cache
    end interface
 
-   integer, parameter :: block = 8192             !! designs of a block of a variable over design
-   integer, parameter :: block_bytes = 524288     !! most bytes of a block of any other variable
-   integer, parameter :: level = 1                !! of the compression: higher levels take twice the time for a tenth of the size
+   integer, parameter :: block = 8192             !! number of designs in a block of a variable over design
+   integer, parameter :: block_bytes = 524288     !! largest number of bytes in a block of any other variable
+   integer, parameter :: level = 1 !! level of the compression: higher levels take twice the time for a tenth of the size
 
-   !> The open file.
+   !> The open file, with the ids of its dimensions and variables.
    type :: file_t
       integer :: id = 0
-      integer :: design = 0, state = 0            !! dimensions
-      integer :: design_number = 0, state_number = 0, status = 0, within = 0, reason = 0      !! variables
-      integer, allocatable :: variables(:)        !! of the description
-      integer :: fault = nf90_noerr               !! the first
+      integer :: design = 0, state = 0            !! ids of the dimensions
+      integer :: design_number = 0, state_number = 0, status = 0, within = 0, reason = 0      !! ids of the variables
+      integer, allocatable :: variables(:)        !! id of each variable of the description
+      integer :: fault = nf90_noerr               !! status of the first error
    end type file_t
 
 contains
 
-   !> Writes the store.
+   !> Writes the store of a study into a new file.
    subroutine write_store_file(store, folder, path, error)
       type(store_t), intent(in) :: store
-      character(*), intent(in) :: folder                   !! of the chunks
+      character(*), intent(in) :: folder                   !! folder of the chunks
       character(*), intent(in) :: path
       type(error_t), allocatable, intent(out) :: error     !! exit_file
       type(file_t) :: file
@@ -87,7 +88,7 @@ contains
       if (fault == nf90_noerr) fault = status
    end subroutine note
 
-   !> Whether a chunk has the sizes of the store.
+   !> Whether a chunk has the sizes of the store: numbers of factors, responses, columns, states and designs.
    pure logical function fits(store, chunk)
       type(store_t), intent(in) :: store
       type(chunk_t), intent(in) :: chunk
@@ -109,7 +110,8 @@ contains
       end do
    end function count_of
 
-   !> Defines dimensions, variables and attributes. The last dimension of Fortran is the first one that ncdump shows.
+   !> Defines dimensions, variables and attributes. ncdump shows the dimensions in reverse order: the last dimension in Fortran is
+   !> the first dimension in ncdump.
    subroutine define(store, file)
       type(store_t), intent(in) :: store
       type(file_t), intent(inout) :: file
@@ -177,7 +179,7 @@ contains
 
       !> Sets the size of the cache of a variable to the two blocks into which a chunk may be written.
       subroutine set_cache(bytes, variable)
-         integer, intent(in) :: bytes             !! of a block
+         integer, intent(in) :: bytes             !! size of a block
          integer, intent(in) :: variable
          if (file%fault == nf90_noerr) call note(file%fault, int(nc_set_var_chunk_cache(int(file%id, c_int), &
             int(variable - 1, c_int), int(2*bytes, c_size_t), 11_c_size_t, 1.0_c_float)))
@@ -202,7 +204,7 @@ contains
       type(file_t), intent(inout) :: file
       integer, intent(in) :: variable
       character(*), intent(in) :: long_name, meanings
-      integer, intent(in) :: last                 !! the values are 0 … last
+      integer, intent(in) :: last                 !! last value; the values are 0 … last
       integer :: k
 
       call put_text(file, variable, 'long_name', long_name)
@@ -217,7 +219,7 @@ contains
       call note(file%fault, nf90_put_att(file%id, variable, name, text))
    end subroutine put_text
 
-   !> Writes the attributes of the description.
+   !> Writes the attributes of the store or of one of its variables.
    subroutine put_attributes(file, variable, list)
       type(file_t), intent(inout) :: file
       integer, intent(in) :: variable
@@ -283,7 +285,7 @@ contains
 
    end subroutine write_names
 
-   !> Writes the designs of a chunk. Reasons are written only for chunks with reasons.
+   !> Writes the designs of a chunk. Reasons are written for failed designs only.
    subroutine write_chunk(store, chunk, file)
       type(store_t), intent(in) :: store
       type(chunk_t), intent(in) :: chunk
@@ -329,7 +331,7 @@ contains
       end do
    end subroutine write_chunk
 
-   !> Finds the designs that satisfy all limits. Their flag is 1.
+   !> Finds the designs that satisfy all limits: their flag is 1, the flag of all other designs is 0.
    pure subroutine find_within(store, chunk, flags)
       type(store_t), intent(in) :: store
       type(chunk_t), intent(in) :: chunk

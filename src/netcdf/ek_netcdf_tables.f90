@@ -1,7 +1,7 @@
-!> The tables of a study as CSV, from its store in NetCDF-4: for figures, and for programs that read no NetCDF.
+!> Writes the tables of a study as CSV, from its store in NetCDF-4, for figures and for programs that do not read NetCDF.
 !>
-!> The columns are those that elastokin writes (ek_study_tables), in the order in which the store defines its variables: a factor
-!> has the attribute `change`, a response the attribute `of`, and the curves are over (design, state).
+!> The columns are the columns that elastokin writes (ek_study_tables), in the order in which the store defines its variables. A
+!> factor has the attribute `change`, a response has the attribute `of`, and the curves are over (design, state).
 module ek_netcdf_tables
    use, intrinsic :: iso_fortran_env, only: int8
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
@@ -20,16 +20,16 @@ module ek_netcdf_tables
    private
    public :: write_store_tables
 
-   integer, parameter :: block = 8192             !! designs that are read at once
-   integer, parameter :: curve_block = 64         !! designs whose curves are read at once
+   integer, parameter :: block = 8192             !! number of designs that are read at once
+   integer, parameter :: curve_block = 64         !! number of designs whose curves are read at once
 
-   !> The open store.
+   !> The open store, with the ids of its variables.
    type :: store_file_t
-      integer :: id = 0, fault = nf90_noerr       !! the first fault
+      integer :: id = 0, fault = nf90_noerr       !! id of the file; status of the first error
       integer :: designs = 0, states = 0
       integer :: within = 0, status = 0, reason = 0, reason_length = 0
-      integer, allocatable :: factors(:), responses(:), curves(:)             !! variables
-      character(name_length), allocatable :: heads(:)                         !! of all variables
+      integer, allocatable :: factors(:), responses(:), curves(:)             !! ids of the variables
+      character(name_length), allocatable :: heads(:)                         !! column heading of each variable
    end type store_file_t
 
 contains
@@ -72,7 +72,7 @@ contains
       if (file%fault == nf90_noerr) file%fault = status
    end subroutine note
 
-   !> Returns the recorded fault as an error.
+   !> Returns the recorded error of the NetCDF library, unless another error has already occurred.
    subroutine check(file, error)
       type(store_file_t), intent(in) :: file
       type(error_t), allocatable, intent(inout) :: error
@@ -81,7 +81,7 @@ contains
       call fail(error, exit_file, 'it is not the store of a study, or damaged: '//trim(nf90_strerror(file%fault)))
    end subroutine check
 
-   !> Reads the dimensions and variables of the store.
+   !> Reads the dimensions of the store, and finds its variables.
    subroutine survey(file)
       type(store_file_t), intent(inout) :: file
       character(nf90_max_name) :: name
@@ -122,7 +122,8 @@ contains
       has = nf90_inquire_attribute(file%id, variable, name) == nf90_noerr
    end function has
 
-   !> Reads a string attribute; '' after a fault.
+   !> Reads a string attribute; '' if the file has had an error before. If the read fails, the string is undefined; test
+   !> `file%fault`.
    subroutine get_text(file, variable, name, text)
       type(store_file_t), intent(inout) :: file
       integer, intent(in) :: variable
@@ -136,7 +137,7 @@ contains
       if (file%fault == nf90_noerr) call note(file, nf90_get_att(file%id, variable, name, text))
    end subroutine get_text
 
-   !> Adds header lines and column names.
+   !> Adds the header lines and the column headings of a table.
    subroutine add_head(file, variables, last, table_file)
       type(store_file_t), intent(inout) :: file
       integer, intent(in) :: variables(:)
@@ -159,7 +160,7 @@ contains
       call table_file%add(csv_head(table))
    end subroutine add_head
 
-   !> Writes the table of responses, one row per design.
+   !> Writes the table of designs, one row per design.
    subroutine write_rows(file, rows)
       type(store_file_t), intent(inout) :: file
       type(writer_t), intent(inout) :: rows
@@ -201,7 +202,7 @@ contains
       end do
    end subroutine write_rows
 
-   !> Writes one row per state of every n-th design. States that a design lacks are omitted.
+   !> Writes the table of states, one row per state of every n-th design. States that a design lacks are omitted.
    subroutine write_curves(file, every, curves)
       type(store_file_t), intent(inout) :: file
       integer, intent(in) :: every

@@ -1,6 +1,9 @@
-!> elastokin-netcdf PARTS OUT.nc: writes the store of a study from the folder of its chunks; elastokin runs it when all designs are
-!> done. elastokin-netcdf --csv STORE.nc FOLDER [N]: writes the tables of a store as CSV (the curves of every N-th design). It is
-!> a separate program because the NetCDF libraries would make every start of elastokin longer by 6 ms.
+!> elastokin-netcdf PARTS OUT.nc writes the store of a study from the folder of its chunks. elastokin runs this command when all
+!> designs are finished.
+!>
+!> elastokin-netcdf --csv STORE.nc FOLDER [N] writes the tables of a store as CSV, with the curves of every N-th design.
+!>
+!> elastokin-netcdf is a separate program because the NetCDF libraries would make every start of elastokin 6 ms longer.
 program elastokin_netcdf
    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
    use, intrinsic :: iso_c_binding, only: c_int
@@ -36,7 +39,7 @@ program elastokin_netcdf
 
 contains
 
-   !> Reads the fourth argument, an integer; 1 if it is not given.
+   !> Reads the fourth argument, an integer; 1 if the argument is not given.
    subroutine read_every(every, error)
       integer, intent(out) :: every
       type(error_t), allocatable, intent(out) :: error
@@ -50,7 +53,7 @@ contains
       if (status /= 0 .or. every < 1) call fail(error, exit_usage, '--csv: N must be an integer, 1 or more')
    end subroutine read_every
 
-   !> An argument of the command line; '' if it is not given.
+   !> An argument of the command line; '' if the argument is not given.
    function argument(number) result(text)
       integer, intent(in) :: number
       character(:), allocatable :: text

@@ -1,7 +1,7 @@
-!> Four designs of one deck as one model: the numbers of each design stand in a lane, common data are stored once.
+!> Four designs of one deck as one model. The numbers of each design are in one lane; common data are stored once.
 !>
-!> All have the connections, the plan of elimination and the scale of the first design of the study, so the result of a design
-!> does not depend on the other lanes.
+!> All designs have the connections, the plan of elimination and the scale of the deck's own design. The result of a design
+!> therefore does not depend on the other lanes.
 module ek_pack
    use ek_kinds, only: wp
    use ek_lanes, only: lanes_t, lanes
@@ -20,13 +20,13 @@ module ek_pack
    private
    public :: pack_t, new_pack, set_design
 
-   !> Four designs, their common state of solution, and work space.
+   !> Four designs, the present state of their solution, and work space.
    type :: pack_t
       integer :: bodies = 0, rows = 0, n = 0
       type(pattern_t) :: pattern
       type(plan_t) :: plan
       real(wp), allocatable :: places(:)                 !! swept values of the states
-      real(wp), allocatable :: scale(:), scaling(:)      !! D of the system, and of each entry of the matrix
+      real(wp), allocatable :: scale(:), scaling(:)      !! scale factors D of the unknowns, and factor of each entry of the matrix
       real(wp) :: length = 1.0_wp                        !! characteristic length [m]
       type(load_t), allocatable :: loads(:)
       type(element_t), allocatable :: elements(:)
@@ -34,14 +34,16 @@ module ek_pack
       type(term_t), allocatable :: terms(:)
       type(lanes_t), allocatable :: origin(:, :)         !! (3, body): reference points at design [m]
       ! the state
-      type(pose_t), allocatable :: poses(:)              !! chassis, bodies
+      type(pose_t), allocatable :: poses(:)              !! poses of the chassis and of the bodies
       type(lanes_t), allocatable :: reaction(:)
-      type(lanes_t), allocatable :: factor(:), change(:) !! inputs: of each load and row
-      type(lanes_t), allocatable :: rate_factor(:), rate_change(:)   !! and their derivatives with the path coordinate
+      type(lanes_t), allocatable :: factor(:), change(:) !! inputs of each load and row
+      type(lanes_t), allocatable :: rate_factor(:), rate_change(:)   !! derivatives of the inputs by the path coordinate
       ! the system
       type(lanes_t), allocatable :: gradients(:, :), values(:), store(:), factors(:), rhs(:)
-      type(lanes_t), allocatable :: spare(:)             !! factors of designs that are unchanged while others are factorised again
-      type(lanes_t), allocatable :: tangent_a(:), tangent_b(:), motion(:), motion_before(:)    !! of the bodies in a step
+      type(lanes_t), allocatable :: spare(:)             !! factors that are saved while other designs are factorised again
+      type(lanes_t), allocatable :: tangent_a(:), tangent_b(:), motion(:), motion_before(:) !! tangents at both ends of a step,
+                                                                                            !! motions of the bodies in this step
+                                                                                            !! and in the step before
       ! earlier states, newest first in `slot`
       type(lanes_t), allocatable :: packed(:, :), guess(:)
       ! the newest of them: poses, reactions, factors
@@ -52,11 +54,11 @@ module ek_pack
 
 contains
 
-   !> Creates work space for designs with the connections of this suspension.
+   !> Creates the work space for designs with the connections of this suspension.
    subroutine new_pack(suspension, kkt, path, pack)
       type(suspension_t), intent(in) :: suspension
-      type(kkt_t), intent(in) :: kkt                     !! with a plan
-      type(path_t), intent(in) :: path                   !! of new_path
+      type(kkt_t), intent(in) :: kkt                     !! KKT system with a plan
+      type(path_t), intent(in) :: path                   !! path created by new_path
       type(pack_t), intent(out) :: pack
       type(lanes_t) :: zero
       integer :: k
@@ -86,7 +88,7 @@ contains
       pack%slot = [(k, k=1, depth)]
    end subroutine new_pack
 
-   !> Stores the numbers of a design in a lane. Returns .false. if the design does not have the connections of the pack.
+   !> Stores the numbers of a design in a lane. The design must have the connections of the pack.
    subroutine set_design(suspension, lane, pack)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: lane

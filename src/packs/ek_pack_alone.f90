@@ -1,4 +1,4 @@
-!> Steps of one design of a pack without the other designs: for a state that is not found in the pack, and for checks of a single
+!> Steps of one design of a pack without the other designs: for a state that the pack does not find, and for checks of a single
 !> design.
 module ek_pack_alone
    use ek_kinds, only: wp
@@ -29,7 +29,7 @@ contains
       type(walker_t), intent(inout) :: self
       type(member_t), intent(inout) :: member
       type(place_t), intent(inout) :: place
-      type(outcome_t), intent(in) :: outcome     !! of the iteration in the pack, to its present state
+      type(outcome_t), intent(in) :: outcome     !! outcome of the iteration in the pack
       integer, intent(in) :: lane, k, direction
       type(failure_t) :: failure
       type(inputs_t) :: inputs
@@ -115,11 +115,11 @@ contains
       if (has) has = all(kkt%plan(held)%slot == pack%plan%slot)
    end function has_plan_of
 
-   !> Copies the factors of a design in the pack to its own system.
+   !> Copies the factors of a design in the pack to the system of the design.
    pure subroutine take_factors(factors, lane, negative, kkt)
       type(lanes_t), intent(in) :: factors(:)
-      integer, intent(in) :: lane, negative                !! negative: eigenvalues
-      type(kkt_t), intent(inout) :: kkt                    !! has_plan_of the pack
+      integer, intent(in) :: lane, negative                !! number of negative eigenvalues
+      type(kkt_t), intent(inout) :: kkt                    !! system of the design, for which has_plan_of is .true.
       integer :: k
 
       do k = 1, size(factors)
@@ -150,7 +150,7 @@ contains
       is_same_assembly = .not. (is_over .or. is_singular)
    end function is_same_assembly
 
-   !> Copies the present poses of a design to self%state.
+   !> Copies the present poses of the bodies of a design to self%state.
    pure subroutine take_state(self, lane)
       type(walker_t), intent(inout) :: self
       integer, intent(in) :: lane
@@ -179,7 +179,7 @@ contains
       end associate
    end subroutine learn
 
-   !> Sets the branch of a lane to the branch of its present design.
+   !> Renews the branch of a lane for its present design, unless this was already done.
    subroutine refresh(self, member, lane)
       type(walker_t), intent(inout) :: self
       type(member_t), intent(in) :: member
@@ -189,7 +189,7 @@ contains
       self%is_fresh(lane) = .true.
    end subroutine refresh
 
-   !> Copies the last states of a design before state k into a predictor.
+   !> Replaces the content of a predictor by the last states of a design before state k, and by the number of trusted states.
    subroutine recall(predictor, path, k, direction, trusted)
       type(predictor_t), intent(inout) :: predictor
       type(path_t), intent(in) :: path
@@ -204,7 +204,7 @@ contains
       predictor%trusted = trusted
    end subroutine recall
 
-   !> Packs the present poses of a design.
+   !> Copies the present poses of a design to a packed state.
    pure subroutine take_poses(pack, lane, packed)
       type(pack_t), intent(in) :: pack
       integer, intent(in) :: lane

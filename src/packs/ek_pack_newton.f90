@@ -1,6 +1,7 @@
 !> Newton's method for four designs at the same time. Each design takes the steps of find_equilibrium (ek_newton).
 !>
-!> A design that has converged or failed is not changed while the others continue, so its result does not depend on them.
+!> A design that has converged or failed is not changed while the other designs continue, so that its result does not depend on
+!> them.
 module ek_pack_newton
    use ek_kinds, only: wp
    use ek_lanes, only: lanes_t, mask_t, lanes
@@ -16,11 +17,11 @@ module ek_pack_newton
 
 contains
 
-   !> Iterates from the poses and reactions of the pack to equilibrium under its inputs.
+   !> Iterates from the poses and reactions of the pack to equilibrium under the inputs of the pack.
    subroutine find_equilibria(pack, tolerance, is_wanted, outcome)
       type(pack_t), intent(inout) :: pack
       real(wp), intent(in) :: tolerance                  !! m
-      logical, intent(in) :: is_wanted(lanes)            !! the others are unchanged
+      logical, intent(in) :: is_wanted(lanes)            !! designs that are not wanted remain unchanged
       type(outcome_t), intent(out) :: outcome(lanes)
       logical :: is_going(lanes), is_in_chord(lanes), is_taken(lanes)
       type(soundness_t) :: soundness
@@ -93,7 +94,7 @@ contains
       end do
    end subroutine find_equilibria
 
-   !> Assembles the system at the present poses.
+   !> Assembles the systems of all designs at the present poses: matrix and right-hand side, or the right-hand side alone.
    subroutine assemble(pack, mode)
       type(pack_t), intent(inout) :: pack
       integer, intent(in) :: mode
@@ -108,8 +109,8 @@ contains
       end do
    end subroutine assemble
 
-   !> Factorises the matrices at the present poses. The factors of designs whose iteration has ended are unchanged, so that these
-   !> designs do not depend on the others.
+   !> Factorises the matrices at the present poses. The factors of designs whose iteration has ended are unchanged, so that the
+   !> results of these designs do not depend on the other designs.
    subroutine factorise(pack, is_going, soundness)
       type(pack_t), intent(inout) :: pack
       logical, intent(in) :: is_going(lanes)
@@ -131,7 +132,7 @@ contains
       end do
    end subroutine factorise
 
-   !> Solves with the factors, and measures the step.
+   !> Solves for the steps of all designs with the factors in the pack, and measures the steps.
    subroutine find_step(pack, length)
       type(pack_t), intent(inout) :: pack
       type(lanes_t), intent(out) :: length               !! largest |Δr|, |Δπ| × characteristic length [m]
@@ -142,7 +143,7 @@ contains
       length = largest_motion(pack%rhs(:6*pack%bodies), scale)
    end subroutine find_step
 
-   !> Applies the step of some designs.
+   !> Applies the steps of the designs for which is_taken is .true.
    subroutine take(pack, is_taken)
       type(pack_t), intent(inout) :: pack
       logical, intent(in) :: is_taken(lanes)

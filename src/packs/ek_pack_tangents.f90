@@ -1,4 +1,5 @@
-!> Tangents of the paths of four designs at a time: the first prediction, and whether a step agrees with them (ek_branch).
+!> Tangents of the paths of four designs at a time. The tangents give the first prediction, and show whether a step follows the path
+!> (ek_branch).
 module ek_pack_tangents
    use ek_kinds, only: wp
    use ek_lanes, only: lanes_t, mask_t, lanes
@@ -14,9 +15,9 @@ module ek_pack_tangents
 
 contains
 
-   !> Finds the error of the trapezoidal rule in the step to the present states, as `compare` of ek_branch does from the last
-   !> factors and the state before the last. Where these do not explain the step, the tangent at the beginning of the step replaces
-   !> the state before the last.
+   !> Finds the error of the trapezoidal rule in the step to the present states, like `compare` of ek_branch, from the last factors
+   !> and the state before the last. If this error is too large or unknown, the tangent at the beginning of the step is used instead
+   !> of the state before the last.
    subroutine compare_tangents(self, members, places, is_common, is_asked, value, rest)
       type(walker_t), intent(inout) :: self
       type(member_t), intent(in) :: members(lanes)
@@ -24,7 +25,7 @@ contains
       logical, intent(in) :: is_common
       logical, intent(in) :: is_asked(lanes)
       real(wp), intent(in) :: value
-      real(wp), intent(out) :: rest(lanes)       !! huge: not known
+      real(wp), intent(out) :: rest(lanes)       !! error of the trapezoidal rule of each design; huge: not known
       logical :: is_closer(lanes)
       real(wp) :: width, before, bow
       type(lanes_t) :: length, error
@@ -71,7 +72,8 @@ contains
       end associate
    end subroutine compare_tangents
 
-   !> Computes dz/ds at poses with the factors at these poses, from the inputs at two swept values.
+   !> Computes dz/ds, the tangents of the states z by the swept value s, at poses with the factors at these poses. The derivative of
+   !> the inputs is the difference quotient between two swept values.
    subroutine find_tangents(self, members, places, is_common, from, to, poses, factors, tangent)
       type(walker_t), intent(inout) :: self
       type(member_t), intent(in) :: members(lanes)

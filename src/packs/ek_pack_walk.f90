@@ -1,9 +1,10 @@
 !> Follows the paths of four designs at the same time, state after state.
 !>
 !> All designs of the pack take each step together: prediction, Newton's method, and the tests of ek_reach and ek_branch that the
-!> state is on the path (the prediction was close, or the tangents agree with the motion; the joints are in the same assembly). A
-!> state of a design that does not pass these checks is found by ek_reach, which checks in detail and halves steps; a design that
-!> fails in ek_reach, or does not settle close to its design position, is left to the sweep of a single design.
+!> state is on the path. In these tests, the prediction was close or the tangents agree with the motion, and the joints are in the
+!> same assembly. A state of a design that does not pass these tests is found by ek_reach, which tests in detail and halves steps.
+!> A design that fails in ek_reach, or that the constant loads move out of its design position, is left to the sweep of a single
+!> design.
 module ek_pack_walk
    use ek_kinds, only: wp
    use ek_lanes, only: lanes_t, lanes
@@ -29,17 +30,18 @@ module ek_pack_walk
 
 contains
 
-   !> Whether a case can be solved in packs: its states are equilibria along the swept value, on a path through design.
+   !> Whether packs can solve a case: its states are equilibria along the swept value, on a path through design that no table
+   !> defines.
    pure logical function can_walk(case, path)
       type(case_t), intent(in) :: case
       type(path_t), intent(in) :: path
       can_walk = case%method == 'equilibrium' .and. .not. case%follows_arc .and. path%start > 0 .and. .not. path%is_table
    end function can_walk
 
-   !> Walks the paths of all members, created by new_path with the same swept values. is_walked of a member is .true. if its path
-   !> is complete.
+   !> Walks the paths of all members, which new_path has created with the same swept values. is_walked of a member is .true. if its
+   !> path is complete. Members that are not wanted or that cannot walk are skipped.
    subroutine walk_pack(self, members)
-      type(walker_t), intent(inout) :: self      !! its pack is made for these designs
+      type(walker_t), intent(inout) :: self      !! walker with a pack that was created for these designs
       type(member_t), intent(inout) :: members(lanes)
       type(place_t), allocatable :: places(:)
 
@@ -50,7 +52,7 @@ contains
       call move_alloc(places, self%places)
    end subroutine walk_pack
 
-   !> Walks the paths of all members from design to both ends of the range.
+   !> Walks the paths of the members from design to both ends of the range.
    subroutine walk_together(self, members, places)
       type(walker_t), intent(inout) :: self
       type(member_t), intent(inout) :: members(lanes)
@@ -94,8 +96,9 @@ contains
       end do
    end subroutine walk_together
 
-   !> Finds the equilibria under the constant loads. A design that these loads move by more than rounding is not solved in the pack.
-   !> The tangents of the first step are stored in the pack.
+   !> Finds the equilibria under the constant loads. A design is left to the sweep of a single design if its equilibrium is not
+   !> found, is nearly singular, or is more than 10 tolerances from the design position. The factors at the equilibria remain in the
+   !> pack for the first step.
    subroutine settle_all(self, members, places, is_common)
       type(walker_t), intent(inout) :: self
       type(member_t), intent(inout) :: members(lanes)
@@ -145,7 +148,8 @@ contains
       end associate
    end subroutine settle_all
 
-   !> Stores the design state, and the states on the other side of design, in the history.
+   !> Begins the way from design to one end of the range: stores the design state, and the states on the other side of design, in
+   !> the history.
    subroutine begin_way(self, members, first, direction, places)
       type(walker_t), intent(inout) :: self
       type(member_t), intent(in) :: members(lanes)
@@ -169,7 +173,7 @@ contains
       places%knows_factors = .false.
    end subroutine begin_way
 
-   !> Whether each design that is still solved in the pack has reached state k.
+   !> For each design: whether the pack still solves the design and has reached state k.
    function has_state(members, k) result(has)
       type(member_t), intent(in) :: members(lanes)
       integer, intent(in) :: k
@@ -182,12 +186,12 @@ contains
       end do
    end function has_state
 
-   !> Solves the next state of all designs.
+   !> Solves state k of all designs that the pack still solves.
    subroutine step_to(self, members, places, is_common, k, direction)
       type(walker_t), intent(inout) :: self
       type(member_t), intent(inout) :: members(lanes)
       type(place_t), intent(inout) :: places(lanes)
-      logical, intent(in) :: is_common           !! all have the same inputs
+      logical, intent(in) :: is_common           !! all designs have the same inputs
       integer, intent(in) :: k, direction
       type(outcome_t) :: outcome(lanes)
       type(lanes_t), allocatable :: factors(:)

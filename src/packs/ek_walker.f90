@@ -1,4 +1,4 @@
-!> Data of packs of designs on their paths: the designs, the state of each, inputs and earlier states, work space.
+!> Data of packs of designs on their paths: the designs, the position and state of each design, inputs, earlier states, work space.
 module ek_walker
    use ek_kinds, only: wp
    use ek_lanes, only: lanes_t, lanes
@@ -21,33 +21,33 @@ module ek_walker
       type(case_t), pointer :: case => null()
       type(kkt_t), pointer :: kkt => null()
       type(path_t), pointer :: path => null()
-      logical :: is_wanted = .true.              !! otherwise the lane is only filled
-      logical :: is_walked = .false.             !! the path is complete; otherwise it is to be swept alone
+      logical :: is_wanted = .true.              !! .false.: the lane only contains data of another design
+      logical :: is_walked = .false. !! the path is complete; .false.: the design is left to the sweep of a single design
    end type member_t
 
    !> Position of a design on its path.
    type :: place_t
       type(schedule_t) :: schedule
-      integer :: trusted = depth                 !! states used for the prediction
-      integer :: settled = -1                    !! negative eigenvalues at design, and
-      real(wp) :: beginning = huge(1.0_wp)       !! ln |det N| at the beginning
-      integer :: negative = -1                   !! at the newest state
+      integer :: trusted = depth                 !! number of states used for the prediction
+      integer :: settled = -1                    !! number of negative eigenvalues at design
+      real(wp) :: beginning = huge(1.0_wp)       !! ln |det N| at design
+      integer :: negative = -1                   !! number of negative eigenvalues at the newest state
       real(wp) :: log_determinant = huge(1.0_wp)
       logical :: was_uneven = .true.
       logical :: knows_factors = .false.         !! the previous factors in the pack belong to the newest state
-      logical :: is_symmetric = .true.           !! no load makes the tangent unsymmetric
+      logical :: is_symmetric = .true.           !! the tangent is symmetric under all loads
    end type place_t
 
-   !> Work space of a thread.
+   !> Work space of one thread to walk packs.
    type :: walker_t
       type(pack_t) :: pack
-      type(predictor_t) :: history               !! swept values of the stored states; their numbers are in the pack
-      type(branch_t), allocatable :: branch(:)   !! of each design, for steps that it takes alone
+      type(predictor_t) :: history               !! swept values of the stored states; the states are in the pack
+      type(branch_t), allocatable :: branch(:)   !! branch of each design, for steps of this design alone
       logical :: is_fresh(lanes) = .false.       !! the branch belongs to the present design
       type(state_t) :: state
-      type(place_t), allocatable :: places(:)    !! of each design; reused as work space
-      real(wp) :: tolerance = 0.0_wp             !! of the present designs [m]
-      integer :: steps_alone = 0, steps = 0      !! so far, of all designs
+      type(place_t), allocatable :: places(:)    !! position of each design; reused as work space
+      real(wp) :: tolerance = 0.0_wp             !! tolerance of the present designs [m]
+      integer :: steps_alone = 0, steps = 0      !! numbers of steps of all designs so far: alone, and in total
    end type walker_t
 
 contains
@@ -85,14 +85,14 @@ contains
       end do
    end subroutine set_inputs
 
-   !> Finds the weights of the stored states for each design, for as many states as the design trusts, and the slots of these
-   !> states.
+   !> Finds the weights of the stored states for each design, for the number of states that the design trusts, and the slots of the
+   !> stored states.
    subroutine find_lane_weights(history, value, trusted, weight, slot, states)
       type(predictor_t), intent(in) :: history
       real(wp), intent(in) :: value
       integer, intent(in) :: trusted(lanes)
       type(lanes_t), intent(out) :: weight(depth)
-      integer, intent(out) :: slot(depth), states        !! states: largest number that a design uses
+      integer, intent(out) :: slot(depth), states !! slots of the stored states; states: largest number of states that a design uses
       real(wp) :: own(depth)
       integer :: l, j, n, most, last
 
@@ -116,7 +116,7 @@ contains
       end do
    end subroutine find_lane_weights
 
-   !> Stores a swept value. The numbers of its states go to the slot history%newest.
+   !> Stores a swept value in the history. The states at this value belong in the slot history%newest of the pack.
    pure subroutine remember_place(history, value)
       type(predictor_t), intent(inout) :: history
       real(wp), intent(in) :: value
@@ -126,7 +126,7 @@ contains
       history%abscissa(history%newest) = value
    end subroutine remember_place
 
-   !> Puts the numbers of one design into its lane.
+   !> Copies the numbers of one design to its lane.
    pure subroutine put_lane(lane, numbers, x)
       integer, intent(in) :: lane
       real(wp), intent(in) :: numbers(:)

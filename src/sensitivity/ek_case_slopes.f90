@@ -1,5 +1,5 @@
-!> A case with the derivatives of its columns at every state: its table at a design, and the table of a neighbouring design to
-!> first order, without a solution.
+!> A case with the derivatives of its columns at every state. From the table at a design, the table of a neighbouring design follows
+!> to first order, without a solution.
 module ek_case_slopes
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
@@ -14,20 +14,21 @@ module ek_case_slopes
    public :: case_slopes_t, solve_with_slopes, move_table
 
    type :: case_slopes_t
-      integer :: case = 0                                    !! in the workspace
-      type(solve_options_t) :: options                       !! required columns, and distance from design
-      type(derivatives_t), allocatable :: derivatives        !! of the columns at the states
-      type(table_t) :: table                                 !! of the last design: quantities and entries of the compliance matrix
-      type(table_t) :: moved                                 !! the same along a direction
-      integer, allocatable :: place(:)                       !! of a column of the derivatives in the table
-      integer, allocatable :: row(:)                         !! of a state of the derivatives in the table
+      integer :: case = 0                                    !! index of the case in the workspace
+      type(solve_options_t) :: options                       !! required columns, and required distance of the states from design
+      type(derivatives_t), allocatable :: derivatives        !! derivatives of the columns at the states
+      type(table_t) :: table !! table of the last solved design: quantities and entries of the compliance matrix
+      type(table_t) :: moved                                 !! `table`, moved along a direction (move_table)
+      integer, allocatable :: place(:)                       !! index in `table` of each column of the derivatives
+      integer, allocatable :: row(:)                         !! row in `table` of each state of the derivatives
    end type case_slopes_t
 
 contains
 
-   !> Solves a case again, with the derivatives of its columns.
+   !> Solves a case at the present numbers of the workspace, and finds the derivatives of its columns. is_valid is .false. if the
+   !> case has no valid solution, or lacks a state within the required distance.
    subroutine solve_with_slopes(is_solved, this, workspace, is_valid)
-      logical, intent(in) :: is_solved                       !! the workspace has its solution already
+      logical, intent(in) :: is_solved                       !! the workspace already contains the solution of the case
       type(case_slopes_t), intent(inout) :: this
       type(workspace_t), intent(inout) :: workspace
       logical, intent(out) :: is_valid
@@ -59,7 +60,8 @@ contains
       end associate
    end subroutine solve_with_slopes
 
-   !> Builds a table of the columns of a case and the entries of its compliance matrix that are differentiated.
+   !> Builds a table of the columns of a case and of the differentiated entries of its compliance matrix. Also finds the columns and
+   !> the rows of the derivatives in the table.
    subroutine make_table(table, derivatives, whole, place, row)
       type(table_t), intent(in) :: table
       type(derivatives_t), intent(in) :: derivatives
@@ -77,10 +79,10 @@ contains
       row = [(minloc(abs(table%values(1, :) - (derivatives%states(s) - 1)), dim=1), s=1, size(derivatives%states))]
    end subroutine make_table
 
-   !> Moves the table to the design at a distance along a direction. A number that cannot be varied has no effect.
+   !> Moves the table to the design at a distance along a direction. A derivative that is NaN has no effect.
    pure subroutine move_table(p, distance, this)
-      integer, intent(in) :: p                               !! the direction
-      real(wp), intent(in) :: distance                       !! in its unit
+      integer, intent(in) :: p                               !! index of the direction
+      real(wp), intent(in) :: distance                       !! distance in the unit of the direction
       type(case_slopes_t), intent(inout) :: this
       real(wp) :: slope
       integer :: c, s

@@ -1,9 +1,10 @@
-!> The derivatives of columns with respect to the unknowns of a state, at a fixed design: for the adjoint method.
+!> The derivatives of columns with respect to the unknowns z of a state, at a fixed design, for the adjoint method:
 !>
 !>     dy/dp = ∂y/∂z dz/dp + ∂y/∂p = aᵀ ∂F/∂p + ∂y/∂p,   Nᵀ a = ∂y/∂z
 !>
-!> With one solution for each column instead of one for each number of the deck. ∂y/∂z is taken by differences, by the formula
-!> with which the column is observed; most columns depend on a body or two, and the unknowns of others are skipped.
+!> Here y is a column, p a number of the deck, F the right-hand side and N the KKT matrix. The method needs one solution for each
+!> column instead of one for each number of the deck. ∂y/∂z is found by differences, with the formula by which the column is
+!> observed. Most columns depend on one or two bodies; the unknowns of all other bodies are skipped.
 module ek_column_gradient
    use ek_kinds, only: wp
    use ek_suspension, only: suspension_t
@@ -16,24 +17,24 @@ module ek_column_gradient
    private
    public :: find_gradients, parts_of_gradient
 
-   integer, parameter :: parts_of_gradient = 3             !! itself, and the two parts of its error
-   real(wp), parameter :: step_of_place = 1.0e-4_wp        !! m: of Δr; for other unknowns, the step of equal work
+   integer, parameter :: parts_of_gradient = 3             !! the gradient, and two parts of its error
+   real(wp), parameter :: step_of_place = 1.0e-4_wp        !! step of Δr [m]; for other unknowns, the step of equal work
 
    ! a motion in no special direction
    real(wp), parameter :: any_motion(6) = [0.83_wp, -0.71_wp, 0.92_wp, -0.64_wp, 0.77_wp, 0.58_wp]
 
 contains
 
-   !> Finds ∂y/∂z of all columns at a state, and the parts of its error: see find_quotients.
+   !> Finds ∂y/∂z of all columns at a state, and two parts of the error of ∂y/∂z (see find_quotients).
    !> Equation (E.9) of docs/theory/derivatives.md.
    subroutine find_gradients(suspension, state, inputs, kkt, observer, values, moved, gradients)
-      type(suspension_t), intent(in) :: suspension         !! on the rig
+      type(suspension_t), intent(in) :: suspension         !! suspension on the rig
       type(state_t), intent(in) :: state
       type(inputs_t), intent(in) :: inputs
       type(kkt_t), intent(inout) :: kkt                    !! work space
       type(column_observer_t), intent(inout) :: observer
-      real(wp), intent(in) :: values(:)                    !! at the state
-      type(state_t), intent(inout) :: moved                !! work space: a state of this model
+      real(wp), intent(in) :: values(:)                    !! values of the columns at the state
+      type(state_t), intent(inout) :: moved                !! work space: any state of this model
       real(wp), intent(inout) :: gradients(:, :, :)        !! (unknown, part, column)
       real(wp) :: y(size(values), 4), h
       integer :: b, c, k, j
@@ -58,7 +59,7 @@ contains
 
    contains
 
-      !> Whether a column changes when body b moves, or when the reactions change.
+      !> Whether any column changes when body b moves; for b = number of bodies + 1, when the reactions change.
       logical function is_read(b)
          integer, intent(in) :: b
 
@@ -71,7 +72,8 @@ contains
          end do
       end function is_read
 
-      !> Moves one unknown of a body away from the state; unknown = 0 moves all unknowns of the body.
+      !> Moves one unknown of a body, or one reaction, away from the state. If `unknown` is 0, all unknowns of the body, or all
+      !> reactions, are moved.
       subroutine move(b, unknown, distance)
          integer, intent(in) :: b, unknown
          real(wp), intent(in) :: distance

@@ -16,12 +16,12 @@ module ek_column_observer
    public :: column_observer_t, new_column_observer, observe_columns, keep_state, kept_loads, &
       reads_states, reads_wheels_only
 
-   !> The columns of a model, and work space.
+   !> The requested columns of a model, and work space to observe the columns.
    type :: column_observer_t
-      character(name_length), allocatable :: columns(:)    !! quantities, then entries
+      character(name_length), allocatable :: columns(:)    !! quantities, then entries of the compliance matrix
       integer, private :: quantities = 0
-      integer, allocatable, private :: entries(:)          !! their numbers among compliance_columns
-      class(observer_t), allocatable, private :: observer      !! a class as in case_work_t
+      integer, allocatable, private :: entries(:)          !! indices of the entries among compliance_columns
+      class(observer_t), allocatable, private :: observer      !! a class for the reason given at case_work_t
       type(compliance_t), private :: compliance
       type(attitude_t), allocatable, private :: wheels(:)
       real(wp), allocatable, private :: work(:), matrix(:)
@@ -29,9 +29,9 @@ module ek_column_observer
 
 contains
 
-   !> Creates an observer of the columns that the model defines. Creates strings.
+   !> Creates an observer of the requested columns. Columns that the model does not define are omitted. Creates strings.
    subroutine new_column_observer(suspension, case, columns, self)
-      type(suspension_t), intent(in) :: suspension         !! on the rig
+      type(suspension_t), intent(in) :: suspension         !! suspension on the rig
       type(case_t), intent(in) :: case
       character(*), intent(in) :: columns(:)
       type(column_observer_t), intent(out) :: self
@@ -50,15 +50,16 @@ contains
       allocate (self%matrix(size(names)), source=0.0_wp)
    end subroutine new_column_observer
 
-   !> Computes the values at an equilibrium. With data stored at an equilibrium, computes the values at a state close to it.
+   !> Computes the values of the columns at an equilibrium. With the data `kept`, stored at an equilibrium, the values may be
+   !> computed at a state close to the equilibrium.
    subroutine observe_columns(suspension, state, inputs, kkt, self, values, kept)
-      type(suspension_t), intent(in) :: suspension         !! on the rig
+      type(suspension_t), intent(in) :: suspension         !! suspension on the rig
       type(state_t), intent(in) :: state
       type(inputs_t), intent(in) :: inputs
       type(kkt_t), intent(inout) :: kkt                    !! work space
       type(column_observer_t), intent(inout) :: self
       real(wp), intent(inout) :: values(:)
-      real(wp), intent(in), optional :: kept(:, :)         !! of keep_state
+      real(wp), intent(in), optional :: kept(:, :)         !! data stored by keep_state
       logical :: has_kept
 
       if (self%quantities > 0) call observe_state(suspension, state, inputs, kkt, self%observer, self%wheels, self%work, &
@@ -75,7 +76,7 @@ contains
       values(self%quantities + 1:) = self%matrix(self%entries)
    end subroutine observe_columns
 
-   !> Whether no column needs the compliance matrix, or a model in addition to the state.
+   !> Whether all columns follow from a state alone, without the compliance matrix and without a model in addition to the state.
    pure logical function reads_states(self)
       type(column_observer_t), intent(in) :: self
       reads_states = size(self%entries) == 0 .and. .not. reads_matrix(self%observer)
@@ -87,15 +88,16 @@ contains
       reads_wheels_only = size(self%entries) == 0 .and. reads_poses_of_wheels(self%observer)
    end function reads_wheels_only
 
-   !> Number of unit loads whose responses are stored: the loads of the compliance matrix if it is observed, otherwise 0.
+   !> Number of unit loads whose responses are stored: the loads of the compliance matrix, or 0 if no entry of the matrix is
+   !> observed.
    pure integer function kept_loads(self)
       type(column_observer_t), intent(in) :: self
       kept_loads = merge(6*size(self%wheels), 0, size(self%entries) > 0)
    end function kept_loads
 
-   !> Stores the data of an observed equilibrium that are used at states close to it.
+   !> Stores the data of an observed equilibrium for observe_columns at states close to the equilibrium.
    pure subroutine keep_state(self, kept)
-      type(column_observer_t), intent(in) :: self          !! after observe_columns
+      type(column_observer_t), intent(in) :: self          !! observer after observe_columns
       real(wp), intent(inout) :: kept(:, :)                !! (kept_loads, unknown)
       if (size(kept, 1) > 0) call keep_responses(self%compliance, kept)
    end subroutine keep_state

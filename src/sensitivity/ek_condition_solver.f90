@@ -2,7 +2,7 @@
 !>
 !> The conditions are scaled by the change that the unknowns can cause within their bounds. The unknowns are scaled by the width of
 !> the bounds. With fewer conditions than unknowns, the change of the unknowns, in widths, is as small as possible. Conditions that
-!> cannot all be met are met in the sense of least squares, and the findings give the reason.
+!> cannot all be satisfied are satisfied in the sense of least squares, and the findings give the reason.
 module ek_condition_solver
    use ek_kinds, only: wp
    use ek_error, only: error_t, fail, exit_convergence
@@ -19,36 +19,38 @@ module ek_condition_solver
    !> A number of the deck that may change.
    type :: unknown_t
       type(direction_t) :: direction
-      real(wp) :: lower = 0.0_wp, upper = 0.0_wp     !! in its unit
+      real(wp) :: lower = 0.0_wp, upper = 0.0_wp     !! bounds, in the unit of the direction
    end type unknown_t
 
    !> The result of the search: unknowns, values before and after, effects and conflicts.
    type :: findings_t
-      real(wp), allocatable :: x(:)                  !! of the unknowns, in their units
-      integer, allocatable :: held(:)                !! −1, +1: an unknown stays at its lower or upper bound; 0: between them
-      real(wp), allocatable :: before(:), after(:)   !! of the wanted numbers
-      logical, allocatable :: is_reached(:)          !! of the conditions
-      real(wp), allocatable :: effect(:, :)          !! (condition, unknown): change over the width of the bounds, by the tangent
-      integer :: rank = 0                            !! of the effects
-      real(wp), allocatable :: conflict(:, :)        !! (condition, k): directions that the unknowns cannot change, unit vectors
-      integer :: sweeps = 0                          !! designs that were solved
+      real(wp), allocatable :: x(:)                  !! values of the unknowns, in the units of their directions
+      integer, allocatable :: held(:)                !! −1, +1: an unknown is at its lower or upper bound; 0: between the bounds
+      real(wp), allocatable :: before(:), after(:)   !! values of the wanted numbers at the start and at the end
+      logical, allocatable :: is_reached(:)          !! whether each condition is satisfied
+      real(wp), allocatable :: effect(:, :)          !! (condition, unknown): change if the unknown moves by the width of its
+                                                     !! bounds, by the derivative
+      integer :: rank = 0                            !! rank of the effects
+      real(wp), allocatable :: conflict(:, :)        !! (condition, k): unit vectors of conditions that the unknowns cannot change
+      integer :: sweeps = 0                          !! number of designs that were solved
    end type findings_t
 
-   real(wp), parameter :: close = 1.0e-7_wp         !! share of the possible change: a smaller deviation counts as met
-   real(wp), parameter :: closest = 1.0e-9_wp       !! share of the possible change: below it the search ends
-   real(wp), parameter :: no_effect = 1.0e-9_wp     !! of the largest effect: errors of the derivatives
+   real(wp), parameter :: close = 1.0e-7_wp         !! deviation that counts as satisfied, as a share of the possible change
+   real(wp), parameter :: closest = 1.0e-9_wp       !! deviation at which the search ends, as a share of the possible change
+   real(wp), parameter :: no_effect = 1.0e-9_wp     !! effect that is an error of the derivatives, as a share of the largest effect
 
 contains
 
-   !> Solves the conditions. The workspace then contains the numbers found. Creates strings.
+   !> Finds unknowns that satisfy the conditions: wanted numbers equal to targets. The workspace then contains the numbers found.
+   !> Creates strings.
    subroutine solve_conditions(unknowns, wanted, targets, max_sweeps, workspace, found, error)
       type(unknown_t), intent(in) :: unknowns(:)
       type(wanted_number_t), intent(in) :: wanted(:)
-      real(wp), intent(in) :: targets(:)                    !! their values, in their units
+      real(wp), intent(in) :: targets(:)                    !! targets of the wanted numbers, in their units
       integer, intent(in) :: max_sweeps
       type(workspace_t), intent(inout) :: workspace
       type(findings_t), intent(out) :: found
-      type(error_t), allocatable, intent(out) :: error      !! a number has no value at the start
+      type(error_t), allocatable, intent(out) :: error      !! a wanted number has no value or no derivative at the start
       type(bounded_search_t) :: search
       class(wanted_values_t), allocatable :: values
       type(direction_t), allocatable :: directions(:)
@@ -91,7 +93,7 @@ contains
 
    contains
 
-      !> Records the findings at the last point if it satisfies all conditions, otherwise at the best point.
+      !> Records the findings at the last point if the last point satisfies all conditions, otherwise at the best point.
       subroutine conclude()
          type(singular_values_t) :: parts
          real(wp), allocatable :: effect(:, :)

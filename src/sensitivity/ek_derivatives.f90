@@ -3,21 +3,23 @@
 !>     call begin_derivatives(workspace, k, columns, directions, self)        once per deck, case, columns, numbers; creates strings
 !>     call find_derivatives(workspace, states, self)                         at each design, after its case is solved
 !>
-!> Two steps at every state:
+!> The derivative of a column y with respect to a number p follows in two steps at every state z:
 !>
-!> 1. the motion of the state, dz/dp (ek_part_force, ek_state_derivative): exact but for rounding;
-!> 2. each column by the difference of its observations at both ends of this motion, in the neighbouring designs:
+!> 1. The motion of the state, dz/dp, is found (ek_part_force, ek_state_derivative). The motion is exact except for rounding.
+!> 2. Each column is observed at both ends of this motion, in the neighbouring designs p + h and p − h:
 !>
 !>        dy/dp = [y(z ⊕ h dz/dp, p + h) − y(z ⊕ −h dz/dp, p − h)]/2h
 !>
-!>    z ⊕ h dz/dp is the path of equilibria to first order, which is all that a derivative needs. So every column of the table is
-!>    differentiated by the formula with which it is observed, and a new column needs nothing here.
+!> The state z ⊕ h dz/dp follows the path of equilibria to first order, which is sufficient for a derivative. So every column of the
+!> table is differentiated by the formula with which it is observed, and a new column needs no code here. If there are few columns
+!> and many numbers, the adjoint method (ek_column_gradient) replaces the motions of the state.
 !>
-!> With the same difference at 2h, Richardson's extrapolation removes the error of order h², and the difference of both quotients
-!> is the reported error: an upper limit where the column is smooth, and large where it has a corner within 2h (a stop at contact, a
-!> curve's point, an absolute value). A neighbouring design is the complete design of x ± h: realised, balanced, mounted. Its
-!> swept values are the swept values of the same state of the path. An undefined derivative is NaN: at a state that was
-!> not reached or has a singular tangent, for a number that cannot move, for a column without a value at the state.
+!> With the same difference at 2h, Richardson's extrapolation removes the error of order h². The difference of both quotients is the
+!> reported error. The reported error is an upper limit if the column is smooth. The error is large if the column has a corner
+!> within 2h (a stop at contact, a point of a curve, an absolute value).
+!> A neighbouring design is the complete design of x ± h: realised, balanced, mounted. Its swept values are the swept values of the
+!> same state of the path. An undefined derivative is NaN: at a state that was not reached or has a singular tangent, for a number
+!> that cannot move, and for a column without a value at the state.
 module ek_derivatives
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
@@ -42,20 +44,20 @@ module ek_derivatives
    private
    public :: derivatives_t, begin_derivatives, find_derivatives, refuse_case
 
-   real(wp), parameter :: rounding = 1.0e-6_wp                !! N, of forces on the bodies: smaller corners are ignored
-   integer, parameter :: max_numbers = 4000000                !! of motions and observations that are stored at a time: 32 MB
+   real(wp), parameter :: rounding = 1.0e-6_wp !! limit of corners of the forces on the bodies [N]; smaller corners are ignored
+   integer, parameter :: max_numbers = 4000000 !! limit of the numbers in motions and observations that are stored at a time: 32 MB
 
-   !> The derivatives of a case at some states.
+   !> The derivatives of the columns of a case at some states.
    type :: derivatives_t
-      integer :: case = 0                                  !! number of the case in the workspace
+      integer :: case = 0                                  !! index of the case in the workspace
       character(name_length), allocatable :: columns(:)
       type(direction_t), allocatable :: directions(:)
-      integer, allocatable :: states(:)                    !! of the path of the case
-      real(wp), allocatable :: factor(:)                   !! swept value of each, in its unit
-      real(wp), allocatable :: values(:, :)                !! (column, state), as in the table of the case
-      real(wp), allocatable :: slopes(:, :, :)             !! (column, direction, state): unit of the column per unit of the number
-      real(wp), allocatable :: errors(:, :, :)             !! estimates of their errors
-      logical, allocatable :: can_move(:)                  !! the number may change at this design
+      integer, allocatable :: states(:)                    !! indices of the states on the path of the case
+      real(wp), allocatable :: factor(:)                   !! swept value of each state, in its unit
+      real(wp), allocatable :: values(:, :)                !! (column, state): values as in the table of the case
+      real(wp), allocatable :: slopes(:, :, :) !! (column, direction, state): derivatives, unit of the column per unit of the number
+      real(wp), allocatable :: errors(:, :, :)             !! estimated errors of `slopes`
+      logical, allocatable :: can_move(:)                  !! whether each direction can be varied at this design
       type(neighbour_t), private :: neighbour
       type(column_observer_t), private :: observer
    end type derivatives_t
@@ -65,8 +67,8 @@ contains
    !> Prepares the derivatives of a case that is solved by `workspace`. Creates strings.
    subroutine begin_derivatives(workspace, k, columns, directions, self)
       type(workspace_t), intent(in) :: workspace          !! the case was solved at its present numbers (solve_or_explain)
-      integer, intent(in) :: k                             !! the case, not refused by refuse_case
-      character(*), intent(in) :: columns(:)               !! of the table of the case, or of the table of its compliance matrix
+      integer, intent(in) :: k                             !! index of the case, which refuse_case must accept
+      character(*), intent(in) :: columns(:) !! columns of the table of the case, or of the table of its compliance matrix
       type(direction_t), intent(in) :: directions(:)
       type(derivatives_t), intent(out) :: self
 
@@ -80,7 +82,8 @@ contains
       allocate (self%can_move(size(directions)), source=.true.)
    end subroutine begin_derivatives
 
-   !> Rejects a case without derivatives. Each state must be an equilibrium under inputs that follow from its swept value.
+   !> Rejects a case that has no derivatives. A case has derivatives if each of its states is an equilibrium, under inputs that
+   !> follow from the swept value of the state.
    subroutine refuse_case(case, error)
       type(case_t), intent(in) :: case
       type(error_t), allocatable, intent(out) :: error     !! exit_usage
@@ -96,7 +99,7 @@ contains
 
    !> Computes the derivatives at states of the path that the workspace has found for the case. No string is created.
    subroutine find_derivatives(workspace, states, self)
-      type(workspace_t), intent(inout) :: workspace       !! the case is solved at its present numbers; its work space is used
+      type(workspace_t), intent(inout) :: workspace !! the case is solved at its present numbers; the work space of the case is used
       integer, intent(in) :: states(:)
       type(derivatives_t), intent(inout) :: self           !! prepared by begin_derivatives
       integer :: first, last, many
@@ -168,21 +171,22 @@ contains
       end if
    end subroutine derive
 
-   !> Whether one solution per column costs less than one solution per number.
+   !> Whether the derivatives are computed by columns: one solution per column costs less than one per number, and all columns
+   !> follow from the state.
    pure logical function is_adjoint(self)
       type(derivatives_t), intent(in) :: self
       is_adjoint = size(self%columns) > 0 .and. 3*size(self%columns) <= size(self%directions) .and. reads_states(self%observer)
    end function is_adjoint
 
-   !> Computes the derivatives from the motions of the states, with one solution per number.
+   !> Computes the derivatives from the motions of the states, with one solution per number and state.
    subroutine derive_by_numbers(x, result, first, last, inputs, changes, values, kept, points, self)
       real(wp), intent(in) :: x(:)                         !! numbers of the design
       type(case_result_t), intent(inout) :: result
       integer, intent(in) :: first, last
-      type(inputs_t), intent(in) :: inputs(first:)         !! of each state
-      type(change_t), intent(in) :: changes(:)             !! of learn_number
+      type(inputs_t), intent(in) :: inputs(first:)         !! inputs of each state
+      type(change_t), intent(in) :: changes(:)             !! changes from learn_number, of each number
       real(wp), intent(in) :: values(:, first:)            !! (column, state)
-      real(wp), intent(in) :: kept(:, :, first:)           !! of keep_state, of each state
+      real(wp), intent(in) :: kept(:, :, first:)           !! (load, unknown, state): data from keep_state
       type(point_t), intent(inout) :: points(first:)
       type(derivatives_t), intent(inout) :: self
       type(part_forces_t) :: parts
@@ -208,16 +212,16 @@ contains
       end do
    end subroutine derive_by_numbers
 
-   !> Computes the derivatives from the gradients of the columns, with one solution per column (adjoint method).
+   !> Computes the derivatives from the gradients of the columns, with one solution per column and state (adjoint method).
    !> Equation (E.9) of docs/theory/derivatives.md.
    subroutine derive_by_columns(x, result, first, last, inputs, changes, values, kept, points, self)
       real(wp), intent(in) :: x(:)                         !! numbers of the design
       type(case_result_t), intent(inout) :: result
       integer, intent(in) :: first, last
-      type(inputs_t), intent(in) :: inputs(first:)         !! of each state
-      type(change_t), intent(in) :: changes(:)             !! of learn_number
+      type(inputs_t), intent(in) :: inputs(first:)         !! inputs of each state
+      type(change_t), intent(in) :: changes(:)             !! changes from learn_number, of each number
       real(wp), intent(in) :: values(:, first:)            !! (column, state)
-      real(wp), intent(in) :: kept(:, :, first:)           !! of keep_state, of each state
+      real(wp), intent(in) :: kept(:, :, first:)           !! (load, unknown, state): data from keep_state
       type(point_t), intent(inout) :: points(first:)
       type(derivatives_t), intent(inout) :: self
       type(part_forces_t) :: parts
@@ -271,11 +275,11 @@ contains
       type(case_result_t), intent(in) :: result
       type(state_t), intent(in) :: state
       type(inputs_t), intent(in) :: inputs
-      integer, intent(in) :: at                            !! position of the state in the rates of the changes
+      integer, intent(in) :: at                            !! index of the state in the rates of the changes
       type(change_t), intent(in) :: changes(:)
-      type(part_forces_t), intent(inout) :: parts          !! of choose_parts
+      type(part_forces_t), intent(inout) :: parts          !! prepared by choose_parts
       type(derivatives_t), intent(in) :: self
-      real(wp), intent(inout) :: forces(:, :)              !! (unknown, number), zero
+      real(wp), intent(inout) :: forces(:, :)              !! (unknown, number), zero at the call
       real(wp), intent(inout) :: doubts(:)                 !! corner of F, as a share of ∂F/∂p
       real(wp) :: corner(size(forces, 1)), jump
       integer :: p
@@ -293,17 +297,17 @@ contains
       end do
    end subroutine add_forces
 
-   !> Adds difference quotients of the columns along the motions of the states, or at states that do not move. The first stencil
-   !> whose points are all valid designs is used.
+   !> Adds difference quotients of the columns to `slopes`, along the motions of the states, or without `motions` at the states
+   !> themselves. The first stencil whose points are all valid designs is used.
    !> Equation (E.2) of docs/theory/derivatives.md.
    subroutine add_observations(x, p, result, points, here, values, kept, self, slopes, errors, motions)
       real(wp), intent(in) :: x(:)
-      integer, intent(in) :: p                             !! the direction
+      integer, intent(in) :: p                             !! index of the direction
       type(case_result_t), intent(in) :: result
       type(point_t), intent(in) :: points(:)
-      type(inputs_t), intent(in) :: here(:)                !! of the design itself
+      type(inputs_t), intent(in) :: here(:)                !! inputs of the states, of the design itself
       real(wp), intent(in) :: values(:, :)                 !! (column, state)
-      real(wp), intent(in) :: kept(:, :, :)                !! of keep_state, of each state
+      real(wp), intent(in) :: kept(:, :, :)                !! (load, unknown, state): data from keep_state
       type(derivatives_t), intent(inout) :: self
       real(wp), intent(inout) :: slopes(:, :), errors(:, :)
       real(wp), intent(in), optional :: motions(:, :)      !! (unknown, state)

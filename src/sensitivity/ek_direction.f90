@@ -1,8 +1,9 @@
-!> Directions in the space of designs: one number of the deck each, with its image on the other side of a mirrored axle.
+!> Directions in the space of designs. Each direction is one number of the deck, with its image on the other side of a mirrored
+!> axle.
 !>
-!> A derivative with respect to a number is the derivative along its direction: x + (distance × sign × unit) of its parameters.
-!> All numbers of a deck with one path are one direction; a path with the name of a side ('point.left_tie_rod.z') is the number of
-!> this side alone.
+!> A derivative with respect to a number is the derivative along its direction: the parameters of the direction change to x +
+!> distance × sign × unit. All numbers of a deck with one path are one direction. A path with the name of a side
+!> ('point.left_tie_rod.z') is the number of this side alone.
 module ek_direction
    use ek_kinds, only: wp, millimetre
    use ek_error, only: error_t, message_list_t, fail, exit_usage
@@ -20,24 +21,26 @@ module ek_direction
 
    !> A number of the deck, and the numbers that change with it.
    type :: direction_t
-      character(:), allocatable :: path, unit        !! as written in --set; 'N/mm', '' if there is no unit
+      character(:), allocatable :: path, unit        !! path as in --set; unit, for instance 'N/mm', '' if there is no unit
       type(choice_t), allocatable :: found(:)        !! the parameters, with their signs
-      real(wp) :: value = 0.0_wp                     !! in the deck, in its unit
+      real(wp) :: value = 0.0_wp                     !! value in the deck, in `unit`
       real(wp) :: si = 1.0_wp                        !! SI value of the unit
-      real(wp) :: step = 0.0_wp                      !! of differences along it, in its unit
+      real(wp) :: step = 0.0_wp                      !! step of differences along the direction, in `unit`
    end type direction_t
 
    ! Steps of differences. Their error is that of rounding, some 1e-16 of the size of a car (times a stiffness, of a force) over the
    ! step, and after extrapolation the fourth power of the step over the length on which a quantity curves, some 100 mm: a stiff
    ! bushing (300 kN/mm) rounds its force to 1e-7 N, and with a tenth of this step that is seen
-   real(wp), parameter :: length_step = 0.1_wp*millimetre        !! m
-   real(wp), parameter :: angle_step = 1.0e-4_wp                 !! rad
-   real(wp), parameter :: share_of_value = 1.0e-3_wp             !! of the largest number of the same key
-   real(wp), parameter :: share_of_step = 0.3_wp                 !! of these, for points of curves, which stand a few mm apart
+   real(wp), parameter :: length_step = 0.1_wp*millimetre        !! step of lengths [m]
+   real(wp), parameter :: angle_step = 1.0e-4_wp                 !! step of angles [rad]
+   real(wp), parameter :: share_of_value = 1.0e-3_wp !! step of other numbers, as a share of the largest number of the same key
+   real(wp), parameter :: share_of_step = 0.3_wp                 !! step for points of curves, as a share of the steps above: the
+                                                                 !! points are a few mm apart
 
 contains
 
-   !> Lists all numbers that a deck gives. Numbers that cannot be varied (y of a point in the plane of &mirror) are omitted.
+   !> Lists the directions of all numbers that a deck gives. Numbers that cannot be varied (y of a point in the plane of &mirror)
+   !> are omitted.
    subroutine all_directions(design, directions)
       type(design_t), intent(in) :: design
       type(direction_t), allocatable, intent(out) :: directions(:)
@@ -47,14 +50,14 @@ contains
       call gather(design, [(choice_t(k, design%parameters%list(k)%sign), k=1, used)], directions, .true.)
    end subroutine all_directions
 
-   !> Finds the directions of paths, in the order of the paths, each once. A path with * or to a list (bushing.a.kt) leads to
-   !> several directions.
+   !> Finds the directions of paths, in the order of the paths, each direction once. A path with * or to a list (bushing.a.kt) leads
+   !> to several directions.
    subroutine find_directions(design, deck, paths, directions, error)
       type(design_t), intent(in) :: design
-      type(deck_t), intent(in) :: deck                     !! of the design
+      type(deck_t), intent(in) :: deck                     !! deck of the design
       type(message_list_t), intent(in) :: paths
       type(direction_t), allocatable, intent(out) :: directions(:)
-      type(error_t), allocatable, intent(out) :: error     !! exit_usage: every path that leads to no number, with suggestions
+      type(error_t), allocatable, intent(out) :: error !! exit_usage: messages on all paths that lead to no number, with suggestions
       type(direction_t), allocatable :: more(:)
       type(choice_t), allocatable :: found(:)
       type(message_list_t) :: mistakes
@@ -83,13 +86,13 @@ contains
       end do
    end function is_listed
 
-   !> Creates one direction for each number found. The number of the right side joins the direction of the left number if both were
-   !> found.
+   !> Creates one direction for each number found. A y coordinate in the centre plane of a mirrored deck is omitted. The number of
+   !> the right side joins the direction of the left number if both were found.
    subroutine gather(design, found, directions, is_free_choice)
       type(design_t), intent(in) :: design
       type(choice_t), intent(in) :: found(:)
       type(direction_t), allocatable, intent(out) :: directions(:)
-      logical, intent(in) :: is_free_choice      !! numbers that the deck omits or that cannot move are omitted
+      logical, intent(in) :: is_free_choice      !! numbers that the deck does not give are omitted
       type(direction_t) :: this
       integer :: j, k
 
@@ -112,12 +115,13 @@ contains
       end associate
    end subroutine gather
 
-   !> The direction of a factor of a study, in which all numbers of the factor move together. A direction contains only the sign of
-   !> the change, not the value of the factor.
+   !> The direction of a factor of a study, in which all numbers of the factor move together. In this direction, `sign` of a number
+   !> is its change [SI] per change of the factor, divided by `si`; for a factor that multiplies, `sign` is the number itself. The
+   !> value of the factor is not set.
    function factor_direction(design, name, paths) result(direction)
       type(design_t), intent(in) :: design
       character(*), intent(in) :: name
-      type(factor_paths_t), intent(in) :: paths            !! to at least one number
+      type(factor_paths_t), intent(in) :: paths            !! paths of the factor, which lead to at least one number
       type(direction_t) :: direction
       integer :: j
 
@@ -146,7 +150,7 @@ contains
       end associate
    end function factor_direction
 
-   !> The step of difference quotients for a number [SI].
+   !> The step of difference quotients for a number, in SI units.
    real(wp) function step_of(design, number) result(step)
       type(design_t), intent(in) :: design
       integer, intent(in) :: number
@@ -205,11 +209,11 @@ contains
       end if
    end function fault_of
 
-   !> Moves all numbers of a direction by a distance.
+   !> Moves all numbers of a direction by a distance along the direction.
    pure subroutine move_along(direction, distance, x)
       type(direction_t), intent(in) :: direction
-      real(wp), intent(in) :: distance                     !! in its unit
-      real(wp), intent(inout) :: x(:)                      !! SI, axes of the deck
+      real(wp), intent(in) :: distance                     !! distance in the unit of the direction
+      real(wp), intent(inout) :: x(:)                      !! numbers of the design, SI units, axes of the deck
       integer :: j
 
       do j = 1, size(direction%found)

@@ -1,4 +1,5 @@
-!> A fit against its deck: the factors as directions with bounds and priors, and the targets as requested numbers, one per point.
+!> A fit checked against its deck: the factors become directions with bounds and priors. The targets become requested numbers, one
+!> per point.
 module ek_fit_problem
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
@@ -18,32 +19,33 @@ module ek_fit_problem
    private
    public :: fit_problem_t, fit_variable_t, fit_point_t, make_problem
 
-   !> A factor of a fit.
+   !> A factor of a fit, as a direction with bounds and a prior.
    type :: fit_variable_t
       character(:), allocatable :: name
       type(direction_t) :: direction
-      real(wp) :: start = 0.0_wp                           !! in the deck, in the unit of the direction
+      real(wp) :: start = 0.0_wp                           !! value in the deck, in the unit of the direction
       real(wp) :: lower = -huge(1.0_wp), upper = huge(1.0_wp)
-      real(wp) :: nominal = 0.0_wp, deviation              !! of the prior; deviation is NaN without one
-      real(wp) :: scale = 1.0_wp                           !! a change that counts as large
-      logical :: is_positive = .false.                     !! a rate, a mass, a multiple: known only if known to be above zero
+      real(wp) :: nominal = 0.0_wp, deviation !! mean and standard deviation of the prior; deviation is NaN without a prior
+      real(wp) :: scale = 1.0_wp                           !! change that counts as large, in the unit of the direction
+      logical :: is_positive = .false.                     !! the factor cannot be negative (a rate, a mass, a multiple)
    end type fit_variable_t
 
-   !> One result that is fitted to a target value.
+   !> One point of a target: a result that is fitted to a value, or to limits.
    type :: fit_point_t
       integer :: target = 0
-      real(wp) :: value, low, high                         !! wanted; NaN: not given
-      real(wp) :: deviation = 1.0_wp                       !! by which the difference is divided: standard deviation over weight
+      real(wp) :: value, low, high                         !! target value and limits; NaN if not given
+      real(wp) :: deviation = 1.0_wp                       !! divisor of the difference: standard deviation over weight
    end type fit_point_t
 
    type :: fit_problem_t
       type(fit_variable_t), allocatable :: variables(:)
       type(fit_point_t), allocatable :: points(:)
-      type(wanted_number_t), allocatable :: wanted(:)      !! of the points
-      logical :: knows_deviation = .false.                 !! the targets give standard deviations
+      type(wanted_number_t), allocatable :: wanted(:)      !! requested number of each point
+      logical :: knows_deviation = .false.                 !! at least one target gives a standard deviation
    end type fit_problem_t
 
-   real(wp), parameter :: steps = 1.0e3_wp                 !! of a direction that count as large: 10 mm, 0.6 deg, 10 % of a rate
+   real(wp), parameter :: steps = 1.0e3_wp                 !! number of steps of a direction that count as large: 100 mm, 5.7 deg,
+                                                           !! the largest value of a rate
 
 contains
 
@@ -52,7 +54,7 @@ contains
       type(fit_t), intent(in) :: fit
       character(*), intent(in) :: home                     !! folder of the fit, with its slash
       type(deck_t), intent(in) :: deck
-      type(workspace_t), intent(in) :: workspace          !! of the deck
+      type(workspace_t), intent(in) :: workspace          !! workspace of the deck
       type(fit_problem_t), intent(out) :: problem
       type(error_t), allocatable, intent(out) :: error     !! exit_deck
       type(message_list_t) :: mistakes
@@ -69,7 +71,7 @@ contains
       if (mistakes%count() > 0) call fail(error, exit_deck, mistakes%text())
    end subroutine make_problem
 
-   !> Adds a factor; with each = .true., adds one factor for each number to which its paths lead.
+   !> Adds a factor. With each = .true., adds one factor for each number to which the paths lead.
    subroutine add_factor(factor, deck, workspace, variables, mistakes)
       type(fit_factor_t), intent(in) :: factor
       type(deck_t), intent(in) :: deck
@@ -134,7 +136,8 @@ contains
 
    end subroutine add_factor
 
-   !> The direction of the first number of a factor.
+   !> The direction of a factor that contains its first number only. The value of the direction is the number itself. For a factor
+   !> that adds, the value is 0; for a factor that multiplies, the value is 1.
    function first_member(factor, weight, number) result(direction)
       type(fit_factor_t), intent(in) :: factor
       real(wp), intent(in) :: weight
@@ -155,8 +158,8 @@ contains
       call join(factor, weight, number, direction)
    end function first_member
 
-   !> Adds a number that moves together with the other numbers of a factor. Its weight is the sign relative to the factor, which is
-   !> all that a direction needs.
+   !> Adds a number that moves together with the other numbers of a factor. The sign of the number becomes its change per change of
+   !> the factor, including the weight of its path.
    subroutine join(factor, weight, number, direction)
       type(fit_factor_t), intent(in) :: factor
       real(wp), intent(in) :: weight
@@ -177,7 +180,7 @@ contains
       end do
    end subroutine join
 
-   !> Adds the points of a target.
+   !> Adds the points of a target. A target with weight 0 adds no points.
    subroutine add_target(fit, k, home, workspace, problem, mistakes)
       type(fit_t), intent(in) :: fit
       integer, intent(in) :: k
@@ -237,13 +240,14 @@ contains
       end associate
    end subroutine add_target
 
-   !> Adds the points of a target that is a curve: one point for each row of its file that contains a value.
+   !> Adds the points of a target that is a curve: one point for each row of the file that contains a swept value, and a value or a
+   !> limit.
    subroutine add_curve(this, head, home, first, model, problem, mistakes)
       type(fit_target_t), intent(in) :: this
-      character(*), intent(in) :: head              !! of messages
+      character(*), intent(in) :: head              !! beginning of messages
       character(*), intent(in) :: home
-      type(wanted_number_t), intent(in) :: first    !! the quantity, at any swept value
-      type(fit_point_t), intent(in) :: model        !! with target and deviation
+      type(wanted_number_t), intent(in) :: first    !! the quantity, with `at` to be replaced
+      type(fit_point_t), intent(in) :: model        !! a point with target and deviation
       type(fit_problem_t), intent(inout) :: problem
       type(message_list_t), intent(inout) :: mistakes
       type(wanted_number_t), allocatable :: list(:)
@@ -305,7 +309,7 @@ contains
 
    end subroutine add_curve
 
-   !> Defines a slope within a window around design, fitted like a gradient of the report.
+   !> Turns a requested column into its slope within a window around design. The slope is fitted like a gradient of the report.
    subroutine make_slope(target, wanted)
       type(fit_target_t), intent(in) :: target
       type(wanted_number_t), intent(inout) :: wanted

@@ -1,5 +1,5 @@
-!> Reads a fit from its namelist file, with the scanner and the messages of the deck reader: `&fit` names the deck, `&factor`
-!> defines numbers that may change, as in a study, and `&target` defines a wanted result.
+!> Reads a fit from its namelist file, with the scanner and the messages of the deck reader. `&fit` names the deck. `&factor`
+!> defines numbers that may change, as in a study. `&target` defines a result with its target.
 module ek_fit_reader
    use ek_kinds, only: wp
    use ek_error, only: error_t, fail, exit_deck
@@ -18,7 +18,7 @@ module ek_fit_reader
 
 contains
 
-   !> Reads a fit file; all its errors are reported in one error.
+   !> Reads a fit file. All errors of the file are reported in one error.
    subroutine read_fit(path, fit, error)
       character(*), intent(in) :: path
       type(fit_t), intent(out) :: fit
@@ -79,7 +79,7 @@ contains
       end associate
    end subroutine check_name
 
-   !> Reads &fit.
+   !> Reads the settings of &fit. A second &fit is an error.
    subroutine take_fit(reading, fit)
       type(deck_reading_t), intent(inout) :: reading
       type(fit_t), intent(inout) :: fit
@@ -94,7 +94,7 @@ contains
       fit%where = where_of(reading)
    end subroutine take_fit
 
-   !> Reads &factor.
+   !> Reads a &factor: paths, change, bounds, prior and weights.
    subroutine take_factor(reading, fit)
       type(deck_reading_t), intent(inout) :: reading
       type(fit_t), intent(inout) :: fit
@@ -136,7 +136,7 @@ contains
       fit%factors = [fit%factors, this]
    end subroutine take_factor
 
-   !> Reads &target.
+   !> Reads a &target: the quantity, and its value, limits or file.
    subroutine take_target(reading, fit)
       type(deck_reading_t), intent(inout) :: reading
       type(fit_t), intent(inout) :: fit

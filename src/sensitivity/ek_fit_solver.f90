@@ -1,4 +1,5 @@
-!> The factors of a fit at which its targets are met best: weighted least squares within bounds, with priors.
+!> Finds the factors of a fit at which its targets are met best: weighted least squares within bounds, with priors. Minimised is the
+!> sum
 !>
 !>     Σ ((y − target)/deviation)² + Σ (beyond a limit/deviation)² + Σ ((factor − nominal)/deviation of the prior)²
 module ek_fit_solver
@@ -16,13 +17,13 @@ module ek_fit_solver
    public :: fit_result_t, solve_fit, difference_of, is_at_work
 
    type :: fit_result_t
-      real(wp), allocatable :: x(:)                  !! of the factors
-      integer, allocatable :: held(:)                !! −1, +1: a factor stays at its lower or upper bound; 0: between them
-      real(wp), allocatable :: before(:), after(:)   !! of the points, at the start and now
-      real(wp), allocatable :: jacobian(:, :)        !! (point, factor), in their units
-      real(wp) :: sum_before = 0.0_wp, sum_after = 0.0_wp     !! of the squares above
-      integer :: steps = 0, sweeps = 0               !! iterations; designs that were solved
-      integer :: ended = 0                           !! of ek_bounded_search; 0: the iterations were used up
+      real(wp), allocatable :: x(:)                  !! values of the factors, in their units
+      integer, allocatable :: held(:)                !! −1, +1: a factor is at its lower or upper bound; 0: between the bounds
+      real(wp), allocatable :: before(:), after(:)   !! values of the points, at the start and at the end
+      real(wp), allocatable :: jacobian(:, :)        !! (point, factor): derivatives of the points, in their units
+      real(wp) :: sum_before = 0.0_wp, sum_after = 0.0_wp     !! sum that is minimised, at the start and at the end
+      integer :: steps = 0, sweeps = 0               !! number of iterations; number of designs that were solved
+      integer :: ended = 0                           !! reason for the end, of ek_bounded_search; 0: limit of iterations
    end type fit_result_t
 
 contains
@@ -30,7 +31,7 @@ contains
    !> Solves a fit. The workspace then contains the design found. Creates strings.
    subroutine solve_fit(problem, iterations, workspace, found, error)
       type(fit_problem_t), intent(in) :: problem
-      integer, intent(in) :: iterations                    !! at most
+      integer, intent(in) :: iterations                    !! limit of the number of iterations
       type(workspace_t), intent(inout) :: workspace
       type(fit_result_t), intent(out) :: found
       type(error_t), allocatable, intent(out) :: error
@@ -82,8 +83,8 @@ contains
       found%ended = search%ended
    end subroutine solve_fit
 
-   !> Computes all differences and their derivatives. The differences of priors are at the end; the difference of a factor without a
-   !> prior is zero.
+   !> Computes all differences and their derivatives. The differences of priors are after the differences of the points; the
+   !> difference of a factor without a prior is zero.
    !> Equation (E.5) of docs/theory/derivatives.md.
    subroutine find_residuals(problem, x, values, r, jacobian)
       type(fit_problem_t), intent(in) :: problem

@@ -1,5 +1,4 @@
-!> Statistics of the factors of a fit: confidence, correlation, rank, and combinations of factors that its targets do not
-!> determine.
+!> Statistics of the factors of a fit: confidence, correlation, rank, and combinations of factors that the targets do not determine.
 module ek_fit_statistics
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_positive_inf, ieee_is_finite
    use ek_kinds, only: wp
@@ -13,26 +12,30 @@ module ek_fit_statistics
    public :: fit_statistics_t, find_statistics, student_quantile
 
    type :: fit_statistics_t
-      integer :: used = 0                            !! points that have a value or exceed a limit
-      integer :: freedom = 0                         !! these less the factors that are not held
-      real(wp) :: sigma = 1.0_wp                     !! standard deviation of a difference, in its deviations
-      real(wp) :: quantile = 0.0_wp                  !! half of a 95 % interval over its standard deviation
-      real(wp), allocatable :: half(:)               !! half of the 95 % interval of a factor, with its prior; infinite: unknown
-      real(wp), allocatable :: half_alone(:)         !! the same by the targets alone
-      real(wp), allocatable :: width(:)              !! half width before the fit: from bounds, prior, or the value itself
-      logical, allocatable :: is_learned(:)          !! the targets narrow it down within that width
-      real(wp), allocatable :: correlation(:, :)     !! of the factors; 0 with factors that are held or unknown
-      real(wp), allocatable :: singular(:)           !! of the Jacobian, differences in deviations, factors in widths; largest first
+      integer :: used = 0                            !! number of points that have a target value or exceed a limit
+      integer :: freedom = 0 !! degrees of freedom: points used and priors, less the factors between their bounds
+      real(wp) :: sigma = 1.0_wp                     !! standard deviation of a difference, divided by its deviation
+      real(wp) :: quantile = 0.0_wp                  !! half width of a 95 % interval, as a multiple of the standard deviation
+      real(wp), allocatable :: half(:) !! half width of the 95 % interval of each factor, with its prior; infinite: unknown; 0: held
+      real(wp), allocatable :: half_alone(:)         !! half width of the 95 % interval from the targets alone
+      real(wp), allocatable :: width(:) !! half width of each factor before the fit: from its bounds, its prior, or its value
+      logical, allocatable :: is_learned(:)          !! whether the targets determine each factor within `width`
+      real(wp), allocatable :: correlation(:, :)     !! correlations of the factors; 0 for factors that are held or unknown
+      real(wp), allocatable :: singular(:)           !! singular values of the Jacobian (differences in deviations, factors in
+                                                     !! widths), largest first
       integer :: rank = 0
-      real(wp), allocatable :: unseen(:, :)          !! (factor, k): directions in which the targets narrow nothing down
+      real(wp), allocatable :: unseen(:, :)          !! (factor, k): combinations of factors that the targets do not determine
    end type fit_statistics_t
 
-   real(wp), parameter :: tiny_width = 1.0e-6_wp     !! of a scale: of a rate that has become zero
-   real(wp), parameter :: rank_share = 1.0e-9_wp     !! smaller singular values are errors of the derivatives
+   real(wp), parameter :: tiny_width = 1.0e-6_wp     !! least width, as a share of the scale of a factor; for a rate that has become
+                                                     !! zero
+   real(wp), parameter :: rank_share = 1.0e-9_wp     !! limit, as a share of the largest singular value: smaller singular values are
+                                                     !! errors of the derivatives
 
 contains
 
-   !> Computes the statistics of a fit. Equation (E.6) of docs/theory/derivatives.md.
+   !> Computes the statistics of a fit.
+   !> Equation (E.6) of docs/theory/derivatives.md.
    subroutine find_statistics(problem, found, statistics)
       type(fit_problem_t), intent(in) :: problem
       type(fit_result_t), intent(in) :: found
@@ -107,7 +110,7 @@ contains
 
    contains
 
-      !> Half width of the 95 % interval, in the unit of the factor.
+      !> Half width of the 95 % interval of a factor, in the unit of the factor.
       pure real(wp) function half(variance, width)
          real(wp), intent(in) :: variance, width
          half = variance
@@ -116,11 +119,11 @@ contains
 
    end subroutine find_statistics
 
-   !> Computes (AᵀA)⁻¹ from the singular values of A. An entry is infinite for an unknown that is part of the null space.
+   !> Computes (AᵀA)⁻¹ from the singular values of A. The diagonal entry of an unknown that is part of the null space is infinite.
    subroutine covariance_of(parts, covariance)
       type(singular_values_t), intent(in) :: parts
       real(wp), allocatable, intent(out) :: covariance(:, :)
-      real(wp), parameter :: part_of = 1.0e-6_wp           !! of a unit vector
+      real(wp), parameter :: part_of = 1.0e-6_wp           !! limit of a component of a unit vector of the null space
       integer :: j, k, n
 
       n = size(parts%right, 1)
@@ -135,9 +138,10 @@ contains
       end do
    end subroutine covariance_of
 
-   !> The quantile of Student's distribution, p ≥ 1/2. It is exact for one and two degrees of freedom. Otherwise it is the expansion
-   !> in 1/freedom by Cornish and Fisher, whose error is below 1 % from three degrees of freedom on and below 1e-3 from six on.
-   !> Source: M. Abramowitz, I. Stegun, Handbook of Mathematical Functions, 1964, 26.7.5.
+   !> The quantile of Student's distribution, p ≥ 1/2. The quantile is exact for one and two degrees of freedom. For three or more
+   !> degrees of freedom, the quantile is the expansion in 1/freedom by Cornish and Fisher. The error of the expansion is below 1 %,
+   !> and below 1e-3 from six degrees of freedom on. Source: M. Abramowitz, I. Stegun, Handbook of Mathematical Functions, 1964,
+   !> 26.7.5.
    pure real(wp) function student_quantile(p, freedom) result(t)
       real(wp), intent(in) :: p
       integer, intent(in) :: freedom

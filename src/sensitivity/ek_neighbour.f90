@@ -1,5 +1,5 @@
-!> The neighbouring designs of a design, on the rig of a case. Each is realised, balanced and mounted like any other design, one
-!> after the other.
+!> The neighbouring designs of a design, on the rig of a case. Like every design, each neighbour is realised, balanced and mounted,
+!> one neighbour after the other.
 module ek_neighbour
    use ek_kinds, only: wp
    use ek_case, only: case_t
@@ -17,21 +17,23 @@ module ek_neighbour
    private
    public :: neighbour_t, point_t, begin_neighbour, follow_design, take_states, learn_number, go_to
 
-   real(wp), parameter :: balance_tolerance = 1.0e-13_wp      !! m: balance 'spring' iterates; its error is divided by a step
+   real(wp), parameter :: balance_tolerance = 1.0e-13_wp      !! tolerance of the preload trim [m]: balance 'spring' iterates, and
+                                                              !! its error is divided by a step
 
-   !> A design close to a given design.
+   !> A neighbouring design: a design close to a given design.
    type :: neighbour_t
-      integer :: case = 0                                  !! number of the case in the workspace
-      class(workspace_t), allocatable :: workspace         !! the deck at the numbers of the neighbour; a class as in case_work_t
+      integer :: case = 0                                  !! index of the case in the workspace
+      class(workspace_t), allocatable :: workspace         !! the deck at the numbers of the neighbour; a class for the reason given
+                                                           !! at case_work_t
       real(wp), allocatable :: x(:)
-      type(schedule_t), private :: here, schedule          !! of the design, of the neighbour
+      type(schedule_t), private :: here, schedule          !! schedules of the inputs: of the design, of the neighbour
       type(path_t), private :: path
    end type neighbour_t
 
-   !> One state of the design.
+   !> One state on the path of the design.
    type :: point_t
-      integer :: number = 0                      !! of the path
-      logical :: is_regular = .false.            !! it was reached, and its tangent is regular
+      integer :: number = 0                      !! index of the state on the path
+      logical :: is_regular = .false.            !! the state was reached, and its tangent is regular
       type(state_t) :: state
    end type point_t
 
@@ -40,7 +42,7 @@ contains
    !> Prepares the neighbouring designs of a design. Creates strings.
    subroutine begin_neighbour(workspace, k, self)
       type(workspace_t), intent(in) :: workspace          !! the case was solved at its present numbers
-      integer, intent(in) :: k                             !! the case
+      integer, intent(in) :: k                             !! index of the case
       type(neighbour_t), intent(inout) :: self
 
       self%case = k
@@ -51,7 +53,7 @@ contains
       self%x = workspace%x
    end subroutine begin_neighbour
 
-   !> Copies the present design to the neighbour, so that numbers that do not change in the neighbour are equal to the bit.
+   !> Copies the present design to the neighbour, so that numbers that do not change in the neighbour are identical bit for bit.
    subroutine follow_design(workspace, self)
       type(workspace_t), intent(in) :: workspace
       type(neighbour_t), intent(inout) :: self
@@ -61,9 +63,9 @@ contains
       call keep_choices(workspace%raw, self%workspace%raw)
    end subroutine follow_design
 
-   !> Copies to the neighbours the directions perpendicular to an axis that the rows of joints use. Each such direction is made from
-   !> the global axis with the smallest component along the joint axis. If two components are equal, the choice would change between
-   !> neighbours, and λ would have a different meaning in each.
+   !> Copies to the neighbour the directions across the joint axes that the rows of joints use. Each direction is computed from the
+   !> global axis with the smallest component along the joint axis. If two components are equal, neighbours could use different
+   !> global axes, and λ would have a different meaning in each neighbour.
    subroutine keep_choices(design, neighbour)
       type(suspension_t), intent(in) :: design
       type(suspension_t), intent(inout) :: neighbour
@@ -76,8 +78,8 @@ contains
       end do
    end subroutine keep_choices
 
-   !> Whether the bushing axes of two neighbouring designs are close. If a deck gives one axis, the other axis is chosen. If this
-   !> choice changes between the designs, rates and columns have no derivative.
+   !> Whether the bushing axes of two neighbouring designs are close. If a deck gives one axis only, the program chooses the other
+   !> axis. If this choice changes between the designs, rates and columns have no derivative.
    pure logical function has_same_axes(a, b)
       type(suspension_t), intent(in) :: a, b
       real(wp), parameter :: close = 0.1_wp
@@ -89,7 +91,7 @@ contains
       end do
    end function has_same_axes
 
-   !> Copies the states and their inputs.
+   !> Copies states of the path and finds their inputs. States that were not reached are marked as not regular.
    subroutine take_states(result, states, self, points, inputs)
       type(case_result_t), intent(in) :: result
       integer, intent(in) :: states(:)
@@ -109,20 +111,20 @@ contains
       end do
    end subroutine take_states
 
-   !> Finds the change that a number causes in the parts of the model, from two neighbours close by. Four neighbours are used where
-   !> the axes of a bushing may turn: between a stiff and a soft axis, rates and preloads curve a hundred times as much as the
-   !> angle. Where a law that is not linear changes, and at the end of the range of the number, the first stencil whose points are
-   !> all valid designs is used.
+   !> Finds the change that a number causes in the parts of the model, from two neighbours close to the design. Four neighbours are
+   !> used if the axes of a bushing may turn: between a stiff and a soft axis, rates and preloads curve a hundred times as much as
+   !> the angle. If a nonlinear law changes, or at the end of the range of the number, the first stencil whose points are all valid
+   !> designs is used.
    subroutine learn_number(x, direction, result, points, here, self, draft, change, can_move)
       real(wp), intent(in) :: x(:)
       type(direction_t), intent(in) :: direction
       type(case_result_t), intent(in) :: result
       type(point_t), intent(in) :: points(:)
-      type(inputs_t), intent(in) :: here(:)                !! of the design itself
+      type(inputs_t), intent(in) :: here(:)                !! inputs of the states, of the design itself
       type(neighbour_t), intent(inout) :: self
       type(draft_t), intent(inout) :: draft                !! work space
       type(change_t), intent(inout) :: change
-      logical, intent(out) :: can_move                     !! .false.: no stencil has designs alone
+      logical, intent(out) :: can_move                     !! .false.: every stencil contains a design that is not valid
       integer :: kind
 
       call visit_neighbours(x, direction, close_pair, result, points, here, self, draft, change, can_move)
@@ -161,10 +163,10 @@ contains
       call finish_draft(direction%step, draft, change)
    end subroutine visit_neighbours
 
-   !> Adds the contribution of a neighbour to the derivatives of the inputs.
+   !> Adds the contribution of a neighbour, times `weight`, to the derivatives of the inputs.
    subroutine add_rates(points, here, there, weight, rates)
       type(point_t), intent(in) :: points(:)
-      type(inputs_t), intent(in) :: here(:), there(:)      !! of each state, the same loads and rows
+      type(inputs_t), intent(in) :: here(:), there(:)      !! inputs of each state, for the same loads and rows
       real(wp), intent(in) :: weight
       type(inputs_t), allocatable, intent(inout) :: rates(:)
       integer :: s
@@ -187,13 +189,13 @@ contains
    subroutine go_to(x, direction, steps, result, points, self, inputs, has_inputs, is_done)
       real(wp), intent(in) :: x(:)
       type(direction_t), intent(in) :: direction
-      real(wp), intent(in) :: steps                        !! of the direction
-      type(case_result_t), intent(in) :: result            !! of the design itself
+      real(wp), intent(in) :: steps                        !! distance in steps of the direction
+      type(case_result_t), intent(in) :: result            !! result of the design itself
       type(point_t), intent(in) :: points(:)
       type(neighbour_t), intent(inout) :: self
       type(inputs_t), intent(inout) :: inputs(:)
       logical, intent(out) :: has_inputs                   !! inputs differ from the design's inputs; otherwise they are not set
-      logical, intent(out) :: is_done                      !! .false.: there is no such design with the same states
+      logical, intent(out) :: is_done !! .false.: the neighbour is not valid, has other bushing axes, or has other states
       real(wp) :: place
       integer :: s
 

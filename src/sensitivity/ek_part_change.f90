@@ -1,8 +1,8 @@
-!> The changes of the numbers of the parts of a model with a number of the deck, computed once for each design from neighbouring
-!> designs.
+!> The changes of the numbers of the parts of a model with a number p of the deck. They are computed once for each design, from
+!> neighbouring designs.
 !>
-!> A number of the deck affects a few joints, elements and loads; the derivatives of their numbers are differences of neighbouring
-!> designs. Their effect on F at a state: ek_part_force.
+!> A number of the deck affects a few joints, elements and loads. The derivatives of their numbers are differences of neighbouring
+!> designs. ek_part_force finds the effect of these changes on F at a state.
 module ek_part_change
    use ek_kinds, only: wp
    use ek_suspension, only: suspension_t, wheel_t
@@ -19,23 +19,23 @@ module ek_part_change
    public :: change_t, term_change_t, element_change_t, load_change_t
    public :: draft_t, begin_draft, learn_neighbour, finish_draft, mark_parts
 
-   real(wp), parameter :: rounding = 1.0e-6_wp             !! N, N m: smaller corners of preloads are not looked for
+   real(wp), parameter :: rounding = 1.0e-6_wp             !! limit of a corner of preloads [N, N m]; smaller corners are ignored
 
-   !> The changes of a term of a row: ∂(number)/∂p.
+   !> The derivatives of the numbers of a term of a row with respect to p.
    type :: term_change_t
       integer :: term = 0, row = 0
       logical :: is_touched = .false., has_arms = .false., has_directions = .false.
       real(wp) :: arms(6) = 0.0_wp, u(3) = 0.0_wp, v(3) = 0.0_wp, coefficient = 0.0_wp
    end type term_change_t
 
-   !> The changes of the numbers of a row.
+   !> The derivatives of the numbers of a row with respect to p.
    type :: row_change_t
       integer :: row = 0
       logical :: is_touched = .false.
       real(wp) :: target = 0.0_wp, compliance = 0.0_wp
    end type row_change_t
 
-   !> The changes of the numbers of an element.
+   !> The derivatives of the numbers of an element with respect to p.
    type :: element_change_t
       integer :: element = 0
       logical :: is_touched = .false., has_arms = .false., has_directions = .false., has_stiffness = .false., has_load = .false.
@@ -43,7 +43,7 @@ module ek_part_change
       real(wp) :: preload = 0.0_wp, reference = 0.0_wp, rate = 0.0_wp               ! one measure
       real(wp) :: load(6) = 0.0_wp, gap(3) = 0.0_wp, stiffness_t(3, 3) = 0.0_wp, stiffness_r(3, 3) = 0.0_wp   ! bushing
       type(element_t), allocatable :: there(:)   ! of the neighbours, with the markers of the design: laws that are not linear
-      ! of each neighbour: preload and reference, or preloads and gap of a bushing with curves. What makes a law another one may be a
+      ! of each neighbour: preload and reference, or preloads and gap of a bushing with curves. The change of a law may be a
       ! rounding error that some of the neighbours do not have
       real(wp) :: held(9, 4) = 0.0_wp
       logical :: is_held(4) = .false.
@@ -56,21 +56,22 @@ module ek_part_change
       type(load_t) :: there(4)
    end type load_change_t
 
-   !> The parts that a number of the deck changes.
+   !> The parts that a number of the deck changes, with their changes.
    type :: change_t
       type(term_change_t), allocatable :: terms(:)
       type(row_change_t), allocatable :: rows(:)
       type(element_change_t), allocatable :: elements(:)
       type(load_change_t), allocatable :: loads(:)
-      type(inputs_t), allocatable :: rates(:)            !! of the inputs of each state, if they change
-      real(wp) :: weight(4) = 0.0_wp, corner(4) = 0.0_wp !! of the neighbours in a derivative, and in half the change of a slope
-      real(wp) :: doubt = 0.0_wp                         !! corner of preloads, as a share of their change
-      logical :: moves_wheels = .false.                  !! numbers of wheels change
-      logical :: has_axes = .false.                      !! the rates of a bushing change, in the axes of its body
+      type(inputs_t), allocatable :: rates(:)            !! derivatives of the inputs of each state, if the inputs change
+      real(wp) :: weight(4) = 0.0_wp, corner(4) = 0.0_wp !! weights of the neighbours in a derivative, and in half the change of a
+                                                         !! slope
+      real(wp) :: doubt = 0.0_wp                         !! corner of preloads, as a share of the change of the preloads
+      logical :: moves_wheels = .false.                  !! numbers of the wheels change
+      logical :: has_axes = .false.                      !! the rates of a bushing change, in the axes of body i
       logical :: has_curves = .false.                    !! a law that is not linear changes: F may have a corner
    end type change_t
 
-   !> The changes of all parts, like change_t, as collected while the neighbours are visited.
+   !> The changes of all parts, as in change_t, collected while the neighbours are visited.
    type :: draft_t
       type(term_change_t), allocatable, private :: terms(:)
       type(row_change_t), allocatable, private :: rows(:)
@@ -81,7 +82,7 @@ module ek_part_change
 
 contains
 
-   !> Begins the change of a number with no affected parts.
+   !> Begins the change of a number: empties the collected changes, and sets the weights of the neighbours.
    subroutine begin_draft(suspension, stencil, step, draft, change)
       type(suspension_t), intent(in) :: suspension
       type(stencil_t), intent(in) :: stencil
@@ -111,7 +112,7 @@ contains
       end do
    end subroutine begin_draft
 
-   !> Adds the differences of neighbour k of the stencil.
+   !> Adds the differences between neighbour k of the stencil and the design.
    !> Equation (E.7) of docs/theory/derivatives.md.
    subroutine learn_neighbour(here, there, k, change, draft)
       type(suspension_t), intent(in) :: here, there        !! the design and its neighbour, on the same rig
@@ -139,7 +140,7 @@ contains
       end do
    end subroutine learn_neighbour
 
-   !> Stores the parts that the number affects.
+   !> Stores the parts that the number affects in `change`, and finds the corner of the preloads.
    subroutine finish_draft(step, draft, change)
       real(wp), intent(in) :: step
       type(draft_t), intent(inout) :: draft
@@ -165,7 +166,7 @@ contains
          sum([(sum(abs(change%elements(k)%load)), k=1, used)]))
    end subroutine finish_draft
 
-   !> Sets the preloads of the laws of the neighbours.
+   !> Sets the preloads in the laws of the neighbours.
    pure subroutine put_held(change)
       type(element_change_t), intent(inout) :: change
       integer :: k
@@ -185,7 +186,7 @@ contains
       end do
    end subroutine put_held
 
-   !> Marks the parts that the number affects and whose response is needed.
+   !> Marks the terms and elements that the number affects.
    pure subroutine mark_parts(change, terms, elements)
       type(change_t), intent(in) :: change
       logical, intent(inout) :: terms(:), elements(:)
@@ -231,7 +232,7 @@ contains
       change%is_touched = .true.
    end subroutine learn_term
 
-   !> Adds the weighted change of arms and directions of a measure between two designs.
+   !> Adds the weighted changes of the arms and directions of a measure between two designs.
    pure subroutine learn_measure(here, there, weight, arms, u, v, has_arms, has_directions)
       type(measure_t), intent(in) :: here, there
       real(wp), intent(in) :: weight
@@ -250,7 +251,7 @@ contains
       end if
    end subroutine learn_measure
 
-   !> Adds the weighted change of an element with one measure between two designs.
+   !> Adds the weighted changes of an element with one measure between two designs. If its nonlinear law changes, stores the law.
    pure subroutine learn_spring(here, there, number, k, all, change, bends)
       type(element_t), intent(in) :: here, there
       integer, intent(in) :: number, k
@@ -280,7 +281,7 @@ contains
       call keep_neighbour(here, there, k, change%there)
    end subroutine learn_spring
 
-   !> Adds the weighted change of a bushing between two designs.
+   !> Adds the weighted changes of a bushing between two designs. If its nonlinear laws change, stores the laws.
    pure subroutine learn_bushing(here, there, number, k, all, change, bends)
       type(element_t), intent(in) :: here, there
       integer, intent(in) :: number, k
@@ -331,7 +332,7 @@ contains
       laws(k)%measure = here%measure
    end subroutine keep_neighbour
 
-   !> Adds the weighted change of a load between two designs.
+   !> Stores the load of neighbour k, if the load differs from the load of the design.
    pure subroutine learn_load(here, there, number, k, change)
       type(load_t), intent(in) :: here, there
       integer, intent(in) :: number, k

@@ -1,4 +1,5 @@
-!> ∂F/∂p at a state: the changes of the parts that a number of the deck affects, times the responses of these parts at the state.
+!> ∂F/∂p at a state: the changes of the parts that a number p of the deck affects, times the responses of these parts at the state.
+!> F is the right-hand side of the equations of the state (ek_kkt).
 !>
 !> The cost of ∂F/∂p is thus proportional to the number of affected parts, and no digits are lost in differences of large forces.
 !> Only a law that is not linear in its numbers (a curve, a rounded contact) is evaluated in each of the neighbouring designs, at
@@ -28,7 +29,7 @@ module ek_part_force
 
 contains
 
-   !> Chooses the parts that any of the numbers affects.
+   !> Chooses the terms and elements that any of the numbers affects.
    subroutine choose_parts(suspension, changes, self)
       type(suspension_t), intent(in) :: suspension
       type(change_t), intent(in) :: changes(:)
@@ -42,7 +43,7 @@ contains
       end do
    end subroutine choose_parts
 
-   !> Computes the responses of the parts at a state.
+   !> Computes the responses of the chosen parts at a state.
    subroutine find_responses(suspension, state, self)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
@@ -68,14 +69,15 @@ contains
    !> Adds ∂F/∂p at a state [N, N m; m, -, rad, per unit of p].
    !> Equation (E.7) of docs/theory/derivatives.md.
    pure subroutine add_force(suspension, state, inputs, rate, change, self, force, corner)
-      type(suspension_t), intent(in) :: suspension         !! of the design
+      type(suspension_t), intent(in) :: suspension         !! suspension of the design
       type(state_t), intent(in) :: state
-      type(inputs_t), intent(in) :: inputs                 !! of this state
-      integer, intent(in) :: rate                          !! position of the state in change%rates
+      type(inputs_t), intent(in) :: inputs                 !! inputs of this state
+      integer, intent(in) :: rate                          !! index of the state in change%rates
       type(change_t), intent(in) :: change
-      type(part_forces_t), intent(in) :: self              !! of find_responses, at this state
-      real(wp), intent(inout) :: force(:)                  !! one per unknown of the system
-      real(wp), intent(inout) :: corner(:)                 !! the same of half the change of its slope; only with has_curves
+      type(part_forces_t), intent(in) :: self              !! responses from find_responses, at this state
+      real(wp), intent(inout) :: force(:)                  !! ∂F/∂p, one number per unknown of the system
+      real(wp), intent(inout) :: corner(:)                 !! half the change of the slope of F, one number per unknown; changed
+                                                           !! only with has_curves
       integer :: nq, k
 
       nq = suspension%unknowns()

@@ -1,13 +1,13 @@
 !> The changes of the forces of the parts of a model with the numbers of these parts, at a state where the bodies do not move.
 !>
-!> Of an element, "force" is the generalised force dV/dz of its two bodies [N, N m]; of a term of a row, the gradient of its
-!> measure. With H the derivative of such a force g by z (the tangent of the element, the Hessian of the measure), a marker that is
-!> moved by e on body i changes it by
+!> The force g of an element is the generalised force dV/dz of its two bodies [N, N m]. For a term of a row, g is the gradient of
+!> its measure. H is the derivative of g with respect to z: the tangent of the element, or the Hessian of the measure. A marker that
+!> is moved by e on body i changes g by
 !>
 !>     δg = H[:, r_i] e + [0; e×g_r; 0; 0]
 !>
-!> because a marker that moves with its body and one that moves on it differ in their arm only. All other numbers are linear: forces
-!> and moments of a bushing, the tension of an element of one measure, the directions of a measure.
+!> The reason is that a marker that moves with its body and a marker that moves on its body differ in the arm only. In all other
+!> numbers, g is linear: forces and moments of a bushing, the tension of an element of one measure, the directions of a measure.
 module ek_part_response
    use ek_kinds, only: wp
    use ek_rotation, only: cross
@@ -22,22 +22,22 @@ module ek_part_response
 
    !> The response of a part at one pair of poses.
    type :: response_t
-      real(wp) :: value = 0.0_wp               !! of the measure [m, rad, -]
-      real(wp) :: tension = 0.0_wp, slope = 0.0_wp     !! of an element of one measure
-      real(wp) :: gradient(12) = 0.0_wp        !! of the measure
-      real(wp) :: force(12) = 0.0_wp           !! g
-      real(wp) :: by_arms(12, 6) = 0.0_wp      !! ∂g by the arms of both markers, axes of their bodies
-      real(wp) :: value_by_arms(6) = 0.0_wp    !! the same of the value of the measure
-      real(wp) :: by_load(12, 6) = 0.0_wp      !! ∂g by force and moment of a bushing, axes of body i
+      real(wp) :: value = 0.0_wp               !! value of the measure [m, rad, -]
+      real(wp) :: tension = 0.0_wp, slope = 0.0_wp     !! tension of an element of one measure, and its derivative by the measure
+      real(wp) :: gradient(12) = 0.0_wp        !! gradient of the measure
+      real(wp) :: force(12) = 0.0_wp           !! force g
+      real(wp) :: by_arms(12, 6) = 0.0_wp      !! ∂g with respect to the arms of both markers, axes of their bodies
+      real(wp) :: value_by_arms(6) = 0.0_wp    !! derivatives of the value of the measure with respect to the arms
+      real(wp) :: by_load(12, 6) = 0.0_wp      !! ∂g with respect to force and moment of a bushing, axes of body i
       real(wp) :: gap(3) = 0.0_wp, theta(3) = 0.0_wp   !! deflections of a bushing, axes of body i
-      real(wp) :: stiffness(3, 3) = 0.0_wp     !! of a bushing in its gap, axes of body i
+      real(wp) :: stiffness(3, 3) = 0.0_wp     !! stiffness of a bushing in its gap, axes of body i
    end type response_t
 
-   integer, parameter :: local(3) = [1, 2, 3]  !! the blocks of the tangent of one part, see ek_block
+   integer, parameter :: local(3) = [1, 2, 3]  !! indices of the tangent blocks of one part, see ek_block
 
 contains
 
-   !> Computes the response of an element.
+   !> Computes the response of an element at a pair of poses.
    !> Equation (E.7) of docs/theory/derivatives.md.
    pure subroutine respond_element(element, pose_i, pose_j, evaluation, response)
       type(element_t), intent(in) :: element
@@ -76,7 +76,7 @@ contains
       end associate
    end subroutine respond_element
 
-   !> Computes the response of a measure.
+   !> Computes the response of a measure at a pair of poses.
    !> Equation (E.7) of docs/theory/derivatives.md.
    pure subroutine respond_measure(measure, pose_i, pose_j, evaluation, response)
       type(measure_t), intent(in) :: measure
@@ -101,10 +101,11 @@ contains
       end do
    end subroutine respond_measure
 
-   !> Computes the derivatives of g with respect to the arms of both markers, from the tangent.
+   !> Computes the derivatives of g with respect to the arms of both markers, from the blocks of H.
    !> Equation (E.7) of docs/theory/derivatives.md.
    pure subroutine move_markers(blocks, pose_i, pose_j, response)
-      real(wp), intent(in) :: blocks(6, 6, 3)            !! diagonal blocks of i and j, lower triangle; rows of j, columns of i
+      real(wp), intent(in) :: blocks(6, 6, 3)            !! blocks of H: diagonal blocks of i and j, lower triangle; block with rows
+                                                         !! of j, columns of i
       type(pose_t), intent(in) :: pose_i, pose_j
       type(response_t), intent(inout) :: response
       real(wp) :: columns(12, 3)
@@ -124,12 +125,12 @@ contains
       end do
    end subroutine move_markers
 
-   !> Changes of value and gradient of a measure when its directions change: it is linear in u and in v. A distance has neither, and
-   !> only a cosine has v.
+   !> Computes the changes of the value and the gradient of a measure for changes of its directions u and v. A measure is linear in
+   !> each direction. A distance has no direction; only a cosine has the direction v.
    !> Equation (E.7) of docs/theory/derivatives.md.
    pure subroutine turn_directions(measure, u, v, pose_i, pose_j, value, gradient)
       type(measure_t), intent(in) :: measure
-      real(wp), intent(in) :: u(3), v(3)                 !! the changes
+      real(wp), intent(in) :: u(3), v(3)                 !! changes of the directions
       type(pose_t), intent(in) :: pose_i, pose_j
       real(wp), intent(out) :: value, gradient(12)
       type(measure_t) :: turned

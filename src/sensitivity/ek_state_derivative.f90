@@ -1,9 +1,8 @@
-!> The motion of an equilibrium state when a number of the design changes: dz/dp = K⁻¹ ∂F/∂p.
+!> The motion of an equilibrium state when a number p of the design changes: dz/dp = N⁻¹ ∂F/∂p.
 !>
-!> F = [f_ext − f_el − Φqᵀλ; c − Φ + Cλ] is the right-hand side of ek_kkt, zero at an equilibrium, K = −∂F/∂z its whole tangent
-!> along screw motions, and z the poses of the bodies and λ. ∂F/∂p: ek_touched_parts.
-!> As K and F belong to given inputs, dz/dp includes static equilibrium if the deck has it, and needs no
-!> other state.
+!> F = [f_ext − f_el − Φqᵀλ; c − Φ + Cλ] is the right-hand side of ek_kkt, which is zero at an equilibrium. N = −∂F/∂z is its
+!> complete tangent along screw motions, and z contains the poses of the bodies and λ. ek_part_force computes ∂F/∂p.
+!> N and F belong to given inputs. dz/dp therefore includes the motion of the static equilibrium, and needs no other state.
 module ek_state_derivative
    use ek_kinds, only: wp
    use ek_suspension, only: suspension_t
@@ -14,12 +13,12 @@ module ek_state_derivative
    private
    public :: solve_motions, displace
 
-   real(wp), parameter :: singular = 1.0e-14_wp   !! pivot ratio at which the scaled matrix is singular to rounding
+   real(wp), parameter :: singular = 1.0e-14_wp   !! pivot ratio below which the scaled matrix is singular to rounding
 
 contains
 
-   !> Solves ∂F/∂p → dz/dp, in place, for many numbers; or ∂y/∂z → a, for many columns, with the transposed matrix. Where the
-   !> tangent is singular, is_regular is .false. and the columns have no meaning.
+   !> Converts ∂F/∂p to dz/dp, in place, for many numbers. With is_transposed, converts ∂y/∂z to a = N⁻ᵀ ∂y/∂z, for many columns y.
+   !> If the tangent is singular, is_regular is .false. and the results are not valid.
    !> Equation (E.1) of docs/theory/derivatives.md.
    subroutine solve_motions(suspension, state, inputs, kkt, many, columns, is_regular, is_transposed)
       type(suspension_t), intent(in) :: suspension
@@ -27,7 +26,7 @@ contains
       type(inputs_t), intent(in) :: inputs
       type(kkt_t), intent(inout) :: kkt                    !! work space
       integer, intent(in) :: many
-      real(wp), intent(inout) :: columns(kkt%n, many)      !! (unknown, number)
+      real(wp), intent(inout) :: columns(kkt%n, many)      !! (unknown, number), or (unknown, column of the table)
       logical, intent(out) :: is_regular
       logical, intent(in), optional :: is_transposed
       type(skew_system_t) :: skew
@@ -51,10 +50,10 @@ contains
    !> Moves the state by a distance along a motion.
    pure subroutine displace(state, motion, distance, step, moved)
       type(state_t), intent(in) :: state
-      real(wp), intent(in) :: motion(:)                    !! dz/dp
-      real(wp), intent(in) :: distance                     !! of p
+      real(wp), intent(in) :: motion(:)                    !! motion dz/dp
+      real(wp), intent(in) :: distance                     !! change of p
       real(wp), intent(inout) :: step(:)                   !! work space, one number per unknown of the bodies
-      type(state_t), intent(inout) :: moved                !! a state of this model
+      type(state_t), intent(inout) :: moved                !! on entry, any state of this model
 
       moved%poses(:) = state%poses
       step(:) = distance*motion(:size(step))

@@ -1,12 +1,12 @@
-!> Derivatives of functions of one number from their values at four points, with an estimate of the error.
+!> Derivatives of functions of one number from the values at two or four points, with an estimate of the error.
 module ek_stencil
    use ek_kinds, only: wp
    implicit none(type, external)
    private
    public :: stencil_t, stencils, close_pair, close_four, weight_of, corner_weight, differentiate, find_quotients
 
-   !> Points of a difference quotient, and the weights of the values at these points, both in steps. D₁ and D₂ have the steps h
-   !> and 2h; (4 D₁ − D₂)/3 is of higher order than both.
+   !> Points of two difference quotients D₁ and D₂, and the weights of the values at these points. D₁ has the step h and D₂ the step
+   !> 2h; points and weights are in steps h. The derivative (4 D₁ − D₂)/3 is of higher order than both quotients.
    type :: stencil_t
       real(wp) :: at(4), first(4), second(4)
       integer :: points = 4
@@ -23,12 +23,13 @@ module ek_stencil
    type(stencil_t), parameter :: close_pair = stencil_t([-0.02_wp, 0.02_wp, 0.0_wp, 0.0_wp], [-25.0_wp, 25.0_wp, 0.0_wp, 0.0_wp], &
       [-25.0_wp, 25.0_wp, 0.0_wp, 0.0_wp], 2)
    type(stencil_t), parameter :: close_four = stencil_t(0.1_wp*central%at, 10.0_wp*central%first, 10.0_wp*central%second)
-   real(wp), parameter :: corner_weights(0:4) = [-1.5_wp, -0.25_wp, 1.0_wp, 1.0_wp, -0.25_wp]    !! of the middle and the points
-   type(stencil_t), parameter :: stencils(3) = [central, forward, backward]      !! in the order of preference
+   real(wp), parameter :: corner_weights(0:4) = [-1.5_wp, -0.25_wp, 1.0_wp, 1.0_wp, -0.25_wp] !! weights of the value in the middle
+                                                                                              !! (0) and of the values at the points
+   type(stencil_t), parameter :: stencils(3) = [central, forward, backward]      !! stencils in the order of preference
 
 contains
 
-   !> The weight of the value at a point in the derivative, per step.
+   !> The weight of the value at a point in the derivative, per step h.
    !> Equation (E.2) of docs/theory/derivatives.md.
    pure real(wp) function weight_of(stencil, k)
       type(stencil_t), intent(in) :: stencil
@@ -36,8 +37,8 @@ contains
       weight_of = (4.0_wp*stencil%first(k) - stencil%second(k))/3.0_wp
    end function weight_of
 
-   !> The weight of the value at a point in half the difference of the slopes on both sides, per step; point 0 is the middle. The
-   !> weighted sum is of order h³ if there is no corner. One-sided stencils cannot detect a corner.
+   !> The weight of the value at a point in half the difference of the slopes on both sides, per step h; point 0 is the middle. The
+   !> weighted sum is of order h³ without a corner. One-sided stencils cannot detect a corner.
    !> Equation (E.2) of docs/theory/derivatives.md.
    pure real(wp) function corner_weight(stencil, k) result(weight)
       type(stencil_t), intent(in) :: stencil
@@ -47,19 +48,19 @@ contains
       if (sees_corners(stencil)) weight = corner_weights(k)
    end function corner_weight
 
-   !> Whether a stencil has points on both sides of the middle, so that it detects corners.
+   !> Whether a stencil has points on both sides of the middle, so that the stencil detects corners.
    pure logical function sees_corners(stencil)
       type(stencil_t), intent(in) :: stencil
       sees_corners = stencil%at(1)*stencil%at(4) < 0.0_wp
    end function sees_corners
 
-   !> Computes the derivatives of many functions, and limits of their errors. If a function is straight except for one corner within
-   !> the points, the error never exceeds the limit, wherever the corner is.
+   !> Computes the derivatives of many functions, and estimates of their errors. With a central stencil, the estimate is an upper
+   !> limit for a function that is straight except for one corner within the points.
    !> Equation (E.2) of docs/theory/derivatives.md.
    pure subroutine differentiate(stencil, h, here, y, slope, error)
       type(stencil_t), intent(in) :: stencil
-      real(wp), intent(in) :: h                            !! step
-      real(wp), intent(in) :: here(:), y(:, :)             !! values at the middle; (function, point)
+      real(wp), intent(in) :: h                            !! step h, in the unit of the number
+      real(wp), intent(in) :: here(:), y(:, :)             !! values in the middle; values at the points (function, point)
       real(wp), intent(out) :: slope(:), error(:)
       real(wp) :: gap, corner
       integer :: c
@@ -75,8 +76,8 @@ contains
    !> Equation (E.2) of docs/theory/derivatives.md.
    pure subroutine find_quotients(stencil, h, here, y, slope, gap, corner)
       type(stencil_t), intent(in) :: stencil
-      real(wp), intent(in) :: h                            !! step
-      real(wp), intent(in) :: here, y(4)                   !! values at the middle, and at the points
+      real(wp), intent(in) :: h                            !! step h, in the unit of the number
+      real(wp), intent(in) :: here, y(4)                   !! values in the middle, and at the points
       real(wp), intent(out) :: slope, gap, corner
       real(wp) :: first, second
 

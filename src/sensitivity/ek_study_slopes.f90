@@ -3,8 +3,8 @@
 !>     call begin_study_slopes(study, deck, designer, self, error)         once
 !>     call find_study_slopes(values, self, is_valid)                      at each design
 !>
-!> As for the numbers of a fit (ek_wanted_values): the tables of the cases are moved along the derivatives of their columns, and a
-!> response is read from the moved table as from any other.
+!> The tables of the cases are moved along the derivatives of their columns, as in ek_wanted_values. A response is read from the
+!> moved tables as from any other table. The derivative of the response is a difference quotient of these values.
 module ek_study_slopes
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
@@ -27,13 +27,13 @@ module ek_study_slopes
    public :: study_slopes_t, begin_study_slopes, find_study_slopes
 
    type :: study_slopes_t
-      real(wp), allocatable :: values(:)                     !! of the responses, then of the curves, column by column
-      real(wp), allocatable :: slopes(:, :)                  !! (value, factor): per unit of the factor
+      real(wp), allocatable :: values(:)                     !! values of the responses, then of the curves, column by column
+      real(wp), allocatable :: slopes(:, :)                  !! (value, factor): derivatives per unit of the factor
       integer :: responses = 0                               !! number of responses, which precede the curves
-      real(wp), allocatable :: sweep(:)                      !! swept value of the states of a curve
-      integer, allocatable, private :: columns(:)            !! indices of the curves among the derived columns
+      real(wp), allocatable :: sweep(:)                      !! swept values of the states of a curve
+      integer, allocatable, private :: columns(:)            !! indices of the curves among the differentiated columns
       type(reading_t), allocatable, private :: readings(:)
-      integer, allocatable, private :: case_of(:)            !! of each response
+      integer, allocatable, private :: case_of(:)            !! index in `cases` of the case of each response
       type(case_slopes_t), allocatable, private :: cases(:)
       type(direction_t), allocatable, private :: directions(:)
       type(factor_paths_t), allocatable, private :: paths(:)
@@ -46,9 +46,9 @@ contains
    subroutine begin_study_slopes(study, deck, designer, self, error)
       type(study_t), intent(in) :: study
       type(deck_t), intent(in) :: deck
-      type(designer_t), intent(in) :: designer               !! of the study (new_designer)
+      type(designer_t), intent(in) :: designer               !! designer of the study (new_designer)
       class(study_slopes_t), allocatable, intent(out) :: self
-      type(error_t), allocatable, intent(out) :: error       !! exit_deck: numbers without a derivative; exit_model
+      type(error_t), allocatable, intent(out) :: error       !! exit_deck: factors or cases without derivatives; exit_model
       type(message_list_t) :: mistakes
       logical :: is_done
       integer :: c, f, k
@@ -100,7 +100,7 @@ contains
       call place_curves(study, self)
    end subroutine begin_study_slopes
 
-   !> Finds the columns of the curves among the differentiated columns, and their states.
+   !> Finds the columns of the curves among the differentiated columns, and the swept values of the states. Allocates the results.
    subroutine place_curves(study, self)
       type(study_t), intent(in) :: study
       type(study_slopes_t), intent(inout) :: self
@@ -116,10 +116,12 @@ contains
       allocate (self%slopes(size(self%values), size(self%directions)))
    end subroutine place_curves
 
-   !> Computes values and derivatives at a design. is_valid is .false. if the design has a defect, if a number of the deck is
-   !> outside its range, or if a state did not converge. No string is created.
+   !> Computes values and derivatives at a design. No string is created. is_valid is .false. in these cases:
+   !> - The design has a defect, or a number of the deck is outside its range or cannot be varied.
+   !> - A state did not converge.
+   !> - A response or its derivative has no value.
    subroutine find_study_slopes(values, self, is_valid)
-      real(wp), intent(in) :: values(:)                      !! of the factors
+      real(wp), intent(in) :: values(:)                      !! values of the factors
       type(study_slopes_t), intent(inout) :: self
       logical, intent(out) :: is_valid
       real(wp) :: y(self%responses, 4), errors(self%responses), x(size(self%workspace%x)), h
@@ -175,7 +177,7 @@ contains
       end do
    end subroutine read_values
 
-   !> Copies the curves, state by state.
+   !> Copies the values and derivatives of the curves, column by column.
    pure subroutine take_curves(self, is_valid)
       type(study_slopes_t), intent(inout) :: self
       logical, intent(inout) :: is_valid                     !! .false. if the case has other states here

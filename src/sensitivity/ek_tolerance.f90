@@ -1,8 +1,8 @@
-!> Tolerances: mean, deviation, skewness and shares of the responses of a study by exact derivatives.
+!> Tolerances: mean, standard deviation, skewness and shares of the responses of a study, from derivatives.
 !>
-!> The responses are expanded about the centre of the factors, in the standard form of each (ek_standard_factor): the slopes are
-!> exact derivatives, the curvatures central differences of exact derivatives at two designs next to the centre for each factor.
-!> With k factors these are 2 k + 1 designs with their derivatives.
+!> The responses are expanded about the centre of the factors, in the standard form of each factor (ek_standard_factor). The slopes
+!> are derivatives (ek_study_slopes). The curvatures are central differences of these derivatives, from two designs close to the
+!> centre for each factor. With k factors, 2 k + 1 designs are solved with their derivatives.
 module ek_tolerance
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
@@ -20,26 +20,27 @@ module ek_tolerance
    private
    public :: tolerance_t, find_tolerance
 
-   real(wp), parameter :: step = 0.1_wp         !! of the difference of two gradients [standard deviations]: error of the curvature:
-                                                !! its relative change over this, squared, over six
+   real(wp), parameter :: step = 0.1_wp         !! distance of the two gradients from the centre [standard deviations]; the relative
+                                                !! error of a curvature is a sixth of the square of its relative change over this
+                                                !! distance
 
    type :: tolerance_t
       type(standard_factor_t), allocatable :: factors(:)
-      type(expansion_t), allocatable :: expansions(:)        !! of the responses, then of the curves
-      type(moments_t), allocatable :: moments(:)             !! of the responses, then of the curves
-      real(wp), allocatable :: sweep(:)                      !! swept value of the states of a curve
+      type(expansion_t), allocatable :: expansions(:)        !! expansions of the responses, then of the curves
+      type(moments_t), allocatable :: moments(:)             !! moments of the responses, then of the curves
+      real(wp), allocatable :: sweep(:)                      !! swept values of the states of a curve
       integer :: responses = 0
    end type tolerance_t
 
 contains
 
-   !> Expands all responses and curves of a study. Creates strings.
+   !> Expands all responses and curves of a study, and finds their moments. Creates strings.
    !>
    !> Equation (D.14) of docs/theory/sampling.md.
    subroutine find_tolerance(study, deck, designer, tolerance, error)
       type(study_t), intent(in) :: study
       type(deck_t), intent(in) :: deck
-      type(designer_t), intent(in) :: designer               !! of the study (new_designer)
+      type(designer_t), intent(in) :: designer               !! designer of the study (new_designer)
       type(tolerance_t), intent(out) :: tolerance
       type(error_t), allocatable, intent(out) :: error       !! exit_deck, exit_model: numbers without a derivative, and the reason
       class(study_slopes_t), allocatable :: slopes

@@ -1,5 +1,5 @@
 !> A requested number of the results: a column of a case at a swept value, an entry of its compliance matrix, or a key number of the
-!> report. This module has its definition, the cases that it needs, and the way in which its value is read from their tables.
+!> report. This module defines the requested number, finds the cases that it needs, and reads its value from their tables.
 module ek_wanted_number
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
@@ -19,19 +19,19 @@ module ek_wanted_number
    private
    public :: wanted_number_t, find_column, find_key_number, find_wanted, read_number
 
-   !> One requested number.
+   !> A requested number of the results, with its sources.
    type :: wanted_number_t
-      character(:), allocatable :: name          !! as the user gave it
-      character(:), allocatable :: unit          !! 'deg', '' without one
-      integer :: case = 0                        !! index in the workspace; of a key number: case of the first source with a value
-      character(name_length) :: column = ''      !! '': a key number
-      character(name_length) :: over = 'factor'  !! the column in which `at` is meant
-      real(wp) :: at = 0.0_wp                    !! where the column is read, in the unit of `over`
+      character(:), allocatable :: name          !! name, as the user gave it
+      character(:), allocatable :: unit          !! unit, for instance 'deg'; '' if there is no unit
+      integer :: case = 0 !! index of its case in the workspace; key number: case of the first source with a value
+      character(name_length) :: column = ''      !! name of the column; '': a key number
+      character(name_length) :: over = 'factor'  !! column to which `at` refers
+      real(wp) :: at = 0.0_wp                    !! value of column `over` at which the column is read, in the unit of `over`
       type(key_number_t), allocatable :: key     !! the key number, with its sources
-      integer :: wheel = 1                       !! of the key number: 1 left or single wheel, or axle; 2 right
-      integer :: source = 0                      !! of the key number: which has the value; 0: not yet known, or all of them
-      integer, allocatable :: cases(:)           !! of the sources, in the workspace
-      real(wp), allocatable :: reach(:)          !! swept value [SI] beyond which it needs no state of these
+      integer :: wheel = 1                       !! key number: 1 left or single wheel, or axle; 2 right
+      integer :: source = 0 !! key number: index of the source that has the value; 0: not yet known, or all sources
+      integer, allocatable :: cases(:)           !! index in the workspace of the case of each source
+      real(wp), allocatable :: reach(:)          !! swept value [SI] of each source beyond which no state is needed
    end type wanted_number_t
 
    character(*), parameter :: no_quantities(7) = [character(16) :: 'state', 'factor', 'converged', 'stable', 'near_singular', &
@@ -43,7 +43,7 @@ contains
    !> key numbers.
    subroutine find_wanted(workspace, k, name, at, wanted, error)
       type(workspace_t), intent(in) :: workspace
-      integer, intent(in) :: k                             !! the case of a column
+      integer, intent(in) :: k                             !! index of the case of a column
       character(*), intent(in) :: name
       real(wp), intent(in) :: at                           !! swept value, in the unit of the case
       type(wanted_number_t), intent(out) :: wanted
@@ -61,14 +61,16 @@ contains
          ', no entry of its compliance matrix and no key number'//hint)
    end subroutine find_wanted
 
-   !> Finds a column of a case, to be read at a value of another column. wanted%case is 0 if the case has no such quantity.
+   !> Finds a column of a case, to be read at a value of another column. `wanted%case` is 0 if the case does not have both columns,
+   !> or if the column describes only the solution.
    subroutine find_column(workspace, k, name, over, at, wanted, heads)
       type(workspace_t), intent(in) :: workspace
-      integer, intent(in) :: k                             !! the case
+      integer, intent(in) :: k                             !! index of the case
       character(*), intent(in) :: name, over
-      real(wp), intent(in) :: at                           !! in the unit of `over`
+      real(wp), intent(in) :: at                           !! value of the column `over`, in its unit
       type(wanted_number_t), intent(out) :: wanted
-      character(name_length), allocatable, intent(out) :: heads(:)     !! all columns and entries, for suggestions
+      character(name_length), allocatable, intent(out) :: heads(:)     !! all columns, and entries of the compliance matrix, for
+                                                                       !! suggestions
       character(name_length), allocatable :: entries(:)
 
       call heads_of_case(k, workspace, heads)
@@ -92,7 +94,8 @@ contains
       type(workspace_t), intent(in) :: workspace
       character(*), intent(in) :: name
       type(wanted_number_t), intent(out) :: wanted
-      character(name_length), allocatable, intent(out) :: known(:)     !! all names, for suggestions; only if there is none
+      character(name_length), allocatable, intent(out) :: known(:)     !! names of all key numbers, for suggestions; empty if the
+                                                                       !! key number is found
       type(case_t), allocatable :: cases(:)
       type(test_result_t), allocatable :: tests(:)
       type(key_number_t), allocatable :: listed(:)
@@ -120,12 +123,13 @@ contains
       end associate
    end subroutine find_key_number
 
-   !> Reads the value of a requested number from the tables of its cases; NaN if the tables give no value.
+   !> Reads the value of a requested number from the table of one of its cases. The value of a column is NaN if the table gives no
+   !> value; the value of a key number is then unchanged.
    subroutine read_number(wanted, source, table, value)
       type(wanted_number_t), intent(in) :: wanted
-      integer, intent(in) :: source                        !! of a key number that is read
-      type(table_t), intent(in) :: table                   !! of its case
-      real(wp), intent(inout) :: value                     !! of the sources before; NaN before the first
+      integer, intent(in) :: source                        !! key number: index of the source to be read
+      type(table_t), intent(in) :: table                   !! table of the case
+      real(wp), intent(inout) :: value !! on entry, the value from the preceding sources; NaN before the first source
       real(wp) :: both(2)
       logical :: is_final
 
@@ -138,15 +142,15 @@ contains
       end if
    end subroutine read_number
 
-   !> Value of column y where column x has a given value. At a state with this value it is the value of the state; otherwise it is
-   !> on the cubic curve through the two states on either side (a straight line next to an end). If x has the value several times,
-   !> the point nearest to design is used. NaN outside the range of x.
+   !> Value of column y at which column x has a given value. At a state with this value, the result is the value of the state.
+   !> Otherwise the result is interpolated by the cubic curve through two states on either side (next to an end, by a straight
+   !> line). If x has the value several times, the point nearest to design is used. NaN outside the range of x.
    function value_at(table, x, y, at) result(value)
       type(table_t), intent(in) :: table
       integer, intent(in) :: x, y                          !! indices of the columns
       real(wp), intent(in) :: at
       real(wp) :: value
-      real(wp), parameter :: rounding = 1.0e-7_wp          !! share of the range of x: deviation allowed for a driven height
+      real(wp), parameter :: rounding = 1.0e-7_wp          !! allowed deviation of a driven height, as a share of the range of x
       integer, allocatable :: rows(:)
       logical :: is_good(size(table%values, 2))
       real(wp) :: nearest, place, slack
@@ -178,7 +182,7 @@ contains
       end if
    end function value_at
 
-   !> The value at `at` of the polynomial through the given points (Lagrange). At a point, it equals y of the point to the bit. If
+   !> The value at `at` of the polynomial through the given points (Lagrange). At a point, the result is exactly y of the point. If
    !> two points have equal x, y of the first is used.
    pure real(wp) function polynomial(x, y, at) result(value)
       real(wp), intent(in) :: x(:), y(:), at

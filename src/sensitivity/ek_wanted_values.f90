@@ -1,15 +1,15 @@
-!> The values of wanted numbers of a design, and their derivatives with respect to factors, for `solve` and `fit`.
+!> The values of requested numbers of a design, and their derivatives with respect to factors, for `solve` and `fit`.
 !>
 !>     call begin_values(wanted, directions, workspace, self, error)          once; solves the cases that are needed
 !>     call find_values(distances, workspace, self, is_valid)                 at each design: self%values, self%jacobian
 !>
-!> A factor is a direction of ek_direction: the design moves by a distance along each of them from the numbers that the workspace
-!> has when begin_values is called.
+!> A factor is a direction of ek_direction. The design moves by a distance along each direction. The distances are measured from the
+!> numbers that the workspace contains when begin_values is called.
 !>
-!> All numbers are differentiated in one way. ek_derivatives gives the derivative of every column at every state; the tables of the
-!> cases are moved along them, by steps that need no solution, and the number is read from the moved tables in the usual way. Its
-!> difference quotient is the derivative. So a fitted slope, a value between two states, a maximum and any future number that is
-!> read from tables need no formula in this module.
+!> All numbers are differentiated in one way. ek_derivatives gives the derivative of every column at every state. The tables of the
+!> cases are moved along these derivatives, by steps that need no solution, and the number is read from the moved tables in the
+!> usual way. The difference quotient of the number is its derivative. So a fitted slope, a value between two states, a maximum and
+!> any future number that is read from tables need no formula in this module.
 module ek_wanted_values
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
@@ -31,17 +31,17 @@ module ek_wanted_values
 
    !> A case that must be solved for the requested values.
    type, extends(case_slopes_t) :: needed_t
-      logical :: is_used = .false.                           !! a number is read from it
+      logical :: is_used = .false.                           !! a requested number is read from the case
    end type needed_t
 
    !> Requested numbers and their values at a design.
    type :: wanted_values_t
       type(wanted_number_t), allocatable :: wanted(:)
       type(direction_t), allocatable :: directions(:)
-      real(wp), allocatable :: values(:)                     !! in their units
-      real(wp), allocatable :: jacobian(:, :)                !! (number, direction): per unit of the direction
-      logical, allocatable :: can_move(:)                    !! the number of the deck may change at this design
-      integer :: sweeps = 0                                  !! designs that were solved
+      real(wp), allocatable :: values(:)                     !! values of the numbers, in their units
+      real(wp), allocatable :: jacobian(:, :)                !! (number, direction): derivatives per unit of the direction
+      logical, allocatable :: can_move(:) !! whether each direction can be varied at this design
+      integer :: sweeps = 0                                  !! number of designs that were solved
       logical, private :: is_fresh = .false.                 !! begin_values has solved the design at distance 0
       real(wp), allocatable, private :: start(:)             !! numbers of the deck at distance 0
       type(needed_t), allocatable, private :: needed(:)
@@ -95,11 +95,11 @@ contains
       end do
    end subroutine begin_values
 
-   !> Adds the requirements of a number on a case to the list of requirements.
+   !> Adds the columns and the reach that a requested number needs of a case to the list of needs.
    subroutine add_need(wanted, source, needed)
       type(wanted_number_t), intent(in) :: wanted
       integer, intent(in) :: source
-      type(needed_t), intent(inout) :: needed(:)             !! the last ones are not yet in use
+      type(needed_t), intent(inout) :: needed(:)             !! list of needs; entries with case 0 are not yet in use
       integer :: j, wheel
 
       j = needed_number(wanted%cases(source), needed)
@@ -156,7 +156,8 @@ contains
       j = 0
    end function needed_number
 
-   !> Finds and solves the case from which a number is read. A key number is read from the first test that has a value of it.
+   !> Finds and solves the case from which a number is read. A key number is read from the first test that has a value of the key
+   !> number. A key number that is the largest of all tests is read from all tests.
    subroutine settle(wanted, needed, workspace, error)
       type(wanted_number_t), intent(inout) :: wanted
       type(needed_t), intent(inout) :: needed(:)
@@ -193,10 +194,11 @@ contains
       end if
    end subroutine settle
 
-   !> Solves a case for the first time, unless it was already solved.
+   !> Solves a case for the first time, unless the case was already solved. An error is returned if a state that the number needs
+   !> did not converge.
    subroutine solve_first(this, reach, workspace, error)
       type(needed_t), intent(inout) :: this
-      real(wp), intent(in) :: reach                          !! as far as this number needs the path
+      real(wp), intent(in) :: reach                          !! swept value up to which the number needs the path
       type(workspace_t), intent(inout) :: workspace
       type(error_t), allocatable, intent(out) :: error
       logical :: is_done
@@ -230,10 +232,10 @@ contains
       end do
    end subroutine mark_used
 
-   !> Computes values and derivatives of a design. is_valid is .false. if a number has no value, because the design has a defect, a
-   !> number of the deck is outside its range, or a required state did not converge.
+   !> Computes values and derivatives of a design. is_valid is .false. if a number has no value or no derivative. Reasons are a
+   !> defect of the design, a number of the deck outside its range, or a required state that did not converge.
    subroutine find_values(distances, workspace, self, is_valid)
-      real(wp), intent(in) :: distances(:)                   !! along the directions, in their units
+      real(wp), intent(in) :: distances(:)                   !! distances along the directions, in their units
       type(workspace_t), intent(inout) :: workspace
       type(wanted_values_t), intent(inout) :: self
       logical, intent(out) :: is_valid
@@ -267,10 +269,10 @@ contains
       if (is_valid) is_valid = all(ieee_is_finite(self%jacobian))
    end subroutine find_values
 
-   !> Reads all numbers from the tables.
+   !> Reads all numbers from the tables of the cases, or from the moved tables.
    subroutine read_values(self, is_moved, values)
       type(wanted_values_t), intent(in) :: self
-      logical, intent(in) :: is_moved                        !! from the moved tables
+      logical, intent(in) :: is_moved                        !! whether the moved tables are read
       real(wp), intent(out) :: values(:)
       integer :: j, k, n
 
@@ -290,7 +292,7 @@ contains
    end subroutine read_values
 
    !> Computes the Jacobian: all numbers are read from the tables moved along each direction. A number of the deck that cannot be
-   !> varied has no effect.
+   !> varied has the derivative 0.
    !> Equation (E.3) of docs/theory/derivatives.md.
    subroutine differentiate_values(self)
       type(wanted_values_t), intent(inout) :: self

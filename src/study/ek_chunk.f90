@@ -1,8 +1,8 @@
-!> A chunk of a study: designs that are computed, written and resumed together, and its file.
+!> A chunk of a study: designs that are computed, written and resumed together, and the file of the chunk.
 !>
-!> The file begins with lines of text (file type, the study to which it belongs, the BLAS kernel, its sizes), then the numbers as
-!> bytes, then the reasons of failed designs, and ends with a checksum of everything before. It is written under a temporary name
-!> and renamed when it is complete, so that a file under its final name is a finished chunk; a chunk damaged afterwards is
+!> The file begins with lines (file type, identity of the study, BLAS kernel, sizes of the chunk). Then follow the numbers as bytes
+!> and the messages of failed designs. The file ends with a checksum of everything before. The file is written under a temporary
+!> name and renamed when it is complete, so that a file under its final name is a finished chunk. A chunk damaged afterwards is
 !> recognised and computed again.
 module ek_chunk
    use ek_kinds, only: wp, i8
@@ -17,16 +17,16 @@ module ek_chunk
       design_incomplete, design_unsolvable, design_invalid, status_names
 
    ! how a design ended
-   integer, parameter :: design_solved = 0         !! all states converged, all responses are known
+   integer, parameter :: design_solved = 0         !! all states converged, all responses have a value
    integer, parameter :: design_incomplete = 1     !! a state did not converge, or a response has no value
-   integer, parameter :: design_unsolvable = 2     !! a mechanism or redundant constraint, or no balance
-   integer, parameter :: design_invalid = 3        !! its numbers do not define a valid model
+   integer, parameter :: design_unsolvable = 2     !! mechanism, redundant constraint, or the preload trim (`balance`) failed
+   integer, parameter :: design_invalid = 3        !! the numbers of the design do not define a valid model
    character(*), parameter :: status_names(0:3) = [character(12) :: 'solved', 'incomplete', 'not_solvable', 'invalid']
 
    character(*), parameter :: mark = 'elastokin chunk 2'
    character(*), parameter :: line_end = new_line('a')
 
-   !> The reason why a design failed.
+   !> The reason why a design of a chunk failed.
    type :: reason_t
       integer :: design = 0
       character(:), allocatable :: text
@@ -35,14 +35,15 @@ module ek_chunk
    !> The results of a chunk: designs first … first + size(status) − 1.
    type :: chunk_t
       integer(i8) :: first = 1
-      integer, allocatable :: status(:)           !! one of design_*, per design
-      integer, allocatable :: states(:)           !! rows in `curves` of each design
+      integer, allocatable :: status(:)           !! status of each design, one of design_*
+      integer, allocatable :: states(:)           !! number of rows in `curves` of each design
       real(wp), allocatable :: factors(:, :)      !! (factor, design), units of the deck
-      real(wp), allocatable :: responses(:, :)    !! (response, design)
-      real(wp), allocatable :: curves(:, :)       !! (swept value and columns, state of all designs)
-      integer :: rows = 0                         !! used rows of `curves`
+      real(wp), allocatable :: responses(:, :)    !! (response, design), units of the column headings
+      real(wp), allocatable :: curves(:, :)       !! (swept value and columns; state, design after design)
+      integer :: rows = 0                         !! number of used rows of `curves`
       type(reason_t), allocatable :: reasons(:)
-      type(error_t), allocatable :: error         !! lack of memory or of a file, not caused by a design: the chunk is not stored
+      type(error_t), allocatable :: error         !! too little memory, or a file cannot be read (not caused by a design): the chunk
+                                                  !! is not stored
    end type chunk_t
 
 contains
@@ -51,8 +52,8 @@ contains
    pure subroutine new_chunk(first, designs, factors, responses, columns, states, self)
       integer(i8), intent(in) :: first
       integer, intent(in) :: designs, factors, responses, columns
-      integer, intent(in) :: states               !! expected of a design
-      type(chunk_t), intent(inout) :: self        !! its memory is used again if it fits
+      integer, intent(in) :: states               !! expected number of states of a design
+      type(chunk_t), intent(inout) :: self        !! its memory is reused if the sizes fit
 
       self%first = first
       if (allocated(self%status)) then
@@ -72,10 +73,10 @@ contains
       allocate (self%reasons(0))
    end subroutine new_chunk
 
-   !> Records why a design of the chunk failed.
+   !> Records the reason why a design of the chunk failed.
    pure subroutine add_reason(self, design, text)
       type(chunk_t), intent(inout) :: self
-      integer, intent(in) :: design               !! in the chunk, from 1
+      integer, intent(in) :: design               !! index of the design in the chunk, from 1
       character(*), intent(in) :: text
       type(reason_t), allocatable :: more(:)
       integer :: n
@@ -88,7 +89,7 @@ contains
       call move_alloc(more, self%reasons)
    end subroutine add_reason
 
-   !> Stores the first error that was not caused by a design: too little memory, or a table that cannot be read any more.
+   !> Stores the first error that was not caused by a design: too little memory, or a file that can no longer be read.
    subroutine put_error(self, error)
       type(chunk_t), intent(inout) :: self
       type(error_t), intent(in) :: error
@@ -96,10 +97,10 @@ contains
       if (.not. allocated(self%error)) self%error = error
    end subroutine put_error
 
-   !> The reason why a design failed; '' if the design did not fail.
+   !> The reason why a design of the chunk failed; '' if the design did not fail.
    pure function reason_of(self, design) result(text)
       type(chunk_t), intent(in) :: self
-      integer, intent(in) :: design               !! in the chunk
+      integer, intent(in) :: design               !! index of the design in the chunk
       character(:), allocatable :: text
       integer :: k
 
@@ -109,9 +110,9 @@ contains
       end do
    end function reason_of
 
-   !> The file name of a chunk.
+   !> The file name of a chunk, for instance 'chunk_000001.bin'.
    pure function chunk_name(number) result(name)
-      integer, intent(in) :: number               !! from 1
+      integer, intent(in) :: number               !! index of the chunk, from 1
       character(:), allocatable :: name
       character(*), parameter :: zeros = '000000'
 
@@ -123,8 +124,8 @@ contains
    subroutine write_chunk(self, path, identity, kernel, error)
       type(chunk_t), intent(in) :: self
       character(*), intent(in) :: path
-      character(*), intent(in) :: identity        !! of the study
-      character(*), intent(in) :: kernel          !! of the BLAS; '': unknown
+      character(*), intent(in) :: identity        !! identity of the study
+      character(*), intent(in) :: kernel          !! kernel of the BLAS; '': unknown
       type(error_t), allocatable, intent(out) :: error
       type(writer_t) :: writer
       type(checksum_t) :: sum
@@ -162,8 +163,8 @@ contains
 
    end subroutine write_chunk
 
-   !> Sizes of a chunk as in '1 250 2 5 3 5500 0': first design, designs, factors, responses, columns and rows of the curves,
-   !> reasons.
+   !> Sizes of a chunk, for instance '1 250 2 5 3 5500 0': index of the first design, numbers of designs, factors, responses,
+   !> columns and rows of the curves, reasons.
    pure function line_of(self) result(text)
       type(chunk_t), intent(in) :: self
       character(:), allocatable :: text
@@ -172,12 +173,12 @@ contains
          str(size(self%responses, 1))//' '//str(size(self%curves, 1))//' '//str(self%rows)//' '//str(size(self%reasons))
    end function line_of
 
-   !> Reads a chunk. is_good is .false. if the file is absent, damaged, from another study, or contains other designs. A renamed
-   !> file contains other designs.
+   !> Reads a chunk. is_good is .false. if the file is absent, damaged, from another study, written on a machine of another byte
+   !> order, or contains other designs (a renamed file).
    subroutine read_chunk(path, identity, first, designs, self, is_good)
       character(*), intent(in) :: path, identity
-      integer(i8), intent(in) :: first             !! design of the chunk
-      integer, intent(in) :: designs               !! of the chunk; 0: not known
+      integer(i8), intent(in) :: first             !! index of the first design of the chunk
+      integer, intent(in) :: designs               !! number of designs of the chunk; 0: not known
       type(chunk_t), intent(inout) :: self
       logical, intent(out) :: is_good
       character(:), allocatable :: text

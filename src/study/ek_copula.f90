@@ -1,9 +1,9 @@
-!> Correlation between factors by a Gaussian copula: any distributions, tied through standard normal numbers (scores).
+!> Correlation between factors of any distributions by a Gaussian copula, through standard normal numbers (scores).
 !>
-!> z' = L z, where z are independent scores and L Lᵀ = R is the matrix of the correlations, has correlations R; factor j is then
-!> x_j = F_j⁻¹(Φ(z'_j)). A correlation r is therefore a correlation of the scores. For normal factors r is the linear correlation;
-!> for other factors the rank correlation is ρ = (6/π) asin(r/2), for any distributions (Kruskal, J. Am. Stat. Assoc. 53 (1958)
-!> 827).
+!> The vector z' = L z has the correlations R if z contains independent scores and L Lᵀ = R. Factor j is then x_j = F_j⁻¹(Φ(z'_j)).
+!> A correlation r is therefore a correlation of the scores. For normal factors, r is also the linear correlation of the factors.
+!> For any continuous distributions, the rank correlation of the factors is ρ = (6/π) asin(r/2) (Kruskal, J. Am. Stat. Assoc. 53
+!> (1958) 827).
 !>
 !> Source: R. B. Nelsen, An introduction to copulas, 2006, section 2.3.
 module ek_copula
@@ -22,7 +22,8 @@ module ek_copula
 
 contains
 
-   !> Creates the copula of n factors from pairs of factors and their correlations. All other pairs are independent.
+   !> Creates the copula of n factors from pairs of factors and their correlations. All other pairs are independent. Correlations
+   !> that contradict each other are an error.
    pure subroutine new_copula(n, pairs, correlations, copula, error)
       integer, intent(in) :: n
       integer, intent(in) :: pairs(:, :)          !! (2, m): two different factors each
@@ -59,7 +60,7 @@ contains
          ' are impossible together with those among the factors before it (the matrix is not positive definite)')
    end subroutine new_copula
 
-   !> Computes z ← L z, in place.
+   !> Computes z ← L z, in place: independent scores become scores with the correlations of the copula.
    !>
    !> Equation (D.9) of docs/theory/sampling.md.
    pure subroutine correlate(copula, z)

@@ -1,5 +1,5 @@
-!> Causes of failed designs. While the designs of a chunk are solved, their causes are stored as numbers. After the last design,
-!> messages are created from these causes, by one thread at a time.
+!> Causes of failed designs. While the designs of a chunk are solved, the causes are stored as numbers. After the last design of the
+!> chunk, messages are created from the causes, by one thread at a time.
 module ek_design_cause
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use ek_kinds, only: wp
@@ -17,13 +17,15 @@ module ek_design_cause
    public :: cause_t, causes_t, add_cause, add_unread, find_cause, cause_text
 
    type :: cause_t
-      integer :: design = 0                        !! in the chunk, from 1
-      logical :: is_unread = .false.               !! the design must be read from the deck's strings, which gives the cause
-      type(error_t) :: error                       !! a case was not run: the first such case; message not allocated: none
-      real(wp), allocatable :: lost(:, :)          !! (side, case): first swept value without an equilibrium; NaN: none
-      real(wp), allocatable :: open(:, :)          !! (2, case): first swept value of open_states, and its |Φ| [m or rad]; NaN: none
-      integer, allocatable :: faults(:)            !! of each response, see read_response
-      type(table_t), allocatable :: tables(:)      !! of each case; empty where no response has a fault
+      integer :: design = 0                        !! index of the design in the chunk, from 1
+      logical :: is_unread = .false.               !! the design must be read from the deck's strings; its cause is found only then
+      type(error_t) :: error !! error of the first case that was not run; its message is not allocated if all cases were run
+      real(wp), allocatable :: lost(:, :)          !! (side, case): first swept value without an equilibrium; NaN if all states of
+                                                   !! the side converged
+      real(wp), allocatable :: open(:, :)          !! (2, case): swept value of the first state of open_states, and its |Φ| [m or
+                                                   !! rad]; NaN if there is no such state
+      integer, allocatable :: faults(:) !! reason code of each response, from read_response; 0 if the response has a value
+      type(table_t), allocatable :: tables(:)      !! table of each case, filled only for cases in which a response has no value
    end type cause_t
 
    !> The causes of a chunk, in the order of the designs.
@@ -34,7 +36,7 @@ module ek_design_cause
 
 contains
 
-   !> Adds a design that must be read from the deck's strings.
+   !> Adds the cause of a design that must be read from the deck's strings.
    pure subroutine add_unread(design, causes)
       integer, intent(in) :: design
       type(causes_t), intent(inout) :: causes
@@ -45,7 +47,7 @@ contains
       call add_cause(cause, causes)
    end subroutine add_unread
 
-   !> Adds a cause to a list.
+   !> Adds a cause to the causes of a chunk.
    pure subroutine add_cause(cause, causes)
       type(cause_t), intent(in) :: cause
       type(causes_t), intent(inout) :: causes
@@ -61,11 +63,11 @@ contains
       causes%list(causes%used) = cause
    end subroutine add_cause
 
-   !> Finds why a design is incomplete. No string is created if all cases of the design were run.
+   !> Finds the causes for which a design is incomplete. No string is created if all cases of the design were run.
    subroutine find_cause(design, case_of, faults, workspace, cause)
       integer, intent(in) :: design
-      integer, intent(in) :: case_of(:), faults(:)         !! of each response
-      type(workspace_t), intent(in) :: workspace           !! with the results of its cases
+      integer, intent(in) :: case_of(:), faults(:)         !! index of the case, and reason code of read_response, for each response
+      type(workspace_t), intent(in) :: workspace           !! workspace with the results of its cases
       type(cause_t), intent(out) :: cause
       type(error_t), allocatable :: error
       integer :: c, j, side, row
@@ -96,12 +98,12 @@ contains
       end do
    end subroutine find_cause
 
-   !> The message of a cause.
+   !> The message on a failed design, from its cause.
    function cause_text(cause, case_of, readings, workspace) result(text)
       type(cause_t), intent(in) :: cause
-      integer, intent(in) :: case_of(:)                    !! of each response
+      integer, intent(in) :: case_of(:)                    !! index of the case of each response
       type(reading_t), intent(in) :: readings(:)
-      type(workspace_t), intent(in) :: workspace           !! with the names of the cases
+      type(workspace_t), intent(in) :: workspace           !! workspace with the names of the cases
       character(:), allocatable :: text
       type(message_list_t) :: words
       integer :: c, j, side

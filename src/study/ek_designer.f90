@@ -1,5 +1,5 @@
-!> Data of the deck that a study stores from design to design: the numbers that the factors change, the cases that are solved, and
-!> the responses. The responses are checked against the design of the deck itself.
+!> Data that a study stores from design to design: the numbers that the factors change, the cases to be solved, and the
+!> responses. The responses are checked against the design of the deck itself.
 module ek_designer
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t, fail, exit_deck
@@ -23,19 +23,19 @@ module ek_designer
    private
    public :: designer_t, begin_designer, new_designer
 
-   !> Data that one thread stores from design to design.
+   !> Data that one thread of a study stores from design to design.
    type :: designer_t
-      class(workspace_t), allocatable :: workspace               !! allocated by begin_designer; a class as in case_work_t
-      class(pack_space_t), allocatable :: packs                       !! for designs that are solved together
-      type(factor_paths_t), allocatable :: paths(:)        !! of the factors
-      character(name_length), allocatable :: case_names(:) !! of the cases that are solved; '': the first of the deck
-      type(solve_options_t), allocatable :: options(:)     !! of each case: its columns
+      class(workspace_t), allocatable :: workspace !! allocated by begin_designer; a class for the reason given at case_work_t
+      class(pack_space_t), allocatable :: packs                       !! work space for designs that are solved together
+      type(factor_paths_t), allocatable :: paths(:)        !! numbers of the deck that each factor changes
+      character(name_length), allocatable :: case_names(:) !! names of the cases to be solved; '': the first case of the deck
+      type(solve_options_t), allocatable :: options(:)     !! options of each case, with the columns to compute
       type(reading_t), allocatable :: readings(:)
-      integer, allocatable :: case_of(:)                   !! of each response
-      integer :: increments = 0                            !! of all cases; 0: the increments of the deck
-      integer :: states = 0                                !! of the first case, in the first design
-      character(name_length), allocatable :: units(:)      !! of the factors, '' if they have none: 'N/mm'
-      character(name_length), allocatable :: heads(:)      !! of the columns of the factors: 'rate_n_per_mm'
+      integer, allocatable :: case_of(:)                   !! index of the case of each response
+      integer :: increments = 0                            !! number of increments of all cases; 0: the increments of the deck
+      integer :: states = 0                                !! number of states of the first case, in the design of the deck
+      character(name_length), allocatable :: units(:)      !! unit of each factor, for instance 'N/mm'; '' if the factor has no unit
+      character(name_length), allocatable :: heads(:)      !! column heading of each factor, for instance 'rate_n_per_mm'
    end type designer_t
 
 contains
@@ -64,13 +64,15 @@ contains
       call check_planes(study, designer%workspace%design, designer%paths, error)
    end subroutine begin_designer
 
-   !> Reads the deck, and checks all paths, columns and responses against it. The design of the deck itself must be sound.
+   !> Reads the deck, and checks all paths, columns and responses of the study against the deck. All cases must be solvable in the
+   !> design of the deck.
    subroutine new_designer(study, deck, home, designer, error)
       type(study_t), intent(in) :: study
       type(deck_t), intent(in) :: deck
       character(*), intent(in) :: home                     !! folder of the study with its slash
       type(designer_t), intent(inout) :: designer          !! replaced
-      type(error_t), allocatable, intent(out) :: error     !! exit_deck: all errors of the study
+      type(error_t), allocatable, intent(out) :: error     !! exit_deck: errors of the study; otherwise the deck or its first case
+                                                           !! that cannot be run
       integer :: k
 
       call begin_designer(study, deck, designer, error)
@@ -117,7 +119,7 @@ contains
       end do
    end subroutine list_cases
 
-   !> Lists the columns that are computed for a case.
+   !> Lists the columns that are computed for a case: columns of the study (first case only), and columns that responses need.
    subroutine list_columns(study, designer, case)
       type(study_t), intent(in) :: study
       type(designer_t), intent(inout) :: designer
@@ -135,12 +137,13 @@ contains
       designer%options(case)%has_violation = any(wanted == 'constraint_error')
    end subroutine list_columns
 
-   !> Checks that all columns named by the study are in the tables of the first design, and that all responses can be read.
+   !> Checks that all columns named by the study are in the table of the first case, in the design of the deck, and that all
+   !> responses can be read.
    subroutine check_columns(study, home, designer, error)
       type(study_t), intent(in) :: study
       character(*), intent(in) :: home
       type(designer_t), intent(inout) :: designer
-      type(error_t), allocatable, intent(out) :: error   !! exit_deck, every error
+      type(error_t), allocatable, intent(out) :: error   !! exit_deck, all errors
       type(message_list_t) :: mistakes
       character(name_length), allocatable :: heads(:)    ! all columns of the results
       character(:), allocatable :: message
@@ -170,7 +173,7 @@ contains
       if (mistakes%count() > 0) call fail(error, exit_deck, mistakes%text())
    end subroutine check_columns
 
-   !> Checks that no two columns of the table of responses have the same heading.
+   !> Checks that no two columns of the table of designs have the same heading.
    subroutine check_heads(study, designer, mistakes)
       type(study_t), intent(in) :: study
       type(designer_t), intent(in) :: designer
@@ -198,7 +201,7 @@ contains
 
    contains
 
-      !> Reports a column name that is used twice.
+      !> Reports a column heading that is used twice.
       subroutine add(who, head, other)
          character(*), intent(in) :: who, head, other
          call mistakes%add(who//': its column would have the name '//quoted(head)//', like that of '//other//'; rename one')

@@ -1,11 +1,11 @@
 !> Distributions of a factor: uniform, normal, log-normal and triangular, each with optional bounds.
 !>
 !> A distribution is evaluated through its quantile function x = F⁻¹(u), 0 < u < 1. Bounds truncate the distribution: values outside
-!> are omitted, and the rest is scaled up to a probability of one. Values outside are not moved to the bounds.
+!> the bounds are omitted, and the rest is scaled up to a probability of one. Values outside are not moved to the bounds.
 !>
-!> `nominal ± tolerance` (`from_tolerance`): the tolerance is the half-width of a uniform or triangular distribution, and three
-!> standard deviations of a normal or log-normal distribution. 99.73 % of a normal distribution lie within the tolerance. The
-!> nominal value is the mean, for all kinds. All values are in the unit of the factor.
+!> Meaning of `nominal ± tolerance` (`from_tolerance`): the tolerance is the half-width of a uniform or triangular distribution, and
+!> three standard deviations of a normal or log-normal distribution. 99.73 % of a normal distribution lie within the tolerance. The
+!> nominal value is the mean before truncation, for all kinds. All values are in the unit of the factor.
 module ek_distribution
    use ek_kinds, only: wp
    use ek_error, only: error_t, fail, exit_deck
@@ -21,17 +21,17 @@ module ek_distribution
    character(10), parameter :: distribution_kinds(4) = [character(10) :: 'uniform', 'normal', 'log_normal', 'triangular']
 
    real(wp), parameter :: unbounded = huge(1.0_wp)
-   real(wp), parameter :: tolerance_deviations = 3.0_wp   !! standard deviations in a tolerance
+   real(wp), parameter :: tolerance_deviations = 3.0_wp   !! number of standard deviations in a tolerance
 
    type :: distribution_t
       private
       integer :: kind = uniform_kind
-      real(wp) :: lower = 0.0_wp, upper = 1.0_wp       !! bounds, ∓`unbounded` where there are none
-      real(wp) :: first = 0.0_wp, last = 1.0_wp        !! ends of a triangle, before it is truncated
-      real(wp) :: center = 0.5_wp                      !! mean of x (normal) or of ln x (log-normal), peak of a triangle
-      real(wp) :: deviation = 1.0_wp                   !! of x (normal) or of ln x (log-normal)
-      real(wp) :: from = 0.0_wp, to = 1.0_wp           !! F of the bounds, untruncated; reflected: 1 − F(upper), 1 − F(lower)
-      logical :: is_reflected = .false.                !! both bounds above the median of a normal: computed from mirrored bounds
+      real(wp) :: lower = 0.0_wp, upper = 1.0_wp       !! bounds, ∓`unbounded` if there is no bound
+      real(wp) :: first = 0.0_wp, last = 1.0_wp        !! ends of a triangular distribution before it is truncated
+      real(wp) :: center = 0.5_wp !! mean of x (normal) or of ln x (log-normal), peak of a triangular distribution
+      real(wp) :: deviation = 1.0_wp                   !! standard deviation of x (normal) or of ln x (log-normal)
+      real(wp) :: from = 0.0_wp, to = 1.0_wp           !! F of the bounds, before truncation; reflected: 1 − F(upper), 1 − F(lower)
+      logical :: is_reflected = .false. !! both bounds are above the median of a normal distribution: the mirrored bounds are used
    end type distribution_t
 
 contains
@@ -51,7 +51,7 @@ contains
       real(wp), intent(in) :: a, b
       type(distribution_t), intent(out) :: distribution
       type(error_t), allocatable, intent(out) :: error
-      real(wp), intent(in), optional :: c              !! triangular
+      real(wp), intent(in), optional :: c              !! upper end of a triangular distribution
       real(wp) :: ratio
 
       distribution%kind = kind
@@ -105,7 +105,8 @@ contains
       end select
    end subroutine from_tolerance
 
-   !> Truncates a distribution below `lower` and above `upper`. Less than 10⁻¹² of remaining probability is an error.
+   !> Truncates a distribution below `lower` and above `upper`. Bounds in descending order, or a remaining probability of at most
+   !> 10⁻¹², are errors.
    pure subroutine truncate(distribution, error, lower, upper)
       type(distribution_t), intent(inout) :: distribution
       type(error_t), allocatable, intent(out) :: error
@@ -132,7 +133,7 @@ contains
          ' leave nothing of the distribution')
    end subroutine truncate
 
-   !> The value x below which the share u of all values lies; 0 < u < 1.
+   !> The value x below which the share u of all values lies, in the unit of the factor; 0 < u < 1.
    !>
    !> Equation (D.7) of docs/theory/sampling.md.
    pure real(wp) function quantile(distribution, u) result(x)
@@ -176,7 +177,8 @@ contains
       end associate
    end function quantile_of_score
 
-   !> The value x of a normal or log-normal distribution without bounds, z standard deviations above the mean.
+   !> The value x of a normal or log-normal distribution without bounds at the score z: z standard deviations above the mean of x
+   !> (normal), or of ln x (log-normal).
    pure real(wp) function of_score(distribution, z) result(x)
       type(distribution_t), intent(in) :: distribution
       real(wp), intent(in) :: z
@@ -185,7 +187,7 @@ contains
       if (distribution%kind == log_normal_kind) x = exp(min(x, 700.0_wp))
    end function of_score
 
-   !> The score z at which of_score is x; −`unbounded` or +`unbounded` at a bound that does not exist.
+   !> The score z of a value x, the inverse of of_score; −`unbounded` or +`unbounded` at a bound that does not exist.
    pure real(wp) function score_of(distribution, x) result(z)
       type(distribution_t), intent(in) :: distribution
       real(wp), intent(in) :: x
@@ -234,11 +236,11 @@ contains
       call moments(distribution, mean, deviation)
    end function deviation_of
 
-   !> Computes mean and standard deviation.
+   !> Computes the mean and the standard deviation of a distribution, in the unit of the factor.
    !>
-   !> Truncated normal, between the scores α and β, Z = Φ(β) − Φ(α): mean μ + σ m, m = (φ(α) − φ(β))/Z, and
-   !> variance σ²(1 + (α φ(α) − β φ(β))/Z − m²). Truncated log-normal: E xʳ = exp(rμ + r²σ²/2) (Φ(β − rσ) − Φ(α − rσ))/Z.
-   !> Both: Johnson, Kotz, Balakrishnan (1994), sections 13.10.1 and 14.
+   !> Truncated normal distribution between the scores α and β, with Z = Φ(β) − Φ(α): mean μ + σ m with m = (φ(α) − φ(β))/Z,
+   !> variance σ²(1 + (α φ(α) − β φ(β))/Z − m²). Truncated log-normal distribution:
+   !> E xʳ = exp(rμ + r²σ²/2) (Φ(β − rσ) − Φ(α − rσ))/Z. Both: Johnson, Kotz, Balakrishnan (1994), sections 13.10.1 and 14.
    !>
    !> Equation (D.8) of docs/theory/sampling.md.
    pure subroutine moments(distribution, mean, deviation)
@@ -272,7 +274,7 @@ contains
       end associate
    end subroutine moments
 
-   !> z φ(z); 0 where there is no bound.
+   !> The product z φ(z) at the score z of a bound; 0 without a bound.
    pure real(wp) function weighted(z)
       real(wp), intent(in) :: z
 
@@ -292,7 +294,7 @@ contains
       deviation = sqrt(sum(weight*(x - mean)**2))
    end subroutine triangle_moments
 
-   !> Lists points x (ln x for a log-normal distribution) with weights, so that Σ weight f(x) is the mean of f. The points are four
+   !> Lists points x (ln x for a log-normal distribution) and weights, so that Σ weight f(x) is the mean of f. The points are four
    !> Gauss points in each of several intervals. The mean is exact for polynomials up to the sixth power over a triangular
    !> distribution, and to 1e-12 over a normal distribution.
    pure subroutine integration_points(distribution, x, weight)
@@ -302,8 +304,8 @@ contains
          0.86113631159405258_wp]
       real(wp), parameter :: share(4) = [0.34785484513745386_wp, 0.65214515486254614_wp, 0.65214515486254614_wp, &
          0.34785484513745386_wp]
-      integer, parameter :: intervals = 100                !! of a normal distribution
-      real(wp), parameter :: far = 10.0_wp                 !! standard deviations: nothing lies beyond
+      integer, parameter :: intervals = 100                !! number of intervals of a normal distribution
+      real(wp), parameter :: far = 10.0_wp                 !! limit of the scores [standard deviations]: nothing lies beyond
       real(wp), allocatable :: ends(:)
       real(wp) :: low, high
       integer :: k
@@ -344,9 +346,10 @@ contains
       acts_on_logarithm = distribution%kind == log_normal_kind
    end function acts_on_logarithm
 
-   !> Finds the range that grids, tornados and Morris' method explore: from bound to bound. A missing bound is replaced by three
-   !> standard deviations from the mean (of ln x for a log-normal distribution). A normal `nominal ± tolerance` is thus explored
-   !> over its tolerance.
+   !> Finds the range that grids, tornados and Morris' method explore: from bound to bound. Without a bound within three standard
+   !> deviations from the mean (of ln x for a log-normal distribution), the range ends at three standard deviations. A normal
+   !> `nominal ± tolerance` is thus explored over its tolerance. If the distribution lies completely beyond three standard
+   !> deviations, the range begins at the nearer bound and is at most three standard deviations wide.
    pure subroutine ends_of(distribution, low, high)
       type(distribution_t), intent(in) :: distribution
       real(wp), intent(out) :: low, high

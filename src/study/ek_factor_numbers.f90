@@ -1,4 +1,4 @@
-!> Converts factors of a study to numbers of the deck.
+!> Conversion of factor values of a study to numbers of the deck.
 module ek_factor_numbers
    use ek_kinds, only: wp
    use ek_parameter, only: choice_t, parameters_t
@@ -8,20 +8,20 @@ module ek_factor_numbers
    private
    public :: factor_paths_t, put_factor, deck_value, change_design
 
-   !> The parameters of one factor.
+   !> The numbers of the deck that one factor changes.
    type :: factor_paths_t
-      integer :: change = by_value                !! see ek_study
-      type(choice_t), allocatable :: found(:)
+      integer :: change = by_value                !! by_value, by_delta or by_scale (ek_study)
+      type(choice_t), allocatable :: found(:)     !! the parameters; empty if a path leads to no parameter
    end type factor_paths_t
 
 contains
 
-   !> Changes the workspace to the design with these factor values, from the numbers alone, and puts its cases on the rig. is_done
-   !> is .false. if the design must be read from the deck's strings: a factor is not a number of the design space, a value is
+   !> Changes the workspace to the design with the given factor values, from the numbers alone, and puts the cases of the workspace
+   !> on the rig. `is_done` is .false. if the design must be read from the deck's strings: a path leads to no parameter, a value is
    !> outside its range, or the design may have a defect.
    subroutine change_design(factors, values, workspace, is_done)
       type(factor_paths_t), intent(in) :: factors(:)
-      real(wp), intent(in) :: values(:)                    !! in the units of the deck
+      real(wp), intent(in) :: values(:)                    !! value of each factor, in the units of the deck
       type(workspace_t), intent(inout) :: workspace
       logical, intent(out) :: is_done
       real(wp) :: x(size(workspace%x))
@@ -39,13 +39,13 @@ contains
       if (is_done) call ready_cases(workspace, is_done)
    end subroutine change_design
 
-   !> Writes a factor into x: as a change of the numbers of the deck, or as a replacement. A number on the right side of an axle
-   !> receives the value times its sign (ek_parameter).
+   !> Writes a factor value into x, by replacing, increasing or multiplying each number of the factor. A replacement or an increase
+   !> is first multiplied by the sign of the number (ek_parameter).
    pure subroutine put_factor(factor, value, parameters, x)
       type(factor_paths_t), intent(in) :: factor
       real(wp), intent(in) :: value
-      type(parameters_t), intent(in) :: parameters         !! of the deck
-      real(wp), intent(inout) :: x(:)                      !! of the parameters [SI, axes of the deck]
+      type(parameters_t), intent(in) :: parameters         !! parameters of the deck
+      real(wp), intent(inout) :: x(:)                      !! numbers of the parameters [SI, axes of the deck]
       integer :: j
 
       do j = 1, size(factor%found)
@@ -64,7 +64,8 @@ contains
       end do
    end subroutine put_factor
 
-   !> The number of the deck that a factor changes, in the unit of the deck; NaN if the factor changes several different numbers.
+   !> The number of the deck that a factor changes, in the unit of the deck; NaN if the factor changes different numbers, or no
+   !> parameter is known.
    pure real(wp) function deck_value(parameters, factor) result(value)
       type(parameters_t), intent(in) :: parameters
       type(factor_paths_t), intent(in) :: factor

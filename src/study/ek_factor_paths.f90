@@ -1,5 +1,5 @@
-!> The paths of the factors of a study: the numbers of the deck to which they lead, errors in the paths, and the settings (as for
-!> --set) that define a design.
+!> The paths of the factors of a study: the numbers of the deck to which the paths lead, and errors in the paths. Also creates the
+!> settings (as for --set) that define a design.
 module ek_factor_paths
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t, fail, exit_deck
@@ -16,12 +16,13 @@ module ek_factor_paths
    private
    public :: check_paths, check_planes, find_paths, is_held_in_plane, setting_of, label_of, shortest
 
-   real(wp), parameter :: plane = 1.0e-9_wp       !! m; a point closer to y = 0 exists once on a mirrored axle
-   integer, parameter :: max_named = 4            !! points named in a message
+   real(wp), parameter :: plane = 1.0e-9_wp       !! limit of |y| below which a point lies in the centre plane and exists once on a
+                                                  !! mirrored axle [m]
+   integer, parameter :: max_named = 4            !! number of points named in a message
 
 contains
 
-   !> Checks that every path leads to a number of the deck.
+   !> Checks that every path leads to a number of the deck. All errors are reported in one error.
    subroutine check_paths(study, deck, error)
       type(study_t), intent(in) :: study
       type(deck_t), intent(in) :: deck
@@ -49,12 +50,12 @@ contains
    end subroutine check_paths
 
    !> Rejects factors that move a point out of the centre plane of a mirrored deck. Every such design would be invalid, because a
-   !> point off the plane exists on both sides. Factors that multiply are accepted. Studies of kind list are accepted, because their
-   !> rows may have zeros.
+   !> point off the plane exists on both sides. Factors that multiply y are accepted. Studies of kind list are accepted, because the
+   !> rows of the list may have zeros.
    subroutine check_planes(study, design, paths, error)
       type(study_t), intent(in) :: study
       type(design_t), intent(in) :: design
-      type(factor_paths_t), intent(in) :: paths(:)         !! of the factors
+      type(factor_paths_t), intent(in) :: paths(:)         !! paths of each factor
       type(error_t), allocatable, intent(out) :: error     !! exit_deck
       type(message_list_t) :: mistakes
       character(:), allocatable :: names
@@ -83,7 +84,7 @@ contains
    !> Whether a number is the y coordinate of a point in the centre plane of a mirrored deck that `shared` does not name.
    pure logical function is_held_in_plane(design, number)
       type(design_t), intent(in) :: design
-      integer, intent(in) :: number               !! of the parameter
+      integer, intent(in) :: number               !! index of the parameter
       integer :: k, j
 
       is_held_in_plane = .false.
@@ -102,8 +103,7 @@ contains
       is_held_in_plane = .true.
    end function is_held_in_plane
 
-   !> Finds the numbers of the deck to which the paths of a factor lead. The list is empty if one of them is not a number of the
-   !> design space.
+   !> Finds the numbers of the deck to which the paths of a factor lead. The list is empty if a path leads to no parameter.
    subroutine find_paths(factor, design, paths)
       type(study_factor_t), intent(in) :: factor
       type(design_t), intent(in) :: design
@@ -124,7 +124,7 @@ contains
       end do
    end subroutine find_paths
 
-   !> The setting of a factor, as written after path= in --set: 5, +5 or *5.
+   !> The setting of a factor at a value, as in --set path=…: 5 (replaces the number), +5 (adds), *5 (multiplies).
    function setting_of(change, value) result(text)
       integer, intent(in) :: change
       real(wp), intent(in) :: value
@@ -135,7 +135,7 @@ contains
       if (change == by_scale) text = '*'//text
    end function setting_of
 
-   !> The settings that define a design of the deck: 'spring.coil.rate=30 bushing.top_mount.kt(1)=*1.5'.
+   !> The settings that define a design of the study, for messages: 'spring.coil.rate=30 bushing.top_mount.kt(1)=*1.5'.
    function label_of(study, values) result(label)
       type(study_t), intent(in) :: study
       real(wp), intent(in) :: values(:)
@@ -151,7 +151,7 @@ contains
       label = label(2:)
    end function label_of
 
-   !> The shortest string, of nine or more digits, that is read as the same number: -5, 0.1, 1E-05.
+   !> The shortest string that is read back as `value`, rounded to nine or more significant digits, for instance -5, 0.1 or 1E-05.
    function shortest(value) result(text)
       real(wp), intent(in) :: value
       character(:), allocatable :: text

@@ -1,5 +1,5 @@
-!> Remarks on the factors of a study that move hardpoints: a pattern that also moves the points of a wheel, and a point that is
-!> moved away from another point at the same location.
+!> Messages on factors of a study that move hardpoints. One message names points of a wheel that a pattern also moves. The other
+!> names a point that is moved away from another point at the same location.
 module ek_factor_remark
    use ek_kinds, only: wp
    use ek_error, only: message_list_t
@@ -13,17 +13,17 @@ module ek_factor_remark
    private
    public :: factor_remarks
 
-   real(wp), parameter :: same = 1.0e-9_wp        !! m: two points at one location
-   integer, parameter :: most = 3                 !! points or pairs of points named in a remark
+   real(wp), parameter :: same = 1.0e-9_wp        !! limit of a difference of coordinates at one location [m]
+   integer, parameter :: most = 3                 !! largest number of points, or of pairs of points, named in a message
 
 contains
 
-   !> Adds the remarks on the factors of a study. Each kind of remark is given at most once per line of the study, because `each =
-   !> .true.` creates many factors.
+   !> Adds the messages on the factors of a study. Each kind of message is given at most once per line of the study file, because
+   !> `each = .true.` creates many factors.
    subroutine factor_remarks(study, design, paths, words)
       type(study_t), intent(in) :: study
-      type(design_t), intent(in) :: design                 !! of the deck
-      type(factor_paths_t), intent(in) :: paths(:)         !! of the factors
+      type(design_t), intent(in) :: design                 !! design of the deck
+      type(factor_paths_t), intent(in) :: paths(:)         !! paths of each factor
       type(message_list_t), intent(inout) :: words
       logical :: is_moved(size(design%records)), is_new(2)
       character(:), allocatable :: list
@@ -51,11 +51,11 @@ contains
       end do
    end subroutine factor_remarks
 
-   !> Marks the points of which a factor moves a coordinate.
+   !> Marks the points that a factor moves, by one or more coordinates.
    subroutine find_moved(design, paths, is_moved)
       type(design_t), intent(in) :: design
       type(factor_paths_t), intent(in) :: paths
-      logical, intent(out) :: is_moved(:)                  !! of each record
+      logical, intent(out) :: is_moved(:)                  !! whether each record is a point that the factor moves
       integer :: j
 
       is_moved = .false.
@@ -66,7 +66,7 @@ contains
       end do
    end subroutine find_moved
 
-   !> Lists the moved points of wheels as "'contact_patch' and 'wheel_centre'"; '' if no such point is moved.
+   !> Lists the moved points of wheels, for instance "'contact_patch', 'wheel_centre'"; '' if no such point is moved.
    subroutine wheel_points(design, is_moved, list)
       type(design_t), intent(in) :: design
       logical, intent(in) :: is_moved(:)
@@ -99,8 +99,8 @@ contains
       end do
    end function is_of_wheel
 
-   !> Lists moved points that coincide with a point that is not moved: "'strut_top', but not 'spring_upper_seat'"; '' if there are
-   !> none.
+   !> Lists moved points that coincide with a point that is not moved: "'strut_top', but not 'spring_upper_seat'". '' if there is no
+   !> such point.
    subroutine parted_points(design, is_moved, list)
       type(design_t), intent(in) :: design
       logical, intent(in) :: is_moved(:)
@@ -130,7 +130,7 @@ contains
    !> Finds the locations of all points whose three coordinates are numbers of the deck.
    subroutine place_points(design, at, is_point)
       type(design_t), intent(in) :: design
-      real(wp), intent(out) :: at(:, :)                    !! of each record [m]
+      real(wp), intent(out) :: at(:, :)                    !! location of each record [m]
       logical, intent(out) :: is_point(:)
       integer :: k, given(size(is_point))
 

@@ -1,7 +1,7 @@
-!> The unit of a factor, which is the unit of the numbers that the factor changes. It is given as a label ('N/mm') and as the suffix
-!> of a heading ('n_per_mm').
+!> The unit of a factor, which is the unit of the numbers that the factor changes. The unit is given as a label ('N/mm') and as the
+!> suffix of a heading ('n_per_mm').
 !>
-!> A parameter contains only the SI value of its unit. The unit itself follows from group and key, by one table in this module.
+!> A parameter contains only the SI value of its unit. The name of the unit follows from group and key, by one table in this module.
 module ek_factor_unit
    use ek_kinds, only: wp, millimetre, degree
    use ek_record, only: is_given
@@ -12,10 +12,11 @@ module ek_factor_unit
    private
    public :: factor_unit, parameter_unit, unit_ending
 
-   !> Keys of one unit. L, F, A: length, force and angle as the deck writes them; a blank between factors, '/' before the divisor.
+   !> Keys of one unit. L, F and A are length, force and angle in the units of the deck. A blank separates factors; '/' precedes the
+   !> divisor.
    type :: unit_row_t
       character(8) :: unit
-      character(200) :: keys             !! group.key, blanks between them and around all
+      character(200) :: keys             !! group.key, separated and enclosed by blanks
    end type unit_row_t
 
    type(unit_row_t), parameter :: rows(*) = [ &
@@ -31,8 +32,8 @@ module ek_factor_unit
 
 contains
 
-   !> The unit of a factor, for instance 'N/mm'. It is '' for a multiple of the deck's number, for numbers without a known unit, and
-   !> if the paths have different units.
+   !> The unit of a factor, for instance 'N/mm'. The unit is '' for a multiple of the deck's number, for numbers without a known
+   !> unit, and for numbers of different units.
    function factor_unit(design, paths) result(unit)
       type(design_t), intent(in) :: design
       type(factor_paths_t), intent(in) :: paths
@@ -49,7 +50,7 @@ contains
       end do
    end function factor_unit
 
-   !> The unit of one number of the deck.
+   !> The unit of a number of the deck; '' if the unit is not known.
    function parameter_unit(design, number) result(unit)
       type(design_t), intent(in) :: design
       integer, intent(in) :: number
@@ -72,7 +73,7 @@ contains
 
    contains
 
-      !> The unit of a pattern, with the unit names of the deck.
+      !> The unit of a pattern such as 'F L/A', with the unit names of the deck: 'N mm/deg'.
       function written(pattern) result(text)
          character(*), intent(in) :: pattern
          character(:), allocatable :: text

@@ -14,21 +14,21 @@ module ek_moments
 
    !> A response expanded about the centre of the factors.
    type :: expansion_t
-      real(wp) :: value = 0.0_wp                   !! y₀
-      real(wp), allocatable :: slopes(:)           !! a: change of the response per standard deviation of each factor
-      real(wp), allocatable :: curvatures(:, :)    !! b, symmetric; zero if only the slopes are known
+      real(wp) :: value = 0.0_wp                   !! y₀: response at the centre of the factors
+      real(wp), allocatable :: slopes(:)           !! a: derivative of the response by u, per standard deviation of each factor
+      real(wp), allocatable :: curvatures(:, :)    !! b, second derivatives by u, symmetric; zero if only the slopes are known
    end type expansion_t
 
-   !> The moments of the response, in its unit.
+   !> The moments of a response: mean and standard deviations in its unit, the others without unit.
    type :: moments_t
       real(wp) :: mean = 0.0_wp
-      real(wp) :: linear = 0.0_wp                  !! standard deviation by the slopes alone
-      real(wp) :: deviation = 0.0_wp               !! standard deviation
-      real(wp) :: linear_skewness = 0.0_wp         !! by the slopes alone: 0 if the factors are symmetric
+      real(wp) :: linear = 0.0_wp                  !! standard deviation from the slopes alone
+      real(wp) :: deviation = 0.0_wp               !! standard deviation, with the curvatures
+      real(wp) :: linear_skewness = 0.0_wp         !! skewness from the slopes alone: 0 if the factors are symmetric
       real(wp) :: skewness = 0.0_wp
-      real(wp), allocatable :: first(:)            !! of each factor, its share of the variance by itself: first-order Sobol index
-      real(wp), allocatable :: total(:)            !! and with its part in interactions: total Sobol index
-      real(wp) :: interaction = 0.0_wp             !! share of the variance that factors make together: 1 − Σ first
+      real(wp), allocatable :: first(:)            !! share of the variance due to each factor alone: first-order Sobol index
+      real(wp), allocatable :: total(:) !! share of the variance due to each factor, with its interactions: total Sobol index
+      real(wp) :: interaction = 0.0_wp             !! share of the variance due to interactions of factors: 1 − Σ first
    end type moments_t
 
 contains
@@ -90,12 +90,12 @@ contains
    end function trace_of_cube
 
    !> The share of designs between two limits, for a nearly normal response. The distribution function is expanded to the first term
-   !> of Edgeworth's series. Without skewness, the share is the share of the normal distribution.
+   !> of Edgeworth's series. Without skewness, the result is the share for the normal distribution.
    !>
    !> Equation (D.17) of docs/theory/sampling.md.
    pure real(wp) function normal_yield(mean, deviation, skewness, lower, upper) result(share)
       real(wp), intent(in) :: mean, deviation, skewness
-      real(wp), intent(in) :: lower, upper         !! ∓huge where there is none
+      real(wp), intent(in) :: lower, upper         !! limits, ∓huge if there is no limit
 
       share = max(0.0_wp, below(upper) - below(lower))
 
@@ -115,7 +115,8 @@ contains
 
    end function normal_yield
 
-   !> The percentile of a nearly normal response, to the first term of the series of Cornish and Fisher.
+   !> The value below which a share of designs lies, for a nearly normal response, to the first term of the series of Cornish and
+   !> Fisher.
    !>
    !> Equation (D.17) of docs/theory/sampling.md.
    pure real(wp) function normal_percentile(mean, deviation, skewness, share) result(value)

@@ -1,11 +1,13 @@
-!> Correlated factors of a latin hypercube: which of the n equal intervals each design has, so that every interval of every factor
-!> is filled once and the ranks of the factors have the correlations that are requested.
+!> Correlated factors of a latin hypercube: assigns one of the n equal intervals of each factor to each design. Every interval of
+!> every factor is filled once, and the ranks of the factors have the requested correlations.
 !>
-!> The method of Iman and Conover (Commun. Stat. Simul. Comput. 11 (1982) 311–334): the intervals of the factors, each in a random
-!> order of its own, become normal scores; their accidental correlations are removed, z ← Q⁻¹ z with Q Qᵀ the matrix of the sample;
-!> the requested correlations are added, z' = L z (ek_copula); the rank of a design among the z' of a factor is its interval.
+!> The method of Iman and Conover (Commun. Stat. Simul. Comput. 11 (1982) 311–334) has four steps:
+!> - The intervals of each factor, in a random order, become normal scores z.
+!> - The accidental correlations of the scores are removed: z ← Q⁻¹ z, where Q Qᵀ is the correlation matrix of the sample.
+!> - The requested correlations are added: z' = L z (ek_copula).
+!> - The rank of a design among the values z' of a factor is the interval of the design.
 !>
-!> The numbers of all designs are needed for it: they are computed once, and every design reads its own.
+!> The method needs the scores of all designs. The intervals are computed once, and every design reads its own intervals.
 module ek_rank_order
    use ek_kinds, only: wp, i8
    use ek_error, only: error_t, fail, exit_deck
@@ -19,16 +21,17 @@ module ek_rank_order
    private
    public :: order_ranks, most_ranked
 
-   integer(i8), parameter :: most_ranked = 10000000_i8     !! designs: 4 bytes of each correlated factor are held in memory
+   integer(i8), parameter :: most_ranked = 10000000_i8     !! limit of designs: each correlated factor needs 4 bytes of memory per
+                                                           !! design
 
 contains
 
-   !> Orders the intervals, 0 … n − 1, of the factors that have a correlation. The intervals of all other factors follow from their
-   !> permutations alone.
+   !> Orders the intervals, 0 … n − 1, of the factors that have a correlation, by rank. The intervals of all other factors follow
+   !> from their permutations alone.
    pure subroutine order_ranks(permutations, copula, tied, designs, intervals, error)
-      type(permutation_t), intent(in) :: permutations(:)   !! of the intervals of each factor
-      type(copula_t), intent(in) :: copula                 !! of all factors
-      integer, intent(in) :: tied(:)                       !! the factors with a correlation, ascending
+      type(permutation_t), intent(in) :: permutations(:)   !! permutation of the intervals of each factor
+      type(copula_t), intent(in) :: copula                 !! copula of all factors
+      integer, intent(in) :: tied(:)                       !! indices of the factors with a correlation, ascending
       integer(i8), intent(in) :: designs
       integer, allocatable, intent(out) :: intervals(:, :) !! (position in `tied`, design)
       type(error_t), allocatable, intent(out) :: error     !! exit_deck: too many designs
@@ -57,10 +60,12 @@ contains
       end do
    end subroutine order_ranks
 
-   !> Changes the scores of a sample, which have mean 0, so that they have exactly the correlations of the copula.
+   !> Changes the scores of a sample, which have mean 0, so that the scores have the correlations of the copula. The correlations
+   !> are exact if the sample has more designs than correlated factors, and if the correlation matrix of the sample is regular.
+   !> Otherwise the accidental correlations of the sample remain in the scores.
    pure subroutine tie(copula, tied, factors, scores)
       type(copula_t), intent(in) :: copula
-      integer, intent(in) :: tied(:), factors              !! indices of the factors; number of all factors
+      integer, intent(in) :: tied(:), factors              !! indices of the correlated factors; number of all factors
       real(wp), intent(inout) :: scores(:, :)              !! (design, position in `tied`)
       real(wp) :: root(size(tied), size(tied)), row(size(tied)), z(factors)
       integer :: info, d, i, m

@@ -1,11 +1,12 @@
 !> The processes (ranks) that compute one study together, started by mpirun or srun. Without a launcher there is one process.
 !>
-!> MPI is called only if the environment shows a launcher, so that a usual run neither starts nor waits for it. The ranks share
-!> counters, which lie in the memory of rank 0: the work is distributed by tickets in the order of requests. The procedures may be
-!> called by one thread at a time; procedures marked `all ranks` return when every rank has called them.
+!> MPI is called only if the environment shows a launcher, so that a usual run neither starts MPI nor waits for it. The ranks share
+!> counters in the memory of rank 0. One counter distributes the work: the next chunk is given to the rank that requests it first.
+!> Only one thread of a rank at a time may call the procedures. All ranks must call start_ranks, share, agree and end_ranks.
 !>
-!> elastokin itself is not linked with MPI, whose libraries would make every start longer by 2 ms: under a launcher it becomes
-!> elastokin-mpi, the same program with this module compiled with EK_MPI. Both see the same types.
+!> The program elastokin is not linked with MPI, because the MPI libraries would make every start 2 ms longer. Under a launcher,
+!> elastokin replaces itself by elastokin-mpi: the same program with this module compiled with EK_MPI. Both programs use the types
+!> of this module.
 module ek_ranks
    use ek_error, only: error_t, fail, exit_usage
    use ek_text, only: str
@@ -32,19 +33,20 @@ module ek_ranks
    ! what is counted over all ranks
    integer, parameter :: ticket_counter = 1, done_counter = 2, failed_counter = 3, stopped_counter = 4, counters = 4
 
-   !> The rank of this process among the processes of the study.
+   !> The position of this process among the processes of the study, and the access to the counters of the processes.
    type :: ranks_t
-      integer :: rank = 0, count = 1              !! 0 … count − 1
-      logical :: is_first = .true.                !! rank 0: it prints, and writes the tables
-      logical :: has_threads = .true.             !! each rank may have several threads
-      integer, private :: values(counters) = 0    !! of one rank
-      logical, private :: is_started = .false.    !! MPI was called
-      integer, private :: window = 0              !! number of MPI's window to the counters, in the memory of rank 0
+      integer :: rank = 0, count = 1              !! index of this process, 0 … count − 1; number of processes
+      logical :: is_first = .true.                !! this process is rank 0, which prints and writes the tables
+      logical :: has_threads = .true.             !! several threads of this rank may call MPI, one at a time
+      integer, private :: values(counters) = 0    !! the counters, in a run without MPI
+      logical, private :: is_started = .false.    !! MPI was started
+      integer, private :: window = 0              !! MPI's handle of the window to the counters, which are in the memory of rank 0
    end type ranks_t
 
 contains
 
-   !> Starts all ranks. A launcher whose processes do not find each other is an error, as each would compute the whole study.
+   !> Starts all ranks. Under a launcher, elastokin first replaces itself by elastokin-mpi. If the processes of a launcher do not
+   !> find each other, an error is returned, because each process would compute the whole study.
    subroutine start_ranks(ranks, error)
       type(ranks_t), intent(out) :: ranks
       type(error_t), allocatable, intent(out) :: error     !! exit_usage
@@ -85,8 +87,8 @@ contains
    end function why_no_mpi
 #endif
 
-   !> Finds whether mpirun or srun started this process with MPI, and the number of processes (1 if unknown). From srun without
-   !> --mpi, only the number of tasks is found.
+   !> Finds whether mpirun or srun started this process with MPI, and the number of processes (1 if unknown). After srun without
+   !> --mpi, is_launched is .false. and only the number of tasks is found.
    subroutine look_for_launcher(is_launched, launched)
       logical, intent(out) :: is_launched
       integer, intent(out) :: launched
@@ -109,10 +111,10 @@ contains
       end do
    end subroutine look_for_launcher
 
-   !> Increases a counter by `by`, which may be 0. Returns the value before.
+   !> Increases a counter by `by`, which may be 0. Returns the value before the increase.
    subroutine count_up(ranks, counter, by, before)
       type(ranks_t), intent(inout) :: ranks
-      integer, intent(in) :: counter              !! one of *_counter
+      integer, intent(in) :: counter              !! index of the counter, one of *_counter
       integer, intent(in) :: by
       integer, intent(out) :: before
 
@@ -126,8 +128,8 @@ contains
       ranks%values(counter) = before + by
    end subroutine count_up
 
-   !> Handles accesses of other ranks to the counters, where the network cannot read the memory of rank 0 by itself. Must be called
-   !> from time to time.
+   !> Handles accesses of other ranks to the counters, on networks on which other ranks cannot read the memory of rank 0 without the
+   !> help of rank 0. Rank 0 must call this procedure from time to time; on other ranks the procedure has no effect.
    subroutine help_others(ranks)
       type(ranks_t), intent(in) :: ranks
 #ifdef EK_MPI
@@ -140,7 +142,7 @@ contains
 #endif
    end subroutine help_others
 
-   !> Copies the list of rank 0 to all ranks.
+   !> Copies the list of rank 0 to all ranks. Without MPI, the list is unchanged.
    subroutine share(ranks, list)
       type(ranks_t), intent(in) :: ranks
       integer, allocatable, intent(inout) :: list(:)
@@ -159,7 +161,8 @@ contains
 #endif
    end subroutine share
 
-   !> Returns on all ranks the error of the lowest rank that has an error.
+   !> Returns on all ranks the error of the lowest rank that has an error. On the other ranks, the message begins with the index of
+   !> that rank; at most 1000 characters are returned. Without an error on any rank, no error is returned.
    subroutine agree(ranks, error)
       type(ranks_t), intent(in) :: ranks
       type(error_t), allocatable, intent(inout) :: error

@@ -1,12 +1,12 @@
-!> The states of a case at which a study reads K&C quantities: these come with the compliance matrix, which costs more than the
-!> state itself, and a response often reads a single state.
+!> The states of a case at which a study reads K&C quantities. The quantities require the compliance matrix, which costs more than
+!> the state itself, and a response often reads a single state.
 !>
-!> | response | states it reads |
+!> | response | states that the response reads |
 !> |---|---|
 !> | value | the state at `at`, or its two neighbours |
-!> | slope | the states in its window |
-!> | rms | the neighbours of each point of the wanted curve |
-!> | span, least, most, gradient; columns of the curves | all |
+!> | slope | the states in the window of the slope |
+!> | rms | the neighbours of each point of the given curve |
+!> | span, min, max, gradient; columns of the curves | all |
 !> | difference | the states of its two responses |
 module ek_read_states
    use ek_table, only: table_t, column_index
@@ -19,13 +19,13 @@ module ek_read_states
 
 contains
 
-   !> Whether K&C quantities of a case are read, each at some states only.
+   !> Whether a case needs the compliance matrix, and no response or curve reads a K&C quantity at all states.
    pure logical function reads_few_states(readings, case_of, case, columns, observer, table)
-      type(reading_t), intent(in) :: readings(:)           !! of all cases
-      integer, intent(in) :: case_of(:), case              !! the case that each reads; this case
-      character(*), intent(in) :: columns(:)               !! of the curves of this case, read at every state
-      type(observer_t), intent(in) :: observer             !! of this case
-      type(table_t), intent(in) :: table                   !! of this case, in the first design
+      type(reading_t), intent(in) :: readings(:)           !! readings of all cases
+      integer, intent(in) :: case_of(:), case              !! index of the case of each reading; index of this case
+      character(*), intent(in) :: columns(:)               !! columns of the curves of this case, read at every state
+      type(observer_t), intent(in) :: observer             !! observer of this case
+      type(table_t), intent(in) :: table                   !! table of this case, in the design of the deck
       integer :: j
 
       reads_few_states = reads_matrix(observer)
@@ -48,11 +48,11 @@ contains
 
    end function reads_few_states
 
-   !> Observes the K&C quantities of a case at the states where a response reads them.
+   !> Observes the K&C quantities of a case at the states where a response reads a K&C quantity.
    subroutine observe_read_states(readings, case_of, case, observer, result)
-      type(reading_t), intent(in) :: readings(:)           !! of all cases
-      integer, intent(in) :: case_of(:), case              !! the case that each reads; this case
-      type(observer_t), intent(inout) :: observer          !! of this case
+      type(reading_t), intent(in) :: readings(:)           !! readings of all cases
+      integer, intent(in) :: case_of(:), case              !! index of the case of each reading; index of this case
+      type(observer_t), intent(inout) :: observer          !! observer of this case
       type(case_result_t), intent(inout) :: result         !! solved with defers_kandc
       logical :: is_read(size(result%table%values, 2))
       integer :: column, j

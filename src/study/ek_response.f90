@@ -1,8 +1,8 @@
-!> A response of a study: the columns that it requires, the name of its column, and the reason if it cannot be read from a table.
-!> Its value is read by ek_response_value.
+!> A response of a study: the columns that it requires, its column heading, and the reason if it cannot be read from a table. The
+!> value of a response is read by ek_response_value.
 !>
-!> A slope has the units of the report: deg/m over wheel travel, per kN over a force, per 100 N m over a moment,
-!> otherwise the units of its two columns. The column name ends with the unit.
+!> A slope has the units of the report: deg/m over wheel travel, per kN over a force, per 100 N m over a moment, otherwise the units
+!> of its two columns. The column heading ends with the unit.
 module ek_response
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
@@ -26,11 +26,11 @@ module ek_response
 
 contains
 
-   !> Lists the columns from which a response of this kind may be read.
+   !> Adds the columns from which a response may be read to a list of columns. A difference needs no column.
    subroutine needed_columns(asked, kind, names)
       type(response_t), intent(in) :: asked
-      character(*), intent(in) :: kind                          !! of the test of its case, '' for none
-      character(*), intent(inout), allocatable :: names(:)      !! those that are needed are added
+      character(*), intent(in) :: kind                          !! kind of the rig test of its case; '' if the case is not a test
+      character(*), intent(inout), allocatable :: names(:)      !! the list
       type(definition_t), allocatable :: list(:)
       integer :: mark, k
 
@@ -56,7 +56,7 @@ contains
 
    contains
 
-      !> Adds a column name, unless it is already listed.
+      !> Adds a column name, unless the name is already listed.
       subroutine add(name)
          character(*), intent(in) :: name
          if (.not. any(names == name)) names = [character(len(names)) :: names, name]
@@ -72,15 +72,16 @@ contains
 
    end subroutine needed_columns
 
-   !> Checks a response against the table of the first design. `message` gives the reason if the response cannot be read; otherwise
-   !> it is ''.
+   !> Checks a response against the table of its case, in the design of the deck, and prepares its reading. `message` gives the
+   !> reason if the response cannot be read, and is '' otherwise. A response that is only undefined in this design is accepted.
    subroutine prepare_reading(asked, table, factor_unit, reading, message, heads, home, test)
       type(response_t), intent(in) :: asked
       type(table_t), intent(in) :: table
-      character(*), intent(in) :: factor_unit             !! of the column `factor`: 'mm', 'deg', 'N', 'N m', '-'
+      character(*), intent(in) :: factor_unit             !! unit of the swept value: 'mm', 'deg', 'N', 'N m', '-'
       type(reading_t), intent(out) :: reading
       character(:), allocatable, intent(out) :: message
-      character(*), intent(in), optional :: heads(:)      !! all columns of the results, for suggestions; default: of the table
+      character(*), intent(in), optional :: heads(:)      !! all columns of the results, for suggestions; default: the columns of
+                                                          !! the table
       character(*), intent(in), optional :: home          !! folder of the study with its slash, for the file of rms
       type(test_result_t), intent(in), optional :: test   !! the case as a test of the report, for a gradient
       character(name_length), allocatable :: names(:)
@@ -118,7 +119,8 @@ contains
       if (message /= '') message = asked%where//': response '//quoted(asked%name)//': '//message
    end subroutine prepare_reading
 
-   !> Prepares a response that is a difference. Its two responses must already be prepared.
+   !> Prepares a response that is a difference of two responses, which must already be prepared. `message` gives the error if the
+   !> two responses have different units, and is '' otherwise.
    subroutine prepare_difference(asked, first, second, reading, message)
       type(response_t), intent(in) :: asked
       type(reading_t), intent(in) :: first, second
@@ -134,7 +136,8 @@ contains
          quoted(first%head)//' and '//quoted(second%head)//' have different units'
    end subroutine prepare_difference
 
-   !> Finds the columns, the window and the sign of a gradient of the report.
+   !> Finds the columns, the window, the sign and the zero limit of a gradient of the report. `message` gives the reason if the test
+   !> does not have the gradient.
    subroutine find_gradient(test, reading, message)
       type(test_result_t), intent(in), optional :: test
       type(reading_t), intent(inout) :: reading
@@ -174,8 +177,8 @@ contains
       end if
    end subroutine find_gradient
 
-   !> Phrase about the tests that have a gradient: "; this gradient belongs to 'lateral_force': give …". It is '' if no test has the
-   !> gradient.
+   !> Phrase for a message about the tests that have a gradient, or '' if no test has the gradient. Example: "; this gradient
+   !> belongs to 'lateral_force': give …".
    function of_other_test(quantity) result(words)
       character(*), intent(in) :: quantity
       character(:), allocatable :: words
@@ -192,7 +195,7 @@ contains
       if (words /= '') words = '; this gradient belongs to'//words//': give the case of such a test in `case`'
    end function of_other_test
 
-   !> Reads the reference curve of a deviation from a CSV file with the columns `factor` and the column of the response.
+   !> Reads the given curve of a response of kind rms from a CSV file with the columns `factor` and the column of the response.
    subroutine read_curve(asked, home, curve, message)
       type(response_t), intent(in) :: asked
       character(*), intent(in), optional :: home
@@ -220,11 +223,11 @@ contains
       curve = table%values([x, y], :)
    end subroutine read_curve
 
-   !> The reason why a response cannot be read.
+   !> The reason why a response cannot be read from a table, for messages.
    function fault_text(reading, table, fault) result(text)
       type(reading_t), intent(in) :: reading
       type(table_t), intent(in) :: table
-      integer, intent(in) :: fault               !! of read_response, not 0
+      integer, intent(in) :: fault               !! reason code of read_response, not 0
       character(:), allocatable :: text
       logical :: is_near(size(table%values, 2))
       real(wp) :: centre, x(size(table%values, 2))
@@ -275,9 +278,9 @@ contains
       end select
    end function fault_text
 
-   !> Advice on how to have two states in the window.
+   !> Advice on how to obtain two states in the window of a slope.
    pure function remedy(distance, window) result(words)
-      real(wp), intent(in) :: distance(:)      !! of the states from the centre of the window
+      real(wp), intent(in) :: distance(:)      !! distance of each state from the centre of the window
       real(wp), intent(in) :: window
       character(:), allocatable :: words
       real(wp) :: second, unit
@@ -293,8 +296,8 @@ contains
          str(ceiling(second/unit*(1.0_wp - 1.0e-9_wp))*unit, 3)//' or more in the response'
    end function remedy
 
-   !> The default column over which a slope is taken: the wheel travel. With two wheels it is the travel on the side of the column;
-   !> the left travel if the column has no side.
+   !> The default column over which a slope is taken: the wheel travel. With two wheels, the travel on the side of the column is
+   !> used; if the column has no side, the left travel is used.
    pure function usual_over(column, table) result(over)
       character(*), intent(in) :: column
       type(table_t), intent(in) :: table

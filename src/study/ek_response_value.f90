@@ -1,6 +1,6 @@
-!> The value of a response, read from the table of a design: a value at a factor, a slope, a span, an extreme, the deviation from a
-!> given curve, or a gradient of the report. The responses of every design are read here, from the columns that ek_response found in
-!> the table of the first design.
+!> Reads the value of a response from the table of a design. The value is a value at a swept value, a slope, a span, an extreme, the
+!> deviation from a given curve, or a gradient of the report. ek_response has found the columns in the table of the design of the
+!> deck. The responses of every design are read from these columns.
 module ek_response_value
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan, ieee_is_finite
    use ek_kinds, only: wp
@@ -15,13 +15,13 @@ module ek_response_value
    !> A response, prepared for tables with given columns.
    type :: reading_t
       type(response_t) :: asked
-      character(:), allocatable :: over      !! slope: the column over which it is taken
-      character(:), allocatable :: head      !! name of its column, with its unit
-      real(wp) :: size = 1.0_wp              !! factor from the slope in units of the columns
-      real(wp) :: noise = 0.0_wp             !! gradient: change of the column over the window that counts as zero
-      integer :: of = 0                      !! reading to make, one of the constants below
-      integer :: at_column = 0, at_over = 0, at_converged = 0     !! indices of the columns in the table of the first design
-      real(wp), allocatable :: curve(:, :)   !! rms: (factor, wanted value; point)
+      character(:), allocatable :: over      !! slope, gradient: name of the column over which it is taken
+      character(:), allocatable :: head      !! column heading of the response, with the unit
+      real(wp) :: size = 1.0_wp !! slope: factor from the units of the columns to the units of the response; gradient: its sign
+      real(wp) :: noise = 0.0_wp !! gradient: a change of the column over half the window up to this number is rounded to zero
+      integer :: of = 0                      !! kind of response, one of the constants below
+      integer :: at_column = 0, at_over = 0, at_converged = 0     !! indices of the columns in the table of the design of the deck
+      real(wp), allocatable :: curve(:, :)   !! rms: (swept value, given value; point)
    end type reading_t
 
    ! what is read: numbers of of_names
@@ -38,22 +38,22 @@ contains
    subroutine read_response(reading, table, value, fault)
       type(reading_t), intent(in) :: reading
       type(table_t), intent(in) :: table
-      real(wp), intent(out) :: value             !! nan if there is none
-      integer, intent(out) :: fault              !! 0, or for fault_text
+      real(wp), intent(out) :: value             !! NaN if the response has no value
+      integer, intent(out) :: fault              !! 0, or the reason code for fault_text
 
       call read_value(reading, table, value, fault)
       if (fault == no_fault .and. .not. ieee_is_finite(value)) fault = is_undefined
    end subroutine read_response
 
-   !> Reads a response from one table. The kinds are: the value at a factor (linear between states), the least-squares slope in a
-   !> window around the factor, the span or an extreme over all states, or the root mean square of the deviations from a curve at
-   !> its points. The response has no value if the column is undefined at a state that is read. (minval and maxval would ignore such
-   !> a state.)
+   !> Reads a response from one table. A value is read at a swept value, linear between states. A slope is the least-squares slope
+   !> in a window around the swept value. A gradient is the slope that the report computes, over a window around design. A span or
+   !> an extreme is read over all states, and rms is the root mean square of the deviations from a curve at its points.
+   !> The response has no value if the column is undefined at a state that is read. (minval and maxval would ignore such a state.)
    subroutine read_value(reading, table, value, fault)
       type(reading_t), intent(in) :: reading
       type(table_t), intent(in) :: table
-      real(wp), intent(out) :: value             !! nan if there is none
-      integer, intent(out) :: fault              !! 0, or for fault_text
+      real(wp), intent(out) :: value             !! NaN if the response has no value
+      integer, intent(out) :: fault              !! 0, or the reason code for fault_text
       real(wp) :: at, centre, spread, low, high
       integer :: points, undefined
       real(wp) :: x(size(table%values, 2)), y(size(table%values, 2))
@@ -119,18 +119,20 @@ contains
       end select
    end subroutine read_value
 
-   !> Whether a response reads its column at every state. For a gradient this holds: its columns need no compliance matrix.
+   !> Whether a response counts as reading its column at every state: span, min, max and gradient. A gradient reads only the states
+   !> in its window, but its columns need no compliance matrix.
    pure logical function reads_all_states(reading)
       type(reading_t), intent(in) :: reading
       reads_all_states = reading%of == a_span .or. reading%of == a_least .or. reading%of == a_most .or. reading%of == a_gradient
    end function reads_all_states
 
-   !> Marks the states at which read_response reads the column of a response. These are the neighbours of a value, the states in the
-   !> window of a slope, the neighbours of each point of a curve, or all states.
+   !> Marks the states at which read_response reads the column of a response. For a value, these are its neighbours; for a slope,
+   !> the states in its window; for rms, the neighbours of each point of the curve. For all other kinds, all states are marked (see
+   !> reads_all_states).
    pure subroutine mark_states(reading, table, is_read)
       type(reading_t), intent(in) :: reading
       type(table_t), intent(in) :: table         !! swept values, and the column over which a slope is taken
-      logical, intent(inout) :: is_read(:)       !! of each state; marks of other states are unchanged
+      logical, intent(inout) :: is_read(:)       !! whether each state is read; marks of other states are unchanged
       logical :: is_near(size(is_read))
       real(wp) :: x(size(is_read)), centre
       integer :: over, k
@@ -153,7 +155,7 @@ contains
       end if
    end subroutine mark_states
 
-   !> Marks the states from which `between` interpolates the value at x = at.
+   !> Marks the states from which `between` interpolates the value at the swept value x = at.
    pure subroutine mark_neighbours(x, at, is_read)
       real(wp), intent(in) :: x(:), at
       logical, intent(inout) :: is_read(:)
@@ -163,16 +165,17 @@ contains
       if (first > 0) is_read(first:last) = .true.
    end subroutine mark_neighbours
 
-   !> Whether a response is the difference of two other responses. It is then read from no table.
+   !> Whether a response is the difference of two other responses. A difference is not read from a table.
    pure logical function is_difference(reading)
       type(reading_t), intent(in) :: reading
       is_difference = reading%of == a_difference
    end function is_difference
 
-   !> Computes two sums of the least-squares line through the selected points. The slope of the line is along/spread.
+   !> Computes the sums `along` and `spread` of the least-squares line through the selected points. The slope of the line is
+   !> along/spread.
    pure subroutine fit_line(x, y, is_near, along, spread)
       real(wp), contiguous, intent(in) :: x(:), y(:)
-      logical, contiguous, intent(in) :: is_near(:)      !! which points
+      logical, contiguous, intent(in) :: is_near(:)      !! whether each point is selected
       real(wp), intent(out) :: along, spread             !! Σ (x − mean x)(y − mean y), Σ (x − mean x)²
       real(wp) :: mean_x, mean_y
       integer :: k, points
@@ -203,13 +206,13 @@ contains
       is_slope = reading%of == a_slope .or. reading%of == a_gradient
    end function is_slope
 
-   !> Finds the states in the window of a slope.
+   !> Finds the states in the window of a slope. No state is found if the centre of the window has no value.
    pure subroutine find_window(reading, table, over, at, centre, is_near)
       type(reading_t), intent(in) :: reading
       type(table_t), intent(in) :: table
       integer, intent(in) :: over                !! column over which the slope is taken
       real(wp), intent(in) :: at
-      real(wp), intent(out) :: centre            !! of the window
+      real(wp), intent(out) :: centre            !! centre of the window; NaN if it has no value
       logical, intent(out) :: is_near(:)
       real(wp), parameter :: rounding = 1.0e-9_wp
       real(wp) :: x(size(table%values, 2))
@@ -225,13 +228,13 @@ contains
       end do
    end subroutine find_window
 
-   !> Whether each state may lie in the window of a slope although the column over which the slope is taken has no value at the
-   !> state. Such a state has converged, and a state before or after it is in the window.
+   !> Whether each state may lie in the window of a slope although the state has no abscissa: the column over which the slope is
+   !> taken is undefined. The result is .true. for a converged state next to a state in the window.
    pure function unplaced_states(reading, table, over, is_near) result(is_unplaced)
       type(reading_t), intent(in) :: reading
       type(table_t), intent(in) :: table
       integer, intent(in) :: over                !! column over which the slope is taken
-      logical, intent(in) :: is_near(:)          !! of find_window
+      logical, intent(in) :: is_near(:)          !! result of find_window
       logical :: is_unplaced(size(is_near))
       integer :: converged, k, n
 
@@ -246,7 +249,7 @@ contains
       if (converged == 0) is_unplaced = .false.
    end function unplaced_states
 
-   !> A swept value. A value within rounding of an end of the range of x is replaced by this end.
+   !> The swept value `at`, or an end of the range of x if `at` equals this end within rounding.
    pure real(wp) function rounded(at, x)
       real(wp), intent(in) :: at, x(:)
       real(wp) :: low, high
@@ -255,7 +258,7 @@ contains
       rounded = nearest_end(at, low, high)
    end function rounded
 
-   !> Finds the smallest and the largest of some swept values.
+   !> Finds the smallest and the largest swept value.
    pure subroutine find_ends(x, low, high)
       real(wp), intent(in) :: x(:)
       real(wp), intent(out) :: low, high
@@ -269,7 +272,7 @@ contains
       end do
    end subroutine find_ends
 
-   !> A swept value. A value within rounding of `low` or `high` is replaced by this end.
+   !> The swept value `at`, or `low` or `high` if `at` equals this end of the range within rounding.
    pure real(wp) function nearest_end(at, low, high) result(rounded)
       real(wp), intent(in) :: at, low, high
       real(wp), parameter :: rounding = 1.0e-9_wp      ! of the range of a case, after conversion to SI
@@ -279,7 +282,8 @@ contains
       if (abs(at - high) <= rounding*(high - low)) rounded = high
    end function nearest_end
 
-   !> Index of the column with a name. The index `usual`, from the table of the first design, is tried first.
+   !> Index of the column with a name; 0 if the table has no such column. The index `usual`, from the table of the design of the
+   !> deck, is tried first.
    pure integer function place_of_column(table, name, usual) result(place)
       type(table_t), intent(in) :: table
       character(*), intent(in) :: name
@@ -296,7 +300,7 @@ contains
       place = column_index(table, name)
    end function place_of_column
 
-   !> Value of y at x = at, linear between the rows; NaN outside their range.
+   !> Value of y at x = at, linear between the rows; NaN outside the range of x.
    pure real(wp) function between(x, y, at)
       real(wp), intent(in) :: x(:), y(:), at
       integer :: k, next
@@ -311,7 +315,7 @@ contains
    !> Finds the row with x = at, or the two rows between which x = at lies.
    pure subroutine neighbours(x, at, first, last)
       real(wp), intent(in) :: x(:), at
-      integer, intent(out) :: first, last        !! 0: outside the range of x
+      integer, intent(out) :: first, last        !! indices of the rows; 0 outside the range of x
       integer :: k
 
       first = 0

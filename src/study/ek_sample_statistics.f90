@@ -10,7 +10,7 @@ contains
 
    !> Computes the mean and the standard deviation in two passes: s² = Σ (x − x̄)²/(n − 1). The deviation is 0 for one value.
    pure subroutine mean_and_deviation(values, mean, deviation)
-      real(wp), intent(in) :: values(:)            !! at least one
+      real(wp), intent(in) :: values(:)            !! sample of at least one value
       real(wp), intent(out) :: mean, deviation
       integer :: k, n
 
@@ -23,9 +23,9 @@ contains
       deviation = sqrt(deviation/max(1, n - 1))
    end subroutine mean_and_deviation
 
-   !> Standard error of the standard deviation s of a sample of n values: s √((κ − 1)/4n), with the fourth central moment κ s⁴.
+   !> Standard error of the standard deviation s of a sample of n values: s √((κ − 1)/4n), where κ s⁴ is the fourth central moment.
    pure real(wp) function error_of_deviation(values) result(error)
-      real(wp), intent(in) :: values(:)            !! not all equal
+      real(wp), intent(in) :: values(:)            !! sample; the values are not all equal
       real(wp) :: mean, deviation
       integer :: n
 
@@ -37,7 +37,7 @@ contains
    !> Finds the order in which values ascend: values(order(1)) is the smallest. Equal values remain in their order (merge sort).
    pure subroutine ascending_order(values, order)
       real(wp), intent(in) :: values(:)
-      integer, intent(out) :: order(:)             !! as many as values
+      integer, intent(out) :: order(:)             !! indices of the values, in ascending order of the values
       integer, allocatable :: old(:)
       integer :: n, width, first, middle, last, i, j, k
 
@@ -73,9 +73,9 @@ contains
       end do
    end subroutine ascending_order
 
-   !> The value below which a share p of the sample lies: the smallest value at p = 0, the largest at p = 1, and linear between
-   !> neighbours. This is type 7 of R. J. Hyndman, Y. Fan, Sample quantiles in statistical packages, Am. Stat. 50 (1996), and
-   !> numpy's default.
+   !> The value below which a share p of the sample lies: the smallest value at p = 0, the largest at p = 1, and a linear
+   !> interpolation between neighbours. This is type 7 of R. J. Hyndman, Y. Fan, Sample quantiles in statistical packages, Am. Stat.
+   !> 50 (1996), and numpy's default.
    pure real(wp) function percentile(ascending, p) result(value)
       real(wp), intent(in) :: ascending(:)         !! the sample in ascending order, at least one
       real(wp), intent(in) :: p                    !! 0 … 1
@@ -88,16 +88,18 @@ contains
       if (place > k) value = value + (place - k)*(ascending(k + 1) - value)
    end function percentile
 
-   !> Finds the values (by rank in a sample of n) between which the share p of the whole population lies with a confidence, for any
-   !> distribution: the number of values below it is binomial, P(lower ≤ B < upper) = Σ C(n,b) pᵇ(1 − p)ⁿ⁻ᵇ.
+   !> Finds an interval that contains the percentile p of the whole population with a confidence, for any distribution. The ends of
+   !> the interval are given as ranks in a sample of n values. The number B of sample values below the percentile is binomial:
+   !> P(lower ≤ B < upper) = Σ C(n,b) pᵇ(1 − p)ⁿ⁻ᵇ.
    !>
-   !> The ranks leave out at most (1 − confidence)/2 on either side. Where the sample is too small for that, they are its ends, and
-   !> the coverage is below the confidence. Source: H. A. David, H. N. Nagaraja, Order statistics, 2003, section 7.1.
+   !> On either side, the probability outside the interval is at most (1 − confidence)/2. If the sample is too small for this limit,
+   !> the interval reaches to the end of the sample, and the coverage is below the confidence. Source: H. A. David, H. N. Nagaraja,
+   !> Order statistics, 2003, section 7.1.
    !>
    !> Equation (D.13) of docs/theory/sampling.md.
    pure subroutine percentile_interval(n, p, confidence, lower, upper, coverage)
       integer, intent(in) :: n
-      real(wp), intent(in) :: p, confidence        !! in (0, 1)
+      real(wp), intent(in) :: p, confidence        !! share and confidence, both between 0 and 1
       integer, intent(out) :: lower, upper         !! ranks, 1 … n
       real(wp), intent(out) :: coverage            !! probability that the interval contains the percentile
       real(wp) :: below, tail

@@ -1,11 +1,12 @@
-!> Samplers: the designs of a study by number, x(design), a pure function of sampler and design number.
+!> Samplers: the designs of a study by number. The factor values x(design) are a pure function of sampler and design number.
 !>
-!> Designs may be computed in any order and by any number of workers. u below is a number in (0, 1) that becomes a value by the
-!> quantile function of the factor (ek_distribution), t a fraction of its range (`ends_of`, or its list of values).
+!> Designs may be computed in any order and by any number of workers. Below, u is a number in (0, 1) that the quantile function of
+!> the factor converts to a value (ek_distribution). The number t is a fraction of the range of the factor (`ends_of`, or its list
+!> of values).
 !>
 !> | kind | designs | x |
 !> |---|---|---|
-!> | grid | product of the levels | all combinations, first factor slowest; t = 0, 1/(l − 1), …, 1 |
+!> | grid | product of the levels | all combinations, first factor slowest; t = 0, 1/(l − 1), …, 1 with l levels |
 !> | one_at_a_time | 1 + sum of the levels | nominal; then each factor through its levels, the others nominal (tornado) |
 !> | list | rows | rows that were given |
 !> | latin_hypercube | n | u of each factor once in each of n equal intervals (McKay, Beckman, Conover 1979) |
@@ -15,13 +16,13 @@
 !> | morris | n (k + 1) | n trajectories (ek_trajectory), on which each factor changes once by p/2 of its p levels (Morris 1991) |
 !> | tolerance | n | designs of monte_carlo, in addition to the moments by derivatives (ek_tolerance) |
 !>
-!> A factor with `values` has only these values: as levels, or at random each with the same probability. Correlations (ek_copula)
-!> apply to latin_hypercube, sobol and monte_carlo. In a latin_hypercube the interval of each design is computed once for all
-!> designs (ek_rank_order).
+!> Here k is the number of factors. A factor with `values` has only these values: as levels, or at random each with the same
+!> probability. Correlations (ek_copula) apply to latin_hypercube, sobol and monte_carlo. In a latin_hypercube with correlations,
+!> the interval of each design is computed once for all designs (ek_rank_order).
 !>
-!> u and t are the same to the last bit on every machine; x is as exact as the machine's logarithm.
+!> u and t are identical to the last bit on every machine; x is as exact as the machine's logarithm.
 !>
-!> To add a kind: its number and row in ek_sampler_kind, and here its case in `count_designs` and in `sample`.
+!> To add a kind: add its number and row in ek_sampler_kind, and its case in `count_designs` and in `sample`.
 module ek_sampler
    use ek_kinds, only: wp, i8
    use ek_contract, only: are_checked, require
@@ -45,20 +46,20 @@ module ek_sampler
       private
       type(sampler_settings_t) :: settings
       type(factor_t), allocatable :: factors(:)
-      real(wp), allocatable :: low(:), high(:)               !! range of a factor without values
-      integer(i8), allocatable :: levels(:)                  !! of each factor
+      real(wp), allocatable :: low(:), high(:)               !! range of each factor without values
+      integer(i8), allocatable :: levels(:)                  !! number of levels of each factor
       integer(i8) :: designs = 0
-      type(permutation_t), allocatable :: permutations(:)    !! latin_hypercube: of the intervals of each factor
+      type(permutation_t), allocatable :: permutations(:)    !! latin_hypercube: permutation of the intervals of each factor
       type(sobol_t) :: points
       type(copula_t) :: copula
       logical :: is_correlated = .false.
-      integer, allocatable :: intervals(:, :)                !! latin_hypercube: of the correlated factors, see ek_rank_order
-      integer, allocatable :: position(:)                    !! of each factor in it, 0: it has no correlation
+      integer, allocatable :: intervals(:, :) !! latin_hypercube: intervals of the correlated factors, see ek_rank_order
+      integer, allocatable :: position(:) !! position of each factor in `intervals`; 0: the factor has no correlation
    end type sampler_t
 
 contains
 
-   !> Creates a sampler. Every error in the settings of a study is returned (exit_deck).
+   !> Creates a sampler. Settings that are not legal are an error (exit_deck).
    pure subroutine new_sampler(settings, factors, sampler, error)
       type(sampler_settings_t), intent(in) :: settings
       type(factor_t), intent(in) :: factors(:)
@@ -102,7 +103,7 @@ contains
       sampler%position = sampler%position*[(sum(sampler%position(:j)), j=1, size(factors))]
    end subroutine new_sampler
 
-   !> Counts the designs.
+   !> Counts the designs of a sampler. More than 2⁴⁰ designs of a grid are an error.
    pure subroutine count_designs(sampler, error)
       type(sampler_t), intent(inout) :: sampler
       type(error_t), allocatable, intent(out) :: error
@@ -143,14 +144,14 @@ contains
       designs = sampler%designs
    end function designs_of
 
-   !> The number of factors.
+   !> The number of factors of a sampler.
    pure integer function factors_of(sampler) result(factors)
       type(sampler_t), intent(in) :: sampler
 
       factors = size(sampler%factors)
    end function factors_of
 
-   !> Whether the sampler is of this kind.
+   !> Whether a sampler is of a kind.
    pure logical function is_kind(sampler, kind)
       type(sampler_t), intent(in) :: sampler
       integer, intent(in) :: kind                  !! one of *_kind
@@ -158,11 +159,11 @@ contains
       is_kind = sampler%settings%kind == kind
    end function is_kind
 
-   !> Computes the factors of a design. Nothing is allocated.
+   !> Computes the factor values of a design. No memory is allocated.
    pure subroutine sample(sampler, design, x)
       type(sampler_t), intent(in) :: sampler
       integer(i8), intent(in) :: design            !! 1 … designs_of
-      real(wp), intent(out) :: x(:)                !! one number per factor
+      real(wp), intent(out) :: x(:)                !! one value per factor
       type(trajectory_t) :: trajectory
       integer(i8) :: rest
       integer :: j, k
@@ -199,7 +200,7 @@ contains
       end select
    end subroutine sample
 
-   !> Computes the factors of a design, for the kinds of samplers that start from numbers u in (0, 1).
+   !> Computes the factor values of a design, for the kinds of samplers that start from numbers u in (0, 1).
    pure subroutine sample_at_random(sampler, design, x)
       type(sampler_t), intent(in) :: sampler
       integer(i8), intent(in) :: design
@@ -232,7 +233,7 @@ contains
       call take_quantiles(sampler, x)
    end subroutine sample_at_random
 
-   !> The interval, 0 … n − 1, in which a factor lies in a design of a latin hypercube.
+   !> The interval, 0 … n − 1, of a factor in a design of a latin hypercube.
    pure integer(i8) function interval_of(sampler, j, design) result(i)
       type(sampler_t), intent(in) :: sampler
       integer, intent(in) :: j
@@ -259,7 +260,8 @@ contains
       u = (real(i, wp) + max(margin, min(1.0_wp - margin, fraction)))/real(n, wp)
    end function point_in_interval
 
-   !> Converts numbers u in (0, 1) to values of the factors, in place: x_j = F_j⁻¹(u_j), or x_j = F_j⁻¹(Φ(Σ L_ji Φ⁻¹(u_i))).
+   !> Converts numbers u in (0, 1) to values of the factors, in place: x_j = F_j⁻¹(u_j), with correlations x_j = F_j⁻¹(Φ(Σ L_ji
+   !> Φ⁻¹(u_i))). The sum is omitted for a latin hypercube, whose intervals are already ordered.
    pure subroutine take_quantiles(sampler, x)
       type(sampler_t), intent(in) :: sampler
       real(wp), intent(inout) :: x(:)
@@ -287,8 +289,8 @@ contains
       end do
    end subroutine take_quantiles
 
-   !> The value of level i of a factor. Levels are evenly spaced over the range, or taken from the list of values (the nearest entry
-   !> if the list has another length).
+   !> The value of level i of a factor. Levels are evenly spaced over the range, or taken from the list of values: the nearest
+   !> entry, if the number of levels differs from the length of the list.
    pure real(wp) function level_of(sampler, j, i, levels) result(x)
       type(sampler_t), intent(in) :: sampler
       integer, intent(in) :: j
@@ -311,7 +313,7 @@ contains
    end function is_ordered
 
    !> Index of the only factor that differs: from the nominal design (one_at_a_time), from the previous design (morris), or from A
-   !> (saltelli). 0 for the nominal design, the start of a trajectory, A, B, and all designs of other kinds.
+   !> (saltelli). The result is 0 for the nominal design, the start of a trajectory, A, B, and all designs of other kinds.
    pure integer function changed_factor(sampler, design) result(factor)
       type(sampler_t), intent(in) :: sampler
       integer(i8), intent(in) :: design
@@ -337,10 +339,10 @@ contains
       end select
    end function changed_factor
 
-   !> The change of the factor from the previous design, as a fraction of its range: ±p/(2(p − 1)).
+   !> The change of the factor from the previous design, as a fraction of its range: ±p/(2(p − 1)), with p levels.
    pure real(wp) function morris_change(sampler, design, factor) result(change)
       type(sampler_t), intent(in) :: sampler
-      integer(i8), intent(in) :: design            !! not the first of its trajectory
+      integer(i8), intent(in) :: design            !! index of the design, which is not the first of its trajectory
       integer, intent(in) :: factor                !! changed_factor of this design
       type(trajectory_t) :: trajectory
 

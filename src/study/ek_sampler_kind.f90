@@ -1,4 +1,5 @@
-!> The kinds of samplers: their names in a study and the keys that each requires. ek_sampler describes and computes them.
+!> The kinds of samplers: their names in a study and the keys that each kind uses. ek_sampler describes and computes the designs of
+!> each kind.
 module ek_sampler_kind
    implicit none(type, external)
    private
@@ -9,11 +10,11 @@ module ek_sampler_kind
    integer, parameter :: grid_kind = 1, one_at_a_time_kind = 2, list_kind = 3, latin_hypercube_kind = 4, sobol_kind = 5, &
       saltelli_kind = 6, monte_carlo_kind = 7, morris_kind = 8, tolerance_kind = 9
 
-   !> The settings that a study may give for a kind.
+   !> A kind of sampler, and the settings that a study may give for this kind.
    type :: sampler_kind_t
       character(15) :: name
-      logical :: has_size          !! n: designs, base points or trajectories
-      logical :: has_levels        !! levels of a factor without values
+      logical :: has_size          !! n: number of designs, base points or trajectories
+      logical :: has_levels        !! number of levels of a factor without values
       logical :: has_seed
       logical :: has_correlations
    end type sampler_kind_t

@@ -13,27 +13,27 @@ module ek_sampler_settings
    ! what one seed is used for (ek_philox)
    integer, parameter, public :: design_stream = 0, permutation_stream = 1, scramble_stream = 2, trajectory_stream = 3
 
-   !> One number, or a group of numbers that change together.
+   !> A factor: one number, or a group of numbers that change together.
    type :: factor_t
       type(distribution_t) :: distribution
-      real(wp) :: nominal = 0.0_wp             !! of one_at_a_time; mean_of(distribution) unless the study gives it
-      real(wp), allocatable :: values(:)       !! if allocated, the only values, and `distribution` is not used
+      real(wp) :: nominal = 0.0_wp             !! nominal value for one_at_a_time: mean_of(distribution) unless the study gives it
+      real(wp), allocatable :: values(:)       !! if allocated, the only values; `distribution` is then not used
    end type factor_t
 
    type :: sampler_settings_t
       integer :: kind = grid_kind
-      integer(i8) :: size = 0                  !! n
-      integer :: levels = 2                    !! of a factor without values: ends of its range, and evenly between; even for morris
+      integer(i8) :: size = 0                  !! n: number of designs, base points or trajectories
+      integer :: levels = 2 !! number of levels of a factor without values, evenly spaced over its range; an even number for morris
       integer(i8) :: seed = 1
-      logical :: is_scrambled = .true.         !! sobol, saltelli: scrambled by the seed
-      real(wp), allocatable :: rows(:, :)      !! (factor, design) of a list
-      integer, allocatable :: pairs(:, :)      !! (2, m): numbers of two factors
-      real(wp), allocatable :: correlations(:) !! (m)
+      logical :: is_scrambled = .true.         !! sobol, saltelli: the points are scrambled by the seed
+      real(wp), allocatable :: rows(:, :)      !! (factor, design): the designs of a list
+      integer, allocatable :: pairs(:, :)      !! (2, m): indices of two factors
+      real(wp), allocatable :: correlations(:) !! (m): correlation of each pair
    end type sampler_settings_t
 
 contains
 
-   !> Checks the settings of a sampler.
+   !> Checks the settings of a sampler and its lists of values. Settings that the kind does not allow are errors.
    pure subroutine check_settings(settings, factors, error)
       type(sampler_settings_t), intent(in) :: settings
       type(factor_t), intent(in) :: factors(:)

@@ -1,7 +1,8 @@
 !> Sensitivity of a response to the factors of a study: Sobol indices, Morris' elementary effects, the bars of a tornado.
 !>
-!> `responses` holds one number per design, in the order of the design numbers of the sampler. A design without a response (failed:
-!> NaN or infinite) omits the row, effect or bar that needs it; `used` counts the remaining rows.
+!> `responses` contains one number per design, in the order of the design numbers of the sampler. A failed design has the response
+!> NaN or infinite. The design is omitted, and so is each row or effect that needs its response. `used` counts the remaining rows,
+!> effects or designs.
 module ek_sensitivity
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan, ieee_is_finite
    use ek_kinds, only: wp, i8
@@ -13,48 +14,51 @@ module ek_sensitivity
    private
    public :: sobol_indices_t, sobol_indices, saltelli_block, morris_effects_t, morris_effects, tornado_t, tornado
 
-   real(wp), parameter :: normal_95 = 1.959963984540054_wp      !! standard errors in half of a 95 % interval
+   real(wp), parameter :: normal_95 = 1.959963984540054_wp      !! number of standard errors in half of a 95 % interval
 
-   !> Shares of the variance of a response. Not a number where fewer than two rows are left, or the response is constant.
+   !> Shares of the variance of a response due to each factor. The indices are NaN if fewer than two rows remain, or if the response
+   !> is constant.
    type :: sobol_indices_t
-      integer :: used = 0                                    !! rows: base points with all k + 2 responses
-      real(wp), allocatable :: first(:), total(:)            !! index of each factor
-      real(wp), allocatable :: first_error(:), total_error(:)   !! half-width of the 95 % confidence interval
+      integer :: used = 0                                    !! number of rows: base points with all responses of their block
+      real(wp), allocatable :: first(:), total(:)            !! first-order and total index of each factor
+      real(wp), allocatable :: first_error(:), total_error(:)   !! half-width of the 95 % confidence interval of each index
    end type sobol_indices_t
 
-   !> Change of the response per full range of a factor, by trajectory.
+   !> Statistics of the elementary effects of each factor: the change of the response per full range of the factor, one effect per
+   !> trajectory.
    type :: morris_effects_t
-      integer, allocatable :: used(:)            !! effects of each factor
-      real(wp), allocatable :: mean(:)           !! μ
+      integer, allocatable :: used(:)            !! number of effects of each factor
+      real(wp), allocatable :: mean(:)           !! μ, in the unit of the response
       real(wp), allocatable :: mean_size(:)      !! μ*, mean of the absolute values
-      real(wp), allocatable :: deviation(:)      !! σ, with n − 1: 0 for a factor that acts linearly and alone
+      real(wp), allocatable :: deviation(:)      !! σ, with n − 1: 0 for a factor that acts linearly and without interactions
    end type morris_effects_t
 
-   !> The smallest and the largest response when one factor changes alone, the nominal design included.
+   !> The smallest and the largest response when one factor changes alone. The nominal design is included.
    type :: tornado_t
       real(wp) :: nominal = 0.0_wp
-      integer, allocatable :: used(:)            !! designs of each factor with a response
+      integer, allocatable :: used(:)            !! number of designs of each factor with a response, without the nominal design
       real(wp), allocatable :: lowest(:), highest(:)
    end type tornado_t
 
 contains
 
-   !> Computes first-order and total indices from the responses of a Saltelli design: of the sampler, or a list in such an order
-   !> (see saltelli_block). With f_A, f_B, f_i the responses of row r in the blocks
-   !> A, B and AB_i (A with factor i from B), less the mean of all, and V the variance of f_A and f_B together:
+   !> Computes first-order and total indices from the responses of a Saltelli design. The designs come from a sampler, or from a
+   !> list in the order of the sampler (see saltelli_block). Here f_A, f_B and f_i are the responses of a row in the blocks A, B and
+   !> AB_i (A with factor i from B), less the mean of all responses. V is the variance of f_A and f_B together:
    !>
    !>     S_i = ⟨f_B (f_i − f_A)⟩ / V           Saltelli et al., Comput. Phys. Commun. 181 (2010) 259–270, table 2 (b)
-   !>     T_i = ⟨(f_A − f_i)²⟩ / (2 V)          Jansen, Comput. Phys. Commun. 117 (1999) 35–43; table 2 (f) of the former
+   !>     T_i = ⟨(f_A − f_i)²⟩ / (2 V)          Jansen, Comput. Phys. Commun. 117 (1999) 35–43; Saltelli et al., table 2 (f)
    !>
-   !> Confidence by the jackknife: with θ_r the index without row r, the standard error is √((n − 1)/n Σ (θ_r − θ̄)²) (B. Efron,
-   !> C. Stein, Ann. Stat. 9 (1981) 586–596). For Sobol' points, which are more even than random ones, the interval is too wide.
+   !> The confidence follows from the jackknife. With θ_r the index without row r and n rows, the standard error is √((n − 1)/n Σ
+   !> (θ_r − θ̄)²) (B. Efron, C. Stein, Ann. Stat. 9 (1981) 586–596). For Sobol' points, which are more even than random points, the
+   !> interval is too wide.
    !>
    !> Equation (D.10) of docs/theory/sampling.md.
    subroutine sobol_indices(factors, responses, indices, block)
-      integer, intent(in) :: factors                         !! k
+      integer, intent(in) :: factors                         !! k: number of factors
       real(wp), intent(in) :: responses(:)
       type(sobol_indices_t), intent(out) :: indices
-      integer, intent(in), optional :: block                 !! of saltelli_block; default k + 2
+      integer, intent(in), optional :: block                 !! number of responses per row, from saltelli_block; default k + 2
       real(wp), allocatable :: f(:, :)                       ! (0: A, i: AB_i, k + 1: B; row)
       real(wp) :: nan
       real(wp) :: mean                                       ! of all responses of the rows
@@ -92,9 +96,9 @@ contains
       end do
    end subroutine sobol_indices
 
-   !> The number of designs per row of a Saltelli design, as SALib writes it: k + 2 without second order (A, AB₁ … AB_k, B), 2 k + 2
-   !> with second order (A, AB₁ … AB_k, BA₁ … BA_k, B); 0 if the designs are not a Saltelli design. AB_i is A with factor i from B;
-   !> BA_i is B with factor i from A.
+   !> The number of designs per row of a Saltelli design (written by a sampler of elastokin or by SALib). The number is k + 2
+   !> without second order (A, AB₁ … AB_k, B), and 2 k + 2 with second order (A, AB₁ … AB_k, BA₁ … BA_k, B). The result is 0 if the
+   !> designs are not a Saltelli design of two or more rows. AB_i is A with factor i from B; BA_i is B with factor i from A.
    pure integer function saltelli_block(x) result(block)
       real(wp), intent(in) :: x(:, :)                        !! (factor, design)
       integer :: k, k2, r, i
@@ -135,8 +139,8 @@ contains
 
    end function saltelli_block
 
-   !> Computes the index ⟨share⟩/V with V = ⟨a² + b²⟩/2 − ⟨a + b⟩²/4, and its confidence by the jackknife. Leaves index and error
-   !> unchanged if V = 0.
+   !> Computes the index ⟨share⟩/V with V = ⟨a² + b²⟩/2 − ⟨a + b⟩²/4, and its confidence by the jackknife. If V = 0, index and error
+   !> are unchanged.
    !>
    !> Equation (D.11) of docs/theory/sampling.md.
    pure subroutine estimate(a, b, share, index, error)
@@ -173,7 +177,7 @@ contains
 
    end subroutine estimate
 
-   !> The variance V of n rows from Σ(a² + b²) and Σ(a + b).
+   !> The variance V of the responses a and b of n rows, from Σ(a² + b²) and Σ(a + b).
    pure real(wp) function variance(sums, n)
       real(wp), intent(in) :: sums(3)
       integer, intent(in) :: n
@@ -181,17 +185,17 @@ contains
       variance = sums(2)/(2.0_wp*n) - (sums(3)/(2.0_wp*n))**2
    end function variance
 
-   !> Computes elementary effects: the response changes by d_r = (f(x + Δ range_i e_i) − f(x))/Δ at a step of factor i on
-   !> trajectory r;
+   !> Computes statistics of the elementary effects. Each step of factor i on a trajectory changes the factor by Δ of its range, and
+   !> gives one effect d = (f(x + Δ range_i e_i) − f(x))/Δ:
    !>
    !>     μ_i = ⟨d⟩,   μ*_i = ⟨|d|⟩,   σ_i² = Σ (d − μ_i)²/(n − 1)
    !>
    !> Sources: M. D. Morris, Technometrics 33 (1991) 161–174; μ*: F. Campolongo, J. Cariboni, A. Saltelli, Environ. Model. Softw. 22
-   !> (2007) 1509–1518. Not a number for a factor without effects.
+   !> (2007) 1509–1518. The statistics of a factor without effects are NaN.
    !>
    !> Equation (D.12) of docs/theory/sampling.md.
    subroutine morris_effects(sampler, responses, effects)
-      type(sampler_t), intent(in) :: sampler                 !! of kind morris
+      type(sampler_t), intent(in) :: sampler                 !! sampler of kind morris
       real(wp), intent(in) :: responses(:)
       type(morris_effects_t), intent(out) :: effects
       real(wp), allocatable :: d(:, :)                       ! (effect, factor)
@@ -223,7 +227,7 @@ contains
 
    !> Finds the range of the response for each factor when only this factor changes.
    subroutine tornado(sampler, responses, bars)
-      type(sampler_t), intent(in) :: sampler                 !! of kind one_at_a_time
+      type(sampler_t), intent(in) :: sampler                 !! sampler of kind one_at_a_time
       real(wp), intent(in) :: responses(:)
       type(tornado_t), intent(out) :: bars
       integer(i8) :: design

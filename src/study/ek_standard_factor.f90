@@ -1,5 +1,5 @@
-!> A factor as a number u of mean 0 and standard deviation 1, in which a response is expanded: x = center + scale u, or x =
-!> exp(center + scale u) for a log-normal factor.
+!> A factor as a number u of mean 0 and standard deviation 1, in which a response is expanded. The factor is x = center + scale u,
+!> or x = exp(center + scale u) if it is log-normal.
 module ek_standard_factor
    use ek_kinds, only: wp
    use ek_distribution, only: integration_points, acts_on_logarithm, ends_of
@@ -10,9 +10,9 @@ module ek_standard_factor
 
    type :: standard_factor_t
       logical :: is_logarithmic = .false.
-      real(wp) :: center = 0.0_wp, scale = 1.0_wp          !! of x, or of ln x; unit of the factor
-      real(wp) :: moments(6) = [0.0_wp, 1.0_wp, 0.0_wp, 3.0_wp, 0.0_wp, 15.0_wp]      !! means of u … u⁶
-      real(wp) :: ends(2) = [-3.0_wp, 3.0_wp]              !! u at the ends of the range that a tornado shows
+      real(wp) :: center = 0.0_wp, scale = 1.0_wp !! mean and standard deviation of x, or of ln x if log-normal; unit of the factor
+      real(wp) :: moments(6) = [0.0_wp, 1.0_wp, 0.0_wp, 3.0_wp, 0.0_wp, 15.0_wp]      !! means of u, u², …, u⁶
+      real(wp) :: ends(2) = [-3.0_wp, 3.0_wp]              !! u at the ends of the range of the factor (ends_of)
    end type standard_factor_t
 
 contains
@@ -54,7 +54,7 @@ contains
       if (standard%is_logarithmic) x = exp(x)
    end function value_at
 
-   !> The derivative dx/du of a factor with respect to its standard variable.
+   !> The derivative dx/du of a factor with respect to its standard variable u, in the unit of the factor.
    pure real(wp) function slope_at(standard, u) result(slope)
       type(standard_factor_t), intent(in) :: standard
       real(wp), intent(in) :: u

@@ -1,8 +1,8 @@
-!> Step-size convergence: error and time of each method against the number of increments.
+!> Step-size convergence: error and time of each method as a function of the number of increments.
 !>
-!> For every N the case is run from design to one of its ends in N increments. Two errors are reported: |Φ| of
-!> (31), the violation of the joint constraints, AND the distance to the equilibrium, which is not contained in
-!> (31).
+!> For every number N of increments, the case is run from design to one of its ends in N increments. Two kinds of errors are
+!> reported. |Φ| is the violation of the joint constraints, equation (31) of the paper by Kang. The deviations from the equilibrium
+!> are reported in addition, because |Φ| does not contain them.
 module ek_step_size
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp, degree, millimetre
@@ -33,8 +33,9 @@ module ek_step_size
 
 contains
 
-   !> Writes the study as CSV: column `method`, then the columns listed above, with one row for each method and N. Each row
-   !> is passed to `writer` as soon as it is available.
+   !> Writes the study as CSV: column `method`, then the columns named in `columns`, with one row for each method and N. If a method
+   !> does not reach the end with N increments, the numbers of the row are NaN and `reached` is 0. Each row is also passed to
+   !> `writer` as soon as the row is available.
    subroutine step_size_text(study, deck, text, error, writer)
       type(study_t), intent(in) :: study
       type(deck_t), intent(in) :: deck
@@ -104,7 +105,8 @@ contains
 
    end subroutine step_size_text
 
-   !> Runs a case to its end; returns the attitude of the first wheel, |Φ|, and the shortest time of a few runs.
+   !> Runs a case to its end a few times. Returns the attitude of the first wheel and |Φ| at the end, and the shortest time of a run
+   !> [s]. If the end is not reached, attitude and |Φ| are not computed.
    subroutine walk_once(suspension, case, kkt, attitude, closure, time, is_reached)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case

@@ -1,5 +1,6 @@
-!> The results of a large study as one NetCDF-4 file. This module decides whether to write the file, describes it, and calls the
-!> program elastokin-netcdf. This program is in the same folder as elastokin if elastokin was built with NetCDF-Fortran.
+!> The results of a large study as one NetCDF-4 file, the store. This module decides whether to write the store, describes the
+!> store, and calls the program elastokin-netcdf. If elastokin was built with NetCDF-Fortran, elastokin-netcdf is in the folder of
+!> elastokin.
 module ek_store
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t, fail, exit_file
@@ -21,26 +22,27 @@ module ek_store
    private
    public :: store_texts_t, keep_texts, wants_store, choose_store, write_store, read_store, store_name
 
-   integer, parameter :: many_designs = 10000     !! more designs are stored in NetCDF by default
-   integer, parameter :: time_limit = 86400       !! s, for the helper; a million designs take a minute
-   integer, parameter :: room = 2000000           !! bytes that must fit on the disk, or it is full
-   integer, parameter :: longest_log = 2000       !! characters of the helper's message
+   integer, parameter :: many_designs = 10000     !! number of designs above which the results are stored in NetCDF by default
+   integer, parameter :: time_limit = 86400       !! limit for the helper program [s]; a million designs take a minute
+   integer, parameter :: room = 2000000           !! number of bytes for which a full disk is tested
+   integer, parameter :: longest_log = 2000       !! largest number of characters of the helper's message
    character(*), parameter :: helper_name = 'elastokin-netcdf', log_name = 'netcdf.log', &
       ended_with = 'it ended with status '         ! without a message
 
    !> Strings that are written to the store.
    type :: store_texts_t
-      character(:), allocatable :: study, deck    !! the files
-      character(:), allocatable :: changes        !! --set, one per line
-      character(:), allocatable :: swept, swept_unit     !! name of the swept value: 'wheel travel', 'mm'; unit '-': none
+      character(:), allocatable :: study, deck    !! contents of the study file and of the deck file
+      character(:), allocatable :: changes        !! settings of --set, one per line
+      character(:), allocatable :: swept, swept_unit     !! name of the swept value: 'wheel travel', 'mm'; '-' if it has no unit
    end type store_texts_t
 
 contains
 
-   !> Stores the contents of the study file and the deck file as they are now; '' for a path that is not a file.
+   !> Stores the present contents of the study file and of the deck file, and the settings of --set. The content is '' for a path
+   !> that is not a file.
    subroutine keep_texts(study, deck, changes, texts)
       character(*), intent(in) :: study, deck              !! paths
-      type(message_list_t), intent(in) :: changes          !! --set
+      type(message_list_t), intent(in) :: changes          !! settings of --set
       type(store_texts_t), intent(out) :: texts
       type(error_t), allocatable :: unread
 
@@ -49,28 +51,29 @@ contains
       texts%changes = changes%text()
    end subroutine keep_texts
 
-   !> The file name of the store.
+   !> The file name of the store of a study.
    pure function store_name(study) result(name)
       type(study_t), intent(in) :: study
       character(:), allocatable :: name
       name = study%name//'.nc'
    end function store_name
 
-   !> Whether a study stores its results in NetCDF if the helper program exists: `format` is 'netcdf', or `format` is not given and
-   !> the study has many designs.
+   !> Whether a study stores its results in NetCDF if the helper program exists: the study gives format = 'netcdf', or gives no
+   !> format and has many designs.
    pure logical function wants_store(study, designs)
       type(study_t), intent(in) :: study
       integer, intent(in) :: designs
       wants_store = study%format == 'netcdf' .or. (study%format == '' .and. designs > many_designs)
    end function wants_store
 
-   !> Decides whether the results are written to a store. They are if the study requests a store, or by default for many designs if
-   !> the helper program exists.
+   !> Decides whether the results are written to a store. The helper program must exist, and the study must request a store, or have
+   !> many designs and give no format.
    subroutine choose_store(study, plan, is_wanted, error)
       type(study_t), intent(in) :: study
       type(study_plan_t), intent(in) :: plan
       logical, intent(out) :: is_wanted
-      type(error_t), allocatable, intent(out) :: error     !! exit_file: the study wants a store, and there is no helper
+      type(error_t), allocatable, intent(out) :: error     !! exit_file: the study requests a store, but the helper program does not
+                                                           !! exist
       logical :: has_helper
 
       is_wanted = wants_store(study, plan%designs)
@@ -123,11 +126,11 @@ contains
       call remove_file(join_path(parts, description_name))
    end subroutine write_store
 
-   !> Reads a store and writes its tables as CSV into a folder, with the curves of every n-th design.
+   !> Reads a store and writes its tables as CSV into a folder. The table of states contains the curves of every n-th design.
    subroutine read_store(study, out, every, folder, error)
       type(study_t), intent(in) :: study
       character(*), intent(in) :: out                      !! folder of the store
-      integer, intent(in) :: every
+      integer, intent(in) :: every                         !! n
       character(*), intent(in) :: folder
       type(error_t), allocatable, intent(out) :: error     !! exit_file
       type(message_list_t) :: words
@@ -153,8 +156,8 @@ contains
    !> lock.
    subroutine run_helper(arguments, folder, trouble)
       type(message_list_t), intent(in) :: arguments
-      character(*), intent(in) :: folder                   !! for its messages
-      character(:), allocatable, intent(out) :: trouble    !! '' if all is written
+      character(*), intent(in) :: folder                   !! folder for its messages
+      character(:), allocatable, intent(out) :: trouble    !! '' if the helper program succeeded
       type(message_list_t) :: words
       type(error_t), allocatable :: unread, full
       character(:), allocatable :: log
@@ -178,7 +181,7 @@ contains
       if (allocated(full)) trouble = full%message(index(full%message, ': ', back=.true.) + 2:)
    end subroutine run_helper
 
-   !> Creates the description of the study for the helper program.
+   !> Describes a study for the helper program: sizes, names, units and strings.
    subroutine describe(study, plan, texts, counts, store)
       type(study_t), intent(in) :: study
       type(study_plan_t), intent(in) :: plan
@@ -231,7 +234,8 @@ contains
       end do
    end subroutine describe
 
-   !> Begins variable k with its name. A name that is already used, or that is reserved for a dimension, gets its role as a suffix.
+   !> Begins variable k with its name. If the name is already used, or reserved for a dimension or another variable, the role is
+   !> appended to the name.
    subroutine begin_variable(store, k, head, role)
       type(store_t), intent(inout) :: store
       integer, intent(in) :: k
@@ -258,7 +262,7 @@ contains
 
    subroutine describe_factor(factor, unit, variable)
       type(study_factor_t), intent(in) :: factor
-      character(*), intent(in) :: unit                     !! '' for none
+      character(*), intent(in) :: unit                     !! '' if the factor has no unit
       type(store_variable_t), intent(inout) :: variable
       character(:), allocatable :: paths, long_name
       integer :: k
@@ -331,7 +335,7 @@ contains
       if (quantity%sign /= '') call variable%attributes%add('comment', trim(quantity%sign))
    end subroutine describe_column
 
-   !> The unit at the end of a column name; '1' if the name has no unit.
+   !> The unit at the end of a column heading; '1' if the heading has no unit.
    function units_of(name) result(text)
       character(*), intent(in) :: name
       character(:), allocatable :: text

@@ -1,7 +1,8 @@
 !> The input of the program elastokin-netcdf, which writes the store of a study from its chunks: sizes, names, units, strings.
 !>
-!> elastokin writes the description into the folder of the chunks; the file is a list of records, each a line with word, name and
-!> length, then so many characters and a line end. A description of another version is rejected.
+!> elastokin writes the description into the folder of the chunks. The file is a list of records. The first line of a record gives
+!> word, name and length; then follow as many characters as the length, and a line end. A description of another version is
+!> rejected.
 module ek_store_description
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
@@ -15,7 +16,7 @@ module ek_store_description
    public :: store_t, store_variable_t, attributes_t, write_description, read_description, description_name, keeps, factor_role, &
       response_role, curve_role, text_kind, whole_kind, real_kind
 
-   character(*), parameter :: description_name = 'store.txt'       !! in the folder of the chunks
+   character(*), parameter :: description_name = 'store.txt'       !! name of the file, in the folder of the chunks
    character(*), parameter :: mark = 'elastokin store 1, version '//version
    character(*), parameter :: line_end = new_line('a')
 
@@ -23,7 +24,7 @@ module ek_store_description
    character(*), parameter :: factor_role = 'factor', response_role = 'response', curve_role = 'curve'
    character(*), parameter :: text_kind = 'text', whole_kind = 'whole', real_kind = 'real'
 
-   !> Attributes in their order.
+   !> Attributes of a variable or of the store, in the order of writing.
    type :: attributes_t
       type(message_list_t) :: names, texts, kinds
    contains
@@ -32,30 +33,31 @@ module ek_store_description
 
    !> A variable of the store.
    type :: store_variable_t
-      character(:), allocatable :: name           !! unique in the store
-      character(:), allocatable :: role           !! factor and response over design, curve over (design, state)
+      character(:), allocatable :: name           !! name, unique in the store
+      character(:), allocatable :: role           !! factor_role and response_role: one number per design; curve_role: one per state
+                                                  !! of each design
       type(attributes_t) :: attributes
-      real(wp) :: lower = -huge(1.0_wp), upper = huge(1.0_wp)      !! limits of a response
+      real(wp) :: lower = -huge(1.0_wp), upper = huge(1.0_wp)      !! limits of a response; ∓huge if there is no limit
    end type store_variable_t
 
    !> A store. The variables have the order of the chunk: factors, responses, swept value and columns.
    type :: store_t
-      character(:), allocatable :: identity       !! of the study
-      integer :: designs = 0, chunks = 0          !! chunks: their files
-      integer :: states = 0                       !! most of any design
-      integer :: reason = 0                       !! length of the longest reason
+      character(:), allocatable :: identity       !! identity of the study
+      integer :: designs = 0, chunks = 0          !! numbers of designs and of chunk files
+      integer :: states = 0                       !! largest number of states of a design
+      integer :: reason = 0                       !! length of the longest reason of a failed design
       logical :: has_limits = .false.
-      type(attributes_t) :: attributes            !! of the whole store
+      type(attributes_t) :: attributes            !! attributes of the store itself
       type(store_variable_t), allocatable :: variables(:)
    end type store_t
 
 contains
 
-   !> Adds an attribute.
+   !> Adds an attribute to a list.
    pure subroutine attributes_add(self, name, text, kind)
       class(attributes_t), intent(inout) :: self
       character(*), intent(in) :: name, text
-      character(*), intent(in), optional :: kind  !! default: text
+      character(*), intent(in), optional :: kind  !! kind of the attribute; default: text_kind
 
       call self%names%add(name)
       call self%texts%add(text)
@@ -63,7 +65,7 @@ contains
       if (.not. present(kind)) call self%kinds%add(text_kind)
    end subroutine attributes_add
 
-   !> Whether responses satisfy their limits. A response without a value does not satisfy its limit.
+   !> Whether all responses of a design satisfy their limits. A response without a value does not satisfy a limit.
    pure logical function keeps(responses, lower, upper)
       real(wp), intent(in) :: responses(:), lower(:), upper(:)
       integer :: k
@@ -123,7 +125,7 @@ contains
 
    end subroutine write_description
 
-   !> A number as a string with all its digits.
+   !> A real number as a string with all its digits.
    function exact(value) result(text)
       real(wp), intent(in) :: value
       character(26) :: text
@@ -165,7 +167,7 @@ contains
 
    contains
 
-      !> Reads the content of a record.
+      !> Stores the content of a record in the description.
       subroutine take(content)
          character(*), intent(in) :: content
          integer :: number, ignored
@@ -199,9 +201,9 @@ contains
    !> Reads the first line of a record, such as 'text units 2'.
    subroutine next_head(text, at, word, name, length)
       character(*), intent(in) :: text
-      integer, intent(inout) :: at                !! first character of the record, then of its content
+      integer, intent(inout) :: at                !! first character of the record; on return, of its content
       character(:), allocatable, intent(out) :: word, name
-      integer, intent(out) :: length              !! −1: there is no such line
+      integer, intent(out) :: length              !! length of the content; −1 if the line is not valid
       integer :: end, first, second, status
 
       end = at + index(text(at:), line_end) - 1

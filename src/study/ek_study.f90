@@ -1,4 +1,4 @@
-!> A study: its factors, responses and settings, as its file gives them (ek_study_reader).
+!> A study: its factors, responses and settings, as the study file gives them (ek_study_reader).
 module ek_study
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan, ieee_is_finite
    use ek_kinds, only: wp
@@ -17,46 +17,46 @@ module ek_study
    public :: define_factor, is_given, not_given
 
    ! how a factor changes a number of the deck
-   integer, parameter :: by_value = 1       !! number = factor
-   integer, parameter :: by_delta = 2       !! number = number of the deck + factor
-   integer, parameter :: by_scale = 3       !! number = number of the deck × factor
+   integer, parameter :: by_value = 1       !! the factor replaces the number of the deck
+   integer, parameter :: by_delta = 2       !! the factor is added to the number of the deck
+   integer, parameter :: by_scale = 3       !! the factor multiplies the number of the deck
    character(*), parameter :: change_names(3) = [character(8) :: 'absolute', 'delta', 'scale']
 
    ! the kinds: those of the samplers, and two names of this module
-   integer, parameter :: step_size_kind = size(sampler_kinds) + 1       !! varies the solution, not the deck
+   integer, parameter :: step_size_kind = size(sampler_kinds) + 1       !! a study of this kind varies the solution, not the deck
    character(*), parameter :: kind_names(step_size_kind + 1) = [character(15) :: sampler_kinds%name, 'step_size', 'sweep']
 
-   !> A factor: numbers of the deck that change together, and the range over which they do. Units of the deck.
+   !> A factor: numbers of the deck that change together, and the range of the change in units of the deck.
    type :: study_factor_t
       character(:), allocatable :: name
-      character(note_length), allocatable :: paths(:)      !! as in --set
-      logical :: is_each = .false.                         !! every number is a factor of its own, see ek_study_each
-      logical :: is_of_pattern = .false.                   !! one of several numbers of a path with *
+      character(note_length), allocatable :: paths(:)      !! paths of the factor, as in --set
+      logical :: is_each = .false.                         !! every number of the paths becomes a separate factor, see ek_study_each
+      logical :: is_of_pattern = .false.                   !! the factor is one of several numbers of a path with *
       integer :: change = by_value
       integer :: distribution = uniform_kind
-      real(wp) :: lower, upper, nominal, tolerance, deviation    !! NaN: not given
-      real(wp), allocatable :: values(:)                   !! if allocated, the only values
+      real(wp) :: lower, upper, nominal, tolerance, deviation    !! NaN if not given
+      real(wp), allocatable :: values(:)                   !! if allocated, the only values of the factor
       character(:), allocatable :: where                   !! 'file:line', for messages
    end type study_factor_t
 
-   !> A number read from the table of a case.
+   !> A number read from the table of a case, or the difference of two such numbers.
    type :: response_t
       character(:), allocatable :: name
-      character(:), allocatable :: column         !! gradient: its name
-      character(:), allocatable :: case           !! '': the case of the study
-      character(:), allocatable :: of             !! one of of_names
-      character(:), allocatable :: side           !! gradient: 'left' or 'right'; '': left, or of the axle
-      real(wp) :: at = 0.0_wp                     !! factor of the case, for value and slope
-      character(:), allocatable :: over           !! column over which the slope is taken; '': the travel of the wheel
-      real(wp) :: window = 15.0_wp                !! half width of the slope's window, unit of `over`; gradient: 0 for its own
-      character(:), allocatable :: file           !! rms: CSV of the curve from which the column deviates
-      real(wp) :: lower = -huge(1.0_wp), upper = huge(1.0_wp)      !! limits that a good design satisfies
-      character(word_length) :: names(2) = ''     !! difference: two responses before it, first minus second
-      integer :: less(2) = 0                      !! their numbers
+      character(:), allocatable :: column         !! column heading; gradient: name of the gradient
+      character(:), allocatable :: case           !! name of the case; '': the case of the study
+      character(:), allocatable :: of             !! kind of the response, one of of_names
+      character(:), allocatable :: side           !! gradient: 'left' or 'right'; '': the left wheel, or a gradient of the axle
+      real(wp) :: at = 0.0_wp !! swept value of the case at which the column is read (value) or the window is centred (slope)
+      character(:), allocatable :: over           !! column over which the slope is taken; '': the wheel travel
+      real(wp) :: window = 15.0_wp !! half width of the window of a slope, unit of `over`; gradient: 0 for the window of the report
+      character(:), allocatable :: file           !! rms: CSV file of the curve from which deviations are computed
+      real(wp) :: lower = -huge(1.0_wp), upper = huge(1.0_wp)      !! limits for a design; ∓huge if not given
+      character(word_length) :: names(2) = ''     !! difference: names of two preceding responses, first minus second
+      integer :: less(2) = 0                      !! difference: indices of these two responses
       character(:), allocatable :: where          !! 'file:line', for messages
    end type response_t
 
-   !> The data that a response reads from a case.
+   !> The kinds of a response: values of key `of`.
    character(*), parameter, public :: of_names(8) = [character(10) :: 'value', 'slope', 'span', 'min', 'max', 'rms', &
       'gradient', 'difference']
 
@@ -64,18 +64,18 @@ module ek_study
    type :: study_t
       character(:), allocatable :: name, title, deck, case, plot
       integer :: kind = step_size_kind
-      character(:), allocatable :: end            !! step_size: the end of the case to be compared, 'from' or 'to'
+      character(:), allocatable :: end            !! step_size: the end of the case to be examined, 'from' or 'to'
       character(word_length), allocatable :: methods(:)
       character(name_length), allocatable :: columns(:)
       integer, allocatable :: increments(:)
       type(study_factor_t), allocatable :: factors(:)
       type(response_t), allocatable :: responses(:)
-      type(sampler_settings_t) :: settings        !! of the sampler, without the rows of a list
-      character(:), allocatable :: list           !! CSV of the designs
-      integer :: chunk = 0                        !! designs that are computed, stored and resumed together; 0: chosen by the engine
-      character(:), allocatable :: format         !! 'netcdf', 'csv', or '': NetCDF if this build has it
+      type(sampler_settings_t) :: settings        !! settings of the sampler, without the rows of a list
+      character(:), allocatable :: list           !! CSV file of the designs
+      integer :: chunk = 0 !! number of designs that are computed, stored and resumed together; 0: chosen by the engine
+      character(:), allocatable :: format         !! 'netcdf', 'csv', or '': NetCDF for many designs, if the helper program exists
       character(:), allocatable :: where          !! 'file:line' of the &study, for messages
-      type(checksum_t) :: sum                     !! of the file without titles and notes
+      type(checksum_t) :: sum                     !! checksum of the file without titles and notes
    end type study_t
 
 contains
@@ -91,11 +91,11 @@ contains
       is_given = ieee_is_finite(value)
    end function is_given
 
-   !> Sets the range of a factor for the sampler. `usual` is the nominal value if the study does not give one: the value of the deck
-   !> for an absolute factor (NaN if its paths lead to different numbers), 0 for delta, 1 for scale.
+   !> Sets the range of a factor for the sampler. A nominal value that the study does not give is `usual` for an absolute factor, 0
+   !> for delta, 1 for scale. If `usual` is NaN, the nominal value is the mean of the values or of the distribution.
    subroutine define_factor(given, kind, usual, factor, error)
       type(study_factor_t), intent(in) :: given
-      integer, intent(in) :: kind                          !! of the sampler
+      integer, intent(in) :: kind                          !! kind of the sampler
       real(wp), intent(in) :: usual
       type(factor_t), intent(out) :: factor
       type(error_t), allocatable, intent(out) :: error     !! exit_deck

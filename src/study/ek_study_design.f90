@@ -1,9 +1,9 @@
-!> Solves one design of a study: the factors become a model, its cases are solved, and the observations become a row of responses
-!> and the rows of the curves.
+!> Solves one design of a study: the factors become a model, and the cases of the study are solved. Their tables become a row of
+!> responses and the rows of the curves.
 !>
-!> solve_designs computes numbers only. The designs of a chunk that failed, or that must be read from the deck's strings, are
-!> completed after the last design by complete_design. complete_design creates strings and is called by one thread at a time:
-!> gfortran stores the length of a string that a function returns in one location for all threads.
+!> solve_designs computes numbers only. After the last design of a chunk, complete_design completes the designs that failed or must
+!> be read from the deck's strings. complete_design creates strings and is called by one thread at a time: gfortran stores the
+!> length of a string that a function returns in one location for all threads.
 module ek_study_design
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
@@ -29,13 +29,14 @@ module ek_study_design
 
 contains
 
-   !> Solves at most `lanes` designs of a chunk, whose factors are already in the chunk, and fills their rows.
+   !> Solves designs `first` … `last` of a chunk (at most `lanes`) with the factors in the chunk, and fills the rows of the designs.
+   !> Adds the cause of each design that must be completed.
    subroutine solve_designs(study, designer, first, last, chunk, causes)
       type(study_t), intent(in) :: study
       type(designer_t), intent(inout) :: designer
       integer, intent(in) :: first, last
       type(chunk_t), intent(inout) :: chunk
-      type(causes_t), intent(inout) :: causes          !! for complete_design; first = 1 empties it
+      type(causes_t), intent(inout) :: causes !! causes of the designs to be completed by complete_design; emptied if first = 1
       logical :: is_done(lanes), is_walked(lanes, size(designer%options))
       integer :: k, l, c
 
@@ -82,13 +83,14 @@ contains
       end if
    end subroutine complete_design
 
-   !> Solves the cases of a design that were not solved in a pack, and fills the row of the design.
+   !> Solves the cases of a design that were not solved in a pack, and fills the row of the design. Adds the cause if the design
+   !> failed.
    subroutine finish_design(study, designer, is_walked, k, workspace, chunk, causes)
       type(study_t), intent(in) :: study
       type(designer_t), intent(in) :: designer
-      logical, intent(in) :: is_walked(:)         !! of each case
+      logical, intent(in) :: is_walked(:)         !! whether packs have solved each case
       integer, intent(in) :: k
-      type(workspace_t), intent(inout) :: workspace     !! with the numbers of the design
+      type(workspace_t), intent(inout) :: workspace     !! workspace with the numbers of the design; its cases are on the rig
       type(chunk_t), intent(inout) :: chunk
       type(causes_t), intent(inout) :: causes
       type(cause_t) :: cause
@@ -111,7 +113,7 @@ contains
       call add_cause(cause, causes)
    end subroutine finish_design
 
-   !> Reads a design from the deck with its factors as settings, and solves it in a separate workspace.
+   !> Reads a design from the deck with its factors as settings, and solves the design in a separate workspace.
    subroutine solve_from_text(study, deck, designer, k, chunk)
       type(study_t), intent(in) :: study
       type(deck_t), intent(in) :: deck
@@ -162,10 +164,10 @@ contains
       call add_reason(chunk, k, cause_text(cause, designer%case_of, designer%readings, workspace))
    end subroutine solve_from_text
 
-   !> Computes the K&C quantities, which the solution omits, at the states from which a response is read.
+   !> Computes the K&C quantities that solve_case omitted (defers_kandc), at the states from which a response is read.
    subroutine complete_tables(designer, workspace)
       type(designer_t), intent(in) :: designer
-      type(workspace_t), intent(inout) :: workspace     !! its cases are solved
+      type(workspace_t), intent(inout) :: workspace     !! workspace with solved cases
       integer :: c
 
       do c = 1, size(workspace%cases)
@@ -174,14 +176,15 @@ contains
       end do
    end subroutine complete_tables
 
-   !> Reads the responses and the curves of a design. A response of a case that did not reach all states has no value.
+   !> Reads the responses and the curves of a design, and marks an incomplete design. A response of a case that did not reach all
+   !> states has no value.
    subroutine take_row(study, designer, workspace, k, chunk, faults)
       type(study_t), intent(in) :: study
       type(designer_t), intent(in) :: designer
-      type(workspace_t), intent(in) :: workspace        !! with the results of its cases
+      type(workspace_t), intent(in) :: workspace        !! workspace with the results of its cases
       integer, intent(in) :: k
       type(chunk_t), intent(inout) :: chunk
-      integer, intent(out) :: faults(:)           !! of each response, see read_response
+      integer, intent(out) :: faults(:)           !! reason code of each response, see read_response
       integer :: j
 
       do j = 1, size(workspace%cases)
@@ -208,7 +211,8 @@ contains
       is_whole = result%outcome == solved
    end function is_whole
 
-   !> Inserts the states of a design after the states of the previous designs. Columns that its model does not define are NaN.
+   !> Inserts the states of a design after the states of the previous designs. Columns that the model of the design does not define
+   !> are NaN.
    pure subroutine take_curves(study, table, k, chunk)
       type(study_t), intent(in) :: study
       type(table_t), intent(in) :: table

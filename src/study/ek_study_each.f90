@@ -1,5 +1,5 @@
-!> Factors with each = .true.: every number to which their paths lead becomes a separate factor. Columns with `*` become all
-!> matching columns.
+!> Factors with each = .true.: every number to which the paths lead becomes a separate factor. Columns with `*` become all matching
+!> columns.
 module ek_study_each
    use ek_kinds, only: wp
    use ek_error, only: error_t, fail, exit_deck
@@ -23,9 +23,9 @@ module ek_study_each
 
 contains
 
-   !> Replaces factors with each = .true. by one factor per number. Omitted are numbers that the deck does not give, zeros that
-   !> would be scaled, and y of a point in the centre plane of a mirrored deck (unless `shared` names the point). The two sides of a
-   !> mirrored axle are one factor, unless the path contains the side.
+   !> Replaces each factor with each = .true. by one factor per number. The following numbers are omitted: numbers that the deck
+   !> does not give, zeros that would be scaled, and y of a point in the centre plane of a mirrored deck, unless `shared` names the
+   !> point. The two sides of a mirrored axle are one factor, unless the path contains the side.
    subroutine expand_factors(study, deck, error)
       type(study_t), intent(inout) :: study
       type(deck_t), intent(in) :: deck
@@ -100,7 +100,7 @@ contains
 
    end subroutine expand_columns
 
-   !> Adds the factors of one path.
+   !> Adds one factor for each number to which a path leads, with the omissions of expand_factors.
    subroutine add_each(design, given, path_text, factors)
       type(design_t), intent(in) :: design
       type(study_factor_t), intent(in) :: given
@@ -146,8 +146,8 @@ contains
       if (at > 0) text = path(:at)//own//path(at + len(name) + 1:)
    end function without_side
 
-   !> Name of the factor of a path: 'lca_front_kt_1' for 'bushing.lca_front.kt(1)'. The group is added in front if another factor
-   !> has this name.
+   !> Name of the factor of a path: 'lca_front_kt_1' for 'bushing.lca_front.kt(1)'. If another factor has this name, the name begins
+   !> with the group.
    pure function name_of(path, factors) result(name)
       character(*), intent(in) :: path
       type(study_factor_t), intent(in) :: factors(:)

@@ -1,9 +1,10 @@
-!> The designs of a study in packs. Their numbers are set one design after the other; their paths are followed together.
+!> The designs of a study in packs. The numbers of the designs are set one design after the other. The paths of all designs of a
+!> pack are followed together.
 !>
-!> The plan of elimination, the scale and the swept values of the states come from the deck's own design, so that the result of
-!> a design does not depend on the other designs of the pack. A case that packs cannot walk (linear methods, along an arc,
-!> tables, paths that do not go through design) sweeps every design by itself. The same holds for runs with LAPACK as solver, and
-!> for builds by compilers whose lanes are slow.
+!> The plan of elimination, the scale and the swept values of the states come from the deck's own design. The result of a design
+!> therefore does not depend on the other designs of the pack. The designs are solved one by one in a case that packs cannot solve:
+!> linear methods, `follow = 'arc'`, tables, and paths that do not pass through design. They are also solved one by one with LAPACK
+!> as solver, and in builds by compilers whose lanes are slow.
 module ek_study_pack
    use, intrinsic :: iso_fortran_env, only: compiler_version
    use ek_lanes, only: lanes
@@ -15,20 +16,21 @@ module ek_study_pack
    private
    public :: pack_space_t, begin_packs, walk_case, lanes, are_lanes_fast
 
-   !> gfortran compiles lanes to vector instructions; flang calls its run-time library for lanes
+   !> Whether lanes are fast. gfortran compiles lanes to vector instructions, but flang calls its run-time library for lanes.
    logical, parameter :: are_lanes_fast = index(compiler_version(), 'GCC') > 0
 
-   !> Work space of one thread.
+   !> Work space of one thread for packs.
    type :: pack_space_t
       ! classes for the reason given at case_work_t
-      class(workspace_t), allocatable :: workspaces(:)     !! the designs of a pack but the first, whose workspace the study has
-      class(walker_t), allocatable :: walkers(:)     !! of each case
-      logical, allocatable :: is_used(:)             !! packs walk this case
+      class(workspace_t), allocatable :: workspaces(:)     !! workspaces of all designs of a pack except the first design, which
+                                                           !! uses the workspace of the study
+      class(walker_t), allocatable :: walkers(:)     !! one per case
+      logical, allocatable :: is_used(:)             !! whether packs walk each case
    end type pack_space_t
 
 contains
 
-   !> Prepares packs for the cases of a workspace, whose design must have been solved.
+   !> Prepares packs for the cases of a workspace. The cases must have been solved.
    subroutine begin_packs(workspace, space)
       type(workspace_t), intent(in) :: workspace
       type(pack_space_t), intent(out) :: space
@@ -44,12 +46,13 @@ contains
       allocate (space%workspaces(merge(lanes - 1, 0, any(space%is_used))), source=workspace)
    end subroutine begin_packs
 
-   !> Solves case c of several designs together. is_walked: whether the path of each design is complete.
+   !> Solves case c of several designs together. is_walked is .true. for each design whose path is complete. If packs do not walk
+   !> the case, is_walked is .false. for all designs.
    subroutine walk_case(c, workspace, is_wanted, space, is_walked)
       integer, intent(in) :: c
-      type(workspace_t), intent(inout), target :: workspace        !! of the first design
-      logical, intent(in) :: is_wanted(lanes)                !! its case is on the rig; .false.: there is no such design
-      type(pack_space_t), intent(inout), target :: space     !! with the workspaces of the other designs
+      type(workspace_t), intent(inout), target :: workspace        !! workspace of the first design
+      logical, intent(in) :: is_wanted(lanes) !! the case of the design is on the rig; .false. also if there is no such design
+      type(pack_space_t), intent(inout), target :: space     !! work space with the workspaces of the other designs
       logical, intent(out) :: is_walked(lanes)
       type(member_t) :: members(lanes)
       integer :: l, filler

@@ -21,24 +21,25 @@ module ek_study_plan
    public :: study_plan_t, new_plan, plan_sampler, begin_chunk, first_of, designs_in
 
    integer, parameter :: max_designs = 2000000000
-   integer, parameter :: usual_chunks = 400       !! of a large study
-   integer, parameter :: min_chunk = 50, max_chunk = 5000       !! designs
-   integer, parameter :: chunks_of_a_shard = 4    !! at least, so that shards have equal numbers of designs but for a quarter
-   integer, parameter :: most_numbers = 4000000   !! of the curves of a chunk: 32 MB in each thread
+   integer, parameter :: usual_chunks = 400       !! usual number of chunks of a study
+   integer, parameter :: min_chunk = 50, max_chunk = 5000       !! limits of the number of designs in a chunk
+   integer, parameter :: chunks_of_a_shard = 4    !! least number of chunks per shard, so that the shards have similar numbers of
+                                                  !! designs
+   integer, parameter :: most_numbers = 4000000   !! limit of the numbers in the curves of a chunk: 32 MB in each thread
 
    !> Data that all workers of a study share.
    type :: study_plan_t
       type(sampler_t) :: sampler
-      integer :: designs = 0, chunk = 1, chunks = 0          !! designs in all, per chunk; chunks
-      character(name_length), allocatable :: heads(:)        !! of the responses
-      character(name_length), allocatable :: factor_heads(:) !! with their units
-      character(name_length), allocatable :: units(:)        !! of the factors, '' for none
-      integer :: columns = 0                                 !! of a row of the curves: swept value and columns of the study
-      integer :: states = 0                                  !! of a design, usually
+      integer :: designs = 0, chunk = 1, chunks = 0          !! number of designs; designs per chunk; number of chunks
+      character(name_length), allocatable :: heads(:)        !! column headings of the responses
+      character(name_length), allocatable :: factor_heads(:) !! column headings of the factors, with their units
+      character(name_length), allocatable :: units(:)        !! units of the factors, '' if a factor has no unit
+      integer :: columns = 0 !! length of a row of the curves: swept value and columns of the study; 0 without columns
+      integer :: states = 0                                  !! number of states of the first case, in the design of the deck
       character(:), allocatable :: deck_sum                  !! checksum of the deck
-      character(:), allocatable :: identity                  !! studies of equal identity have equal results, to rounding
-      character(:), allocatable :: build                     !! of the program: part of the identity
-      character(:), allocatable :: kernel                    !! kernel of the BLAS on this processor, 'Haswell'; '' if unknown
+      character(:), allocatable :: identity                  !! checksum: studies of equal identity have equal results, to rounding
+      character(:), allocatable :: build                     !! build of the program, part of the identity
+      character(:), allocatable :: kernel !! kernel of the BLAS on this processor, for instance 'Haswell'; '' if unknown
    end type study_plan_t
 
 contains
@@ -51,9 +52,9 @@ contains
       type(designer_t), intent(in) :: designer
       type(study_plan_t), intent(out) :: plan
       type(error_t), allocatable, intent(out) :: error     !! exit_deck, exit_file
-      integer, intent(in) :: shards                        !! of this run
-      character(*), intent(in) :: build                    !! of this program: version, commit, compiler, options
-      integer, intent(in) :: chunk                         !! designs of the existing chunks; 0: there are no chunks
+      integer, intent(in) :: shards                        !! number of shards of this run
+      character(*), intent(in) :: build                    !! build of this program: version, commit, compiler, options
+      integer, intent(in) :: chunk                         !! number of designs in an existing chunk; 0: no chunks exist
       type(sampler_settings_t) :: settings
       type(checksum_t) :: sum
       integer :: k
@@ -89,7 +90,7 @@ contains
 
    contains
 
-      !> Adds the numbers of a list or a curve from a file next to the study to the checksum.
+      !> Adds to the checksum the numbers of a list or a curve, which are read from a file that the study names.
       subroutine include_numbers(numbers)
          real(wp), allocatable, intent(in) :: numbers(:, :)
          integer :: j
@@ -101,12 +102,12 @@ contains
 
    end subroutine new_plan
 
-   !> Prepares the sampler of a study. Of the designer, only the numbers of the deck are used.
+   !> Prepares the sampler of a study. Only begin_designer must have prepared the designer.
    subroutine plan_sampler(study, home, designer, settings, sampler, error)
       type(study_t), intent(in) :: study
       character(*), intent(in) :: home                     !! folder of the study with its slash
       type(designer_t), intent(in) :: designer
-      type(sampler_settings_t), intent(out) :: settings    !! with the rows of a list
+      type(sampler_settings_t), intent(out) :: settings    !! settings of the sampler, with the rows of a list
       type(sampler_t), intent(out) :: sampler
       type(error_t), allocatable, intent(out) :: error     !! exit_deck, exit_file
       type(factor_t) :: factors(size(study%factors))
@@ -128,7 +129,8 @@ contains
       end if
    end subroutine plan_sampler
 
-   !> Reads the designs of a list: one column per factor, headed by its name with or without its unit. Other columns are ignored.
+  !> Reads the designs of a list from a CSV file with one column per factor. The heading of a column is the name of the factor, with
+   !> or without its unit. Other columns are ignored.
    subroutine read_list(study, home, designer, rows, error)
       type(study_t), intent(in) :: study
       character(*), intent(in) :: home
@@ -169,21 +171,21 @@ contains
    !> Index of the first design of a chunk.
    pure integer(i8) function first_of(plan, number)
       type(study_plan_t), intent(in) :: plan
-      integer, intent(in) :: number               !! of the chunk, from 1
+      integer, intent(in) :: number               !! index of the chunk, from 1
       first_of = int(number - 1, i8)*plan%chunk + 1
    end function first_of
 
    !> The number of designs of a chunk.
    pure integer function designs_in(plan, number)
       type(study_plan_t), intent(in) :: plan
-      integer, intent(in) :: number               !! of the chunk, from 1
+      integer, intent(in) :: number               !! index of the chunk, from 1
       designs_in = int(min(int(plan%chunk, i8), plan%designs - first_of(plan, number) + 1))
    end function designs_in
 
    !> Creates an empty chunk and computes the factors of its designs.
    subroutine begin_chunk(plan, number, chunk)
       type(study_plan_t), intent(in) :: plan
-      integer, intent(in) :: number               !! from 1
+      integer, intent(in) :: number               !! index of the chunk, from 1
       type(chunk_t), intent(inout) :: chunk
       integer(i8) :: first
       integer :: k

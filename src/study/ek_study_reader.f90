@@ -1,7 +1,7 @@
 !> Reads a study from its namelist file, with the scanner and the messages of the deck reader.
 !>
-!> `&study` defines the study, `&factor` a value of the deck that is varied, `&correlation` ties two factors, `&response` is a
-!> value read from the results.
+!> `&study` defines the study, `&factor` a number of the deck that is varied, `&correlation` the correlation of two factors, and
+!> `&response` a value read from the results.
 module ek_study_reader
    use ek_kinds, only: wp, i8
    use ek_error, only: error_t, fail, exit_deck
@@ -26,7 +26,7 @@ module ek_study_reader
 
 contains
 
-   !> Reads a study file; all its errors are reported in one error.
+   !> Reads a study file. All errors of the file are reported in one error.
    subroutine read_study(path, study, error)
       character(*), intent(in) :: path
       type(study_t), intent(out) :: study
@@ -100,7 +100,8 @@ contains
       is_deck = any(groups > 0) .and. all([(groups(k) == 0 .or. is_deck_group(groups(k)), k=1, file%used)])
    end function is_deck
 
-   !> Checks a name, which appears in paths and must be unique among the column names.
+   !> Checks the name of a record. A name appears in paths; names of factors and responses must be unique and not reserved for a
+   !> column.
    subroutine check_name(reading)
       type(deck_reading_t), intent(inout) :: reading
       character(*), parameter :: heads(6) = [character(9) :: 'design', 'factor', 'converged', 'status', 'reason', 'state']
@@ -123,7 +124,7 @@ contains
       end associate
    end subroutine check_name
 
-   !> Reads &study.
+   !> Reads the settings of &study. A second &study is an error.
    subroutine take_study(reading, study)
       type(deck_reading_t), intent(inout) :: reading
       type(study_t), intent(inout) :: study
@@ -172,7 +173,7 @@ contains
       study%where = where_of(reading)
    end subroutine take_study
 
-   !> Reads the settings of the sampler. Settings that its kind does not use are errors.
+   !> Reads the settings of the sampler. Settings that the kind of the study does not use are errors.
    subroutine take_settings(reading, study)
       type(deck_reading_t), intent(inout) :: reading
       type(study_t), intent(inout) :: study
@@ -203,7 +204,7 @@ contains
       end associate
    end subroutine take_settings
 
-   !> Reads &factor: a list of values; or from, to, count and spacing; or a range.
+   !> Reads a &factor. Its values are a list, or steps (from, to, count and spacing), or a range.
    subroutine take_factor(reading, study)
       type(deck_reading_t), intent(inout) :: reading
       type(study_t), intent(inout) :: study
@@ -240,7 +241,7 @@ contains
       study%factors = [study%factors, this]
    end subroutine take_factor
 
-   !> Reads from, to, count and spacing, which define evenly spaced values.
+   !> Reads from, to, count and spacing, which define values in equal steps, or in equal ratios (spacing = 'log').
    subroutine take_steps(reading, this)
       type(deck_reading_t), intent(inout) :: reading
       type(study_factor_t), intent(inout) :: this
@@ -264,7 +265,7 @@ contains
       end if
    end subroutine take_steps
 
-   !> Checks lower and upper, or nominal ± tolerance, or a distribution and its deviation.
+   !> Checks the range of a factor: lower and upper, nominal ± tolerance, or a distribution and its deviation.
    subroutine check_range(reading, study, this)
       type(deck_reading_t), intent(inout) :: reading
       type(study_t), intent(in) :: study
@@ -294,7 +295,7 @@ contains
       if (is_given(lower) .and. is_given(upper)) is_reversed = lower >= upper
    end function is_reversed
 
-   !> Reads &correlation.
+   !> Reads a &correlation: two factors and their correlation.
    subroutine take_correlation(reading, study)
       type(deck_reading_t), intent(inout) :: reading
       type(study_t), intent(inout) :: study
@@ -321,7 +322,7 @@ contains
       study%settings%correlations = [study%settings%correlations, number_of(reading, 'value', 0.0_wp)]
    end subroutine take_correlation
 
-   !> Reads &response.
+   !> Reads a &response: the column, and the number to be read from the column.
    subroutine take_response(reading, study)
       type(deck_reading_t), intent(inout) :: reading
       type(study_t), intent(inout) :: study
@@ -360,7 +361,7 @@ contains
    !> Reads the two responses of a difference. Any other response must have a column.
    subroutine take_difference(reading, study, this)
       type(deck_reading_t), intent(inout) :: reading
-      type(study_t), intent(in) :: study                   !! with the responses before this one
+      type(study_t), intent(in) :: study                   !! study with the responses that precede this response
       type(response_t), intent(inout) :: this
       character(*), parameter :: others(7) = [character(6) :: 'column', 'case', 'side', 'at', 'over', 'window', 'file']
       integer :: j, k
@@ -382,7 +383,7 @@ contains
       end do
    end subroutine take_difference
 
-   !> Checks that the parts of a study are consistent.
+   !> Checks that a study of designs has a factor, and a column or a response.
    subroutine check_whole(reading, study)
       type(deck_reading_t), intent(inout) :: reading
       type(study_t), intent(in) :: study

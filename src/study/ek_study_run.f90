@@ -1,10 +1,11 @@
 !> Runs the designs of a study in chunks, by several threads of one or several processes, and stores the finished chunks.
 !>
-!> The folder <out>/<study>.parts holds one file per finished chunk (ek_chunk). A run computes the chunks that are missing; so a
-!> study that was stopped, or killed at any moment, resumes. Which thread computes a chunk has no influence on it.
-!> Several runs may use one folder: each holds a locked scratch folder in it, and the chunks are removed by the last one only. The
-!> locks of other machines may be invisible, so a run renews its scratch folder every hour; one of another machine that was not
-!> renewed for a day belongs to a terminated run.
+!> The folder <out>/<study>.parts contains one file per finished chunk (ek_chunk). A run computes only the missing chunks. The same
+!> command therefore resumes a study that was stopped, or killed at any moment. The results of a chunk do not depend on the thread
+!> that computes the chunk.
+!> Several runs may use one folder. Each run has a locked scratch folder in it, and only the last run removes the chunks. The locks
+!> of other machines may be invisible, so a run renews its scratch folder every hour. A scratch folder of another machine that was
+!> not renewed for a day belongs to a terminated run.
 module ek_study_run
    use ek_kinds, only: wp, i8
    use ek_error, only: error_t, fail, exit_file
@@ -30,34 +31,35 @@ module ek_study_run
    public :: nobody, this_machine, other_machine
 
    character(*), parameter :: identity_name = 'study.txt', build_word = 'build '
-   integer, parameter :: nobody = 0, this_machine = 1, other_machine = 2      !! who still needs the chunks
-   real(wp), parameter :: an_hour = 3600.0_wp     !! s
+   integer, parameter :: nobody = 0, this_machine = 1, other_machine = 2      !! the machine of a run that still needs the chunks
+   real(wp), parameter :: an_hour = 3600.0_wp     !! one hour [s]
    character(*), parameter :: line_end = new_line('a')
-   integer(i8), parameter :: of_a_design = 2_i8**25         !! bytes: work space of a thread
+   integer(i8), parameter :: of_a_design = 2_i8**25         !! work space of a thread [bytes]
 
    !> The options of a run of a study.
    type :: run_options_t
-      integer :: jobs = 1                         !! threads
-      integer :: shard = 1, shards = 1            !! this run computes the chunks shard, shard + shards, …
-      real(wp) :: time_limit = huge(1.0_wp)       !! s
+      integer :: jobs = 1                         !! number of threads
+      integer :: shard = 1, shards = 1            !! index of the shard, number of shards: this run computes the chunks shard, shard
+                                                  !! + shards, …
+      real(wp) :: time_limit = huge(1.0_wp)       !! limit of the elapsed time [s]
       logical :: is_quiet = .false.
    end type run_options_t
 
    !> The progress of a run.
    type :: run_state_t
-      integer :: wanted = 0                       !! designs of this run
-      integer :: before = 0                       !! of these, done before it began
-      integer :: done = 0                         !! and by now, by all ranks
-      integer :: failed = 0                       !! of the designs computed now
-      integer :: idle = 0                         !! requested threads for which there was no memory
-      real(wp) :: begun = 0.0_wp, now = 0.0_wp    !! s
-      logical :: is_stopped = .false.             !! by a signal, or at the time limit
-      logical :: is_quiet = .false.               !! for the procedure that reports, as is
-      real(wp) :: reported = 0.0_wp               !! s, when it last printed
+      integer :: wanted = 0                       !! number of designs of this run (its shard)
+      integer :: before = 0                       !! number of wanted designs that were finished before the run began
+      integer :: done = 0                         !! number of wanted designs that are finished now, by all ranks
+      integer :: failed = 0                       !! number of failed designs among the designs computed by this run
+      integer :: idle = 0                         !! number of requested threads for which there was no memory
+      real(wp) :: begun = 0.0_wp, now = 0.0_wp    !! time when the run began, and of the last chunk [s]
+      logical :: is_stopped = .false.             !! stopped by a signal, or at the time limit
+      logical :: is_quiet = .false.               !! option of the run, for the report procedure
+      real(wp) :: reported = 0.0_wp               !! time of the last report, for the report procedure [s]
    end type run_state_t
 
    abstract interface
-      !> Reports progress, after every chunk; called by one thread at a time.
+      !> Reports the progress after every chunk; called by one thread at a time.
       subroutine report_procedure(state)
          import :: run_state_t
          implicit none(type, external)
@@ -65,15 +67,15 @@ module ek_study_run
       end subroutine report_procedure
    end interface
 
-   !> Data shared by the threads of a run.
+   !> Data shared by the threads of a process.
    type :: shared_t
-      character(:), allocatable :: folder         !! of the chunks
-      integer, allocatable :: pending(:)          !! numbers of the chunks that are missing
-      type(scratch_t) :: hold                     !! of this run
-      real(wp) :: renewed = 0.0_wp                !! when it was renewed [s]
-      real(wp) :: longest = 0.0_wp                !! time of a chunk [s]
+      character(:), allocatable :: folder         !! folder of the chunks
+      integer, allocatable :: pending(:)          !! indices of the missing chunks of this run
+      type(scratch_t) :: hold                     !! locked scratch folder of this run
+      real(wp) :: renewed = 0.0_wp                !! time when `hold` was renewed [s]
+      real(wp) :: longest = 0.0_wp                !! longest time of a chunk so far [s]
       type(run_state_t) :: state
-      type(error_t), allocatable :: error         !! of the first chunk that could not be written
+      type(error_t), allocatable :: error         !! error of the first chunk that could not be computed or written
    end type shared_t
 
 contains
@@ -86,12 +88,13 @@ contains
       folder = join_path(out, study%name//'.parts')
    end function parts_folder
 
-   !> Opens the folder of the chunks. Rejects a folder with chunks of another study.
+   !> Opens the folder of the chunks: creates the folder if necessary, and begins the scratch folder `hold`. Rejects a folder with
+   !> chunks of another study or of another build of this program.
    subroutine open_parts(study, plan, out, hold, error)
       type(study_t), intent(in) :: study
       type(study_plan_t), intent(in) :: plan
       character(*), intent(in) :: out
-      type(scratch_t), intent(inout) :: hold               !! while it lasts, no other run removes the chunks
+      type(scratch_t), intent(inout) :: hold               !! while `hold` exists, no other run removes the chunks
       type(error_t), allocatable, intent(out) :: error     !! exit_file
       character(:), allocatable :: folder
       integer :: attempt
@@ -137,7 +140,7 @@ contains
       end if
    end subroutine check_parts
 
-   !> The identification of the chunks in a folder.
+   !> The content of the file that identifies the study and the build to which the chunks in a folder belong.
    function content_of(study, plan) result(lines)
       type(study_t), intent(in) :: study
       type(study_plan_t), intent(in) :: plan
@@ -147,7 +150,7 @@ contains
          str(plan%designs)//' in chunks of '//str(plan%chunk)//line_end//build_word//plan%build//line_end
    end function content_of
 
-   !> The number of designs per chunk of the existing folder; 0 if no folder exists. Shards may have chosen smaller chunks.
+  !> The number of designs per chunk of the existing folder; 0 without such a folder. Shards may have chosen smaller chunks.
    integer function chunk_of_parts(study, out) result(chunk)
       type(study_t), intent(in) :: study
       character(*), intent(in) :: out
@@ -173,7 +176,7 @@ contains
       type(study_t), intent(in) :: study
       type(study_plan_t), intent(in) :: plan
       character(*), intent(in) :: out
-      integer, intent(out) :: done                !! designs
+      integer, intent(out) :: done                !! number of designs
       type(shared_t) :: shared
 
       shared%folder = parts_folder(study, out)
@@ -186,8 +189,8 @@ contains
       type(study_t), intent(in) :: study
       type(study_plan_t), intent(in) :: plan
       character(*), intent(in) :: out
-      type(scratch_t), intent(inout) :: hold               !! of this run; ended
-      integer, intent(out) :: user                         !! nobody: the chunks are removed; this_machine, other_machine
+      type(scratch_t), intent(inout) :: hold               !! scratch folder of this run, which is ended
+      integer, intent(out) :: user                         !! machine of a run that needs the chunks; nobody: they are removed
       character(:), allocatable :: folder
       logical :: is_in_use, is_here
       integer :: k
@@ -204,19 +207,19 @@ contains
       call remove_empty_folder(folder)
    end subroutine remove_parts
 
-   !> Computes the missing chunks, or as many as the time limit permits. All ranks must call it; `state` covers all ranks.
+   !> Computes the missing chunks, or as many as the time limit permits. All ranks must call run_chunks; `state` covers all ranks.
    subroutine run_chunks(study, plan, deck, out, hold, options, designer, ranks, state, report, error)
       type(study_t), intent(in) :: study
       type(study_plan_t), intent(in) :: plan
       type(deck_t), intent(in) :: deck
       character(*), intent(in) :: out
-      type(scratch_t), intent(in) :: hold                  !! of open_parts; ended on ranks but the first
+      type(scratch_t), intent(in) :: hold                  !! scratch folder from open_parts; ended on all ranks except the first
       type(run_options_t), intent(in) :: options
-      type(designer_t), intent(in) :: designer             !! with the design of the deck
-      type(ranks_t), intent(inout) :: ranks                !! their counters zero
+      type(designer_t), intent(in) :: designer             !! designer with the design of the deck
+      type(ranks_t), intent(inout) :: ranks                !! ranks of the run, with all counters at zero
       type(run_state_t), intent(out) :: state
       procedure(report_procedure) :: report
-      type(error_t), allocatable, intent(out) :: error     !! exit_file: a chunk could not be written
+      type(error_t), allocatable, intent(out) :: error     !! error of a chunk, not caused by a design
       type(shared_t) :: shared
       integer :: threads, stops
 
@@ -245,7 +248,7 @@ contains
       state%is_stopped = stops > 0 .and. state%done < state%wanted
    end subroutine run_chunks
 
-   !> Counts the finished designs of all ranks.
+   !> Counts the finished designs and the failed designs of all ranks.
    subroutine count_all(ranks, state)
       type(ranks_t), intent(inout) :: ranks
       type(run_state_t), intent(inout) :: state
@@ -260,7 +263,7 @@ contains
    subroutine list_pending(plan, options, shared)
       type(study_plan_t), intent(in) :: plan
       type(run_options_t), intent(in) :: options
-      type(shared_t), intent(inout) :: shared     !! with the folder
+      type(shared_t), intent(inout) :: shared     !! shared data with the folder of the chunks
       type(chunk_t) :: chunk
       logical :: is_pending(plan%chunks), is_good
       integer :: k, designs
@@ -279,7 +282,7 @@ contains
       shared%state%done = shared%state%before
    end subroutine list_pending
 
-   !> Computes chunks, as one thread, until none is left.
+   !> Computes chunks, as one thread, until no chunk is left or the run stops.
    subroutine work(study, plan, deck, options, designer, ranks, shared, report)
       type(study_t), intent(in) :: study
       type(study_plan_t), intent(in) :: plan
@@ -328,7 +331,8 @@ contains
       end do
    end subroutine work
 
-   !> Chooses the next chunk; returns 0 if no chunk is left, or no time for another chunk.
+   !> Chooses the next chunk. Returns 0 if no chunk is left, the run must stop, or another chunk could exceed the time
+   !> limit. The run stops after an error of a chunk or a signal.
    subroutine take_chunk(options, ranks, shared, number)
       type(run_options_t), intent(in) :: options
       type(ranks_t), intent(inout) :: ranks
@@ -351,13 +355,14 @@ contains
       if (before < size(shared%pending)) number = shared%pending(before + 1)
    end subroutine take_chunk
 
-   !> Stores a finished chunk, and updates and reports the progress.
+   !> Stores a chunk if all of its designs are finished; then updates and reports the progress. An error that is not caused by a
+   !> design is passed to `shared`.
    subroutine put_chunk(plan, number, chunk, is_whole, time, ranks, shared, report)
       type(study_plan_t), intent(in) :: plan
       integer, intent(in) :: number
       type(chunk_t), intent(inout) :: chunk
       logical, intent(in) :: is_whole
-      real(wp), intent(in) :: time                   !! s
+      real(wp), intent(in) :: time                   !! time of the chunk [s]
       type(ranks_t), intent(inout) :: ranks
       type(shared_t), intent(inout) :: shared
       procedure(report_procedure) :: report

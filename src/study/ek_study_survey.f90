@@ -1,4 +1,4 @@
-!> Progress of a study, from the chunks in its folder: for --status, while another process may be running it.
+!> Progress of a study for --status, from the chunks in the folder of the study. Another process may be running the study.
 module ek_study_survey
    use ek_kinds, only: wp, i8
    use ek_file, only: join_path, file_exists, folder_exists
@@ -12,18 +12,18 @@ module ek_study_survey
    private
    public :: survey_t, survey_parts, rate_of_chunks
 
-   integer(i8), parameter :: least_time = 20        !! s; file times are whole seconds
+   integer(i8), parameter :: least_time = 20        !! least period of a rate [s]; file times are integers
 
-   !> The content of the folder of the chunks.
+   !> The progress of a study, from the folder of its chunks.
    type :: survey_t
-      integer :: done = 0, failed = 0                !! numbers of finished designs, and of failed designs
-      logical :: is_at_work = .false.                !! a run has the folder
-      real(wp) :: rate = 0.0_wp                      !! designs per second, lately; 0: unknown
+      integer :: done = 0, failed = 0                !! number of finished designs (with failed designs); number of failed designs
+      logical :: is_at_work = .false.                !! a run uses the folder
+      real(wp) :: rate = 0.0_wp                      !! finished designs per second in the last period; 0: unknown
    end type survey_t
 
 contains
 
-   !> Reads all chunks in the folder, and counts finished and failed designs.
+   !> Reads all chunks in the folder, counts finished and failed designs, and finds the rate of finished designs.
    subroutine survey_parts(study, plan, out, survey)
       type(study_t), intent(in) :: study
       type(study_plan_t), intent(in) :: plan
@@ -57,8 +57,8 @@ contains
    !> Rate of finished designs [1/s] over the last period of at least 20 s in which chunks were written. Chunks written at the
    !> beginning of the period do not count. 0 if all chunks were written in less than 20 s.
    pure real(wp) function rate_of_chunks(times, designs) result(rate)
-      integer(i8), intent(in) :: times(:)            !! when each was written [s]
-      integer, intent(in) :: designs(:)
+      integer(i8), intent(in) :: times(:)            !! time when each chunk was written [s]
+      integer, intent(in) :: designs(:)              !! number of designs of each chunk
       integer(i8) :: last, begin
 
       rate = 0.0_wp

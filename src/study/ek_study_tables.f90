@@ -1,6 +1,6 @@
 !> The tables of a finished study, from its chunks: one row per design, and one row per state of every design.
 !>
-!> The chunks are read one after the other, so that a million designs need the memory of one chunk.
+!> The chunks are read one after the other, so that a million designs need no more memory than one chunk.
 module ek_study_tables
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t, fail, exit_file
@@ -21,18 +21,18 @@ module ek_study_tables
    public :: study_counts_t, write_tables, count_designs, responses_name, curves_name, has_limits, tables_of, &
       repeated_factors, kernels_text, kernel_words, quoted_field
 
-   integer, parameter :: max_reasons = 10        !! that are printed; all are in the table
-   integer, parameter :: most_repeated = 10      !! factors that the table of states repeats in each row
+   integer, parameter :: max_reasons = 10        !! number of reasons that are printed; all reasons are in the table
+   integer, parameter :: most_repeated = 10      !! largest number of factors that the table of states repeats in each row
 
-   !> Counts of the designs of a study by their status.
+   !> Counts of the designs of a study by status, and sizes for the tables.
    type :: study_counts_t
-      integer :: designs(0:design_invalid) = 0                !! per status
-      integer :: within = 0                                  !! designs that satisfy all limits of the responses
-      logical :: is_missing = .false.                        !! a chunk is missing or damaged: no table was written
-      type(message_list_t) :: reasons                        !! of the first failed designs, with the settings that make them
-      integer :: states = 0                                  !! most of any design
-      type(message_list_t) :: kernels                        !! of the BLAS, by which the chunks were computed
-      integer :: reason = 0                                  !! length of the longest reason
+      integer :: designs(0:design_invalid) = 0                !! number of designs of each status
+      integer :: within = 0                                  !! number of designs that satisfy all limits of the responses
+      logical :: is_missing = .false.                        !! a chunk is missing or damaged; the counts are then incomplete
+      type(message_list_t) :: reasons !! messages of the first failed designs, with the settings of each design
+      integer :: states = 0                                  !! largest number of states of a design
+      type(message_list_t) :: kernels                        !! kernels of the BLAS with which the chunks were computed
+      integer :: reason = 0                                  !! length of the longest reason of a failed design
    end type study_counts_t
 
 contains
@@ -66,9 +66,10 @@ contains
       name = tables_of(study%name, 2)
    end function curves_name
 
-   !> Writes both tables as CSV: complete files, or no file.
+   !> Writes the table of designs and, if the study has columns, the table of states as CSV. Each table is complete, or is not
+   !> written.
    !>
-   !> gnuplot needs an empty line after every curve, and in the table of responses after every block of a grid.
+   !> gnuplot needs an empty line after every curve, and in the table of designs after every block of a grid.
    subroutine write_tables(study, plan, out, counts, error)
       type(study_t), intent(in) :: study
       type(study_plan_t), intent(in) :: plan
@@ -105,7 +106,7 @@ contains
       call curves%abandon()
    end subroutine write_tables
 
-   !> Counts the designs by status; writes nothing.
+   !> Counts the designs by status, and the sizes that the tables need. No table is written.
    subroutine count_designs(study, plan, out, counts, error)
       type(study_t), intent(in) :: study
       type(study_plan_t), intent(in) :: plan
@@ -143,7 +144,7 @@ contains
       end do
    end subroutine list_kernels
 
-   !> The BLAS kernels of a study: 'Haswell', or 'Haswell and SkylakeX'; '' if no kernel is known.
+   !> The BLAS kernels of a study, for instance 'Haswell', or 'Haswell and SkylakeX'; '' if no kernel is known.
    function kernels_text(counts) result(text)
       type(study_counts_t), intent(in) :: counts
       character(:), allocatable :: text
@@ -156,16 +157,16 @@ contains
       end do
    end function kernels_text
 
-   !> The BLAS kernels for a header: ', BLAS kernel Haswell'; '' if no kernel is known.
+   !> The BLAS kernels for a header, for instance ', BLAS kernel Haswell'; '' if no kernel is known.
    pure function kernel_words(kernels) result(text)
-      character(*), intent(in) :: kernels            !! of kernels_text
+      character(*), intent(in) :: kernels            !! result of kernels_text
       character(:), allocatable :: text
 
       text = ''
       if (kernels /= '') text = ', BLAS kernel '//kernels
    end function kernel_words
 
-   !> Reads chunk k from its file.
+   !> Reads chunk k from its file. A missing or damaged chunk is an error.
    subroutine load_chunk(study, plan, out, k, chunk, error)
       type(study_t), intent(in) :: study
       type(study_plan_t), intent(in) :: plan
@@ -181,7 +182,7 @@ contains
       if (.not. is_good) call fail(error, exit_file, path//': the chunk is missing or damaged')
    end subroutine load_chunk
 
-   !> Counts the designs of a chunk by status, and the sizes that the tables need.
+   !> Counts the designs of a chunk by status, and updates the sizes that the tables need.
    subroutine count_chunk(study, chunk, counts)
       type(study_t), intent(in) :: study
       type(chunk_t), intent(in) :: chunk
@@ -201,12 +202,12 @@ contains
       end do
    end subroutine count_chunk
 
-   !> The header lines and the column names of a table.
+   !> The header lines and the column headings of a table.
    function head_of(study, plan, counts, columns) result(text)
       type(study_t), intent(in) :: study
       type(study_plan_t), intent(in) :: plan
       type(study_counts_t), intent(in) :: counts
-      character(*), intent(in) :: columns(:)      !! after the column of the design index
+      character(*), intent(in) :: columns(:)      !! column headings after the column of the design index
       character(:), allocatable :: text
       type(table_t) :: table
 
@@ -218,7 +219,7 @@ contains
       text = csv_head(table)
    end function head_of
 
-   !> The seed for a header: ', seed 1'; '' for a kind that draws no random numbers.
+   !> The seed for a header, for instance ', seed 1'; '' for a kind that draws no random numbers.
    function seed_of(study) result(text)
       type(study_t), intent(in) :: study
       character(:), allocatable :: text
@@ -249,15 +250,15 @@ contains
 
    contains
 
-      !> Appends the numbers of a design, then its reason.
+      !> Appends the numbers of a design and the reason of its failure.
       subroutine add_line(line)
-         character(*), intent(in) :: line            !! with its end
+         character(*), intent(in) :: line            !! line of CSV, with its line end
          call rows%add(line(:len(line) - 1)//','//quoted_field(reason_of(chunk, k))//new_line('a'))
       end subroutine add_line
 
    end subroutine add_rows
 
-   !> The names of the columns after the responses.
+   !> The headings of the columns after the responses.
    pure function last_columns(study) result(names)
       type(study_t), intent(in) :: study
       character(name_length), allocatable :: names(:)
@@ -266,13 +267,13 @@ contains
       if (has_limits(study)) names = [character(name_length) :: 'within', names]
    end function last_columns
 
-   !> Whether a response has a limit.
+   !> Whether any response of a study has a limit.
    pure logical function has_limits(study)
       type(study_t), intent(in) :: study
       has_limits = any(study%responses%lower > -huge(1.0_wp) .or. study%responses%upper < huge(1.0_wp))
    end function has_limits
 
-   !> Whether a design satisfies all limits.
+   !> Whether a design satisfies all limits of the responses.
    pure logical function keeps_limits(study, responses)
       type(study_t), intent(in) :: study
       real(wp), intent(in) :: responses(:)
@@ -280,7 +281,7 @@ contains
       keeps_limits = keeps(responses, study%responses%lower, study%responses%upper)
    end function keeps_limits
 
-   !> Number of designs between two empty lines of the table of responses; 0 if the table has no empty lines.
+   !> Number of designs between two empty lines of the table of designs; 0 if the table has no empty lines.
    pure integer function block_of(study)
       type(study_t), intent(in) :: study
 
@@ -290,7 +291,7 @@ contains
       if (allocated(study%factors(size(study%factors))%values)) block_of = size(study%factors(size(study%factors))%values)
    end function block_of
 
-   !> A string as a CSV field (RFC 4180) on one line: in quotes; an empty string is an empty field.
+   !> A string as a quoted CSV field (RFC 4180) on one line, with '; ' instead of each line end. An empty string is an empty field.
    pure function quoted_field(text) result(field)
       character(*), intent(in) :: text
       character(:), allocatable :: field
@@ -311,10 +312,10 @@ contains
       field = '"'//field//'"'
    end function quoted_field
 
-   !> Appends the states of the designs of a chunk.
+   !> Appends the states of the designs of a chunk to the table of states.
    subroutine add_curves(chunk, is_begun, curves)
       type(chunk_t), intent(in) :: chunk
-      logical, intent(inout) :: is_begun          !! a curve precedes
+      logical, intent(inout) :: is_begun          !! the table already contains a curve
       type(writer_t), intent(inout) :: curves
       integer :: k, j, row, repeated
 

@@ -1,4 +1,5 @@
-!> Trajectories of Morris' method (Morris 1991): k + 1 designs each, on which every factor changes once, by p/2 of its p levels.
+!> Trajectories of Morris' method (Morris 1991): k + 1 designs each, for k factors. On a trajectory, every factor changes once, by
+!> p/2 of its p levels.
 module ek_trajectory
    use ek_kinds, only: wp, i8
    use ek_philox, only: uniform
@@ -10,19 +11,19 @@ module ek_trajectory
 
    !> The position of a design on its trajectory.
    type :: trajectory_t
-      integer(i8) :: seed = 0, number = 0      !! number from 0
-      integer(i8) :: step = 0                  !! 0 … k: factors already changed
+      integer(i8) :: seed = 0, number = 0      !! seed of the study; index of the trajectory, from 0
+      integer(i8) :: step = 0                  !! number of factors already changed, 0 … k
       integer(i8) :: levels = 2
-      type(permutation_t) :: order             !! of the factors
+      type(permutation_t) :: order             !! order in which the factors change
    end type trajectory_t
 
 contains
 
-   !> Finds the trajectory that contains a design, and the step of the design on it.
+   !> Finds the trajectory that contains a design, and the step of the design on the trajectory.
    pure subroutine find_trajectory(settings, factors, design, trajectory)
       type(sampler_settings_t), intent(in) :: settings
-      integer, intent(in) :: factors               !! k
-      integer(i8), intent(in) :: design            !! from 1
+      integer, intent(in) :: factors               !! k, number of factors
+      integer(i8), intent(in) :: design            !! index of the design, from 1
       type(trajectory_t), intent(out) :: trajectory
       integer(i8) :: k
 
@@ -34,7 +35,7 @@ contains
       trajectory%order = new_permutation(k, trajectory%seed, permutation_stream, trajectory%number)
    end subroutine find_trajectory
 
-   !> The step, 1 … k, that changes a factor.
+   !> The step, 1 … k, at which a trajectory changes a factor.
    pure integer(i8) function step_of(trajectory, factor) result(step)
       type(trajectory_t), intent(in) :: trajectory
       integer, intent(in) :: factor
@@ -42,12 +43,12 @@ contains
       step = 1 + image_of(trajectory%order, int(factor - 1, i8))
    end function step_of
 
-   !> The level of a factor, 0 … p − 1. The first level is random. From the step of the factor on, the level is p/2 higher, or lower
-   !> if p − 1 would be exceeded.
+   !> The level of a factor, 0 … p − 1. The first level is random. From the step of the factor on, the level is p/2 higher, or p/2
+   !> lower if p − 1 would be exceeded.
    pure integer(i8) function level_on(trajectory, factor, u) result(level)
       type(trajectory_t), intent(in) :: trajectory
       integer, intent(in) :: factor
-      real(wp), intent(in) :: u                !! the random number of factor and trajectory
+      real(wp), intent(in) :: u                !! random number in (0, 1) of the factor on this trajectory
 
       associate (t => trajectory)
          level = min(int(u*t%levels, i8), t%levels - 1)
@@ -58,7 +59,7 @@ contains
    !> Index of the only factor that differs from the previous design; 0 at the start of a trajectory.
    pure integer function factor_changed(trajectory, factors) result(factor)
       type(trajectory_t), intent(in) :: trajectory
-      integer, intent(in) :: factors               !! k
+      integer, intent(in) :: factors               !! k, number of factors
 
       factor = 0
       if (trajectory%step == 0) return
@@ -67,9 +68,9 @@ contains
       end do
    end function factor_changed
 
-   !> The change of a factor at its step, as a fraction of its range: ±p/(2(p − 1)).
+   !> The change of a factor at its step, as a fraction of its range: ±p/(2(p − 1)), with p levels.
    pure real(wp) function change_of_level(trajectory, factor) result(change)
-      type(trajectory_t), intent(in) :: trajectory     !! at or after the step of the factor
+      type(trajectory_t), intent(in) :: trajectory     !! trajectory at or after the step of the factor
       integer, intent(in) :: factor
       integer(i8) :: level
 
