@@ -58,7 +58,7 @@ contains
    pure subroutine buffer_copy(self, first, part)
       class(buffer_t), intent(in) :: self
       integer, intent(in) :: first
-      character(*), intent(inout) :: part       !! ends within the text
+      character(*), intent(inout) :: part       !! its last character must be within the string
 
       if (len(part) > 0) part = self%letters(first:first + len(part) - 1)
    end subroutine buffer_copy

@@ -7,11 +7,10 @@
 !>
 !>     digits = x·10^q = m·5^q · 2^(b+q)
 !>
-!> is a whole product shifted to the right. It is exact while 5^q < 2^63 (q ≤ 27, |x| ≥ 1e-13).
-!> Above, 5^q is truncated to 63 bits, which bounds the digits from both sides; if the bounds round
-!> to different numbers, the (slow, exact) formatted write decides. It also handles values
-!> outside 1e-40 ≤ |x| < 1e15. Every string is therefore the correctly rounded decimal; a tie
-!> goes to the even digit, as in the formatted write.
+!> is an integer product shifted to the right. The product is exact while 5^q < 2^63 (q ≤ 27, |x| ≥ 1e-13). For larger q, 5^q is
+!> truncated to 63 bits, which bounds the digits from both sides; if the bounds round to different numbers, the (slow, exact)
+!> formatted write decides. The formatted write also handles values outside 1e-40 ≤ |x| < 1e15. Every string is therefore the
+!> correctly rounded decimal; a tie goes to the even digit, as in the formatted write.
 module ek_decimal
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan, ieee_positive_inf, ieee_negative_inf
    use ek_kinds, only: wp, i8
@@ -34,8 +33,8 @@ module ek_decimal
    integer(i16), parameter :: top(0:most) = [(shiftr(five(k), cut(k)), k=0, most)]
    real(wp), parameter :: ten(smallest:kept) = [(10.0_wp**k, k=smallest, kept)]
    integer(i8), parameter :: largest = 17976931348623157_i8     !! first 17 digits of the largest double, about 1.797e308
-   real(wp), parameter :: number_limit = 1.0e30_wp  !! numbers of decks, settings and options are below it in magnitude
-   real(wp), parameter :: exact_ten(0:22) = [(10.0_wp**k, k=0, 22)]   !! no rounding error
+   real(wp), parameter :: number_limit = 1.0e30_wp  !! limit of the magnitude of numbers in decks, settings and options
+   real(wp), parameter :: exact_ten(0:22) = [(10.0_wp**k, k=0, 22)]   !! powers of ten without a rounding error
    character(2), parameter :: pair(0:99) = &
       [((achar(iachar('0') + k)//achar(iachar('0') + l), l=0, 9), k=0, 9)]
 
@@ -72,7 +71,7 @@ contains
       call put_digits(text, decade, buffer, used)
    end subroutine put_decimal
 
-   !> The number as a string with exactly its length. put_decimal writes into a longer string instead.
+   !> The number x as a string without blanks, in the form that put_decimal appends to a buffer.
    pure function decimal(x) result(text)
       real(wp), intent(in) :: x
       character(:), allocatable :: text

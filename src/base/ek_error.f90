@@ -1,6 +1,6 @@
 !> The error value returned by every procedure that can fail, and the exit codes of the program.
 !>
-!> Unallocated is success. The caller writes `if (allocated(error)) return` after every call.
+!> An unallocated error means success. The caller writes `if (allocated(error)) return` after every call.
 module ek_error
    implicit none(type, external)
    private
@@ -63,7 +63,7 @@ contains
       list_count = self%used
    end function list_count
 
-   !> Message k.
+   !> Message k, counted in the order of addition.
    pure function list_line(self, k) result(text)
       class(message_list_t), intent(in) :: self
       integer, intent(in) :: k

@@ -1,6 +1,7 @@
 !> Number kinds, and units at the interface: decks may use mm, N and deg; inside, everything is SI and radians.
 !>
-!> A deck value times the factor here is in SI. Results are always written in mm, N, deg and N m, regardless of the deck's units.
+!> A deck value times its factor in `units_t` is in SI. Results are always written in mm, N, deg and N m, regardless of the deck's
+!> units.
 module ek_kinds
    use, intrinsic :: iso_fortran_env, only: real64, int64
    implicit none(type, external)

@@ -27,7 +27,8 @@ contains
       shown = with_numbers(text, .false.)
    end function printable
 
-   !> A string in which control characters are replaced by numbers; with `of_all`, every invisible character and invalid byte.
+   !> A string in which control characters are replaced by their numbers. With `of_all`, every invisible character and every invalid
+   !> byte is replaced.
    pure function with_numbers(text, of_all) result(seen)
       character(*), intent(in) :: text
       logical, intent(in) :: of_all
@@ -88,8 +89,8 @@ contains
       sound = sound//text(first:)
    end function as_utf8
 
-   !> Whether a string uses two or four bytes per character (UTF-16, UTF-32) or is binary: it begins with the byte order mark of
-   !> UTF-16, or contains a zero byte.
+   !> Whether a string uses two or four bytes per character (UTF-16, UTF-32) or is binary. Such a string begins with the byte order
+   !> mark of UTF-16, or contains a zero byte.
    pure logical function is_wide(text)
       character(*), intent(in) :: text
 
