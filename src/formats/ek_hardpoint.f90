@@ -26,7 +26,7 @@ module ek_hardpoint
 
 contains
 
-   !> Adds a point. Two rows with the same name must be a left and a right point.
+   !> Adds a point. Two points with the same name must be a left and a right point; otherwise, the second is reported and not added.
    subroutine add_hardpoint(sheet, name, at, symmetry, line, flaws)
       type(hardpoints_t), intent(inout) :: sheet
       character(*), intent(in) :: name
@@ -79,7 +79,7 @@ contains
       end select
    end function symmetry_of
 
-   !> Reads a symmetry; any other string is an error.
+   !> Reads a symmetry. A string that is not the name of a symmetry is reported, and `symmetry` is then −1.
    subroutine take_symmetry(text, line, symmetry, flaws)
       character(*), intent(in) :: text
       integer, intent(in) :: line

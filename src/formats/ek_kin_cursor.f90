@@ -1,4 +1,5 @@
-!> The lines of a file of IPGKinematics (.kin) and the index of the line being read: a label in quotes and values, in a fixed order.
+!> The lines of a file of IPGKinematics (.kin), and the index of the line that was read last. A line has a label in quotes and
+!> values. The labels are in a fixed order.
 !>
 !> A value is found by the form of its label after the line of the previous value, so that headings, comments and further
 !> lines do not matter.
@@ -20,7 +21,8 @@ module ek_kin_cursor
 
 contains
 
-   !> Moves to the next line with a label of this form and at least `least` values; the values are `fields(2:used)`.
+   !> Moves to the next line whose label matches `pattern` and which has at least `least` values; the values are `fields(2:used)`.
+   !> If there is no such line, or if it has too few values, an error is reported.
    subroutine go_to(cursor, pattern, least, fields, used, flaws)
       type(kin_cursor_t), intent(inout) :: cursor
       character(*), intent(in) :: pattern
@@ -94,7 +96,7 @@ contains
       if (value < 0.0_wp) call flaws%add(cursor%line, 'expected a mass of 0 or more, found '//str(value))
    end subroutine take_mass
 
-   !> Reads an integer from 0 to `most`.
+   !> Reads an integer from 0 to `most`. Any other value is reported, and `choice` is then 0.
    subroutine take_choice(cursor, pattern, most, choice, flaws)
       type(kin_cursor_t), intent(inout) :: cursor
       character(*), intent(in) :: pattern
@@ -115,7 +117,7 @@ contains
       choice = int(value)
    end subroutine take_choice
 
-   !> Reads an integer from 0 to 1 as a logical: 1 is .true..
+   !> Reads an integer from 0 to 1; `flag` is .true. for 1.
    subroutine take_flag(cursor, pattern, flag, flaws)
       type(kin_cursor_t), intent(inout) :: cursor
       character(*), intent(in) :: pattern
@@ -127,7 +129,7 @@ contains
       flag = choice == 1
    end subroutine take_flag
 
-   !> Reads a choice of 1 or 2.
+   !> Reads an integer from 0 to 2; `is_second` is .true. for 2.
    subroutine take_choice_of_two(cursor, pattern, is_second, flaws)
       type(kin_cursor_t), intent(inout) :: cursor
       character(*), intent(in) :: pattern
@@ -157,7 +159,7 @@ contains
       end do
    end subroutine take_point
 
-   !> Whether the label of a line has a form. Several blanks count as one.
+   !> Whether the label of a line matches a pattern with *. Letter case is ignored, and several blanks count as one.
    pure logical function has_label(line, pattern)
       character(*), intent(in) :: line, pattern
       integer, parameter :: longest = 200

@@ -127,7 +127,8 @@ contains
       call move_alloc(grown, values)
    end subroutine grow
 
-   !> The table of loads as CSV. Columns of zeros are omitted, except heights.
+   !> The table of loads as CSV. Columns 1 and 2 are always included, and damage columns (5 to 8) never. Other columns of zeros are
+   !> omitted.
    function lcf_table(lcf, driver, source) result(text)
       type(lcf_t), intent(in) :: lcf
       character(*), intent(in) :: driver      !! name of the driver that column 19 moves
