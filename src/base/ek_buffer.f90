@@ -6,7 +6,7 @@ module ek_buffer
    private
    public :: buffer_t
 
-   integer, parameter :: first_room = 4096   !! characters
+   integer, parameter :: first_room = 4096   !! initial capacity [characters]
 
    type :: buffer_t
       private

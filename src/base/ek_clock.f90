@@ -9,8 +9,8 @@ module ek_clock
 
 contains
 
-   !> Seconds of a monotonic clock. Its zero is arbitrary, so that only differences are meaningful. The resolution is 1 ns with
-   !> gfortran on Linux.
+   !> Seconds of a monotonic clock. The zero of the clock is arbitrary, so that only differences are meaningful. The resolution is 1
+   !> ns with gfortran on Linux.
    real(wp) function seconds()
       integer(i8) :: ticks, rate
 

@@ -1,7 +1,7 @@
 !> Conversion of a real to a string with 15 significant digits, and back: fast, and correctly rounded.
 !>
-!> gfortran's formatted write takes about a microsecond per number; writing a table of 600 states and
-!> 70 columns would take longer than its solution.
+!> gfortran's formatted write takes about a microsecond per number; writing a table of 600 states and 70 columns would take longer
+!> than the solution of these states.
 !>
 !> A double is m·2^b with an integer m < 2^53, so with 10^q = 5^q·2^q
 !>
@@ -22,7 +22,7 @@ module ek_decimal
    integer, parameter :: i16 = selected_int_kind(38)
    integer, parameter :: kept = 15                  !! significant digits
    integer(i8), parameter :: full = 10_i8**kept
-   integer, parameter :: smallest = -40             !! lowest decade of the fast method
+   integer, parameter :: smallest = -40             !! lowest power of ten of the fast method
    integer, parameter :: most = kept - 1 - smallest !! largest power q
    integer, parameter :: mantissa_bits = digits(1.0_wp) - 1
    integer, parameter :: bias = maxexponent(1.0_wp) - 1 + mantissa_bits
@@ -215,7 +215,7 @@ contains
    pure subroutine get_decimal(text, x, is_number)
       character(*), intent(in) :: text
       real(wp), intent(out) :: x
-      logical, intent(out) :: is_number         !! false: not a number, x is nan
+      logical, intent(out) :: is_number         !! false: not a number, or beyond the largest double; x is nan
       integer(i8) :: number
       integer :: at, last, decade, places, figures, mark, sign, status, place
 

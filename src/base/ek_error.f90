@@ -12,7 +12,7 @@ module ek_error
    integer, parameter :: exit_model = 3        !! mechanism or redundant constraint
    integer, parameter :: exit_convergence = 4  !! a state did not converge; the converged states are written
    integer, parameter :: exit_file = 5         !! a file cannot be read or written
-   integer, parameter :: exit_stopped = 6      !! a study was stopped before its end; of the command line only
+   integer, parameter :: exit_stopped = 6      !! a study was stopped before its end; used by the command line only
 
    !> An error: its message and the exit status of the program.
    type :: error_t

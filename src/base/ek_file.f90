@@ -62,8 +62,8 @@ contains
 
    !> Reads the whole content of a file, byte for byte.
    !>
-   !> A pipe is read only if `may_stream`, which is for paths given by the user; /dev/null is then an empty file. Any other device
-   !> is rejected, because a device may be endless.
+   !> A pipe is read only with `may_stream`, which callers set for paths given by the user; /dev/null is then an empty file. Any
+   !> other device is rejected, because a device may be endless.
    subroutine read_whole(path, text, error, may_stream)
       character(*), intent(in) :: path
       character(:), allocatable, intent(out) :: text         !! '' when the file is empty or unreadable

@@ -11,7 +11,7 @@ module ek_interrupt
    integer(c_int), parameter :: sigint = 2, sigterm = 15
    integer(c_int), parameter :: further(*) = [1, 3, 10, 12, 24]       !! SIGHUP, SIGQUIT, SIGUSR1, SIGUSR2, SIGXCPU of Linux
    integer(c_intptr_t), parameter :: is_ignored = 1                   !! SIG_IGN, as nohup sets it
-   logical, volatile :: is_asked = .false.      !! set by the handler; a handler may only set such a variable
+   logical, volatile :: is_asked = .false.      !! set by the handler of the signals
 
 contains
 

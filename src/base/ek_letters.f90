@@ -159,8 +159,8 @@ contains
       if (code < least(length) .or. code > 1114111 .or. (code >= 55296 .and. code < 57344)) length = 0
    end subroutine decode
 
-   !> Whether a character is hidden. Control characters are; with `of_all` also tab, other blanks, soft hyphen, zero-width
-   !> characters and direction marks.
+   !> Whether a character is hidden. Control characters are hidden, except tab and line feed. With `of_all`, tab, other blanks, soft
+   !> hyphen, zero-width characters and direction marks are hidden too.
    pure logical function is_hidden(code, of_all)
       integer, intent(in) :: code
       logical, intent(in) :: of_all

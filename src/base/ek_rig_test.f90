@@ -8,12 +8,12 @@
 !> | roll                | axle roll       | height(left) − height(right) = t tan φ | difference only: |
 !> |                     |                 |                                        | constant load    |
 !> | steering            | rack travel     | constant heights                       | height           |
-!> | lateral_force       | force           | +y at the patch, moment force × trail  | vertical force   |
-!> | braking             | force           | rearward at the patch                  | vertical force   |
+!> | lateral_force       | force           | +y at the contact point, with trail    | vertical force   |
+!> | braking             | force           | rearward at the contact point          | vertical force   |
 !> | traction            | force           | forward at the wheel centre            | vertical force   |
 !> | aligning_torque     | moment          | about z, counterclockwise from above   | vertical force   |
-!> | vertical_force      | force           | upward at the patch                    | vertical force   |
-!> | table               | row of the file | its columns                            | vertical force   |
+!> | vertical_force      | force           | upward at the contact point            | vertical force   |
+!> | table               | row of the file | loads and heights in the columns       | vertical force   |
 !> | travel_and_steering | state of a grid | both up; the rack moves, too           | height, driven   |
 !>
 !> A new test needs a row here. If the test has charts or gradients of its own, it also needs a list in ek_test_charts and rows in
@@ -38,7 +38,7 @@ module ek_rig_test
    type :: rig_test_t
       character(19) :: name = ''
       integer :: action = 0                  !! one of the constants above; 0: no test of the rig
-      integer :: charts = of_none            !! set of charts and gradients
+      integer :: charts = of_none            !! set of charts and gradients, one of the of_… above
       character(6) :: control = ''           !! how the wheels are held if the case does not give `vertical`
       character(3) :: unit = '-'             !! unit of the swept value: mm, deg, N, N m, '-': none, '': unit of the steered joint
       character(48) :: place_name = ''       !! name of the swept value
@@ -51,8 +51,8 @@ module ek_rig_test
       logical :: has_phase = .false.         !! the load on the right wheel may be reversed
       logical :: has_trail = .false.         !! the force may act aft of the contact point, at `offset`
       integer :: place = 0                   !! position among the standard tests; 0: not a standard test
-      logical :: is_on_request = .false.     !! a standard test that runs only if it is requested by name
-      integer :: phases = 1                  !! 2: the standard tests contain it in phase and anti-phase
+      logical :: is_on_request = .false.     !! .true.: as a standard test, the test runs only if it is requested by name
+      integer :: phases = 1                  !! 2: the standard tests contain the test in phase and anti-phase; 1: in phase only
       real(wp) :: reach = 0.0_wp             !! range of the standard test: −reach to reach, in `unit`; in a grid in mm
       integer :: increments = 40             !! increments of the standard test
       character(9) :: prefix = ''            !! prefix of the names of the gradients of the test

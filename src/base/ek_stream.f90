@@ -12,10 +12,10 @@ module ek_stream
    public :: read_stream, max_streamed
 
    integer, parameter :: max_streamed = 100000000        !! limit of the bytes read; the largest known deck has half a percent
-   real(wp), parameter :: patience = 10.0_wp             !! s, for a program to open the pipe for writing
+   real(wp), parameter :: patience = 10.0_wp             !! time for a program to open the pipe for writing [s]
    integer(c_int), parameter :: no_wait = 2048           !! O_NONBLOCK of open(2); O_RDONLY is 0
    integer, parameter :: try_again = 11                  !! EAGAIN: a program has opened the pipe and has not written yet
-   integer(c_int), parameter :: nap = 10                 !! ms
+   integer(c_int), parameter :: nap = 10                 !! time before the next read of an empty pipe [ms]
 
 contains
 

@@ -24,7 +24,7 @@ module ek_system
       broken_pipe = 32
 
    integer, parameter :: unknown_file = -1, no_file = 0, regular_file = 1, folder_file = 2, device_file = 3, link_file = 4, &
-      other_file = 5                                !! other: a named pipe, a socket
+      other_file = 5                                !! other_file: a named pipe or a socket
 
    !> The facts of a path: kind, identity and age.
    type :: facts_t
@@ -33,8 +33,8 @@ module ek_system
       integer(i8) :: changed = 0                    !! last modification [s since 1970]
    end type facts_t
 
-   integer, parameter :: sigpipe = 13, sigxfsz = 25  !! signals, the same on all systems
-   integer, parameter :: max_letters = 4096         !! longest path
+   integer, parameter :: sigpipe = 13, sigxfsz = 25  !! numbers of signals, the same on all systems
+   integer, parameter :: max_letters = 4096         !! characters of the longest path
 
    abstract interface
       integer(c_int) function statx_procedure(folder, path, flags, mask, facts) bind(c)

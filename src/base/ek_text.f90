@@ -108,7 +108,7 @@ contains
       end do
    end function lower
 
-   !> A name between single quotes. Invisible characters in the name are shown as <U+00A0>.
+   !> A name between single quotes. Invisible characters in the name are shown by their numbers, as in <U+00A0>.
    pure function quoted(name) result(text)
       character(*), intent(in) :: name
       character(:), allocatable :: text

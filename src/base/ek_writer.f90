@@ -31,11 +31,11 @@ module ek_writer
 
    character(*), parameter :: front = '.elastokin-', tail = '.tmp', part_tail = '.part'
    integer, parameter :: tag_length = 8 + 1 + 16            !! <machine>-<random>
-   integer(i8), parameter :: a_day = 86400                  !! s
-   integer, parameter :: max_held = 60000                  !! characters added before they are written
-   integer, parameter :: max_attempts = 100                !! to create a file under a free name and lock it
+   integer(i8), parameter :: a_day = 86400                  !! a day [s]
+   integer, parameter :: max_held = 60000                  !! characters that are held before they are written
+   integer, parameter :: max_attempts = 100                !! attempts to create a file under a free name and to lock it
    integer(c_int), parameter :: may_exist = 0               !! F_OK of access(2)
-   integer(c_int), parameter :: mine_alone = 448            !! 0700
+   integer(c_int), parameter :: mine_alone = 448            !! mode 0700 of a scratch folder
 
    !> A file being written.
    type :: writer_t

@@ -280,7 +280,7 @@ contains
    !> Reads all of standard input line by line, because it may be a pipe of unknown size.
    subroutine read_standard_input(text, error)
       character(:), allocatable, intent(out) :: text
-      type(error_t), allocatable, intent(out) :: error      !! exit_file: it is too long
+      type(error_t), allocatable, intent(out) :: error      !! exit_file: the input is too long
       type(buffer_t) :: buffer
       character(4096) :: chunk
       integer :: status, got

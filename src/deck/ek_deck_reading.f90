@@ -22,7 +22,7 @@ module ek_deck_reading
    type :: card_t
       integer :: group = 0                  !! index of its group; 0: an unknown group, or a group of a study
       character(word_length) :: name = ''
-      integer :: hash = 0                   !! of the name in lower case: equal names have equal hashes
+      integer :: hash = 0                   !! hash value of the name in lower case: equal names have equal values
       logical :: is_good = .false.          !! no error found so far
       integer :: index = 0                  !! index among the parts of its kind; point: index of its vector
       real(wp) :: factor = 1.0_wp           !! measure, driver: SI value of the deck unit
@@ -31,8 +31,8 @@ module ek_deck_reading
 
    type :: deck_reading_t
       character(:), allocatable :: file         !! path of the deck, for messages
-      type(record_t), allocatable :: records(:) !! of the finished deck: with the records of both sides
-      type(card_t), allocatable :: cards(:)     !! one per record
+      type(record_t), allocatable :: records(:) !! records of the finished deck, for both sides
+      type(card_t), allocatable :: cards(:)     !! the card of each record
       integer :: k = 0                          !! index of the record being read
       type(deck_errors_t) :: deck_errors
       type(units_t) :: units
@@ -275,7 +275,7 @@ contains
       character(*), intent(in) :: key
       real(wp), intent(in) :: unit                   !! SI value of the unit in the deck
       integer, intent(out) :: number
-      real(wp), intent(in), optional :: default      !! in the unit of the deck; absent: the key has none
+      real(wp), intent(in), optional :: default      !! default in the unit of the deck; absent: the key has none
       integer, intent(in), optional :: count         !! default 1
       real(wp) :: usual
       integer :: k, elements

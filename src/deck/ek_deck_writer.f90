@@ -24,7 +24,7 @@ module ek_deck_writer
 
    !> A load table that a record names.
    type :: table_t
-      character(:), allocatable :: path, name      !! path from which it was read; its name in the written deck
+      character(:), allocatable :: path, name      !! path from which the table was read; its name in the written deck
    end type table_t
 
 contains

@@ -56,7 +56,7 @@ module ek_group
       integer :: type
       integer :: least, most     !! least and largest number of values
       logical :: is_required
-      integer :: range = any_number     !! see ek_number_range
+      integer :: range = any_number     !! legal range of a number, see ek_number_range
       character(20) :: unit = ''   !! unit of the limits of the range, for messages
       integer :: role = 0
    end type key_t
@@ -291,7 +291,8 @@ contains
       is_deck_group = group > 0 .and. .not. any([study_groups, fit_groups] == group)
    end function is_deck_group
 
-   !> Whether records of a group have columns in the results, so that their names must differ and &mirror duplicates them.
+   !> Whether records of a group have columns in the results. Their names must then differ, and &mirror duplicates the records that
+   !> refer to duplicated parts.
    pure logical function has_results(group)
       integer, intent(in) :: group
       has_results = any(result_groups == group)

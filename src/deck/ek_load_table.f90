@@ -8,7 +8,7 @@
 !> | travel_mm                             | height of the wheel centre above design, held            |
 !> | <driver>_mm, <driver>_deg             | change of the value prescribed by a driver joint         |
 !>
-!> Loads and heights act in addition to the constant loads of the deck; quantities without a column stay constant.
+!> The loads of the table act in addition to the constant loads of the deck. Loads and drivers without a column stay constant.
 module ek_load_table
    use ek_kinds, only: wp, degree, millimetre
    use ek_error, only: error_t

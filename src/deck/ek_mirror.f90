@@ -20,14 +20,14 @@ module ek_mirror
    private
    public :: mirror_records
 
-   real(wp), parameter :: in_plane = 1.0e-9_wp      !! m; a point closer to y = 0 exists once
+   real(wp), parameter :: in_plane = 1.0e-9_wp      !! a point closer than this to y = 0 exists once [m]
 
    !> Information about the half deck during duplication, one array element per record.
    type :: half_t
       integer, allocatable :: groups(:)
       character(word_length), allocatable :: names(:)   !! lower case; '' if there is no usable name
       logical, allocatable :: is_doubled(:), is_shared(:)
-      logical, allocatable :: is_right(:)            !! a wheel of the right side, rejected
+      logical, allocatable :: is_right(:)            !! whether the record is a wheel of the right side, which is rejected
       real(wp) :: length = 1.0e-3_wp                 !! the deck's length unit [m]
       real(wp) :: outboard = -1.0_wp                 !! sign of y on the left
    end type half_t

@@ -21,10 +21,10 @@ module ek_parameter
    type :: parameter_t
       integer :: record = 0               !! index of its record in the mirrored deck
       character(14) :: key = ''
-      integer :: at = 1                   !! subscript
+      integer :: at = 1                   !! subscript of the number in its key
       real(wp) :: unit = 1.0_wp           !! SI value of the deck unit of the number
       integer :: range = 0                !! legal range of the key, see ek_number_range
-      logical :: is_given = .true.        !! .false.: the deck omits it, x has its default
+      logical :: is_given = .true.        !! .false.: the deck omits the number, and x has its default
       real(wp) :: sign = 1.0_wp           !! −1: the value on the right side is minus the value on the left
       integer :: tied = 0                 !! index of the parameter of the left side with the same path; 0: none
    end type parameter_t

@@ -37,9 +37,9 @@ module ek_reader
    !> A deck as a design space: realise(plan, x) is a suspension.
    type :: design_t
       type(blueprint_t) :: plan
-      type(parameters_t) :: parameters           !! with their values in the deck, x
+      type(parameters_t) :: parameters           !! the parameters, with their values in the deck (x)
       type(record_t), allocatable :: records(:)  !! of the mirrored deck, to which the parameters refer
-      type(case_t), allocatable :: cases(:)      !! with their tables; may be of size 0; includes cases with an error
+      type(case_t), allocatable :: cases(:)      !! cases and their tables; may be of size 0; includes cases with an error
       type(target_band_t), allocatable :: targets(:)      !! target bands of key numbers, for the page of a report
    end type design_t
 

@@ -22,7 +22,7 @@ module ek_reader_cases
 
    ! limits of the tolerance: rounding of a metre is 1e-13 mm, and no case converges below that; above a millimetre
    ! the first guess of every state would be accepted
-   real(wp), parameter :: min_tolerance = 1.0e-15_wp, max_tolerance = 1.0e-3_wp      !! m
+   real(wp), parameter :: min_tolerance = 1.0e-15_wp, max_tolerance = 1.0e-3_wp      !! limits [m]
 
 contains
 

@@ -3,11 +3,11 @@
 !> | line               | meaning                                                                             |
 !> |--------------------|-------------------------------------------------------------------------------------|
 !> | path = value       | as for --set, also *1.1 and +2                                                      |
-!> | path value         | the same                                                                            |
+!> | path value         | as for --set, with a blank instead of the = sign                                   |
 !> | 105.5 path         | a number before its path                                                            |
-!> | { path = value }   | APREPRO; the names that Dakota adds itself are omitted                             |
+!> | { path = value }   | APREPRO; the names that Dakota adds itself are ignored                              |
 !> | 2 variables        | Dakota's parameters file: two lines `number path` follow, the rest belongs to Dakota |
-!> | # comment          | also after a setting; empty lines                                                  |
+!> | # comment          | ignored, also after a setting; empty lines are ignored too                          |
 module ek_set_file
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t, fail, exit_deck
@@ -44,7 +44,7 @@ contains
    subroutine read_set_file(path, file, error)
       character(*), intent(in) :: path
       type(set_file_t), intent(out) :: file
-      type(error_t), allocatable, intent(out) :: error     !! exit_file: it cannot be read
+      type(error_t), allocatable, intent(out) :: error     !! exit_file: the file cannot be read
       character(:), allocatable :: text, content
       integer :: first, last, line, left
 

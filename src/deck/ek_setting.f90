@@ -3,14 +3,14 @@
 !> | path                | meaning                                                  |
 !> |---------------------|----------------------------------------------------------|
 !> | point.upper.z       | one number; also point.upper.at(3)                       |
-!> | bushing.*.kt(1)     | of every bushing that has it; * stands for any characters |
-!> | axle.wheelbase      | of a group without names                                 |
+!> | bushing.*.kt(1)     | number of every bushing that gives it; * stands for any characters |
+!> | axle.wheelbase      | number of a group without names                          |
 !>
 !> | value  | meaning                                                    |
 !> |--------|------------------------------------------------------------|
 !> | 105.5  | replaces the value                                         |
-!> | *1.1   | a number: multiplies it                                    |
-!> | +2     | a number: adds to it, in the unit of the deck; +-2 subtracts |
+!> | *1.1   | multiplies a number                                        |
+!> | +2     | adds to a number, in the unit of the deck; +-2 subtracts   |
 module ek_setting
    use ek_kinds, only: wp
    use ek_text, only: str, quoted, plural, did_you_mean

@@ -8,7 +8,7 @@ module ek_deck_text
    private
    public :: deck_text_t
 
-   integer, parameter :: widest = 118      !! characters of a line before it is broken
+   integer, parameter :: widest = 118      !! characters of a line after which a list continues on a new line
 
    !> The deck being written. A group is begun, gets its keys, and is ended.
    type :: deck_text_t

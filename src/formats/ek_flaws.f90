@@ -11,7 +11,7 @@ module ek_flaws
    integer, parameter :: most_shown = 60     !! most characters of the file in a message
 
    type :: flaws_t
-      character(:), allocatable :: file        !! as given by the user
+      character(:), allocatable :: file        !! path as given by the user
       integer, private :: lines(most_kept) = 0
       type(message_list_t), private :: words
       integer, private :: untold = 0

@@ -17,10 +17,10 @@ module ek_gum
    type :: gum_t
       type(law_points_t) :: halves(2, 3)      !! (positive or negative side, axis); y is 0 until the forces are read
       integer :: force_line(2, 3) = 0
-      real(wp) :: stiffness(3) = 0.0_wp       !! about each axis [N m/rad]
+      real(wp) :: stiffness(3) = 0.0_wp       !! rotational stiffness about each axis [N m/rad]
       logical :: has_stiffness(3) = .false.
       integer :: axis = 0                     !! axis of the list that was read last; 0: none
-      integer :: flag = -1                    !! 0: the negative side is the image of the positive one; 1: it has separate numbers
+      integer :: flag = -1                    !! 0: the negative side is the image of the positive side; 1: its numbers are separate
    end type gum_t
 
 contains

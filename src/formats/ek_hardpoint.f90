@@ -13,7 +13,7 @@ module ek_hardpoint
 
    type :: hardpoint_t
       character(63) :: name = ''            !! legal in a deck
-      real(wp) :: at(3) = 0.0_wp            !! m; in the frame of the file
+      real(wp) :: at(3) = 0.0_wp            !! position [m], in the frame of the file
       integer :: symmetry = single_point
       integer :: line = 0
    end type hardpoint_t

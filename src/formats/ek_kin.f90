@@ -11,7 +11,7 @@ module ek_kin
       rocker_pivot, rocker_axis, rod_wheel, rod_rocker, coil_body, coil_rocker
    public :: off, on_lower, on_carrier, on_upper
 
-   !> Numbers of the points in the file
+   !> Numbers by which the file identifies the points
    integer, parameter :: wheel_centre = 1, contact = 2, subframe_front = 4, subframe_rear = 5, lower_ball = 6, upper_ball = 7, &
       tie_rod_outer = 8, lower_front = 9, lower_rear = 10, upper_front = 11, upper_rear = 12, bar_bearing = 13, bar_end = 14, &
       link_end = 15, tie_rod_inner = 16, spring_body = 18, spring_wheel = 19, rocker_pivot = 24, rocker_axis = 25, &
@@ -39,17 +39,17 @@ module ek_kin
    type :: kin_t
       character(:), allocatable :: axle_type, remark, position, main_path
       logical :: has_forces = .false., has_subframe = .false., has_elastic_gearbox = .false., is_iso = .false., is_front = .false.
-      real(wp) :: bump = 0.0_wp, rebound = 0.0_wp, rack_most = 0.0_wp, rack_least = 0.0_wp      !! mm
-      real(wp) :: toe = 0.0_wp                !! minutes of arc
-      real(wp) :: camber = 0.0_wp             !! deg
+      real(wp) :: bump = 0.0_wp, rebound = 0.0_wp, rack_most = 0.0_wp, rack_least = 0.0_wp      !! wheel and rack travel [mm]
+      real(wp) :: toe = 0.0_wp                !! toe [minutes of arc]
+      real(wp) :: camber = 0.0_wp             !! camber [deg]
       real(wp) :: cg_height = 0.0_wp, wheelbase = 0.0_wp, brake_share = 0.0_wp, drive_share = 0.0_wp, tyre_rate = 0.0_wp
       integer :: spring = off, rod = off, bar = off, third = off
       type(kin_curve_t) :: coil, bar_law, rod_law
       logical :: has_upper_on_subframe = .false.
       real(wp) :: load = 0.0_wp, body = 0.0_wp, subframe = 0.0_wp, lower_arm = 0.0_wp, carrier = 0.0_wp, wheel = 0.0_wp, &
          upper_arm = 0.0_wp, tie_rod = 0.0_wp, rack = 0.0_wp, housing = 0.0_wp, bar_mass = 0.0_wp, bar_link = 0.0_wp, &
-         rocker = 0.0_wp                      !! kg
-      real(wp) :: at(3, points) = 0.0_wp      !! mm
+         rocker = 0.0_wp                      !! masses [kg]
+      real(wp) :: at(3, points) = 0.0_wp      !! coordinates of the points [mm]
       type(kin_bushing_t) :: mounts(bushings)
    end type kin_t
 

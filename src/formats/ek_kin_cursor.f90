@@ -21,14 +21,14 @@ module ek_kin_cursor
 
 contains
 
-   !> Moves to the next line whose label matches `pattern` and which has at least `least` values; the values are `fields(2:used)`.
-   !> If there is no such line, or if it has too few values, an error is reported.
+   !> Moves to the next line whose label matches `pattern`; the values are `fields(2:used)`. A missing line, or fewer than `least`
+   !> values, is reported as an error. If `least` is 1, a line without a value is skipped.
    subroutine go_to(cursor, pattern, least, fields, used, flaws)
       type(kin_cursor_t), intent(inout) :: cursor
       character(*), intent(in) :: pattern
       integer, intent(in) :: least
       type(field_t), intent(inout) :: fields(64)
-      integer, intent(out) :: used          !! 0: not found
+      integer, intent(out) :: used          !! 0: no line with enough values was found
       type(flaws_t), intent(inout) :: flaws
       integer :: k
 

@@ -14,7 +14,7 @@ module ek_law_points
       logical :: is_bad = .false.                !! an error was reported
       integer :: line = 0                        !! line at which the law begins
       integer :: used = 0
-      real(wp), allocatable :: x(:), y(:)        !! SI
+      real(wp), allocatable :: x(:), y(:)        !! displacement and force, or angle and moment [SI]
       integer, allocatable :: lines(:)           !! line of each point in the file
    end type law_points_t
 

@@ -1,8 +1,8 @@
 !> Property files of elastic elements: .bus, .spr, .bum, .reb of Adams/Car and .gum of IPGKinematics, as curves in SI.
 !>
-!> The kind of the file follows from its content. In all of them force and moment oppose the displacement: a positive
-!> displacement gives a positive number, as in a curve of a deck. The displacement of a spring is its compression; the
-!> displacement of a stop is its penetration.
+!> The kind of the file follows from its content. In every file, force and moment oppose the displacement: a positive displacement
+!> gives a positive number, as in a curve of a deck. The displacement of a spring is its compression; the displacement of a stop is
+!> its penetration.
 module ek_property
    use ek_kinds, only: wp
    use ek_error, only: error_t
@@ -31,7 +31,7 @@ module ek_property
    type :: property_t
       integer :: kind = 0                      !! 0: not a property file
       type(law_points_t) :: laws(6)            !! [m, N], [rad, N m]; a spring or a stop has only the first
-      real(wp) :: free_length = 0.0_wp         !! m; 0: not given
+      real(wp) :: free_length = 0.0_wp         !! free length of a spring [m]; 0: not given
       integer :: free_length_line = 0
    end type property_t
 
