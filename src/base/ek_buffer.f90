@@ -63,7 +63,7 @@ contains
       if (len(part) > 0) part = self%letters(first:first + len(part) - 1)
    end subroutine buffer_copy
 
-   !> The number of characters.
+   !> The number of characters of the string appended so far.
    pure integer function buffer_length(self) result(length)
       class(buffer_t), intent(in) :: self
       length = self%used

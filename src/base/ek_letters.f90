@@ -12,7 +12,7 @@ contains
 
    !> A string in which every invisible character is replaced by its number: `<U+00A0>` for a no-break space, `<U+00AD>` for a soft
    !> hyphen, `<U+200B>` for a zero-width space, `<U+0009>` for a tab. A byte that is not UTF-8 is replaced by its value, as in
-   !> `<E4>`. Line ends and ordinary blanks are unchanged.
+   !> `<E4>`. Line feeds and ordinary blanks are unchanged; a carriage return is `<U+000D>`.
    pure function visible(text) result(seen)
       character(*), intent(in) :: text
       character(:), allocatable :: seen
@@ -20,7 +20,7 @@ contains
    end function visible
 
    !> A string that is safe on a terminal. Control characters, which could move the cursor or set colours, become numbers such as
-   !> `<U+001B>`. Line ends, tabs and all other bytes are unchanged.
+   !> `<U+001B>`. Line feeds, tabs and all other bytes are unchanged.
    pure function printable(text) result(shown)
       character(*), intent(in) :: text
       character(:), allocatable :: shown

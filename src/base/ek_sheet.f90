@@ -21,14 +21,14 @@ module ek_sheet
 
    character(*), parameter :: line_end = new_line('a'), tab = achar(9)
    real(wp), parameter :: most = 1.0e31_wp      !! numbers of this size are errors, and could overflow later
-   integer, parameter :: max_reported = 100        !! errors reported in the rows of one table
+   integer, parameter :: max_reported = 100        !! most errors reported in the rows of one table
 
    !> The content of a file. Rows with an error are omitted from the values.
    type :: sheet_t
       character(:), allocatable :: file
       integer :: head_line = 0                          !! line of the headings; 0: no headings
-      character(name_length), allocatable :: heads(:)   !! '' for a column without heading
-      real(wp), allocatable :: values(:, :)             !! (column, row)
+      character(name_length), allocatable :: heads(:)   !! headings; '' for a column without heading
+      real(wp), allocatable :: values(:, :)             !! numbers (column, row)
       type(message_list_t) :: head_mistakes, row_mistakes
       integer :: untold = 0                             !! number of errors beyond the largest number reported
       character :: separator = ','
@@ -90,7 +90,7 @@ contains
       call judge_heads(sheet, rows, is_unnamed)
    end subroutine read_sheet
 
-   !> Lists all errors; errors of the headings come first.
+   !> Adds all errors of a sheet to a list of messages; errors of the headings come first.
    subroutine mistakes_of(sheet, mistakes)
       type(sheet_t), intent(in) :: sheet
       type(message_list_t), intent(inout) :: mistakes
@@ -152,7 +152,8 @@ contains
       end do
    end subroutine take_heads
 
-   !> Records whether the text contains decimal points. If it does not, commas that do not separate columns are decimal commas.
+   !> Records whether the lines after the headings, other than comments, contain decimal points. If they contain none, commas that
+   !> do not separate columns are decimal commas.
    pure subroutine find_decimal_marks(text, sheet)
       character(*), intent(in) :: text
       type(sheet_t), intent(inout) :: sheet
@@ -290,7 +291,7 @@ contains
          call sheet%row_mistakes%add(sheet%file//': the table has no rows')
    end subroutine judge_heads
 
-   !> Adds an error in a row. Only the first errors are stored if there are very many.
+   !> Adds an error in a row. Only the first 100 errors are stored; further errors are counted.
    subroutine complain(sheet, what)
       type(sheet_t), intent(inout) :: sheet
       character(*), intent(in) :: what

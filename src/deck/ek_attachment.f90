@@ -16,7 +16,7 @@ module ek_attachment
 
 contains
 
-   !> Finds the units of a deck, and whether its axes are x forward and y to the left.
+   !> Finds the units of a deck, and whether the axes of the deck are x forward and y to the left (axes = 'iso').
    pure subroutine units_in_deck(records, units, is_iso)
       type(record_t), intent(in) :: records(:)
       type(units_t), intent(out) :: units

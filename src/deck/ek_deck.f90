@@ -225,7 +225,7 @@ contains
    end subroutine move_deck
 
    !> Checksum of everything that can change a result, 16 hexadecimal digits (FNV-1a, 64 bits). Settings and load tables are
-   !> included. Comments, notes, titles, layout, target bands and the file in which a group is are ignored.
+   !> included. Comments, notes, titles, layout, target bands and the division of the deck into files are ignored.
    function deck_checksum(deck) result(digits)
       type(deck_t), intent(in) :: deck
       character(16) :: digits

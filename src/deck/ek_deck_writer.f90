@@ -29,7 +29,7 @@ module ek_deck_writer
 
 contains
 
-   !> Writes a deck, and the load tables named in the deck as DECK_TABLE.csv in the same folder.
+   !> Writes a deck as it was used to a file, and the load tables named in the deck to files DECK_TABLE.csv in the same folder.
    subroutine write_deck_as_used(deck, path, error, copies)
       type(deck_t), intent(in) :: deck                     !! without errors
       character(*), intent(in) :: path

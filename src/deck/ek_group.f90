@@ -28,15 +28,15 @@ module ek_group
       fit_groups(3) = [fit_group, factor_group, fit_target_group]
 
    ! types of value
-   integer, parameter, public :: word = 1      !! quoted, at most word_length characters: names and choices
-   integer, parameter, public :: prose = 2     !! quoted, at most note_length characters
+   integer, parameter, public :: word = 1      !! quoted string of at most word_length characters: names and choices
+   integer, parameter, public :: prose = 2     !! quoted string of at most note_length characters: titles, notes, paths
    integer, parameter, public :: number = 3
    integer, parameter, public :: whole = 4     !! integer
    integer, parameter, public :: switch = 5    !! .true. or .false.
-   integer, parameter, public :: heading = 6   !! quoted, at most name_length characters: columns of the results
+   integer, parameter, public :: heading = 6   !! quoted string of at most name_length characters: columns of the results
 
    integer, parameter, public :: word_length = 63      !! longest name
-   integer, parameter, public :: note_length = 2000    !! longest title or note
+   integer, parameter, public :: note_length = 2000    !! longest title, note or path
    integer, parameter, public :: longest(heading) = [word_length, note_length, 0, 0, 0, name_length]   !! by type; 0: not a string
    integer, parameter, public :: max_measures = 8     !! measures per coupler
    integer, parameter, public :: max_values = 200   !! values per factor, increments of a study, points of a curve, names in shared

@@ -57,7 +57,7 @@ contains
       end do
    end subroutine read_tables
 
-   !> Reads one table of loads.
+   !> Reads one table of loads. Errors are stored in the table, which then has no rows.
    subroutine read_table(file, files, suspension, is_whole, table)
       character(*), intent(in) :: file
       type(kept_files_t), intent(in) :: files

@@ -25,7 +25,7 @@ module ek_mirror
    !> Information about the half deck during duplication, one array element per record.
    type :: half_t
       integer, allocatable :: groups(:)
-      character(word_length), allocatable :: names(:)   !! lower case; '' if there is no usable name
+      character(word_length), allocatable :: names(:)   !! names in lower case; '' if there is no usable name
       logical, allocatable :: is_doubled(:), is_shared(:)
       logical, allocatable :: is_right(:)            !! whether the record is a wheel of the right side, which is rejected
       real(wp) :: length = 1.0e-3_wp                 !! the deck's length unit [m]
@@ -205,7 +205,7 @@ contains
       is_doubled_name = any(half%is_doubled .and. half%groups == role .and. half%names == lower(name)) .and. name /= ''
    end function is_doubled_name
 
-   !> Renames the record of one side, and its references to other records.
+   !> Renames a duplicated record for one side, and its references to other duplicated records.
    subroutine rename(half, side, record)
       type(half_t), intent(in) :: half
       integer, intent(in) :: side

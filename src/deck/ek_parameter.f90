@@ -1,7 +1,7 @@
 !> The parameters: the numbers of a deck, each with a path as `--set` writes it.
 !>
-!> x(k) is the value of parameter k [SI, axes of the deck]. On a mirrored axle, a number of the half deck is two parameters with one
-!> path, which has no side. The value of the parameter on the right is `sign` × the value on the left.
+!> x(k) is the value of parameter k [SI, axes of the deck]. On a mirrored axle, a number of a duplicated record is two parameters
+!> with one path, which has no side. The value of the parameter on the right is `sign` × the value on the left.
 module ek_parameter
    use ek_kinds, only: wp
    use ek_contract, only: are_checked, require
@@ -194,8 +194,8 @@ contains
       end do
    end subroutine find_parameters
 
-   !> Sets the parameters found by a path to a value, which is in the unit of the deck. A parameter on the right side gets the value
-   !> with its `sign`.
+   !> Sets the parameters found by a path to a value, which is in the unit of the deck. With the path of a half deck, the parameter
+   !> on the right side gets the mirror image of the value.
    pure subroutine put_value(parameters, found, value, x)
       type(parameters_t), intent(in) :: parameters
       type(choice_t), intent(in) :: found(:)
@@ -210,7 +210,8 @@ contains
       end do
    end subroutine put_value
 
-   !> Changes the parameters found by a path, relative to their values in x. The change is equal on both sides of an axle.
+   !> Changes the parameters found by a path, relative to their values in x. With the path of a half deck, the change on the right
+   !> side is the mirror image of the change on the left.
    subroutine put_change(parameters, found, change, x)
       type(parameters_t), intent(in) :: parameters
       type(choice_t), intent(in) :: found(:)

@@ -329,7 +329,7 @@ contains
    end subroutine check_new
 
    !> Rejects a second &model with the same name, as in a file that contains the deck twice. Only this error is reported, instead of
-   !> every duplicate name.
+   !> an error for every duplicate name.
    subroutine refuse_doubled_deck(reading, error)
       type(deck_reading_t), intent(in) :: reading
       type(error_t), allocatable, intent(out) :: error

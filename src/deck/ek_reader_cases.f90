@@ -176,8 +176,8 @@ contains
          "follow = 'arc' needs method = 'equilibrium', found "//quoted(text_of(reading, 'method')))
    end subroutine read_follow
 
-   !> Rejects two cases with the same output file. The target of a case has the file <case>_target, so that no other case may have
-   !> this name.
+   !> Rejects a case whose output file would be the file of the target of another case. The target of case <case> has the output
+   !> file <case>_target.
    subroutine refuse_one_file_for_two(reading, cases)
       type(deck_reading_t), intent(inout) :: reading
       type(case_t), intent(in) :: cases(:)

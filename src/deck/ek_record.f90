@@ -38,7 +38,7 @@ module ek_record
    type :: deck_errors_t
       private
       integer :: used = 0
-      logical :: is_cut = .false.         !! a file was not read to its end: it may have more errors
+      logical :: is_cut = .false.         !! a file was not read to its end and may have more errors
       type(deck_error_t), allocatable :: list(:)
    contains
       procedure :: add => complaints_add, cut => complaints_cut, count => complaints_count, text => complaints_text
@@ -48,24 +48,24 @@ module ek_record
    type :: value_t
       character(:), allocatable :: text
       logical :: is_string = .false.
-      logical :: is_empty = .false.       !! nothing between two commas
+      logical :: is_empty = .false.       !! .true.: there is nothing between two commas
    end type value_t
 
    !> `key = values`, or `key(first) = values`.
    type :: entry_t
-      character(:), allocatable :: key    !! lower case
+      character(:), allocatable :: key    !! key in lower case
       integer :: first = 1                !! subscript of the first value
       integer :: line = 0
-      character(:), allocatable :: setting   !! 'path=value' if it came from --set
-      logical :: is_bad = .false.         !! rejected by check_record
+      character(:), allocatable :: setting   !! 'path=value' if --set has set a value of the entry
+      logical :: is_bad = .false.         !! the entry was rejected by check_record
       integer :: used = 0
       type(value_t), allocatable :: values(:)
    end type entry_t
 
    !> One group, from `&` to `/`.
    type :: record_t
-      character(:), allocatable :: group  !! lower case, without the &
-      character(:), allocatable :: file   !! as shown in messages
+      character(:), allocatable :: group  !! name of the group in lower case, without the &
+      character(:), allocatable :: file   !! path of the file, as shown in messages
       integer :: source = 1               !! index of the file, in the order of reading
       integer :: line = 0
       integer :: side = single            !! side of a record duplicated by &mirror

@@ -16,7 +16,7 @@ module ek_reference
 
 contains
 
-   !> Index of the record of a group with a name; 0 if there is no such record.
+   !> Index of the record of a group with a name, in which letter case matters; 0 if there is no such record.
    pure integer function find_card(reading, group, name)
       type(deck_reading_t), intent(in) :: reading
       integer, intent(in) :: group
@@ -103,7 +103,7 @@ contains
          any(reading%cards%group == 0 .and. (reading%cards%name == name .or. reading%cards%name == ''))
    end function may_be_meant
 
-   !> Adds a vector to the blueprint and computes its present value.
+   !> Adds a vector to the blueprint and computes the value of the vector at design.
    subroutine new_vector(reading, vector, number)
       type(deck_reading_t), intent(inout) :: reading
       type(vector_t), intent(in) :: vector

@@ -23,7 +23,7 @@ module ek_set_file
    !> One setting and its location in the file.
    type :: line_t
       character(:), allocatable :: path, value
-      character(:), allocatable :: where           !! 'params.in:3'
+      character(:), allocatable :: where           !! location of the line: 'params.in:3'
    end type line_t
 
    !> The settings of a file, in the order of the lines.

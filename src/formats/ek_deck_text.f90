@@ -24,7 +24,7 @@ module ek_deck_text
 
 contains
 
-   !> Writes a comment line. Line ends in the string become blanks, and other invisible characters are shown by their numbers.
+   !> Writes a comment line. Line feeds in the string become blanks, and other invisible characters are shown by their numbers.
    subroutine text_comment(self, words)
       class(deck_text_t), intent(inout) :: self
       character(*), intent(in) :: words
@@ -175,7 +175,7 @@ contains
       self%column = self%column + self%buffer%length() - before
    end subroutine put_quoted
 
-   !> Adds a string. Line ends become blanks, and other invisible characters are shown by their numbers. An apostrophe becomes the
+   !> Adds a string. Line feeds become blanks, and other invisible characters are shown by their numbers. An apostrophe becomes the
    !> typographic apostrophe (’), which does not end a string of the deck.
    subroutine add_safe(self, text)
       class(deck_text_t), intent(inout) :: self

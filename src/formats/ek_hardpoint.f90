@@ -12,7 +12,7 @@ module ek_hardpoint
    integer, parameter :: most_points = 5000
 
    type :: hardpoint_t
-      character(63) :: name = ''            !! legal in a deck
+      character(63) :: name = ''            !! name that is legal in a deck
       real(wp) :: at(3) = 0.0_wp            !! position [m], in the frame of the file
       integer :: symmetry = single_point
       integer :: line = 0

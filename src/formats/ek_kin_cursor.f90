@@ -16,7 +16,7 @@ module ek_kin_cursor
    type :: kin_cursor_t
       type(lines_t) :: lines
       integer :: line = 0
-      logical :: is_lost = .false.            !! a value is missing; the values after it are not read
+      logical :: is_lost = .false.            !! a value is missing; the values further down are not read
    end type kin_cursor_t
 
 contains

@@ -32,7 +32,7 @@ module ek_lcf
 
    type :: lcf_t
       integer :: rows = 0
-      real(wp), allocatable :: values(:, :)     !! (column, row), SI
+      real(wp), allocatable :: values(:, :)     !! numbers (column, row) [SI]
       logical :: is_force = .false.             !! columns 1 and 2 are forces
       logical :: is_rack = .false.              !! column 19 is the travel of the rack
    end type lcf_t

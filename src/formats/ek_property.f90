@@ -29,7 +29,7 @@ module ek_property
 
    !> The content of a property file.
    type :: property_t
-      integer :: kind = 0                      !! 0: not a property file
+      integer :: kind = 0                      !! kind of the file, as in file_kinds; 0: not a property file
       type(law_points_t) :: laws(6)            !! [m, N], [rad, N m]; a spring or a stop has only the first
       real(wp) :: free_length = 0.0_wp         !! free length of a spring [m]; 0: not given
       integer :: free_length_line = 0

@@ -35,7 +35,7 @@ module ek_teimorbit
    !> A file as blocks and items. A part of a block is stored as a separate block with the name of the block.
    type :: teimorbit_t
       integer :: blocks = 0
-      character(name_length), allocatable :: names(:)     !! lower case
+      character(name_length), allocatable :: names(:)     !! names of the blocks in lower case
       integer, allocatable :: block_lines(:)
       integer :: used = 0
       type(item_t), allocatable :: items(:)
