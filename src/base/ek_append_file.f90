@@ -1,7 +1,8 @@
 !> A file to which several processes append whole lines at the same time, on one machine or on several.
 !>
 !> Each string is added by one write to a file opened for appending, so that on a local disk two strings never mix. Network file
-!> systems guarantee this only under a lock, which is held during the write.
+!> systems guarantee this only under a lock. The first write takes the lock, which is held until the file is closed. If the lock is
+!> not free within 5 s, the string is written without it.
 module ek_append_file
    use, intrinsic :: iso_c_binding, only: c_associated, c_int, c_long, c_null_char, c_null_ptr, c_ptr
    use ek_error, only: error_t, fail, exit_file
@@ -11,7 +12,7 @@ module ek_append_file
    private
    public :: append_file_t, open_append_file
 
-   integer, parameter :: attempts = 500               !! 10 ms each: a stopped process must not stop the others
+   integer, parameter :: attempts = 500   !! attempts to get the lock, 10 ms each: a stopped process must not stop others
 
    type :: append_file_t
       private
@@ -23,11 +24,11 @@ module ek_append_file
 
 contains
 
-   !> Opens a file for appending. A file that does not exist is created empty. A file that does not begin with `first` is rejected,
-   !> because it is probably a deck or a table that was named by mistake.
+   !> Opens a file for appending. A file that does not exist is created empty. A file that is not empty and does not begin with
+   !> `first` is rejected, because it is probably a deck or a table that was named by mistake.
    subroutine open_append_file(path, first, file, error)
       character(*), intent(in) :: path
-      character(1), intent(in) :: first                      !! with which every string begins
+      character(1), intent(in) :: first                      !! character with which every string begins
       type(append_file_t), intent(out) :: file
       type(error_t), allocatable, intent(out) :: error       !! exit_file
       type(facts_t) :: facts

@@ -1,4 +1,4 @@
-!> Bytes as base64 strings.
+!> Base64 encoding of bytes and of lists of numbers.
 module ek_base64
    use, intrinsic :: iso_fortran_env, only: int32, real32
    use ek_kinds, only: wp

@@ -6,7 +6,7 @@ module ek_buffer
    private
    public :: buffer_t
 
-   integer, parameter :: first_room = 4096   !! characters
+   integer, parameter :: first_room = 4096   !! initial capacity [characters]
 
    type :: buffer_t
       private
@@ -58,12 +58,12 @@ contains
    pure subroutine buffer_copy(self, first, part)
       class(buffer_t), intent(in) :: self
       integer, intent(in) :: first
-      character(*), intent(inout) :: part       !! ends within the text
+      character(*), intent(inout) :: part       !! its last character must be within the string
 
       if (len(part) > 0) part = self%letters(first:first + len(part) - 1)
    end subroutine buffer_copy
 
-   !> The number of characters.
+   !> The number of characters of the string appended so far.
    pure integer function buffer_length(self) result(length)
       class(buffer_t), intent(in) :: self
       length = self%used

@@ -13,7 +13,7 @@ module ek_checksum
 
 contains
 
-   !> Includes a byte: hash ← (hash xor byte) × (2^40 + 0x1b3).
+   !> Includes the bytes of a string, each by hash ← (hash xor byte) × (2^40 + 0x1b3).
    pure subroutine include(self, text)
       type(checksum_t), intent(inout) :: self
       character(*), intent(in) :: text

@@ -9,8 +9,8 @@ module ek_clock
 
 contains
 
-   !> Seconds of a monotonic clock. Its zero is arbitrary, so that only differences are meaningful. The resolution is 1 ns with
-   !> gfortran on Linux.
+   !> Seconds of a monotonic clock. The zero of the clock is arbitrary, so that only differences are meaningful. The resolution is 1
+   !> ns with gfortran on Linux.
    real(wp) function seconds()
       integer(i8) :: ticks, rate
 
@@ -29,8 +29,8 @@ contains
       seconds_since_1970 = c_time(c_null_ptr)
    end function seconds_since_1970
 
-   !> The local time now as '2026-01-31 17:05'. If the environment variable SOURCE_DATE_EPOCH is set, its time in UTC, so that equal
-   !> input gives equal bytes (https://reproducible-builds.org/specs/source-date-epoch/).
+   !> The local time now as '2026-01-31 17:05'. If the environment variable SOURCE_DATE_EPOCH gives a time, the result is this time
+   !> in UTC, so that equal input gives equal bytes (https://reproducible-builds.org/specs/source-date-epoch/).
    function date_text() result(words)
       character(16) :: words
       character(kind=c_char) :: letters(17)
@@ -63,7 +63,7 @@ contains
       words = transfer(letters(:length), words)
    end function universal_time
 
-   !> Reads SOURCE_DATE_EPOCH, if it is an integer number of seconds within the years 1970 to 9999.
+   !> Reads SOURCE_DATE_EPOCH. `is_set` is .true. only if the value is an integer number of seconds within the years 1970 to 9999.
    subroutine read_set_date(epoch, is_set)
       integer(i8), intent(out) :: epoch
       logical, intent(out) :: is_set

@@ -1,17 +1,16 @@
 !> Conversion of a real to a string with 15 significant digits, and back: fast, and correctly rounded.
 !>
-!> gfortran's formatted write takes about a microsecond per number; writing a table of 600 states and
-!> 70 columns would take longer than its solution.
+!> gfortran's formatted write takes about a microsecond per number; writing a table of 600 states and 70 columns would take longer
+!> than the solution of these states.
 !>
 !> A double is m·2^b with an integer m < 2^53, so with 10^q = 5^q·2^q
 !>
 !>     digits = x·10^q = m·5^q · 2^(b+q)
 !>
-!> is a whole product shifted to the right. It is exact while 5^q < 2^63 (q ≤ 27, |x| ≥ 1e-13).
-!> Above, 5^q is truncated to 63 bits, which bounds the digits from both sides; if the bounds round
-!> to different numbers, the (slow, exact) formatted write decides. It also handles values
-!> outside 1e-40 ≤ |x| < 1e15. Every string is therefore the correctly rounded decimal; a tie
-!> goes to the even digit, as in the formatted write.
+!> is an integer product shifted to the right. The product is exact while 5^q < 2^63 (q ≤ 27, |x| ≥ 1e-13). For larger q, 5^q is
+!> truncated to 63 bits, which bounds the digits from both sides; if the bounds round to different numbers, the (slow, exact)
+!> formatted write decides. The formatted write also handles values outside 1e-40 ≤ |x| < 1e15. Every string is therefore the
+!> correctly rounded decimal; a tie goes to the even digit, as in the formatted write.
 module ek_decimal
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan, ieee_positive_inf, ieee_negative_inf
    use ek_kinds, only: wp, i8
@@ -23,7 +22,7 @@ module ek_decimal
    integer, parameter :: i16 = selected_int_kind(38)
    integer, parameter :: kept = 15                  !! significant digits
    integer(i8), parameter :: full = 10_i8**kept
-   integer, parameter :: smallest = -40             !! lowest decade of the fast method
+   integer, parameter :: smallest = -40             !! lowest power of ten of the fast method
    integer, parameter :: most = kept - 1 - smallest !! largest power q
    integer, parameter :: mantissa_bits = digits(1.0_wp) - 1
    integer, parameter :: bias = maxexponent(1.0_wp) - 1 + mantissa_bits
@@ -34,8 +33,8 @@ module ek_decimal
    integer(i16), parameter :: top(0:most) = [(shiftr(five(k), cut(k)), k=0, most)]
    real(wp), parameter :: ten(smallest:kept) = [(10.0_wp**k, k=smallest, kept)]
    integer(i8), parameter :: largest = 17976931348623157_i8     !! first 17 digits of the largest double, about 1.797e308
-   real(wp), parameter :: number_limit = 1.0e30_wp  !! numbers of decks, settings and options are below it in magnitude
-   real(wp), parameter :: exact_ten(0:22) = [(10.0_wp**k, k=0, 22)]   !! no rounding error
+   real(wp), parameter :: number_limit = 1.0e30_wp  !! limit of the magnitude of numbers in decks, settings and options
+   real(wp), parameter :: exact_ten(0:22) = [(10.0_wp**k, k=0, 22)]   !! powers of ten without a rounding error
    character(2), parameter :: pair(0:99) = &
       [((achar(iachar('0') + k)//achar(iachar('0') + l), l=0, 9), k=0, 9)]
 
@@ -72,7 +71,7 @@ contains
       call put_digits(text, decade, buffer, used)
    end subroutine put_decimal
 
-   !> The number as a string with exactly its length. put_decimal writes into a longer string instead.
+   !> The number x as a string without blanks, in the form that put_decimal appends to a buffer.
    pure function decimal(x) result(text)
       real(wp), intent(in) :: x
       character(:), allocatable :: text
@@ -216,7 +215,7 @@ contains
    pure subroutine get_decimal(text, x, is_number)
       character(*), intent(in) :: text
       real(wp), intent(out) :: x
-      logical, intent(out) :: is_number         !! false: not a number, x is nan
+      logical, intent(out) :: is_number         !! false: not a number, or beyond the largest double; x is nan
       integer(i8) :: number
       integer :: at, last, decade, places, figures, mark, sign, status, place
 

@@ -1,6 +1,6 @@
 !> The error value returned by every procedure that can fail, and the exit codes of the program.
 !>
-!> Unallocated is success. The caller writes `if (allocated(error)) return` after every call.
+!> An unallocated error means success. The caller writes `if (allocated(error)) return` after every call.
 module ek_error
    implicit none(type, external)
    private
@@ -12,7 +12,7 @@ module ek_error
    integer, parameter :: exit_model = 3        !! mechanism or redundant constraint
    integer, parameter :: exit_convergence = 4  !! a state did not converge; the converged states are written
    integer, parameter :: exit_file = 5         !! a file cannot be read or written
-   integer, parameter :: exit_stopped = 6      !! a study was stopped before its end; of the command line only
+   integer, parameter :: exit_stopped = 6      !! a study was stopped before its end; used by the command line only
 
    !> An error: its message and the exit status of the program.
    type :: error_t
@@ -63,7 +63,7 @@ contains
       list_count = self%used
    end function list_count
 
-   !> Message k.
+   !> Message k, counted in the order of addition.
    pure function list_line(self, k) result(text)
       class(message_list_t), intent(in) :: self
       integer, intent(in) :: k

@@ -17,8 +17,8 @@ module ek_file
    public :: join_path, folder_name, base_name
 
    integer(c_int), parameter :: may_exist = 0    !! F_OK of access(2)
-   integer(c_int), parameter :: may_execute = 1  !! X_OK
-   integer(c_int), parameter :: all_may = 511    !! 0777, reduced by the umask
+   integer(c_int), parameter :: may_execute = 1  !! X_OK of access(2)
+   integer(c_int), parameter :: all_may = 511    !! mode 0777 of a new folder, reduced by the umask
 
 contains
 
@@ -62,12 +62,13 @@ contains
 
    !> Reads the whole content of a file, byte for byte.
    !>
-   !> Only a path given by the user may be a pipe. A device is rejected, as it may be endless; /dev/null is empty.
+   !> A pipe is read only with `may_stream`, which callers set for paths given by the user; /dev/null is then an empty file. Any
+   !> other device is rejected, because a device may be endless.
    subroutine read_whole(path, text, error, may_stream)
       character(*), intent(in) :: path
       character(:), allocatable, intent(out) :: text         !! '' when the file is empty or unreadable
       type(error_t), allocatable, intent(out) :: error       !! exit_file, with path and reason
-      logical, intent(in), optional :: may_stream            !! if absent or .false., it must be a regular file
+      logical, intent(in), optional :: may_stream            !! if absent or .false., the path must be a regular file
       type(facts_t) :: facts
       character(:), allocatable :: reason
       logical :: streams
@@ -101,7 +102,7 @@ contains
    subroutine read_regular(path, text, reason)
       character(*), intent(in) :: path
       character(:), allocatable, intent(out) :: text
-      character(:), allocatable, intent(out) :: reason       !! why it cannot be read; '' if it was
+      character(:), allocatable, intent(out) :: reason       !! reason why the file cannot be read; '' if it was read
       type(buffer_t) :: bytes
       character(200) :: words
       character(1) :: byte
@@ -160,7 +161,7 @@ contains
       call remove_stale(path)
    end subroutine make_folder
 
-   !> Removes a file; a missing file is not an error.
+   !> Removes a file or an empty folder; a failure is ignored.
    subroutine remove_file(path)
       character(*), intent(in) :: path
       integer :: ignored

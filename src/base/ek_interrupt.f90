@@ -1,5 +1,6 @@
-!> SIGINT (Ctrl-C), SIGTERM (a batch system at its time limit), SIGHUP (a terminal that was closed), SIGUSR1, SIGUSR2 and SIGXCPU
-!> (warnings of batch systems) and SIGQUIT as a condition that a long run reads repeatedly.
+!> A condition that a long run reads repeatedly: whether a signal asks the run to stop. The signals are SIGINT (Ctrl-C), SIGTERM (a
+!> batch system at its time limit), SIGHUP (a terminal that was closed), SIGUSR1, SIGUSR2 and SIGXCPU (warnings of batch systems),
+!> and SIGQUIT.
 module ek_interrupt
    use, intrinsic :: iso_c_binding, only: c_funloc, c_funptr, c_int, c_intptr_t, c_null_funptr
    use ek_posix, only: c_signal
@@ -10,11 +11,12 @@ module ek_interrupt
    integer(c_int), parameter :: sigint = 2, sigterm = 15
    integer(c_int), parameter :: further(*) = [1, 3, 10, 12, 24]       !! SIGHUP, SIGQUIT, SIGUSR1, SIGUSR2, SIGXCPU of Linux
    integer(c_intptr_t), parameter :: is_ignored = 1                   !! SIG_IGN, as nohup sets it
-   logical, volatile :: is_asked = .false.      !! set by the handler: the only memory that a signal can reach
+   logical, volatile :: is_asked = .false.      !! set by the handler of the signals
 
 contains
 
-   !> Starts watching for signals. From this call on, the first signal does not end the process; a second signal does.
+   !> Starts watching for signals. From this call on, the first signal of each kind does not end the process; a second signal of the
+   !> same kind does. A signal that was ignored before, as SIGHUP is by nohup, stays ignored, except SIGINT and SIGTERM.
    subroutine watch_for_stop()
       type(c_funptr) :: ignored, before
       integer :: k
@@ -28,7 +30,7 @@ contains
       end do
    end subroutine watch_for_stop
 
-   !> Whether one of these signals has arrived.
+   !> Whether a signal has arrived since the call of watch_for_stop.
    logical function is_stop_asked()
       is_stop_asked = is_asked
    end function is_stop_asked

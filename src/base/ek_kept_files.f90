@@ -1,4 +1,4 @@
-!> The content of files that were read once: a second read of a file returns the stored bytes, even if the file has changed.
+!> The contents of files, each read once: a second read of a file returns the stored bytes, even if the file has changed.
 module ek_kept_files
    use ek_error, only: error_t
    use ek_file, only: read_whole

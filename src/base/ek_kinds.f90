@@ -1,6 +1,7 @@
 !> Number kinds, and units at the interface: decks may use mm, N and deg; inside, everything is SI and radians.
 !>
-!> A deck value times the factor here is in SI. Results are always written in mm, N, deg and N m, regardless of the deck's units.
+!> A deck value times its factor in `units_t` is in SI. Results are always written in mm, N, deg and N m, regardless of the deck's
+!> units.
 module ek_kinds
    use, intrinsic :: iso_fortran_env, only: real64, int64
    implicit none(type, external)
@@ -8,11 +9,11 @@ module ek_kinds
    public :: wp, i8, units_t, pi, degree, millimetre
 
    integer, parameter :: wp = real64   !! working precision: IEEE double
-   integer, parameter :: i8 = int64    !! counters and clocks
+   integer, parameter :: i8 = int64    !! 64-bit integers for counters and clocks
 
    real(wp), parameter :: pi = acos(-1.0_wp)
-   real(wp), parameter :: degree = pi/180.0_wp      !! rad
-   real(wp), parameter :: millimetre = 1.0e-3_wp    !! m
+   real(wp), parameter :: degree = pi/180.0_wp      !! one degree [rad]
+   real(wp), parameter :: millimetre = 1.0e-3_wp    !! one millimetre [m]
 
    !> Factors from deck units to SI.
    type :: units_t

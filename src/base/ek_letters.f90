@@ -12,7 +12,7 @@ contains
 
    !> A string in which every invisible character is replaced by its number: `<U+00A0>` for a no-break space, `<U+00AD>` for a soft
    !> hyphen, `<U+200B>` for a zero-width space, `<U+0009>` for a tab. A byte that is not UTF-8 is replaced by its value, as in
-   !> `<E4>`. Line ends and ordinary blanks are unchanged.
+   !> `<E4>`. Line feeds and ordinary blanks are unchanged; a carriage return is `<U+000D>`.
    pure function visible(text) result(seen)
       character(*), intent(in) :: text
       character(:), allocatable :: seen
@@ -20,14 +20,15 @@ contains
    end function visible
 
    !> A string that is safe on a terminal. Control characters, which could move the cursor or set colours, become numbers such as
-   !> `<U+001B>`. Line ends, tabs and all other bytes are unchanged.
+   !> `<U+001B>`. Line feeds, tabs and all other bytes are unchanged.
    pure function printable(text) result(shown)
       character(*), intent(in) :: text
       character(:), allocatable :: shown
       shown = with_numbers(text, .false.)
    end function printable
 
-   !> A string in which control characters are replaced by numbers; with `of_all`, every invisible character and invalid byte.
+   !> A string in which control characters are replaced by their numbers. With `of_all`, every invisible character and every invalid
+   !> byte is replaced.
    pure function with_numbers(text, of_all) result(seen)
       character(*), intent(in) :: text
       logical, intent(in) :: of_all
@@ -88,8 +89,8 @@ contains
       sound = sound//text(first:)
    end function as_utf8
 
-   !> Whether a string uses two or four bytes per character (UTF-16, UTF-32) or is binary: it begins with the byte order mark of
-   !> UTF-16, or contains a zero byte.
+   !> Whether a string uses two or four bytes per character (UTF-16, UTF-32) or is binary. Such a string begins with the byte order
+   !> mark of UTF-16, or contains a zero byte.
    pure logical function is_wide(text)
       character(*), intent(in) :: text
 
@@ -158,8 +159,8 @@ contains
       if (code < least(length) .or. code > 1114111 .or. (code >= 55296 .and. code < 57344)) length = 0
    end subroutine decode
 
-   !> Whether a character is hidden. Control characters are; with `of_all` also tab, other blanks, soft hyphen, zero-width
-   !> characters and direction marks.
+   !> Whether a character is hidden. Control characters are hidden, except tab and line feed. With `of_all`, tab, other blanks, soft
+   !> hyphen, zero-width characters and direction marks are hidden too.
    pure logical function is_hidden(code, of_all)
       integer, intent(in) :: code
       logical, intent(in) :: of_all

@@ -1,5 +1,6 @@
-!> The shared libraries with which this process runs, found by the name of a symbol. Only for `--version`: which LAPACK runs is
-!> decided when the program is started, by the system's alternatives or by LD_LIBRARY_PATH, not when it is compiled.
+!> The shared libraries with which this process runs, found by the name of a symbol, for `--version` and for the plan of a study.
+!> The LAPACK library is selected when the program is started, by the system's alternatives or by LD_LIBRARY_PATH, not when it is
+!> compiled.
 module ek_loaded_library
    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_pointer, c_f_procpointer, c_funptr, c_null_char, c_null_ptr, &
       c_ptr

@@ -12,7 +12,7 @@ module ek_process
    private
    public :: run_program, go_on_as
 
-   integer, parameter :: sigkill = 9, sigalrm = 14      !! the same on all systems
+   integer, parameter :: sigkill = 9, sigalrm = 14      !! numbers of signals, the same on all systems
 
 contains
 
@@ -25,8 +25,8 @@ contains
       type(message_list_t), intent(in) :: words               !! the program and its arguments
       character(*), intent(in) :: folder, log                 !! log: path relative to the current folder
       integer, intent(in) :: limit                            !! s
-      integer, intent(out) :: status                          !! exit status, 128 + number of a signal
-      character(:), allocatable, intent(out) :: trouble       !! why it did not run to completion; '' if it did
+      integer, intent(out) :: status                          !! exit status; 128 + number of a signal; 127: not started
+      character(:), allocatable, intent(out) :: trouble       !! failure to start the program, or the time limit; '' otherwise
       character(kind=c_char), allocatable, target :: letters(:)
       type(c_ptr), allocatable :: pointers(:)
       type(c_ptr) :: said, nothing

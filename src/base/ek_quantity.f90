@@ -2,9 +2,9 @@
 !>
 !> Rows are in the order of the columns in the table of results, section by section. The kernel of a section returns the values in
 !> SI, in the same order: ek_state_columns (wheel_position, steer_axis), ek_kandc_columns (wheel_now to of_rack) with
-!> ek_wheel_columns and ek_geometry_columns. A section is computed as a whole, and only if one of its columns is requested. So a
-!> new quantity is a row here and a value at the same position in the kernel; its unit is the end of its name. Headings, charts,
-!> key numbers and reserved names follow from the row. input/QUANTITIES.md defines each of them.
+!> ek_wheel_columns and ek_geometry_columns. A section is computed as a whole, and only if one of its columns is requested. A new
+!> quantity needs a row here and a value at the same position in the kernel; the unit is the end of the name. Headings, charts, key
+!> numbers and reserved names follow from the row. input/QUANTITIES.md defines the quantities.
 module ek_quantity
    use ek_kinds, only: wp, degree, millimetre
    implicit none(type, external)
@@ -15,11 +15,11 @@ module ek_quantity
    integer, parameter :: name_length = 192    !! longest column name: two names of a deck (63 letters each) and their suffixes
 
    type :: quantity_t
-      character(52) :: name = ''      !! column without the wheel's name; '*': load_held and height_held
+      character(52) :: name = ''      !! column without the wheel's prefix; '*' stands for load_held and height_held
       integer :: needs = 0            !! sum of the conditions below
       character(56) :: title = ''
       character(49) :: sign = ''      !! meaning of a positive value, or a condition
-      real(wp) :: span = 0.0_wp       !! least span of a chart, in the unit: a smaller one is drawn flat; 0: no chart
+      real(wp) :: span = 0.0_wp       !! least span of a chart, in the unit of the column; smaller spans are drawn flat; 0: no chart
    end type quantity_t
 
    ! Conditions: without one of them the model has no such column; without a known matrix the value is not a number
@@ -299,7 +299,7 @@ contains
       end if
    end function unit_of
 
-   !> A unit as a label: 'N/mm' for 'n_per_mm'; '–' for no unit.
+   !> A unit as a label: 'N/mm' for 'n_per_mm'; '–' for no unit and for an unknown unit.
    pure function unit_text(unit) result(text)
       character(*), intent(in) :: unit
       character(:), allocatable :: text
@@ -310,8 +310,8 @@ contains
       if (k > 0) text = trim(units(k)%text)
    end function unit_text
 
-   !> SI value of the unit of a column. It is 1 for a column without a unit, for %, mm/m and dimensionless slopes, and for deg/mm
-   !> and N/deg, which are not converted.
+   !> SI value of the unit of a column. The value is 1 for a column without a known unit, for %, mm/m, deg/deg and mm/mm, and for
+   !> deg/mm and N/deg, which are not converted.
    pure real(wp) function unit_size(column) result(size_of)
       character(*), intent(in) :: column
       integer :: k
@@ -322,11 +322,11 @@ contains
    end function unit_size
 
    !> Finds the unit of a slope as the suffix of a column name, 'deg_per_m', and the factor that converts the slope from the units
-   !> of its two columns. Units are deg/m over wheel travel, per kN over a force, per 100 N m over a moment, otherwise the units of
-   !> the columns.
+   !> of its two columns. Angles over wheel travel are in deg/m. Slopes over a force are per kN, except slopes of a force. Slopes
+   !> over a moment are per 100 N m, except slopes of a moment. All other slopes have the units of the columns.
    pure subroutine slope_unit(column, over, factor_unit, unit, factor)
       character(*), intent(in) :: column, over
-      character(*), intent(in) :: factor_unit             !! of the column `factor`: 'mm', 'deg', 'N', 'N m', '-'
+      character(*), intent(in) :: factor_unit             !! unit of the column `factor`: 'mm', 'deg', 'N', 'N m', '-'
       character(:), allocatable, intent(out) :: unit
       real(wp), intent(out) :: factor
       character(:), allocatable :: upper, lower
@@ -358,7 +358,7 @@ contains
    !> A column heading with a unit as suffix: 'seat_mm' for 'seat' and 'mm'. The heading 'seat_mm' is unchanged.
    pure function head_with_unit(name, ending) result(head)
       character(*), intent(in) :: name
-      character(*), intent(in) :: ending             !! as in column names; '': none
+      character(*), intent(in) :: ending             !! unit as in column names; '': no unit
       character(:), allocatable :: head
       integer :: at
 
@@ -371,7 +371,7 @@ contains
       head = name//'_'//ending
    end function head_with_unit
 
-   !> A quantity that has the column name of an element with this name; '' if there is none.
+   !> The column of a quantity that an element, a measure or a joint with the name `stem` would also have; '' if there is none.
    pure function column_of_stem(stem) result(column)
       character(*), intent(in) :: stem      !! lower case, without left_ and right_
       character(:), allocatable :: column

@@ -8,17 +8,17 @@
 !> | roll                | axle roll       | height(left) − height(right) = t tan φ | difference only: |
 !> |                     |                 |                                        | constant load    |
 !> | steering            | rack travel     | constant heights                       | height           |
-!> | lateral_force       | force           | +y at the patch, moment force × trail  | vertical force   |
-!> | braking             | force           | rearward at the patch                  | vertical force   |
+!> | lateral_force       | force           | +y at the contact point, with trail    | vertical force   |
+!> | braking             | force           | rearward at the contact point          | vertical force   |
 !> | traction            | force           | forward at the wheel centre            | vertical force   |
 !> | aligning_torque     | moment          | about z, counterclockwise from above   | vertical force   |
-!> | vertical_force      | force           | upward at the patch                    | vertical force   |
-!> | table               | row of the file | its columns                            | vertical force   |
+!> | vertical_force      | force           | upward at the contact point            | vertical force   |
+!> | table               | row of the file | loads and heights in the columns       | vertical force   |
 !> | travel_and_steering | state of a grid | both up; the rack moves, too           | height, driven   |
 !>
-!> A further test is a row here; if it has charts or gradients of its own, also a list in ek_test_charts and rows in
-!> ek_gradient_definition.
-!> The deck reader, the rig, the standard tests, the usual ranges, the abscissa and the windows follow from the row.
+!> In row `roll`, t is the track of the design and φ the roll angle. A new test needs a row here. If the test has charts or
+!> gradients of its own, it also needs a list in ek_test_charts and rows in ek_gradient_definition. The deck reader, the rig, the
+!> standard tests, the usual ranges, the abscissa and the windows follow from the row.
 module ek_rig_test
    use ek_kinds, only: wp, degree, millimetre
    implicit none(type, external)
@@ -38,24 +38,24 @@ module ek_rig_test
    type :: rig_test_t
       character(19) :: name = ''
       integer :: action = 0                  !! one of the constants above; 0: no test of the rig
-      integer :: charts = of_none            !! set of charts and gradients
-      character(6) :: control = ''           !! how the wheels are held, unless the case gives it
-      character(3) :: unit = '-'             !! of the swept value: mm, deg, N, N m or '' for the unit of the steered joint
-      character(48) :: place_name = ''       !! of the swept value
+      integer :: charts = of_none            !! set of charts and gradients, one of the of_… above
+      character(6) :: control = ''           !! how the wheels are held if the case does not give `vertical`
+      character(3) :: unit = '-'             !! unit of the swept value: mm, deg, N, N m, '-': none, '': unit of the steered joint
+      character(48) :: place_name = ''       !! name of the swept value
       character(18) :: abscissa = 'wheel_travel_mm'    !! column over which the charts are drawn and the gradients fitted
-      character(56) :: label = 'wheel travel [mm]    (+ bump)'   !! of the abscissa
+      character(56) :: label = 'wheel travel [mm]    (+ bump)'   !! label of the abscissa
       real(wp) :: shares(2) = 0.0_wp         !! moves_heights: height per swept value, left and right
       real(wp) :: force(3) = 0.0_wp          !! loads_wheels: force and moment per swept value, at the left contact point
       real(wp) :: moment(3) = 0.0_wp
       logical :: is_at_centre = .false.      !! the force acts at the wheel centre, except in a solid axle that carries the torque
       logical :: has_phase = .false.         !! the load on the right wheel may be reversed
       logical :: has_trail = .false.         !! the force may act aft of the contact point, at `offset`
-      integer :: place = 0                   !! among the standard tests; 0: none of them
-      logical :: is_on_request = .false.     !! a standard test that runs only if it is requested by name
-      integer :: phases = 1                  !! 2: the standard tests contain it in phase and anti-phase
-      real(wp) :: reach = 0.0_wp             !! of the standard test: from −reach to reach, in `unit`
-      integer :: increments = 40             !! likewise
-      character(9) :: prefix = ''            !! of the names of its gradients
+      integer :: place = 0                   !! position among the standard tests; 0: not a standard test
+      logical :: is_on_request = .false.     !! .true.: as a standard test, the test runs only if it is requested by name
+      integer :: phases = 1                  !! 2: the standard tests contain the test in phase and anti-phase; 1: in phase only
+      real(wp) :: reach = 0.0_wp             !! range of the standard test: −reach to reach, in `unit`; in a grid in mm
+      integer :: increments = 40             !! increments of the standard test
+      character(9) :: prefix = ''            !! prefix of the names of the gradients of the test
    end type rig_test_t
 
    real(wp), parameter :: up(3) = [0.0_wp, 0.0_wp, 1.0_wp], right(3) = [0.0_wp, 1.0_wp, 0.0_wp], rear(3) = [1.0_wp, 0.0_wp, 0.0_wp]
@@ -125,7 +125,7 @@ contains
       is_scattered = any(test%action == [takes_table, covers_grid])
    end function is_scattered
 
-   !> The SI value of the unit of a swept value.
+   !> The SI value of the unit of a swept value: of mm and of deg; 1 for any other unit.
    pure real(wp) function swept_unit(unit)
       character(*), intent(in) :: unit
 

@@ -1,9 +1,9 @@
 !> A table of numbers written by hand or by a spreadsheet; the reader collects all errors in it.
 !>
-!> Lines with # are comments, empty lines (and lines of separators alone) are skipped, and the first other line has the
-!> headings. Columns are separated by commas, or by semicolons or tabs if the line of headings has one. Also accepted are a
-!> byte order mark, a first line `sep=;`, line ends of Windows and old Macs, headings and numbers in double quotes,
-!> empty cells after the last heading, and decimal commas if commas do not separate columns.
+!> Lines that begin with # are comments, empty lines (and lines of separators alone) are skipped, and the first other line has the
+!> headings. Columns are separated by commas, or by semicolons or tabs if the line of headings contains one. Also accepted are a
+!> byte order mark, a first line `sep=;`, line ends of Windows and old Macs, headings and numbers in double quotes, empty cells
+!> after the last heading, and decimal commas if commas do not separate columns.
 module ek_sheet
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
@@ -20,19 +20,19 @@ module ek_sheet
    public :: sheet_t, read_sheet, mistakes_of, head_place, take_record
 
    character(*), parameter :: line_end = new_line('a'), tab = achar(9)
-   real(wp), parameter :: most = 1.0e31_wp      !! as in a deck: larger numbers are errors, and could overflow later
-   integer, parameter :: max_reported = 100        !! errors reported in the rows of one table
+   real(wp), parameter :: most = 1.0e31_wp      !! numbers of this size are errors, and could overflow later
+   integer, parameter :: max_reported = 100        !! most errors reported in the rows of one table
 
    !> The content of a file. Rows with an error are omitted from the values.
    type :: sheet_t
       character(:), allocatable :: file
-      integer :: head_line = 0                          !! 0: no headings
-      character(name_length), allocatable :: heads(:)   !! '' for a column without heading
-      real(wp), allocatable :: values(:, :)             !! (column, row)
+      integer :: head_line = 0                          !! line of the headings; 0: no headings
+      character(name_length), allocatable :: heads(:)   !! headings; '' for a column without heading
+      real(wp), allocatable :: values(:, :)             !! numbers (column, row)
       type(message_list_t) :: head_mistakes, row_mistakes
       integer :: untold = 0                             !! number of errors beyond the largest number reported
       character :: separator = ','
-      logical :: has_decimal_points = .false.            !! then a comma is no decimal mark
+      logical :: has_decimal_points = .false.            !! a comma is then not a decimal mark
    end type sheet_t
 
 contains
@@ -42,7 +42,7 @@ contains
       character(*), intent(in) :: path
       type(sheet_t), intent(out) :: sheet
       type(error_t), allocatable, intent(out) :: error      !! exit_file: the file cannot be read
-      type(kept_files_t), intent(in), optional :: files     !! which are not read again
+      type(kept_files_t), intent(in), optional :: files     !! files already read, which are not read again
       character(:), allocatable :: text, content
       integer :: first, last, line, rows
       logical, allocatable :: is_unnamed(:)
@@ -90,7 +90,7 @@ contains
       call judge_heads(sheet, rows, is_unnamed)
    end subroutine read_sheet
 
-   !> Lists all errors; errors of the headings come first.
+   !> Adds all errors of a sheet to a list of messages; errors of the headings come first.
    subroutine mistakes_of(sheet, mistakes)
       type(sheet_t), intent(in) :: sheet
       type(message_list_t), intent(inout) :: mistakes
@@ -112,7 +112,8 @@ contains
       words = sheet%file//':'//str(sheet%head_line)//': '
    end function head_place
 
-   !> Whether a line is a comment: it begins with #, but not with a spreadsheet's error value.
+   !> Whether a line is a comment: it begins with # or "#. After the headings, a line that begins with the error value of a
+   !> spreadsheet, such as #REF!, is not a comment.
    pure logical function is_comment(content, sheet)
       character(*), intent(in) :: content
       type(sheet_t), intent(in) :: sheet
@@ -151,7 +152,8 @@ contains
       end do
    end subroutine take_heads
 
-   !> Records whether the text contains decimal points. If it does not, commas that do not separate columns are decimal commas.
+   !> Records whether the lines after the headings, other than comments, contain decimal points. If they contain none, commas that
+   !> do not separate columns are decimal commas.
    pure subroutine find_decimal_marks(text, sheet)
       character(*), intent(in) :: text
       type(sheet_t), intent(inout) :: sheet
@@ -289,7 +291,7 @@ contains
          call sheet%row_mistakes%add(sheet%file//': the table has no rows')
    end subroutine judge_heads
 
-   !> Adds an error in a row. Only the first errors are stored if there are very many.
+   !> Adds an error in a row. Only the first 100 errors are stored; further errors are counted.
    subroutine complain(sheet, what)
       type(sheet_t), intent(inout) :: sheet
       character(*), intent(in) :: what
@@ -305,7 +307,7 @@ contains
    subroutine take_record(text, separator, at, line, fields, is_closed)
       character(*), intent(in) :: text
       character, intent(in) :: separator
-      integer, intent(inout) :: at, line          !! beginning of the record; on return, of the next record
+      integer, intent(inout) :: at, line          !! position and line where the record begins; on return, of the next record
       type(message_list_t), intent(out) :: fields
       logical, intent(out) :: is_closed
       type(buffer_t) :: cell

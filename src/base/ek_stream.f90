@@ -1,4 +1,5 @@
-!> Reads a pipe to its end. A pipe without a writer and an endless pipe are rejected; the program does not wait for them.
+!> Reads a pipe to its end. A pipe that no program has opened for writing within 10 s is rejected, and so is a pipe that gives more
+!> than 100 MB.
 module ek_stream
    use, intrinsic :: iso_c_binding, only: c_char, c_int, c_long, c_null_char, c_null_ptr, c_size_t
    use ek_kinds, only: wp
@@ -10,11 +11,11 @@ module ek_stream
    private
    public :: read_stream, max_streamed
 
-   integer, parameter :: max_streamed = 100000000        !! bytes; the largest known deck has half a percent of it
-   real(wp), parameter :: patience = 10.0_wp             !! s, for a program to open the pipe for writing
+   integer, parameter :: max_streamed = 100000000        !! limit of the bytes read; the largest known deck has half a percent
+   real(wp), parameter :: patience = 10.0_wp             !! time for a program to open the pipe for writing [s]
    integer(c_int), parameter :: no_wait = 2048           !! O_NONBLOCK of open(2); O_RDONLY is 0
    integer, parameter :: try_again = 11                  !! EAGAIN: a program has opened the pipe and has not written yet
-   integer(c_int), parameter :: nap = 10                 !! ms
+   integer(c_int), parameter :: nap = 10                 !! time before the next read of an empty pipe [ms]
 
 contains
 
@@ -22,7 +23,7 @@ contains
    subroutine read_stream(path, text, reason)
       character(*), intent(in) :: path
       character(:), allocatable, intent(out) :: text
-      character(:), allocatable, intent(out) :: reason       !! why it cannot be read; '' if it was
+      character(:), allocatable, intent(out) :: reason       !! reason why the pipe cannot be read; '' if it was read
       type(buffer_t) :: bytes
       character(kind=c_char) :: chunk(65536)
       character(len=size(chunk)) :: letters

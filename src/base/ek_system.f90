@@ -1,8 +1,8 @@
 !> System queries: files and folders, failures, this machine and its memory; and signals.
 !>
-!> Two items are specific to Linux, each with a fallback elsewhere: the offset of the name in a `struct dirent` (if '.' is
-!> not found there, a folder counts as empty), and the kind of a file, which comes from statx, the same on every
-!> processor (it is looked up at run time; if it is missing, kinds are unknown).
+!> Some items are specific to Linux, each with a fallback elsewhere. If the offset of the name in a `struct dirent` is another ('.'
+!> is not found there), a folder counts as empty. If statx, which is looked up at run time, is missing, the kinds of files are
+!> unknown. Without /proc, the machine is identified by its name, and the folder of the program is unknown.
 module ek_system
    use, intrinsic :: iso_c_binding, only: c_char, c_int, c_intptr_t, c_null_char, c_null_ptr, c_funptr, &
       c_null_funptr, c_ptr, c_size_t, c_associated, c_f_pointer, c_f_procpointer
@@ -24,7 +24,7 @@ module ek_system
       broken_pipe = 32
 
    integer, parameter :: unknown_file = -1, no_file = 0, regular_file = 1, folder_file = 2, device_file = 3, link_file = 4, &
-      other_file = 5                                !! other: a named pipe, a socket
+      other_file = 5                                !! other_file: a named pipe or a socket
 
    !> The facts of a path: kind, identity and age.
    type :: facts_t
@@ -33,8 +33,8 @@ module ek_system
       integer(i8) :: changed = 0                    !! last modification [s since 1970]
    end type facts_t
 
-   integer, parameter :: sigpipe = 13, sigxfsz = 25  !! signals, the same on all systems
-   integer, parameter :: max_letters = 4096         !! longest path
+   integer, parameter :: sigpipe = 13, sigxfsz = 25  !! numbers of signals, the same on all systems
+   integer, parameter :: max_letters = 4096         !! characters of the longest path
 
    abstract interface
       integer(c_int) function statx_procedure(folder, path, flags, mask, facts) bind(c)
@@ -54,7 +54,8 @@ module ek_system
 
 contains
 
-   !> Kind, identity and age of a path. If `follow` is .false., the facts of a link itself.
+   !> Kind, identity and age of a path. For a link, they are the facts of its target if `follow` is .true., otherwise of the link
+   !> itself.
    type(facts_t) function facts_of(path, follow) result(facts)
       character(*), intent(in) :: path
       logical, intent(in) :: follow
@@ -131,8 +132,8 @@ contains
       if (.not. is_understood) names = message_list_t()
    end subroutine folder_names
 
-   !> Whether an open file or folder could be locked; .false. if another process holds the lock. The lock is released when the
-   !> process ends.
+   !> Whether an open file or folder could be locked; .false. if another process holds the lock, or if the file cannot be locked.
+   !> The lock is released when the file is closed or the process ends.
    logical function try_lock(descriptor)
       integer(c_int), intent(in) :: descriptor
       integer(c_int), parameter :: alone_and_at_once = 6      ! LOCK_EX + LOCK_NB
@@ -140,8 +141,8 @@ contains
       try_lock = c_flock(descriptor, alone_and_at_once) == 0
    end function try_lock
 
-   !> A string of 16 unpredictable characters. If the system provides no random bytes, `attempt` distinguishes two calls at the same
-   !> time.
+   !> A string of 16 unpredictable hexadecimal digits. If the system provides no random bytes, the digits depend on the clock, and
+   !> `attempt` distinguishes two calls at the same time.
    function random_tag(attempt) result(tag)
       integer, intent(in) :: attempt
       character(16) :: tag
@@ -277,8 +278,8 @@ contains
    !> once, before anything else.
    !>
    !> A reader that closes the pipe (`| head`) and a file that reaches `ulimit -f` become write errors instead of ending the
-   !> process. Descriptors 0, 1 and 2 are opened if they were closed (`>&-`), so that no results file receives one of these
-   !> numbers and messages in the middle of it.
+   !> process. Descriptors 0, 1 and 2 are opened if they were closed (`>&-`). Otherwise a results file could get one of these
+   !> numbers, and messages would be written into the file.
    subroutine prepare_surroundings()
       type(c_ptr) :: stays_open
       integer(c_int) :: descriptor, copy
@@ -320,11 +321,12 @@ contains
       reason = text_of(letters)
    end function system_reason
 
-   !> Checks that a block of this many bytes can be allocated. Called before hours of work begin, so that a shortage gives a message
-   !> and an exit status instead of a crash at the allocation that fails. The block is released at once; only address space is used.
+   !> Checks that a block of a number of bytes can be allocated. The check is made before hours of work begin, so that a shortage
+   !> gives a message and an exit status instead of a crash at the allocation that fails. The block is released at once; only
+   !> address space is used.
    subroutine ask_memory(bytes, purpose, error)
       integer(i8), intent(in) :: bytes
-      character(*), intent(in) :: purpose                     !! who needs it: 'case 'x' with 1000 states'
+      character(*), intent(in) :: purpose                     !! user of the memory, for the message: 'case 'x' with 1000 states'
       type(error_t), allocatable, intent(out) :: error        !! exit_file
 
       if (.not. has_memory(bytes)) call fail(error, exit_file, memory_remarks(bytes, purpose))
@@ -344,7 +346,7 @@ contains
    !> a kernel may refuse one large block but grant parts that are never filled.
    integer function blocks_in_memory(most, bytes) result(blocks)
       integer, intent(in) :: most
-      integer(i8), intent(in) :: bytes                        !! of each
+      integer(i8), intent(in) :: bytes                        !! size of each block
       type :: block_t
          character(1), allocatable :: bytes(:)
       end type block_t

@@ -1,4 +1,4 @@
-!> Conversion between numbers and strings, for messages and names. It is never used inside an increment.
+!> Conversion of numbers to strings, and operations on strings, for messages and names. Nothing here is used inside an increment.
 module ek_text
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_is_finite
    use ek_kinds, only: wp
@@ -8,7 +8,7 @@ module ek_text
    public :: str, lower, quoted, nearest_name, suggestion, suggestion_by_part, did_you_mean, is_like, vector_text, plural, &
       printable, spaced, replace
 
-   !> A number as a string in its shortest form.
+   !> A number as a string for messages and names: an integer (`str_integer`) or a real (`str_real`).
    interface str
       module procedure str_integer, str_real
    end interface str
@@ -108,7 +108,7 @@ contains
       end do
    end function lower
 
-   !> A name between single quotes. Invisible characters in the name are shown as <U+00A0>.
+   !> A name between single quotes. Invisible characters in the name are shown by their numbers, as in <U+00A0>.
    pure function quoted(name) result(text)
       character(*), intent(in) :: name
       character(:), allocatable :: text
@@ -137,9 +137,9 @@ contains
       if (count == 1) text = '1 '//singular
    end function plural
 
-   !> The candidate most similar to a mistyped name; '' if none is similar. The first candidate that ends in '_name' is preferred,
-   !> as left_toe_deg for toe_deg. Otherwise it is the candidate with the smallest edit distance, which must be at most a third of
-   !> the length (at least 1). For a pattern with * it is ''.
+   !> The candidate most similar to a mistyped name; '' if none is similar, and for a pattern with *. The first candidate that ends
+   !> in '_name' is preferred, as left_toe_deg for toe_deg. Otherwise the result is the candidate with the smallest edit distance,
+   !> which must be at most a third of the length of the name (at least 1).
    pure function nearest_name(name, candidates) result(best)
       character(*), intent(in) :: name
       character(*), intent(in) :: candidates(:)
@@ -216,7 +216,8 @@ contains
       if (words /= '' .and. words(:min(1, len(words))) /= ' ') words = ' (did you mean '//quoted(words)//'?)'
    end function suggestion_by_part
 
-   !> Phrase " (did you mean 'kt'?)" if a candidate is similar; otherwise a phrase with all candidates.
+   !> Phrase " (did you mean 'kt'?)" if a candidate is similar; otherwise a phrase with all candidates, or ' (there is none)'. With
+   !> more than 20 candidates, none of them similar, the phrase is ''.
    pure function did_you_mean(name, candidates) result(words)
       character(*), intent(in) :: name
       character(*), intent(in) :: candidates(:)    !! blank ones are ignored
@@ -262,7 +263,7 @@ contains
       end do
    end function is_like
 
-   !> The Levenshtein distance of two strings: the number of inserted, deleted and replaced characters.
+   !> The Levenshtein distance of two strings: the least number of inserted, deleted and replaced characters.
    pure integer function edit_distance(a, b) result(distance)
       character(*), intent(in) :: a, b
       integer :: row(0:len(b)), diagonal, above, i, j

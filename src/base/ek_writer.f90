@@ -31,21 +31,21 @@ module ek_writer
 
    character(*), parameter :: front = '.elastokin-', tail = '.tmp', part_tail = '.part'
    integer, parameter :: tag_length = 8 + 1 + 16            !! <machine>-<random>
-   integer(i8), parameter :: a_day = 86400                  !! s
-   integer, parameter :: max_held = 60000                  !! characters added before they are written
-   integer, parameter :: max_attempts = 100                !! to create a file under a free name and lock it
+   integer(i8), parameter :: a_day = 86400                  !! a day [s]
+   integer, parameter :: max_held = 60000                  !! characters that are held before they are written
+   integer, parameter :: max_attempts = 100                !! attempts to create a file under a free name and to lock it
    integer(c_int), parameter :: may_exist = 0               !! F_OK of access(2)
-   integer(c_int), parameter :: mine_alone = 448            !! 0700
+   integer(c_int), parameter :: mine_alone = 448            !! mode 0700 of a scratch folder
 
    !> A file being written.
    type :: writer_t
       private
       type(c_ptr) :: stream = c_null_ptr
       character(:), allocatable :: path, temporary      !! temporary: '' for a device, which is written directly
-      character(:), allocatable :: reason               !! of the first failure; '' if there was none
+      character(:), allocatable :: reason               !! reason of the first failure; '' if there was none
       logical :: is_part = .false., is_empty = .true.
       logical :: is_awaited = .true.                    !! wait until the file is on the disk before it is renamed
-      type(buffer_t) :: rows                            !! added since the last flush
+      type(buffer_t) :: rows                            !! bytes added since the last flush
    contains
       procedure :: add => writer_add, flush => writer_flush, finish => writer_finish, abandon => writer_abandon, &
          temporary_name => writer_temporary_name
@@ -65,7 +65,7 @@ contains
       character(*), intent(in) :: path
       type(error_t), allocatable, intent(out) :: error       !! exit_file, with path and reason
       logical, intent(in), optional :: can_be_redrawn        !! if .true., do not wait for the disk; default .false.
-      logical, intent(in), optional :: is_part               !! if .true., it remains when the run is killed; default .false.
+      logical, intent(in), optional :: is_part               !! if .true., the part remains when the run is killed; default .false.
       type(facts_t) :: facts
 
       writer%path = path
@@ -117,7 +117,7 @@ contains
       writer%temporary = ''
    end subroutine open_temporary
 
-   !> Whether the file just created could be locked. Without lock support, other runs remove the file only after a day.
+   !> Whether a file just created still exists and no other run holds its lock. Without lock support, no other run removes it.
    logical function is_ours(descriptor, path)
       integer(c_int), intent(in) :: descriptor
       character(*), intent(in) :: path
@@ -141,8 +141,8 @@ contains
       if (.not. write_bytes(c_fileno(self%stream), text)) self%reason = system_reason()      ! not copied: a page has megabytes
    end subroutine writer_add
 
-   !> Passes the added bytes to the system, so that they survive the end of this process. The bytes added to a part since the
-   !> last flush is written in one call, so that a remaining part always ends at a flush.
+   !> Passes the added bytes to the system, so that they survive the end of this process. The bytes added to a part since the last
+   !> flush are written in one call, so that a remaining part always ends at a flush.
    subroutine writer_flush(self)
       class(writer_t), intent(inout) :: self
 
@@ -244,7 +244,7 @@ contains
       ignored = c_fclose(stream)
    end subroutine await
 
-   !> Writes the folder entry to the disk. Some file systems do not support this; the file is complete nevertheless.
+   !> Writes the entries of a folder to the disk. Some file systems do not support this; the file is complete nevertheless.
    subroutine keep_name(folder)
       character(*), intent(in) :: folder
       type(c_ptr) :: handle
@@ -326,7 +326,7 @@ contains
       call remove_tagged(folder_of(folder//'/'), front, tail)
    end subroutine remove_stale
 
-   !> Finds whether an active run has a temporary file or folder in a folder. is_here: the run is on this machine.
+   !> Finds whether an active run has a temporary file or folder in a folder, and whether such a run is on this machine (is_here).
    subroutine find_users(folder, is_in_use, is_here)
       character(*), intent(in) :: folder
       logical, intent(out) :: is_in_use, is_here
@@ -360,8 +360,8 @@ contains
       end do
    end subroutine remove_tagged
 
-   !> Removes a temporary file or folder of a terminated run. The lock is held meanwhile. Two runs therefore never both remove it,
-   !> and a run that has just created it notices the removal.
+   !> Removes a temporary file or folder of a terminated run. The lock is held meanwhile. Two runs therefore never both remove the
+   !> file, and a run that has just created the file notices the removal.
    subroutine remove_dead(path, tag)
       character(*), intent(in) :: path, tag                  !! tag: begins with the tag of its machine
       type(facts_t) :: facts, opened

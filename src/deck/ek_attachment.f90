@@ -1,6 +1,6 @@
 !> Common parts of the readers of files that a deck names: the units of the deck, paths, errors, and records created from a file.
-!> Such a record has its file and its line in this file as location. Errors in a file are reported once, even if the file is named
-!> several times.
+!> The location of such a record is its line in the file from which it was created. Errors in a file are reported once, even if the
+!> deck names the file several times.
 module ek_attachment
    use ek_kinds, only: wp, units_t, millimetre, degree
    use ek_error, only: message_list_t
@@ -16,7 +16,7 @@ module ek_attachment
 
 contains
 
-   !> Finds the units of a deck, and whether its axes are x forward and y to the left.
+   !> Finds the units of a deck, and whether the axes of the deck are x forward and y to the left (axes = 'iso').
    pure subroutine units_in_deck(records, units, is_iso)
       type(record_t), intent(in) :: records(:)
       type(units_t), intent(out) :: units
@@ -34,7 +34,8 @@ contains
       end do
    end subroutine units_in_deck
 
-   !> The path of a file that a record names, relative to the folder of the file with the record.
+   !> The path of a file that a record names. The name in the record is relative to the folder of the deck file that contains the
+   !> record.
    pure function path_of(record, name) result(path)
       type(record_t), intent(in) :: record
       character(*), intent(in) :: name
@@ -44,7 +45,7 @@ contains
       if (index(record%file, '/') > 0) path = join_path(folder_name(record%file), trim(name))
    end function path_of
 
-   !> Adds the errors in a file to the errors of the deck, when the file is read for the first time.
+   !> Adds the errors in a file to the errors of the deck, once per file: `seen` lists the files whose errors were added before.
    subroutine report(flaws, source, seen, deck_errors)
       type(flaws_t), intent(in) :: flaws
       integer, intent(in) :: source
@@ -61,8 +62,8 @@ contains
       end do
    end subroutine report
 
-   !> The quoted string of a key; '' if the key is not given or its value is not a string. The check of the record reports the
-   !> latter.
+   !> The quoted string of a key; '' if the key is not given or its value is not a string. The check of the record reports a value
+   !> that is not a string.
    pure function text_of(record, key) result(text)
       type(record_t), intent(in) :: record
       character(*), intent(in) :: key

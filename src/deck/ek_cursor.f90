@@ -1,7 +1,8 @@
 !> A position in a string, with procedures that read blanks, identifiers, subscripts and the rest of a line from this position. They
 !> also recognise two typing errors between keys: a missing = sign, and a unit after a number.
 !>
-!> Each `take_…` moves the cursor after the string that it returns. Nothing here can fail; the scanner reports errors.
+!> Each `take_…` procedure moves the cursor to the first character after the characters that it reads. No procedure here can fail;
+!> the scanner reports errors.
 module ek_cursor
    use ek_text, only: lower
    use ek_record, only: entry_t
@@ -20,7 +21,7 @@ module ek_cursor
 
    !> The position of the scanner.
    type :: cursor_t
-      integer :: at = 1, line = 1    !! character and line, from 1
+      integer :: at = 1, line = 1    !! index of the character in the string, and line number, from 1
    end type cursor_t
 
 contains
@@ -100,7 +101,8 @@ contains
       next = next_character(text, ahead)
    end subroutine look_past_key
 
-   !> Reads the string between ( and ) without its blanks. The cursor moves after the ).
+   !> Reads the string between ( and ) without its blanks, and moves the cursor after the ). If a line end, = or / comes before the
+   !> ), reading stops there.
    pure subroutine take_subscript(text, cursor, content)
       character(*), intent(in) :: text
       type(cursor_t), intent(inout) :: cursor
@@ -174,7 +176,7 @@ contains
       end select
    end function is_word_begin
 
-   !> Reads the unit after the last value of an entry, as in `30.0 N/mm` and `30.0N/mm`; '' if there is no unit.
+   !> Reads the unit after the last value of an entry, as in `30.0 N/mm` and `30.0N/mm`. `unit` is '' if there is no unit.
    pure subroutine drop_unit(text, cursor, entry, unit)
       character(*), intent(in) :: text
       type(cursor_t), intent(inout) :: cursor          !! in: after the value; out: after the unit
@@ -225,7 +227,7 @@ contains
          '; write the number alone (&model sets the units)'
    end function unit_message
 
-   !> Reads letters, the degree sign or % from the cursor on.
+   !> Reads a word, the degree sign or % at the cursor; `word` is '' if another character is at the cursor.
    pure subroutine take_unit_word(text, cursor, word)
       character(*), intent(in) :: text
       type(cursor_t), intent(inout) :: cursor
@@ -244,7 +246,8 @@ contains
       end if
    end subroutine take_unit_word
 
-   !> Reads /mm, *mm, ^2, /(…) following a unit. A / not followed by a letter ends the group.
+   !> Appends the parts /mm, *mm and ^2 that follow a unit to the unit. A / that is not followed by a letter, % or the degree sign
+   !> is not read, because it ends the group.
    pure subroutine take_quotient(text, cursor, unit)
       character(*), intent(in) :: text
       type(cursor_t), intent(inout) :: cursor
@@ -268,7 +271,7 @@ contains
       end do
    end subroutine take_quotient
 
-   !> Whether a word is a unit, or begins with a unit as a product of units does.
+   !> Whether a word is a unit, or a unit followed by * or ^ and further characters.
    pure logical function is_unit(word)
       character(*), intent(in) :: word
       integer :: mark

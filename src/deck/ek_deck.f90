@@ -1,11 +1,11 @@
 !> A deck in memory: read from a file or a string, changed by settings, and identified by a checksum.
 !>
-!> A syntax error (a group without its end, a key given twice) does not stop the reading. It is stored in the deck, and
-!> `build_model` reports it together with all other errors. Therefore `error` is set only if the file cannot be read (exit_file) or
-!> is empty (exit_deck).
+!> A syntax error (a group without its end, a key given twice) does not stop the reading. The error is stored in the deck, and
+!> `build_model` reports it together with all other errors. Therefore the argument `error` of `read_deck` and `parse_deck` is set
+!> only if the file cannot be read (exit_file) or is empty (exit_deck).
 !>
-!> Order of processing: string, included files, &hardpoints, settings of records in the deck, property files, &mirror, settings of
-!> records that property files and &mirror have created.
+!> Order of processing: records of the file or string, included files, &hardpoints, settings of records in the deck, property files,
+!> &mirror, settings of records that property files and &mirror have created.
 module ek_deck
    use, intrinsic :: iso_fortran_env, only: input_unit, iostat_eor
    use ek_buffer, only: buffer_t
@@ -27,36 +27,36 @@ module ek_deck
    private
    public :: deck_t, read_deck, parse_deck, move_deck, set_value, finish_deck, split_setting, deck_checksum, include_records
 
-   !> `path=text` for a record created by &mirror.
+   !> A setting `path=text` of a record that a property file or &mirror will create.
    type :: setting_t
       character(:), allocatable :: path, text
    end type setting_t
 
-   !> A parsed deck: text, records, settings, and every file that it names.
+   !> A parsed deck: its records, syntax errors and late settings, and the contents of the files that it names.
    type :: deck_t
-      character(:), allocatable :: file          !! as given by the user, for messages
-      type(record_t), allocatable :: records(:)  !! the first `used` are filled, in the order of the text
+      character(:), allocatable :: file          !! path as given by the user, for messages
+      type(record_t), allocatable :: records(:)  !! the first `used` are filled: in the order of the files, then &hardpoints
       integer :: used = 0
       type(deck_errors_t) :: deck_errors           !! syntax errors
-      type(setting_t), allocatable :: late(:)    !! settings to be made after property files and &mirror
+      type(setting_t), allocatable :: late(:)    !! settings to be applied after property files and &mirror
       logical :: is_finished = .false.
-      type(kept_files_t) :: kept                 !! the deck, then all files that it names, as they were when it was read
+      type(kept_files_t) :: kept                 !! contents of the deck and of all files that it names, as first read
    end type deck_t
 
    ! &include: the record itself stays in the list, so that its keys are checked like all others; the records of the file follow
    ! it. Every record stores its file, which messages then show.
-   integer, parameter :: max_nested = 8      !! nesting depth of files; more is an error
-   integer, parameter :: max_files = 500     !! total: ten files that include ten each, eight levels deep, would be 10^8
-   integer, parameter :: max_letters = 50000000   !! total; the largest known deck has 1 % of it
+   integer, parameter :: max_nested = 8      !! nesting depth of included files; a greater depth is an error
+   integer, parameter :: max_files = 500     !! included files in total: ten files of ten each, eight levels deep, would be 10^8
+   integer, parameter :: max_letters = 50000000   !! characters of the deck, and of all included files; known decks have 1 % of it
 
    type :: file_t
       character(:), allocatable :: path
    end type file_t
 
-   !> The files of the deck that have been read so far.
+   !> The nested files that are being read, and totals of the files read so far.
    type :: files_t
-      type(file_t) :: open(0:max_nested)     !! from the deck inwards
-      integer :: sources = 0, letters = 0     !! files, and their characters
+      type(file_t) :: open(0:max_nested)     !! the nested files, from the deck inwards
+      integer :: sources = 0, letters = 0     !! number of files read; characters of the included files
    end type files_t
 
 contains
@@ -111,7 +111,7 @@ contains
          call fail(error, exit_deck, deck%file//': the deck is empty')
    end subroutine parse_deck
 
-   !> Stores the property files and the load tables that records name in the deck.
+   !> Stores in `deck%kept` the contents of the property files and load tables that records name.
    subroutine keep_named(deck)
       type(deck_t), intent(inout) :: deck
       character(:), allocatable :: name
@@ -144,11 +144,11 @@ contains
       end do
    end subroutine name_tests
 
-   !> Sets one value, as `--set path=value` does: `point.lower_ball_joint.z`, `bushing.top_mount.kt(1)`,
-   !> `spring.coil.rate`, `model.length`. A key missing in the record is added. Ranges are checked
-   !> by `build_model`, whose messages then give this setting as the location.
+   !> Sets one value, as `--set path=value` does: `point.lower_ball_joint.z`, `bushing.top_mount.kt(1)`, `spring.coil.rate`,
+   !> `model.length`. A key that the record does not give is added, unless the path contains *. Ranges are checked by `build_model`,
+   !> whose messages then give this setting as the location.
    !>
-   !> With &mirror, a record of the deck is changed before it is duplicated, so on both sides;
+   !> With &mirror, a record of the deck is changed before it is duplicated, so that both sides change;
    !> `point.left_lower_ball_joint.z` changes one side.
    subroutine set_value(deck, path, text, error)
       type(deck_t), intent(inout) :: deck
@@ -178,8 +178,8 @@ contains
       call fail(error, exit_usage, visible(message))
    end subroutine set_value
 
-   !> Finishes the deck: reads property files, creates both sides, and applies the settings of records that these steps have
-   !> created. Errors are added to the list of the deck.
+   !> Copies the deck and finishes the copy: reads property files, creates the records of both sides (&mirror), and applies the
+   !> settings of records that these steps have created. Errors are added to the errors of the copy.
    subroutine finish_deck(deck, whole)
       type(deck_t), intent(in) :: deck
       type(deck_t), intent(out) :: whole
@@ -225,7 +225,7 @@ contains
    end subroutine move_deck
 
    !> Checksum of everything that can change a result, 16 hexadecimal digits (FNV-1a, 64 bits). Settings and load tables are
-   !> included. Comments, notes, titles, layout, target bands and the file in which a group is are ignored.
+   !> included. Comments, notes, titles, layout, target bands and the division of the deck into files are ignored.
    function deck_checksum(deck) result(digits)
       type(deck_t), intent(in) :: deck
       character(16) :: digits
@@ -241,7 +241,7 @@ contains
    !> Adds the bytes of the load tables named by cases to a checksum. A table that cannot be read is not added, because its case
    !> cannot be run.
    subroutine include_tables(files, records, sum)
-      type(kept_files_t), intent(in) :: files      !! which are not read again
+      type(kept_files_t), intent(in) :: files      !! files already read, which are not read again
       type(record_t), intent(in) :: records(:)
       type(checksum_t), intent(inout) :: sum
       type(error_t), allocatable :: unread
@@ -255,7 +255,8 @@ contains
       end do
    end subroutine include_tables
 
-   !> Adds the groups, keys and values of records to a checksum, without titles, notes and the format of a study's results.
+   !> Adds the groups, keys and values of records to a checksum, without the groups &include, &hardpoints and &target_band, and
+   !> without the keys note, title, format (of a study) and property_file.
    subroutine include_records(records, sum)
       type(record_t), intent(in) :: records(:)
       type(checksum_t), intent(inout) :: sum
@@ -279,7 +280,7 @@ contains
    !> Reads all of standard input line by line, because it may be a pipe of unknown size.
    subroutine read_standard_input(text, error)
       character(:), allocatable, intent(out) :: text
-      type(error_t), allocatable, intent(out) :: error      !! exit_file: it is too long
+      type(error_t), allocatable, intent(out) :: error      !! exit_file: the input is too long
       type(buffer_t) :: buffer
       character(4096) :: chunk
       integer :: status, got
@@ -297,7 +298,8 @@ contains
       text = buffer%text()
    end subroutine read_standard_input
 
-   !> Reads the content of the innermost open file. An &include without a quoted name is left to the check of its keys.
+   !> Scans the content of the innermost open file, and reads the files that it includes. An &include without a quoted name is left
+   !> to the check of its keys.
    recursive subroutine take_text(text, depth, files, deck)
       character(*), intent(in) :: text
       integer, intent(in) :: depth
@@ -322,10 +324,10 @@ contains
       end do
    end subroutine take_text
 
-   !> Reads a file that is named relative to the innermost open file.
+   !> Reads an included file, whose name is relative to the folder of the innermost open file.
    recursive subroutine take_file(name, place, depth, files, deck)
       character(*), intent(in) :: name
-      type(place_t), intent(in) :: place        !! of the &include
+      type(place_t), intent(in) :: place        !! location of the &include
       integer, intent(in) :: depth
       type(files_t), intent(inout) :: files
       type(deck_t), intent(inout) :: deck

@@ -1,8 +1,8 @@
-!> The state of the reader while a blueprint is made: the records, their names and points, the values of their keys,
-!> and the messages about them. ek_reference looks up the names to which they refer.
+!> The state of the reader while a blueprint is made: the records, their names and points, the values of their keys, and the
+!> messages about the records. ek_reference looks up the names by which a record refers to other records.
 !>
-!> `k` is the record that is being read. Messages have the form `file:line: group 'name': error`. A value that was rejected
-!> counts as not given, with a legal default: one error, one message.
+!> `k` is the index of the record that is being read. Messages have the form `file:line: group 'name': error`. A rejected value is
+!> treated as not given and replaced by a legal default, so that one error gives one message.
 module ek_deck_reading
    use ek_kinds, only: wp, units_t
    use ek_text, only: str, lower, quoted
@@ -20,25 +20,25 @@ module ek_deck_reading
 
    !> The information about one record.
    type :: card_t
-      integer :: group = 0                  !! 0: an unknown group
+      integer :: group = 0                  !! index of its group; 0: an unknown group, or a group of a study
       character(word_length) :: name = ''
-      integer :: hash = 0                   !! of the name in lower case: equal names have equal hashes
+      integer :: hash = 0                   !! hash value of the name in lower case: equal names have equal values
       logical :: is_good = .false.          !! no error found so far
-      integer :: index = 0                  !! its number among the parts of its kind; of a point, its vector
-      real(wp) :: factor = 1.0_wp           !! measure, driver: deck unit → SI
+      integer :: index = 0                  !! index among the parts of its kind; point: index of its vector
+      real(wp) :: factor = 1.0_wp           !! measure, driver: SI value of the deck unit
       logical :: is_used = .false.          !! point: referenced; body: attached to something; load: scaled by cases
    end type card_t
 
    type :: deck_reading_t
-      character(:), allocatable :: file         !! of the deck
-      type(record_t), allocatable :: records(:) !! mirrored
-      type(card_t), allocatable :: cards(:)     !! one per record
-      integer :: k = 0                          !! the record being read
+      character(:), allocatable :: file         !! path of the deck, for messages
+      type(record_t), allocatable :: records(:) !! records of the finished deck, for both sides
+      type(card_t), allocatable :: cards(:)     !! the card of each record
+      integer :: k = 0                          !! index of the record being read
       type(deck_errors_t) :: deck_errors
       type(units_t) :: units
       type(blueprint_t) :: plan
       type(parameters_t) :: parameters
-      real(wp), allocatable :: vectors(:, :)    !! (3, 0:n) present values of the blueprint's vectors [m, -]; 0: zero
+      real(wp), allocatable :: vectors(:, :)    !! (3, 0:n) values of the blueprint's vectors at design [m, -]; 0: zero
    end type deck_reading_t
 
 contains
@@ -57,7 +57,7 @@ contains
       reading%cards(k)%is_good = .false.
    end subroutine complain
 
-   !> Rejects keys that have no meaning here.
+   !> Reports an error for each given key of a list of keys that the record must not have. `why` is the reason in the message.
    subroutine refuse(reading, keys, why)
       type(deck_reading_t), intent(inout) :: reading
       character(*), intent(in) :: keys(:), why
@@ -75,7 +75,7 @@ contains
       call reading%deck_errors%add(place_in(reading%file, 0, 0), what)
    end subroutine complain_of_all
 
-   !> Whether a group that may occur once has occurred before. A second occurrence is reported as an error.
+   !> Whether the record being read repeats a group that may occur only once. If so, an error is reported.
    logical function is_second(reading)
       type(deck_reading_t), intent(inout) :: reading
       integer :: first
@@ -93,7 +93,8 @@ contains
       place = reading%records(reading%k)%file//':'//str(reading%records(reading%k)%line)
    end function where_of
 
-   !> Location 'line 12' of record j, for a message about the record being read.
+   !> Location of record j for a message about the record being read: 'line 12'; 'line 12 of wheels.nml' if record j is in another
+   !> file.
    pure function line_of(reading, j) result(words)
       type(deck_reading_t), intent(in) :: reading
       integer, intent(in) :: j
@@ -123,7 +124,7 @@ contains
    pure function raw(reading, key, at) result(text)
       type(deck_reading_t), intent(in) :: reading
       character(*), intent(in) :: key
-      integer, intent(in), optional :: at         !! usually 1
+      integer, intent(in), optional :: at         !! default 1
       character(:), allocatable :: text
       integer :: e, k
 
@@ -137,18 +138,18 @@ contains
       end associate
    end function raw
 
-   !> The string of a key, or its default.
+   !> The string of a key; `default` if the key is not given or was rejected.
    pure function text_of(reading, key, default) result(text)
       type(deck_reading_t), intent(in) :: reading
       character(*), intent(in) :: key
-      character(*), intent(in), optional :: default     !! usually ''
+      character(*), intent(in), optional :: default     !! default ''
       character(:), allocatable :: text
 
       text = trim(raw(reading, key))
       if (text == '' .and. present(default)) text = default
    end function text_of
 
-   !> A list of strings; a string is blank where it is not given.
+   !> The strings of elements 1 to `most` of a key; blank where an element is not given or was rejected.
    pure function texts_of(reading, key, most) result(texts)
       type(deck_reading_t), intent(in) :: reading
       character(*), intent(in) :: key
@@ -161,12 +162,12 @@ contains
       end do
    end function texts_of
 
-   !> A number of the record in the unit of the deck.
+   !> Element `at` of a number key, in the unit of the deck; `default` if the element is not given or was rejected.
    real(wp) function number_of(reading, key, default, at) result(value)
       type(deck_reading_t), intent(in) :: reading
       character(*), intent(in) :: key
       real(wp), intent(in) :: default
-      integer, intent(in), optional :: at         !! usually 1
+      integer, intent(in), optional :: at         !! default 1
       character(:), allocatable :: text
 
       value = default
@@ -174,7 +175,7 @@ contains
       if (text /= '') value = checked_number(text)
    end function number_of
 
-   !> A list of numbers; a number is 0 where it is not given.
+   !> The numbers of elements 1 to `most` of a key, in the unit of the deck; 0 where an element is not given or was rejected.
    function numbers_of(reading, key, most) result(values)
       type(deck_reading_t), intent(in) :: reading
       character(*), intent(in) :: key
@@ -185,7 +186,7 @@ contains
       values = [(number_of(reading, key, 0.0_wp, k), k=1, most)]
    end function numbers_of
 
-   !> The integer of a key, or its default.
+   !> The integer of element `at` (default 1) of a key; `default` if the element is not given or was rejected.
    integer function whole_of(reading, key, default, at) result(value)
       type(deck_reading_t), intent(in) :: reading
       character(*), intent(in) :: key
@@ -198,7 +199,7 @@ contains
       if (text /= '') read (text, *) value
    end function whole_of
 
-   !> The logical value of a key; `default` if it is not given.
+   !> The logical value of a key; `default` if the key is not given or was rejected.
    logical function switch_of(reading, key, default) result(value)
       type(deck_reading_t), intent(in) :: reading
       character(*), intent(in) :: key
@@ -210,7 +211,7 @@ contains
       if (text /= '') read (text, *) value
    end function switch_of
 
-   !> The number of values of a key, in any notation.
+   !> The number of values of a key in the record being read, whether given as one list or by subscripts.
    pure integer function value_count(reading, key)
       type(deck_reading_t), intent(in) :: reading
       character(*), intent(in) :: key
@@ -224,8 +225,8 @@ contains
       end associate
    end function value_count
 
-   !> Finds the index of a keyword among the choices. The index is 0 if the keyword is not given and has no default. The index is
-   !> also 0, with a message, if the keyword is not one of the choices.
+   !> Finds the index of the string of a key among the choices. Without a string, `number` is `default`, or 0 if there is no
+   !> default. For a string that is not one of the choices, an error is reported and `number` is 0.
    subroutine choice(reading, key, choices, number, default)
       type(deck_reading_t), intent(inout) :: reading
       character(*), intent(in) :: key, choices(:)
@@ -236,7 +237,8 @@ contains
       if (text_of(reading, key) == '' .and. present(default)) number = default
    end subroutine choice
 
-   !> Finds the index of a word, which is an element of a key, among the choices.
+   !> Finds the index of a word, which is an element of a key, among the choices. Letter case is ignored. `number` is 0 if the word
+   !> is blank; it is also 0, and an error is reported, if the word is not one of the choices.
    subroutine choose(reading, key, word, choices, number)
       type(deck_reading_t), intent(inout) :: reading
       character(*), intent(in) :: key, word, choices(:)
@@ -273,8 +275,8 @@ contains
       character(*), intent(in) :: key
       real(wp), intent(in) :: unit                   !! SI value of the unit in the deck
       integer, intent(out) :: number
-      real(wp), intent(in), optional :: default      !! in the unit of the deck; absent: the key has none
-      integer, intent(in), optional :: count         !! usually 1
+      real(wp), intent(in), optional :: default      !! default in the unit of the deck; absent: the key has none
+      integer, intent(in), optional :: count         !! default 1
       real(wp) :: usual
       integer :: k, elements
 

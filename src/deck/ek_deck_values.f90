@@ -1,4 +1,5 @@
-!> Every value of a deck as path and string. A report stores these values, so that a comparison of two reports can list the changes.
+!> The values of a deck as paths and strings. A report stores these values, so that a comparison of two reports can list the
+!> changes.
 module ek_deck_values
    use ek_error, only: message_list_t
    use ek_deck, only: deck_t, finish_deck
@@ -15,8 +16,9 @@ module ek_deck_values
 
 contains
 
-   !> Lists the values from which the model was built, in the order of the deck, after settings, property files and &mirror. Paths
-   !> are written as for --set. The limits of a band have the name of its key number, which --set does not accept.
+   !> Lists the values from which the model was built, in the order of the deck, after settings, property files and &mirror. Names,
+   !> notes and titles are omitted. Paths are written as for --set. The path of a limit of a target band contains the name of the
+   !> key number; --set does not accept this path.
    subroutine list_values(deck, paths, texts)
       type(deck_t), intent(in) :: deck
       type(message_list_t), intent(out) :: paths, texts       !! of the same length

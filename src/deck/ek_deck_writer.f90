@@ -1,6 +1,6 @@
 !> The deck as used: one file with the records of all included files, hardpoints and property files, of both sides, and with all
-!> settings. Comments give the file and the line of each record, the setting of each value that was set, and the numbers that are
-!> not given. The file gives the same results as the deck from which it was made.
+!> settings. Comments give the file and the line of each record, the setting of each value that was set, and the defaults of numbers
+!> that are not given. The file gives the same results as the deck from which it was made.
 module ek_deck_writer
    use ek_error, only: error_t, message_list_t, fail, exit_usage
    use ek_text, only: str, quoted
@@ -24,12 +24,12 @@ module ek_deck_writer
 
    !> A load table that a record names.
    type :: table_t
-      character(:), allocatable :: path, name      !! path from which it was read; its name in the written deck
+      character(:), allocatable :: path, name      !! path from which the table was read; its name in the written deck
    end type table_t
 
 contains
 
-   !> Writes a deck, and the load tables named in the deck as DECK_TABLE.csv in the same folder.
+   !> Writes a deck as it was used to a file, and the load tables named in the deck to files DECK_TABLE.csv in the same folder.
    subroutine write_deck_as_used(deck, path, error, copies)
       type(deck_t), intent(in) :: deck                     !! without errors
       character(*), intent(in) :: path
@@ -51,7 +51,7 @@ contains
       end do
    end subroutine write_deck_as_used
 
-   !> Rejects a path that would overwrite a file from which the deck was read.
+   !> Rejects a path that would overwrite a file from which the deck was read, and the path '-'.
    subroutine refuse_own_files(deck, path, error)
       type(deck_t), intent(in) :: deck
       character(*), intent(in) :: path
@@ -86,7 +86,7 @@ contains
 
    subroutine make_text(deck, prefix, text, tables, error)
       type(deck_t), intent(in) :: deck
-      character(*), intent(in) :: prefix                   !! of the names of tables; '': their paths
+      character(*), intent(in) :: prefix                   !! prefix of the file names of load tables; '': absolute paths
       character(:), allocatable, intent(out) :: text
       type(table_t), allocatable, intent(out) :: tables(:)
       type(error_t), allocatable, intent(out) :: error
@@ -107,7 +107,7 @@ contains
       text = lines%text()
    end subroutine make_text
 
-   !> Adds one record: its file and line, a line for each key, and the numbers that the record does not give.
+   !> Adds one record: its file and line, a line for each key, and comments with the defaults of the numbers that are not given.
    subroutine add_record(record, number, parameters, kept, prefix, tables, lines)
       type(record_t), intent(in) :: record
       integer, intent(in) :: number
@@ -182,8 +182,9 @@ contains
       words = words//"'"
    end function in_quotes
 
-   !> The name of the table of a case in the written deck. The name is added to the list. Tables with one name from two folders get
-   !> numbers. A table that could not be read has its original path.
+   !> The name of the load table of a case in the written deck. A new name is added to the list of tables; tables with equal file
+   !> names in different folders are numbered. Without a prefix, and for a table that could not be read, the name is the absolute
+   !> path.
    function table_name(record, kept, prefix, tables) result(name)
       type(record_t), intent(in) :: record
       type(kept_files_t), intent(in) :: kept

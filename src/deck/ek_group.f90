@@ -1,6 +1,6 @@
 !> The groups of a deck and their keys: the single definition of legal input.
 !>
-!> To add a key: its row here, and the reader of the group, which asks for its value.
+!> A new key needs a row here, and a statement in the reader of its group that asks for its value.
 module ek_group
    use ek_text, only: quoted, did_you_mean
    use ek_quantity, only: name_length
@@ -20,7 +20,7 @@ module ek_group
       'stop', 'torsion', 'axle', 'steering', 'mass', 'correlation', 'hardpoints', 'target_band', &
       'fit', 'target']
 
-   integer, parameter :: every_group = 0      !! in the table of keys
+   integer, parameter :: every_group = 0      !! group, in the table of keys, of a key that every group has
    integer, parameter :: spring_groups(*) = [spring_group, damper_group, stop_group, torsion_group]   ! elements of one measure
    integer, parameter :: result_groups(*) = [measure_group, joint_group, bushing_group, spring_groups]   ! their names make columns
    ! groups of a study, of a fit; all others belong to a deck
@@ -28,20 +28,20 @@ module ek_group
       fit_groups(3) = [fit_group, factor_group, fit_target_group]
 
    ! types of value
-   integer, parameter, public :: word = 1      !! quoted, at most word_length characters: names and choices
-   integer, parameter, public :: prose = 2     !! quoted, at most note_length characters
+   integer, parameter, public :: word = 1      !! quoted string of at most word_length characters: names and choices
+   integer, parameter, public :: prose = 2     !! quoted string of at most note_length characters: titles, notes, paths
    integer, parameter, public :: number = 3
    integer, parameter, public :: whole = 4     !! integer
    integer, parameter, public :: switch = 5    !! .true. or .false.
-   integer, parameter, public :: heading = 6   !! quoted, at most name_length characters: columns of the results
+   integer, parameter, public :: heading = 6   !! quoted string of at most name_length characters: columns of the results
 
    integer, parameter, public :: word_length = 63      !! longest name
-   integer, parameter, public :: note_length = 2000    !! longest title or note
-   integer, parameter, public :: longest(heading) = [word_length, note_length, 0, 0, 0, name_length]   !! per type; 0: no text
-   integer, parameter, public :: max_measures = 8     !! per coupler
-   integer, parameter, public :: max_values = 200     !! per factor; also step sizes of a study, points of a curve, names in shared
-   integer, parameter, public :: max_paths = 50       !! of numbers that a factor moves together
-   integer, parameter, public :: max_loads = 12       !! scaled together by one case
+   integer, parameter, public :: note_length = 2000    !! longest title, note or path
+   integer, parameter, public :: longest(heading) = [word_length, note_length, 0, 0, 0, name_length]   !! by type; 0: not a string
+   integer, parameter, public :: max_measures = 8     !! measures per coupler
+   integer, parameter, public :: max_values = 200   !! values per factor, increments of a study, points of a curve, names in shared
+   integer, parameter, public :: max_paths = 50       !! paths of the numbers that one factor changes
+   integer, parameter, public :: max_loads = 12       !! loads scaled by one case
 
    ! roles under &mirror, y → −y, of the keys that differ between the sides: the name of a record that may be duplicated (its
    ! group), a vector, and the rest
@@ -54,10 +54,10 @@ module ek_group
       integer :: group
       character(16) :: name
       integer :: type
-      integer :: least, most     !! number of values
+      integer :: least, most     !! least and largest number of values
       logical :: is_required
-      integer :: range = any_number     !! see ek_number_range
-      character(20) :: unit = ''   !! of the range, in messages
+      integer :: range = any_number     !! legal range of a number, see ek_number_range
+      character(20) :: unit = ''   !! unit of the limits of the range, for messages
       integer :: role = 0
    end type key_t
 
@@ -291,7 +291,8 @@ contains
       is_deck_group = group > 0 .and. .not. any([study_groups, fit_groups] == group)
    end function is_deck_group
 
-   !> Whether records of a group have columns in the results, so that their names must differ and &mirror duplicates them.
+   !> Whether records of a group have columns in the results. Their names must then differ, and &mirror duplicates the records that
+   !> refer to duplicated parts.
    pure logical function has_results(group)
       integer, intent(in) :: group
       has_results = any(result_groups == group)
@@ -319,7 +320,7 @@ contains
       if (.not. of_deck) names = group_names(study_groups)
    end function names_of_groups
 
-   !> Whether --set addresses a group without a record name. This holds for &model and the other groups without names.
+   !> Whether --set addresses a group without a record name: &model, and every group whose name is optional or does not exist.
    pure logical function is_single(group)
       integer, intent(in) :: group
       is_single = group == model_group .or. .not. any(keys%group == group .and. keys%name == 'name' .and. keys%is_required)

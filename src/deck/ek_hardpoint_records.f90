@@ -13,11 +13,11 @@ module ek_hardpoint_records
    private
    public :: attach_hardpoints
 
-   real(wp), parameter :: near = 1.0e-9_wp                !! m: two points are images of each other
+   real(wp), parameter :: near = 1.0e-9_wp                !! greatest difference of a coordinate between two images [m]
 
 contains
 
-   !> Adds the points of all &hardpoints.
+   !> Adds a &point record for each hardpoint in the files of all &hardpoints. Errors are added to the errors of the deck.
    subroutine attach_hardpoints(files, records, used, deck_errors)
       type(kept_files_t), intent(inout) :: files   !! receives the files that are read
       type(record_t), allocatable, intent(inout) :: records(:)
@@ -92,7 +92,7 @@ contains
       end do
    end subroutine attach_hardpoints
 
-   !> Checks that, in a deck with &mirror, each right hardpoint is the image of its left hardpoint.
+   !> Checks that, in a deck with &mirror, each right hardpoint is the image of the left hardpoint with the same name.
    subroutine check_images(sheet, path, source, deck_errors)
       type(hardpoints_t), intent(in) :: sheet
       character(*), intent(in) :: path
@@ -115,12 +115,12 @@ contains
       end do
    end subroutine check_images
 
-   !> Adds a &point for each hardpoint of a side. Without a side, adds the hardpoints of both sides, with left_ and right_ before
-   !> their names.
+   !> Adds a &point for each hardpoint of a side, and for each hardpoint that exists once. If no side or both sides are requested,
+   !> adds the hardpoints of both sides, with left_ or right_ before their names.
    subroutine add_points(sheet, side, sign, length, path, source, records, used)
       type(hardpoints_t), intent(in) :: sheet
       character(*), intent(in) :: side, path        !! side: '' or 'both', 'left', 'right'
-      real(wp), intent(in) :: sign                  !! of x and y: −1 from one frame to the other
+      real(wp), intent(in) :: sign                  !! factor of x and y: −1 if file and deck have different frames
       real(wp), intent(in) :: length                !! m per unit of the deck
       integer, intent(in) :: source
       type(record_t), allocatable, intent(inout) :: records(:)

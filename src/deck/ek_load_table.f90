@@ -8,7 +8,7 @@
 !> | travel_mm                             | height of the wheel centre above design, held            |
 !> | <driver>_mm, <driver>_deg             | change of the value prescribed by a driver joint         |
 !>
-!> Loads and heights act in addition to the constant loads of the deck; quantities without a column stay constant.
+!> The loads of the table act in addition to the constant loads of the deck. Loads and drivers without a column stay constant.
 module ek_load_table
    use ek_kinds, only: wp, degree, millimetre
    use ek_error, only: error_t
@@ -28,14 +28,14 @@ module ek_load_table
    character(*), parameter :: wheel_columns(10) = [character(11) :: 'fx_n', 'fy_n', 'fz_n', 'mx_nm', 'my_nm', 'mz_nm', &
       'centre_fx_n', 'centre_fy_n', 'centre_fz_n', 'travel_mm']
    integer, parameter :: height = 10
-   character(*), parameter :: passed_over(2) = [character(6) :: 'state', 'factor']      !! columns of result files reused as loads
+   character(*), parameter :: passed_over(2) = [character(6) :: 'state', 'factor']      !! columns of results files, ignored
 
 contains
 
    !> Reads the tables that cases name. Errors in a table, as 'table.csv:7: error', are stored in its case, because only a command
    !> that uses the case reports them.
    subroutine read_tables(files, cases, suspension, is_whole)
-      type(kept_files_t), intent(in) :: files          !! which are not read again
+      type(kept_files_t), intent(in) :: files          !! files already read, which are not read again
       type(case_t), intent(inout) :: cases(:)
       type(suspension_t), intent(in) :: suspension     !! wheels and drivers, which determine the headings
       logical, intent(in) :: is_whole                  !! the suspension is complete; otherwise the headings are not checked
@@ -57,7 +57,7 @@ contains
       end do
    end subroutine read_tables
 
-   !> Reads one table of loads.
+   !> Reads one table of loads. Errors are stored in the table, which then has no rows.
    subroutine read_table(file, files, suspension, is_whole, table)
       character(*), intent(in) :: file
       type(kept_files_t), intent(in) :: files
@@ -95,11 +95,12 @@ contains
       table%columns = columns(pack([(k, k=1, size(columns))], is_kept))
    end subroutine read_table
 
-   !> Finds the meaning of a column by its heading, and the SI value of its unit. The column is 0 if the heading has no meaning.
+   !> Finds the meaning of a column by its heading, and the SI value of its unit. The unit is 0 if the heading has no meaning in the
+   !> model.
    pure subroutine find_meaning(head, suspension, wheels, column, unit)
       character(*), intent(in) :: head
       type(suspension_t), intent(in) :: suspension
-      integer, intent(in) :: wheels(2)      !! left, right; 0: none
+      integer, intent(in) :: wheels(2)      !! indices of the left and of the right wheel; 0: none
       type(table_column_t), intent(out) :: column
       real(wp), intent(out) :: unit
       character(:), allocatable :: prefix
@@ -148,7 +149,8 @@ contains
          plural(count(is_unknown) - max_reported, 'more unknown column', 'more unknown columns'))
    end subroutine judge_columns
 
-   !> Advice on an unknown column: the similar name, or the known columns.
+   !> Advice on an unknown column: a similar name; otherwise a hint on separators if the heading contains a blank; otherwise the
+   !> known columns. It is '' if there is no wheel, and neither a similar name nor a blank.
    function advice(name, suspension, wheels) result(words)
       character(*), intent(in) :: name
       type(suspension_t), intent(in) :: suspension

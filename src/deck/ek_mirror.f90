@@ -1,9 +1,9 @@
 !> &mirror: converts a deck of the left half of an axle to the deck of both sides.
 !>
-!> It works on records before names are looked up, so that the reader does not depend on mirroring. Points off the plane y = 0 and
-!> all bodies are written twice, as left_<name> and right_<name>, except the names in `shared`. Every element that refers
-!> to a duplicated part is also duplicated. An element whose name already has a side, or that refers to such a name, is not
-!> duplicated.
+!> The conversion uses records before names are looked up, so that the reader does not depend on mirroring. Points off the plane y =
+!> 0 and all bodies are duplicated as left_<name> and right_<name>, unless the name is in `shared` or begins with left_ or right_.
+!> Every element that refers to a duplicated part is also duplicated. An element is not duplicated if it is in `shared`, if its name
+!> has a side, or if it refers to a name with a side.
 !>
 !> The right side is the image under y → −y: a polar vector v becomes M v with M = diag(1, −1, 1), an axial vector (a moment,
 !> the axis of a rotation) becomes −M v. The x and z axes of a bushing are mirrored as directions, so y = z × x becomes
@@ -20,14 +20,14 @@ module ek_mirror
    private
    public :: mirror_records
 
-   real(wp), parameter :: in_plane = 1.0e-9_wp      !! m; a point closer to y = 0 exists once
+   real(wp), parameter :: in_plane = 1.0e-9_wp      !! a point closer than this to y = 0 exists once [m]
 
    !> Information about the half deck during duplication, one array element per record.
    type :: half_t
       integer, allocatable :: groups(:)
-      character(word_length), allocatable :: names(:)   !! lower case; '' if there is no usable name
+      character(word_length), allocatable :: names(:)   !! names in lower case; '' if there is no usable name
       logical, allocatable :: is_doubled(:), is_shared(:)
-      logical, allocatable :: is_right(:)            !! a wheel of the right side, rejected
+      logical, allocatable :: is_right(:)            !! whether the record is a wheel of the right side, which is rejected
       real(wp) :: length = 1.0e-3_wp                 !! the deck's length unit [m]
       real(wp) :: outboard = -1.0_wp                 !! sign of y on the left
    end type half_t
@@ -143,7 +143,7 @@ contains
       end do
    end subroutine find_shared
 
-   !> Whether record k exists only once, because of `shared` or because of its name.
+   !> Whether record k exists only once: its name is in `shared` or has a side, or the record is a rejected right wheel.
    pure logical function is_of_one(half, k)
       type(half_t), intent(in) :: half
       integer, intent(in) :: k
@@ -174,7 +174,7 @@ contains
          trim(merge('left ', 'right', half%outboard > 0.0_wp))//'); list a point that exists only once in shared')
    end subroutine judge_point
 
-   !> Whether an element is duplicated because it refers to something that is duplicated.
+   !> Whether an element is duplicated because it refers to a duplicated record. A reference to a name with a side prevents this.
    logical function follows(record, half)
       type(record_t), intent(in) :: record
       type(half_t), intent(in) :: half
@@ -196,7 +196,7 @@ contains
       end do
    end function follows
 
-   !> Whether a role is the name of another record that is duplicated.
+   !> Whether a name is the name of a duplicated record, whose group is `role`.
    pure logical function is_doubled_name(half, role, name)
       type(half_t), intent(in) :: half
       integer, intent(in) :: role
@@ -205,7 +205,7 @@ contains
       is_doubled_name = any(half%is_doubled .and. half%groups == role .and. half%names == lower(name)) .and. name /= ''
    end function is_doubled_name
 
-   !> Renames the record of one side, and its references to other records.
+   !> Renames a duplicated record for one side, and its references to other duplicated records.
    subroutine rename(half, side, record)
       type(half_t), intent(in) :: half
       integer, intent(in) :: side
@@ -244,7 +244,8 @@ contains
       end if
    end function name_on_side
 
-   !> Copies a record that exists once. Duplicated loads of a case act on both sides; any other reference must be unique.
+   !> Changes the references of a record that exists once. A reference of a case to a duplicated load is replaced by the loads of
+   !> both sides. Any other reference to a duplicated record is an error.
    subroutine keep_single(half, is_refused, record, deck_errors)
       type(half_t), intent(in) :: half
       logical, intent(in) :: is_refused        !! a wheel of the right side, already reported
@@ -327,7 +328,7 @@ contains
       end do
    end subroutine reflect
 
-   !> Changes the sign of a number: '5' ↔ '-5'; zero has no sign.
+   !> Changes the sign of a number: '5' ↔ '-5'; a zero is unchanged.
    subroutine turn_number(text)
       character(:), allocatable, intent(inout) :: text
 
@@ -356,7 +357,7 @@ contains
       text = component//'='//name
    end subroutine turn_curve
 
-   !> Exchanges the two points of an axis.
+   !> Exchanges the two points of an axis, also if the entry gives only one of them.
    subroutine exchange_ends(entry)
       type(entry_t), intent(inout) :: entry
 

@@ -1,5 +1,6 @@
-!> Checks one record against the table of groups: keys, types, counts, subscripts, ranges; and its name: an illegal character, or
-!> the column of a quantity that an element, a measure or a joint of this name would have as well. input/README.md lists the names.
+!> Checks one record against the table of groups: keys, types, counts, subscripts and ranges. Checks the name of a record: an
+!> illegal character is an error. The name of an element, a measure or a joint is also an error if one of its columns would have the
+!> name of a quantity. input/README.md lists these names.
 !>
 !> The values are read by ek_deck_reading from the entries that pass. The compiler's namelist read is not used: it silently accepts
 !> too few values, a key given twice, `nan` and `1e999`.
@@ -18,7 +19,7 @@ module ek_namelist
    public :: check_record, value_fault, surplus, name_fault, is_legal_name
 
    integer, parameter :: largest_exponent = 30      !! numbers from 1e30 are errors and could overflow later
-   integer, parameter :: smallest_exponent = -100   !! numbers below 1e-100 are errors too; the smallest would be read as 0
+   integer, parameter :: smallest_exponent = -100   !! nonzero numbers below 1e-100 are errors too; some would be read as 0
    character(*), parameter :: digits = '0123456789'
    character(*), parameter :: types(heading) = [character(18) :: 'a string in quotes', 'a string in quotes', 'a number', &
       'an integer', '.true. or .false.', 'a string in quotes']
@@ -52,7 +53,7 @@ contains
 
    contains
 
-      !> Whether the type, the number and the values of entry k fit its key.
+      !> Whether the type, the number and the values of entry k fit its key. If not, an error is reported.
       logical function fits()
          character(:), allocatable :: name, fault
          logical :: is_same(record%used)
@@ -114,7 +115,7 @@ contains
    function out_of_range(key, entry, k) result(words)
       type(key_t), intent(in) :: key
       type(entry_t), intent(in) :: entry
-      integer, intent(in) :: k               !! number of the value in the entry
+      integer, intent(in) :: k               !! index of the value in the entry
       character(:), allocatable :: words
       real(wp) :: value
 
@@ -136,7 +137,7 @@ contains
       if (key%least == key%most) words = 'needs '//plural(key%least, 'value', 'values')
    end function needs
 
-   !> Hints about surplus values: a decimal comma, or an unknown key without = after it.
+   !> Hint about surplus values: a decimal comma, or a missing = after a word that may be a key; otherwise ''.
    function surplus(key, entry) result(words)
       type(key_t), intent(in) :: key
       type(entry_t), intent(in) :: entry
@@ -215,7 +216,7 @@ contains
       end if
    end function value_fault
 
-   !> A hint if a string has typographic quotes; otherwise ''.
+   !> A hint if a string begins with a typographic quote; otherwise ''.
    pure function quote_hint(text) result(words)
       character(*), intent(in) :: text
       character(:), allocatable :: words
@@ -226,7 +227,7 @@ contains
       if (any([(index(text, trim(quotes(k))) == 1, k=1, size(quotes))])) words = " (write straight quotes: ' or "")"
    end function quote_hint
 
-   !> A hint about common errors in numbers.
+   !> A hint about a typographic minus sign or a semicolon in a number; otherwise ''.
    pure function number_hint(text) result(words)
       character(*), intent(in) :: text
       character(:), allocatable :: words
@@ -263,7 +264,7 @@ contains
       if (mark <= len(text)) is_number = is_number .and. is_signed(text(mark + 1:))
    end function is_number
 
-   !> The power of ten of the first digit of a well-formed number; 0 for zero.
+   !> The power of ten of the first nonzero digit of a well-formed number; 0 for zero.
    pure integer function size_exponent(text) result(power)
       character(*), intent(in) :: text
       integer :: mark, dot, lead, status
@@ -307,7 +308,7 @@ contains
    !> The message for an illegal or reserved name; '' if the name is allowed.
    pure function name_fault(name, has_results) result(words)
       character(*), intent(in) :: name
-      logical, intent(in) :: has_results       !! elements of its kind have columns in the results
+      logical, intent(in) :: has_results       !! records of its group have columns in the results
       character(*), parameter :: rate = '_per'
       character(:), allocatable :: words, head, column
       integer :: mark

@@ -7,7 +7,7 @@ module ek_number_range
 
    integer, parameter :: any_number = 0, positive = 1, not_negative = 2, not_zero = 3
    integer, parameter :: share = 4      !! 0 to 1
-   integer, parameter :: acute = 5      !! an angle, to either side: the only range whose limits have a unit
+   integer, parameter :: acute = 5      !! an angle between −90° and 90°: the only range whose nonzero limits have a unit
 
 contains
 
@@ -15,7 +15,7 @@ contains
    pure logical function is_inside(range, value)
       integer, intent(in) :: range
       real(wp), intent(in) :: value            !! SI; in any unit if the range is not acute
-      real(wp), parameter :: right_angle = 0.5_wp*pi*(1.0_wp - 4.0_wp*epsilon(1.0_wp))     ! 90 in degrees may fall short by rounding
+      real(wp), parameter :: right_angle = 0.5_wp*pi*(1.0_wp - 4.0_wp*epsilon(1.0_wp))     ! 90 deg may fall short by rounding
 
       select case (range)
       case (positive)
@@ -36,7 +36,7 @@ contains
    !> Message about a number outside the range of its key: 'must be above 0 kg, found -1'.
    pure function range_text(range, unit, shown) result(words)
       integer, intent(in) :: range            !! not any_number
-      character(*), intent(in) :: unit        !! of the limits: ' kg'; '' for none
+      character(*), intent(in) :: unit        !! unit of the limits: ' kg'; '' for none
       character(*), intent(in) :: shown       !! the value as a string
       character(:), allocatable :: words
       character(*), parameter :: ranges(5) = [character(22) :: 'above 0', '0 or more', 'not be zero', '0 to 1', &

@@ -1,7 +1,7 @@
-!> The parameters: every number of a deck, by its path as `--set` writes it.
+!> The parameters: the numbers of a deck, each with a path as `--set` writes it.
 !>
-!> x(k) is the value of parameter k [SI, axes of the deck]. On a mirrored axle the two parameters of a number of the half deck have
-!> one path without the side, and the parameter on the right has `sign` × the value.
+!> x(k) is the value of parameter k [SI, axes of the deck]. On a mirrored axle, a number of a duplicated record is two parameters
+!> with one path, which has no side. The value of the parameter on the right is `sign` × the value on the left.
 module ek_parameter
    use ek_kinds, only: wp
    use ek_contract, only: are_checked, require
@@ -19,20 +19,20 @@ module ek_parameter
 
    !> One number of the deck as a parameter of the model.
    type :: parameter_t
-      integer :: record = 0               !! number of its record in the mirrored deck
+      integer :: record = 0               !! index of its record in the mirrored deck
       character(14) :: key = ''
-      integer :: at = 1                   !! subscript
-      real(wp) :: unit = 1.0_wp           !! SI value of its unit in the deck
-      integer :: range = 0                !! of its key, see ek_group
-      logical :: is_given = .true.        !! .false.: the deck omits it, x has its default
-      real(wp) :: sign = 1.0_wp           !! −1: on the right side, the opposite of the value on the left
-      integer :: tied = 0                 !! the parameter of the left side with the same path; 0: none
+      integer :: at = 1                   !! subscript of the number in its key
+      real(wp) :: unit = 1.0_wp           !! SI value of the deck unit of the number
+      integer :: range = 0                !! legal range of the key, see ek_number_range
+      logical :: is_given = .true.        !! .false.: the deck omits the number, and x has its default
+      real(wp) :: sign = 1.0_wp           !! −1: the value on the right side is minus the value on the left
+      integer :: tied = 0                 !! index of the parameter of the left side with the same path; 0: none
    end type parameter_t
 
    !> All parameters with their values in the deck.
    type :: parameters_t
       integer :: used = 0
-      type(parameter_t), allocatable :: list(:)     !! the first `used`
+      type(parameter_t), allocatable :: list(:)     !! the first `used` are filled
       real(wp), allocatable :: x(:)
    end type parameters_t
 
@@ -46,7 +46,7 @@ module ek_parameter
    type :: path_t
       integer :: group = 0
       character(:), allocatable :: name, key
-      type(key_t) :: row                     !! of the key, if the group has it
+      type(key_t) :: row                     !! row of the key in the table of keys, if `is_known`
       logical :: is_known = .false.
       integer :: first = 1
       logical :: has_subscript = .false.
@@ -166,8 +166,9 @@ contains
       end do
    end subroutine add_parameter
 
-   !> Finds the parameters with a path, which may have * instead of names. No parameter is found if the path leads to a string,
-   !> or if the deck does not give the number. The path of a half deck leads to both sides of the axle.
+   !> Finds the parameters with a path, which may have * instead of names. No parameter is found if the path is illegal or leads to
+   !> a string, or to a number that the deck does not give and that has no default. The path of a half deck leads to both sides of
+   !> the axle.
    subroutine find_parameters(parameters, records, path_text, found)
       type(parameters_t), intent(in) :: parameters
       type(record_t), intent(in) :: records(:)
@@ -193,7 +194,8 @@ contains
       end do
    end subroutine find_parameters
 
-   !> Sets the parameters found by a path to a value, which is in the unit of the deck.
+   !> Sets the parameters found by a path to a value, which is in the unit of the deck. With the path of a half deck, the parameter
+   !> on the right side gets the mirror image of the value.
    pure subroutine put_value(parameters, found, value, x)
       type(parameters_t), intent(in) :: parameters
       type(choice_t), intent(in) :: found(:)
@@ -208,7 +210,8 @@ contains
       end do
    end subroutine put_value
 
-   !> Changes the parameters found by a path, relative to their values in x. The change is equal on both sides of an axle.
+   !> Changes the parameters found by a path, relative to their values in x. With the path of a half deck, the change on the right
+   !> side is the mirror image of the change on the left.
    subroutine put_change(parameters, found, change, x)
       type(parameters_t), intent(in) :: parameters
       type(choice_t), intent(in) :: found(:)

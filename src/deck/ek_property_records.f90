@@ -18,13 +18,13 @@ module ek_property_records
    private
    public :: attach_properties
 
-   integer, parameter :: name_room = word_length - 4      !! of an element whose curves are named after it
+   integer, parameter :: name_room = word_length - 4      !! longest name of an element whose curves are named after it
 
 contains
 
    !> Adds the curves of all property files, and adds to each element the keys that refer to these curves.
    subroutine attach_properties(files, records, used, deck_errors)
-      type(kept_files_t), intent(in) :: files      !! which are not read again
+      type(kept_files_t), intent(in) :: files      !! files already read, which are not read again
       type(record_t), allocatable, intent(inout) :: records(:)
       integer, intent(inout) :: used
       type(deck_errors_t), intent(inout) :: deck_errors
@@ -45,9 +45,10 @@ contains
       end do
    end subroutine attach_properties
 
-   !> Attaches the property file of one element.
+   !> Adds the laws of the property file of one element as &curve records, and the key `curve` to the element. A free length in the
+   !> file is also added, unless the element has a preload, a free length or a measure.
    subroutine attach_property(k, units, source, files, seen, records, used, deck_errors)
-      integer, intent(in) :: k                     !! its record
+      integer, intent(in) :: k                     !! index of the record of the element
       type(units_t), intent(in) :: units
       integer, intent(in) :: source
       type(kept_files_t), intent(in) :: files
@@ -117,7 +118,7 @@ contains
 
    contains
 
-      !> Adds a &curve from the line in the file at which its law begins.
+      !> Adds a law as a &curve record, whose location is the line of the file at which the law begins.
       subroutine add_curve(name, law, offset, scale, x_unit, y_unit)
          character(*), intent(in) :: name
          type(law_points_t), intent(in) :: law
@@ -155,8 +156,8 @@ contains
       end select
    end function fits_group
 
-   !> Element `at` of a number key; for a key with a single value, this value. `default` if the element is not given or is not a
-   !> number, which the check of the record reports.
+   !> Element `at` of a number key of a record; `default` if the element is not given, or is not a number. The check of the record
+   !> reports the latter error.
    pure real(wp) function number_in(record, key, at, default) result(value)
       type(record_t), intent(in) :: record
       character(*), intent(in) :: key

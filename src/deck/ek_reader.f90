@@ -1,7 +1,7 @@
 !> From a deck to a design: the blueprint, its parameters, and the load cases.
 !>
-!> Here numbers are converted from the deck's units: x is in SI, in the axes of the deck. All errors of the deck are
-!> collected; the blueprint is complete only if there are none.
+!> Here numbers are converted from the deck's units: x is in SI, in the axes of the deck. All errors of the deck are collected. The
+!> blueprint is complete if no record other than a &case or a &target_band has an error.
 module ek_reader
    use ek_kinds, only: wp, i8, units_t, millimetre, degree
    use ek_text, only: str, quoted, lower, did_you_mean
@@ -37,10 +37,10 @@ module ek_reader
    !> A deck as a design space: realise(plan, x) is a suspension.
    type :: design_t
       type(blueprint_t) :: plan
-      type(parameters_t) :: parameters           !! with their values in the deck, x
+      type(parameters_t) :: parameters           !! the parameters, with their values in the deck (x)
       type(record_t), allocatable :: records(:)  !! of the mirrored deck, to which the parameters refer
-      type(case_t), allocatable :: cases(:)      !! with their tables; may be of size 0; includes cases with an error
-      type(target_band_t), allocatable :: targets(:)      !! of key numbers, for the page of a report
+      type(case_t), allocatable :: cases(:)      !! cases and their tables; may be of size 0; includes cases with an error
+      type(target_band_t), allocatable :: targets(:)      !! target bands of key numbers, for the page of a report
    end type design_t
 
 contains
@@ -51,7 +51,7 @@ contains
       type(suspension_t), intent(out) :: suspension
       type(case_t), allocatable, intent(out) :: cases(:)     !! may be of size 0; includes cases with an error
       type(error_t), allocatable, intent(out) :: error
-      logical, intent(out), optional :: is_whole             !! the suspension is complete: all errors are in cases
+      logical, intent(out), optional :: is_whole             !! suspension complete: all errors are in cases or bands
       type(design_t) :: design
       logical :: is_complete
 
@@ -60,14 +60,14 @@ contains
       if (present(is_whole)) is_whole = is_complete
    end subroutine build_model
 
-   !> Reads the design of a deck and realises its suspension. If the reader has missed an error in the numbers, the unfinished model
-   !> is not returned.
+   !> Reads the design of a deck and realises its suspension. If the suspension cannot be realised, because the reader has missed an
+   !> error in the numbers, `error` is set and `is_whole` is .false.
    subroutine build_design(deck, design, suspension, error, is_whole)
       type(deck_t), intent(in) :: deck
       type(design_t), intent(out) :: design
       type(suspension_t), intent(out) :: suspension
       type(error_t), allocatable, intent(out) :: error       !! exit_deck: all errors of the deck
-      logical, intent(out) :: is_whole                       !! the suspension is complete: all errors are in cases
+      logical, intent(out) :: is_whole                       !! suspension complete: all errors are in cases or bands
 
       call read_design(deck, design, error, is_whole)
       if (.not. is_whole) return
@@ -83,7 +83,7 @@ contains
       type(deck_t), intent(in) :: deck
       type(design_t), intent(out) :: design
       type(error_t), allocatable, intent(out) :: error
-      logical, intent(out), optional :: is_whole             !! the blueprint is complete: all errors are in cases
+      logical, intent(out), optional :: is_whole             !! blueprint complete: all errors are in cases or bands
       type(deck_t) :: finished
       type(deck_reading_t) :: reading
       logical :: is_complete
@@ -103,7 +103,7 @@ contains
       if (present(is_whole)) is_whole = is_complete
    end subroutine read_design
 
-   !> Reads all records, group by group.
+   !> Reads all records except &target_band, group by group.
    subroutine read_records(reading, cases, is_whole, error)
       type(deck_reading_t), intent(inout) :: reading
       type(case_t), allocatable, intent(inout) :: cases(:)
@@ -165,7 +165,8 @@ contains
       if (reading%deck_errors%count() > 0) call fail(error, exit_deck, reading%deck_errors%text())
    end subroutine read_records
 
-   !> Reads the targets of key numbers. Their errors are reported after the errors of the records.
+   !> Reads the target bands of key numbers. If the deck has bands and an error, `error` then lists all errors of the deck,
+   !> including the errors of the bands.
    subroutine read_targets(reading, targets, error)
       type(deck_reading_t), intent(inout) :: reading
       type(target_band_t), allocatable, intent(out) :: targets(:)
@@ -241,7 +242,7 @@ contains
       call add_gravity(reading%plan%prototype)
    end subroutine complete_prototype
 
-   !> Whether a file contains groups of a study and no groups of a deck.
+   !> Whether a file contains groups of a study or of a fit, and no groups of a deck.
    pure logical function is_study(records)
       type(record_t), intent(in) :: records(:)
       integer :: groups(size(records)), k
@@ -278,7 +279,7 @@ contains
       if (group /= model_group) call check_new(reading)
    end subroutine check_names
 
-   !> A hash value: equal strings have equal numbers.
+   !> The hash value of a string. Equal strings have equal values; different strings may have equal values too.
    pure integer function name_hash(text) result(hash)
       character(*), intent(in) :: text
       integer(i8) :: sum
@@ -291,7 +292,8 @@ contains
       hash = int(sum)
    end function name_hash
 
-   !> Checks that no earlier record has the same name.
+   !> Checks that no earlier record of the group has the same name. Joints, measures and elastic elements have columns in the
+   !> results, so that their names must differ across these groups too. Letter case is ignored.
    subroutine check_new(reading)
       type(deck_reading_t), intent(inout) :: reading
       integer :: j, k
@@ -313,7 +315,7 @@ contains
 
    contains
 
-      !> Phrase with the original name of a record, if only one of two records with equal names was created by &mirror.
+      !> Phrase with the original name of a record, if &mirror created only one of the two records with equal names; otherwise ''.
       function doubling(j) result(words)
          integer, intent(in) :: j
          character(:), allocatable :: words
@@ -327,7 +329,7 @@ contains
    end subroutine check_new
 
    !> Rejects a second &model with the same name, as in a file that contains the deck twice. Only this error is reported, instead of
-   !> every duplicate name.
+   !> an error for every duplicate name.
    subroutine refuse_doubled_deck(reading, error)
       type(deck_reading_t), intent(in) :: reading
       type(error_t), allocatable, intent(out) :: error
@@ -347,7 +349,8 @@ contains
       end do
    end subroutine refuse_doubled_deck
 
-   !> The line of a record: 'line 12', or 'other.nml:12' if the record is in another file.
+   !> The location of a record for a message about record `from`: 'line 12', or 'other.nml:12' if the two records are in different
+   !> files.
    pure function line_of_record(record, from) result(words)
       type(record_t), intent(in) :: record, from
       character(:), allocatable :: words
@@ -355,7 +358,7 @@ contains
       if (record%file /= from%file) words = record%file//':'//str(record%line)
    end function line_of_record
 
-   !> Reads &model: names, units, axes.
+   !> Reads &model: name, title, units, axes, preload trim (`balance`), gravity, and whether implausible numbers are reported.
    subroutine read_model(reading)
       type(deck_reading_t), intent(inout) :: reading
       character(*), parameter :: balances(3) = [character(6) :: 'none', 'spring', 'all']

@@ -19,7 +19,8 @@ module ek_reader_bodies
 
 contains
 
-   !> Reads &point: a design position.
+   !> Reads &point: a position at design. With &mirror, also records on which side of the plane the point must stay, or that it must
+   !> stay in the plane.
    subroutine read_point(reading)
       type(deck_reading_t), intent(inout) :: reading
       type(vector_t) :: vector
@@ -38,7 +39,7 @@ contains
       end associate
    end subroutine read_point
 
-   !> Reads &body.
+   !> Reads &body: origin, mass and centre of gravity.
    subroutine read_body(reading)
       type(deck_reading_t), intent(inout) :: reading
       type(body_plan_t) :: plan
@@ -75,7 +76,7 @@ contains
       reading%plan%masses = [reading%plan%masses, plan]
    end subroutine read_mass
 
-   !> Reads &load: force and moment in global axes.
+   !> Reads &load: force and moment in the axes of the deck at design. A load that follows turns with its body.
    subroutine read_load(reading)
       type(deck_reading_t), intent(inout) :: reading
       type(load_plan_t) :: plan
@@ -102,7 +103,7 @@ contains
       reading%plan%loads = [reading%plan%loads, plan]
    end subroutine read_load
 
-   !> Reads &wheel.
+   !> Reads &wheel: its body, side, points, spin axis and steering axis, and the data of its tyre.
    subroutine read_wheel(reading)
       type(deck_reading_t), intent(inout) :: reading
       type(wheel_plan_t) :: plan
@@ -170,7 +171,8 @@ contains
          text_of(reading, 'side')//' (y points '//trim(merge('left ', 'right', reading%plan%is_iso))//')')
    end subroutine find_spin
 
-   !> Reads &axle: front or rear, and its shares of braking and driving force.
+   !> Reads &axle: its position (front or rear), the share of the front axle in the braking force, the share of this axle in the
+   !> driving force, the point at which the driving force acts, and the vehicle data.
    subroutine read_axle(reading)
       type(deck_reading_t), intent(inout) :: reading
       integer :: c, number(7)
@@ -199,7 +201,8 @@ contains
       end associate
    end subroutine read_axle
 
-   !> Reads &steering: the driver of the rack, and the ratio to the steering wheel.
+   !> Reads &steering: the driver joint of the rack, the rack travel per revolution of the steering wheel, and the largest rack
+   !> travel.
    subroutine read_steering(reading)
       type(deck_reading_t), intent(inout) :: reading
       character(:), allocatable :: driver
@@ -220,7 +223,7 @@ contains
 
    contains
 
-      !> Checks that the joint is a driver of a length, as ratio and travel are lengths.
+      !> Checks that the joint is a driver that prescribes a length, because ratio and travel are lengths.
       subroutine check_driver()
          integer :: measure
 

@@ -1,4 +1,4 @@
-!> &case: the load or motion applied to the wheels or to any driver, or a test of the rig, which ek_rig mounts.
+!> &case: loads or motions that change over the states of the case, or a test on the rig (ek_rig).
 module ek_reader_cases
    use ek_kinds, only: wp, millimetre
    use ek_text, only: str, lower, quoted
@@ -22,11 +22,11 @@ module ek_reader_cases
 
    ! limits of the tolerance: rounding of a metre is 1e-13 mm, and no case converges below that; above a millimetre
    ! the first guess of every state would be accepted
-   real(wp), parameter :: min_tolerance = 1.0e-15_wp, max_tolerance = 1.0e-3_wp      !! m
+   real(wp), parameter :: min_tolerance = 1.0e-15_wp, max_tolerance = 1.0e-3_wp      !! limits [m]
 
 contains
 
-   !> Reads one case. A case with an error is also read, and the error is reported.
+   !> Reads one case and reports its errors. A case with an error is also returned, with `is_good` = .false.
    subroutine read_case(reading, this)
       type(deck_reading_t), intent(inout) :: reading
       type(case_t), intent(out) :: this
@@ -93,10 +93,11 @@ contains
       reading%cards(reading%k)%index = size(reading%plan%cases)
    end subroutine read_case
 
-   !> Reads the range of the driver in a grid. The default is the travel of the rack, which depends on the design.
+   !> Reads the range of the driver in a grid. The default is the travel of &steering, which depends on the design, if the driver is
+   !> the rack. For any other driver, both ends of the range must be given.
    subroutine read_grid(reading, steer_unit, this, plan)
       type(deck_reading_t), intent(inout) :: reading
-      real(wp), intent(in) :: steer_unit       !! of the driver → SI
+      real(wp), intent(in) :: steer_unit       !! SI value of the deck unit of the driver
       type(case_t), intent(inout) :: this
       type(case_plan_t), intent(inout) :: plan
       character(*), parameter :: keys(2) = [character(10) :: 'steer_from', 'steer_to']
@@ -153,7 +154,8 @@ contains
       end if
    end subroutine read_target
 
-   !> Reads follow = 'arc', which requires method 'equilibrium'. Tables and targets, which need a unique factor, are not allowed.
+   !> Reads `follow`. The value 'arc' requires method 'equilibrium', and is not allowed in tests with a table or a grid, or with a
+   !> target.
    subroutine read_follow(reading, test, this)
       type(deck_reading_t), intent(inout) :: reading
       type(rig_test_t), intent(in) :: test
@@ -174,8 +176,8 @@ contains
          "follow = 'arc' needs method = 'equilibrium', found "//quoted(text_of(reading, 'method')))
    end subroutine read_follow
 
-   !> Rejects two cases with the same output file. The target of a case has the file <case>_target, so that no other case may have
-   !> this name.
+   !> Rejects a case whose output file would be the file of the target of another case. The target of case <case> has the output
+   !> file <case>_target.
    subroutine refuse_one_file_for_two(reading, cases)
       type(deck_reading_t), intent(inout) :: reading
       type(case_t), intent(in) :: cases(:)
@@ -197,7 +199,7 @@ contains
    subroutine read_drive(reading, this, unit)
       type(deck_reading_t), intent(inout) :: reading
       type(case_t), intent(inout) :: this
-      real(wp), intent(inout) :: unit      !! of from and to → SI
+      real(wp), intent(inout) :: unit      !! SI value of the deck unit of from and to
       character(word_length) :: load(max_loads)
       integer :: j, loads, refused
 
@@ -257,13 +259,13 @@ contains
 
    end subroutine read_drive
 
-   !> Reads a test; checks that it has all required keys and no other keys. Every error is reported.
+   !> Reads the test of a case. A missing key, and a key that the test does not allow, are reported as errors.
    subroutine read_test(reading, from, to, this, unit, steer_unit)
       type(deck_reading_t), intent(inout) :: reading
       real(wp), intent(in) :: from, to       !! in the unit of the deck
       type(case_t), intent(inout) :: this
-      real(wp), intent(inout) :: unit        !! of from and to → SI
-      real(wp), intent(out) :: steer_unit    !! likewise, of the driver in a grid
+      real(wp), intent(inout) :: unit        !! SI value of the deck unit of from and to
+      real(wp), intent(out) :: steer_unit    !! SI value of the deck unit of the driver in a grid
       character(*), parameter :: no_grid = 'only test ''travel_and_steering'' has a second range'
       type(rig_test_t) :: test
       integer :: c, wheels(2)
@@ -326,7 +328,8 @@ contains
 
    contains
 
-      !> Rejects a key that the test of the case does not allow.
+      !> Reports an error for a key that is given although the test does not allow it (`is_wrong`). `why` is the reason in the
+      !> message.
       subroutine refuse_in_test(key, is_wrong, why)
          character(*), intent(in) :: key, why
          logical, intent(in) :: is_wrong
@@ -336,7 +339,7 @@ contains
 
    end subroutine read_test
 
-   !> Counts the wheels. Reports an error if there is no wheel, or more than one wheel on a side.
+   !> Finds the left and the right wheel. Reports an error if there is no wheel, or more than one wheel on a side.
    subroutine count_wheels(reading, wheels)
       type(deck_reading_t), intent(inout) :: reading
       integer, intent(out) :: wheels(2)      !! index of the left and of the right wheel; 0: the deck has none
@@ -366,11 +369,12 @@ contains
       end do
    end subroutine check_tyres
 
-   !> Finds the steered joint: the `drive` of the case, otherwise the driver of &steering, otherwise the only driver.
+   !> Finds the steered joint: the `drive` of the case, otherwise the driver of &steering, otherwise the only driver of the deck. An
+   !> error is reported if none of them exists.
    subroutine find_steering(reading, drive, unit)
       type(deck_reading_t), intent(inout) :: reading
       character(:), allocatable, intent(out) :: drive
-      real(wp), intent(inout) :: unit        !! deck unit of its value → SI
+      real(wp), intent(inout) :: unit        !! SI value of the deck unit of the joint; unchanged if not found
       logical :: is_one(size(reading%cards))
       integer :: j
 

@@ -22,7 +22,7 @@ module ek_reader_elements
    private
    public :: read_curve, read_element
 
-   real(wp), parameter :: usual_rounding = 0.5e-3_wp   !! m: a typical soft lip of a bump stop
+   real(wp), parameter :: usual_rounding = 0.5e-3_wp   !! default rounding of a stop [m]: a typical soft lip
 
 contains
 
@@ -135,7 +135,7 @@ contains
       call add(reading, plan, damper, measure)
    end subroutine read_damper
 
-   !> Reads &stop.
+   !> Reads &stop: a bump stop or a rebound stop between two points.
    subroutine read_stop(reading)
       type(deck_reading_t), intent(inout) :: reading
       type(element_plan_t) :: plan
@@ -165,7 +165,7 @@ contains
       if (c == 2) reading%plan%prototype%elements(reading%plan%prototype%scalars)%law%sign = 1.0_wp
    end subroutine read_stop
 
-   !> Reads &torsion: moment/angle about an axis fixed in the first body.
+   !> Reads &torsion: a spring with a moment over an angle, about an axis fixed in the first body.
    subroutine read_torsion(reading)
       type(deck_reading_t), intent(inout) :: reading
       type(element_plan_t) :: plan
@@ -195,7 +195,8 @@ contains
       measure = measure_t(kind=distance, body_i=bodies(1), body_j=bodies(2))
    end subroutine find_link
 
-   !> Finds the law of an element. Exactly one of rate and curve must be given.
+   !> Finds the law of an element: a rate or a curve. It is an error if both are given, or if neither is given. An element whose
+   !> property_file was rejected may have neither.
    subroutine find_law(reading, plan)
       type(deck_reading_t), intent(inout) :: reading
       type(element_plan_t), intent(inout) :: plan

@@ -72,7 +72,7 @@ contains
       reading%plan%prototype%readouts = [reading%plan%prototype%readouts, readout]
    end subroutine read_measure
 
-   !> Reads &joint.
+   !> Reads &joint: a driver, a coupler, or a joint defined by points and axes.
    subroutine read_joint(reading)
       type(deck_reading_t), intent(inout) :: reading
       integer :: number, bodies(2)
@@ -137,8 +137,8 @@ contains
    !> Reports axes that do not suit the joint.
    subroutine check_axes(reading, needed, axes)
       type(deck_reading_t), intent(inout) :: reading
-      integer, intent(in) :: needed        !! angle of joint_table
-      integer, intent(in) :: axes(2)       !! vectors
+      integer, intent(in) :: needed        !! required angle, as in joint_table
+      integer, intent(in) :: axes(2)       !! indices of the vectors
       real(wp) :: angle
 
       if (axes_fit(needed, reading%vectors(:, axes(1)), reading%vectors(:, axes(2)))) return
@@ -180,7 +180,8 @@ contains
       reading%plan%joints = [reading%plan%joints, plan]
    end subroutine make_driver
 
-   !> Builds a coupler, which constrains Σ ratio × value in deck units. The row is scaled so that the first ratio is unchanged.
+   !> Builds a coupler, which constrains Σ ratio × value in deck units. `realise` scales the row so that the first ratio is
+   !> unchanged.
    subroutine make_coupler(reading)
       type(deck_reading_t), intent(inout) :: reading
       type(joint_plan_t) :: plan
@@ -255,7 +256,7 @@ contains
    !> Checks that two distinct points are given.
    subroutine need_two_points(reading, ends, is_found, what)
       type(deck_reading_t), intent(inout) :: reading
-      integer, intent(in) :: ends(2)       !! vectors
+      integer, intent(in) :: ends(2)       !! indices of the vectors
       logical, intent(in) :: is_found
       character(*), intent(in) :: what
       character(word_length) :: at(2)

@@ -1,5 +1,6 @@
-!> The parsed content of a deck before interpretation. The content is records (namelist groups) of entries (`key = values`), with
-!> the file and line of each. The errors found in them are collected with their locations and reported together.
+!> The parsed content of a deck before interpretation: records (namelist groups) of entries (`key = values`). Records and entries
+!> store their lines, and records also store their files. The errors of the deck are collected with their locations and reported
+!> together.
 module ek_record
    use ek_kinds, only: wp
    use ek_text, only: str, lower
@@ -12,15 +13,15 @@ module ek_record
    public :: add_value, add_entry, add_record, hand_over, entry_index, element, is_given, place_of, line_text, own_name
    public :: role_of, sign_of_image, turns
 
-   !> The sides of the two records that &mirror creates from a record of the left half, or neither side. The side is part of the
-   !> record name.
+   !> Side of a record: left or right for the two records that &mirror creates from one record of the deck, `single` for all others.
+   !> The prefix of the side begins the record name.
    integer, parameter :: single = 0, left_side = 1, right_side = 2
    character(*), parameter :: side_prefix(2) = [character(6) :: 'left_', 'right_']
 
    !> A location in a file or on the command line.
    type :: place_t
       character(:), allocatable :: words  !! 'front.nml:41', '--set point.x.z=-105'
-      integer :: source = 0, line = 0     !! messages are sorted by these
+      integer :: source = 0, line = 0     !! index of the file, and line number; messages are sorted by both
       integer :: side = single
    end type place_t
 
@@ -31,12 +32,13 @@ module ek_record
 
    !> Errors found so far; reported in the order of files and lines.
    !>
-   !> An error in an element duplicated by &mirror is reported once, under the name used in the deck: a message about the right
-   !> side is dropped if the left side has a message at the same location, and the prefixes are removed from the latter.
+   !> An error in an element duplicated by &mirror is reported once, under the name used in the deck. A message about the right side
+   !> is dropped if the left side has a message at the same location. The prefix left_ is removed from quoted names in a message
+   !> about the left side.
    type :: deck_errors_t
       private
       integer :: used = 0
-      logical :: is_cut = .false.         !! a file was not read to its end: it may have more errors
+      logical :: is_cut = .false.         !! a file was not read to its end and may have more errors
       type(deck_error_t), allocatable :: list(:)
    contains
       procedure :: add => complaints_add, cut => complaints_cut, count => complaints_count, text => complaints_text
@@ -46,25 +48,25 @@ module ek_record
    type :: value_t
       character(:), allocatable :: text
       logical :: is_string = .false.
-      logical :: is_empty = .false.       !! nothing between two commas
+      logical :: is_empty = .false.       !! .true.: there is nothing between two commas
    end type value_t
 
    !> `key = values`, or `key(first) = values`.
    type :: entry_t
-      character(:), allocatable :: key    !! lower case
+      character(:), allocatable :: key    !! key in lower case
       integer :: first = 1                !! subscript of the first value
       integer :: line = 0
-      character(:), allocatable :: setting   !! 'path=value' if it came from --set
-      logical :: is_bad = .false.         !! rejected by check_record
+      character(:), allocatable :: setting   !! 'path=value' if --set has set a value of the entry
+      logical :: is_bad = .false.         !! the entry was rejected by check_record
       integer :: used = 0
       type(value_t), allocatable :: values(:)
    end type entry_t
 
    !> One group, from `&` to `/`.
    type :: record_t
-      character(:), allocatable :: group  !! lower case, without the &
-      character(:), allocatable :: file   !! as shown in messages
-      integer :: source = 1               !! number of that file, in the order of reading
+      character(:), allocatable :: group  !! name of the group in lower case, without the &
+      character(:), allocatable :: file   !! path of the file, as shown in messages
+      integer :: source = 1               !! index of the file, in the order of reading
       integer :: line = 0
       integer :: side = single            !! side of a record duplicated by &mirror
       integer :: used = 0
@@ -123,8 +125,8 @@ contains
       call move_record(record, records(used))
    end subroutine add_record
 
-   !> Moves the first `used` records out of a list, which is empty afterwards. Copying a deck instead would allocate memory hundreds
-   !> of times.
+   !> Moves the first `used` records out of the list `from`, which is deallocated, into a new list. Copying a deck instead would
+   !> allocate memory hundreds of times.
    pure subroutine hand_over(from, used, to, room)
       type(record_t), allocatable, intent(inout) :: from(:)
       integer, intent(in) :: used
@@ -155,8 +157,8 @@ contains
       from%used = 0
    end subroutine move_record
 
-   !> Index of the entry that contains element `at` of a key (any element if `at` is 0); 0 if there is no such entry, as for the key
-   !> ''.
+   !> Index of the first entry that contains element `at` of a key (any element if `at` is 0). The index is 0 if there is no such
+   !> entry, and for the key ''.
    pure integer function entry_index(record, key, at)
       type(record_t), intent(in) :: record
       character(*), intent(in) :: key
@@ -228,7 +230,8 @@ contains
       if (record%source /= seen_from%source) words = words//' of '//record%file
    end function line_text
 
-   !> The role of a key under y → −y, as in the table of keys; 0 if its value is equal on both sides.
+   !> The role of a key under y → −y, as in the table of keys; 0 if the value is equal on both sides. The vector of a rotation axis
+   !> is axial.
    pure integer function role_of(record, key) result(role)
       type(record_t), intent(in) :: record
       character(*), intent(in) :: key
@@ -241,7 +244,7 @@ contains
       if (role == polar .and. key == 'axis_vector' .and. turns(record)) role = axial
    end function role_of
 
-   !> The sign of element `at` of a key in the mirror image of its record.
+   !> The sign (1 or −1) of element `at` of a key in the mirror image of its record.
    pure real(wp) function sign_of_image(record, key, at) result(sign)
       type(record_t), intent(in) :: record
       character(*), intent(in) :: key
@@ -263,7 +266,8 @@ contains
       has_side = index(lower(name), 'left_') == 1 .or. index(lower(name), 'right_') == 1
    end function has_side
 
-   !> Records an error. Invisible characters in the message are shown as <U+00A0>.
+   !> Records an error. An error of the right side is not recorded if the left side has an error at the same location. Invisible
+   !> characters in the message are shown by their numbers, as in <U+00A0>.
    pure subroutine complaints_add(self, place, what)
       class(deck_errors_t), intent(inout) :: self
       type(place_t), intent(in) :: place
@@ -303,7 +307,7 @@ contains
    end function complaints_count
 
    !> The messages as one string, one per line, sorted by file and line number. Messages about one line are in the order of
-   !> insertion. The list is cut at a limit, because a file with so many errors is probably not a deck.
+   !> insertion. Only the first 100 messages are included, because a file with more errors is probably not a deck.
    pure function complaints_text(self) result(text)
       class(deck_errors_t), intent(in) :: self
       character(:), allocatable :: text

@@ -16,7 +16,7 @@ module ek_reference
 
 contains
 
-   !> Index of the record of a group with a name; 0 if there is no such record.
+   !> Index of the record of a group with a name, in which letter case matters; 0 if there is no such record.
    pure integer function find_card(reading, group, name)
       type(deck_reading_t), intent(in) :: reading
       integer, intent(in) :: group
@@ -29,8 +29,8 @@ contains
       find_card = 0
    end function find_card
 
-   !> The names of a group suggested for an unknown name. A record duplicated by &mirror is
-   !> suggested under its name in the deck, unless the unknown name has the prefix of a side.
+   !> The names of a group that may be suggested for the unknown name `wrong`. A record duplicated by &mirror is suggested under its
+   !> name in the deck, unless the unknown name has the prefix of a side.
    function names_of(reading, group, wrong) result(names)
       type(deck_reading_t), intent(in) :: reading
       integer, intent(in) :: group
@@ -53,7 +53,8 @@ contains
       if (group == body_group) names = [names, [character(word_length) :: 'chassis']]
    end function names_of
 
-   !> Finds the record to which a key refers. The index is 0, with a message, if there is no such record.
+   !> Finds the record to which a key refers. `found` is 0 if the name is blank or there is no such record. A missing record is
+   !> reported as an error, unless the error of a rejected record may be its cause.
    subroutine look_up(reading, key, group, name, found)
       type(deck_reading_t), intent(inout) :: reading
       integer, intent(in) :: group
@@ -92,8 +93,8 @@ contains
 
    end subroutine look_up
 
-   !> Whether an unknown name may belong to a record whose own name or group was already rejected. Then only this rejection is
-   !> reported, not the references to the record.
+   !> Whether an unknown name may belong to a record whose own name or group was rejected. Then only the rejection is reported, not
+   !> the references to the record.
    pure logical function may_be_meant(reading, group, name)
       type(deck_reading_t), intent(in) :: reading
       integer, intent(in) :: group
@@ -102,7 +103,7 @@ contains
          any(reading%cards%group == 0 .and. (reading%cards%name == name .or. reading%cards%name == ''))
    end function may_be_meant
 
-   !> Adds a vector to the blueprint and computes its present value.
+   !> Adds a vector to the blueprint and computes the value of the vector at design.
    subroutine new_vector(reading, vector, number)
       type(deck_reading_t), intent(inout) :: reading
       type(vector_t), intent(in) :: vector
@@ -130,7 +131,7 @@ contains
       is_found = reading%cards(found)%is_good
    end subroutine find_point
 
-   !> Finds the index of a named body; 0 is the chassis.
+   !> Finds the index of a named body. The index 0 is the chassis; it is also 0 if the body is not found.
    subroutine find_body(reading, key, name, body, is_found)
       type(deck_reading_t), intent(inout) :: reading
       character(*), intent(in) :: key, name
@@ -146,7 +147,7 @@ contains
       if (is_found) body = reading%cards(found)%index
    end subroutine find_body
 
-   !> Finds the body named by the key `body`, which must move.
+   !> Finds the body named by the key `body`. The chassis is reported as an error, because the body must move.
    subroutine find_moving_body(reading, body, is_found)
       type(deck_reading_t), intent(inout) :: reading
       integer, intent(out) :: body
@@ -157,7 +158,7 @@ contains
          call complain(reading, 'body', 'body must be one that moves, found '//quoted(text_of(reading, 'body')))
    end subroutine find_moving_body
 
-   !> Finds both bodies of an element (key `bodies`); they must differ. Marks them as attached.
+   !> Finds both bodies of an element (key `bodies`), and marks the bodies as attached. Two equal bodies are reported as an error.
    subroutine find_bodies(reading, bodies, is_found)
       type(deck_reading_t), intent(inout) :: reading
       integer, intent(out) :: bodies(2)
@@ -179,11 +180,12 @@ contains
       if (present(is_found)) is_found = all(is_there)
    end subroutine find_bodies
 
-   !> Finds two distinct points (key `at`). If one point is allowed and only one is given, the second equals the first.
+   !> Finds the two points of the key `at`. If `may_be_one`, the second point may be omitted and then equals the first. Otherwise
+   !> the points must be distinct.
    subroutine find_ends(reading, may_be_one, ends, is_found)
       type(deck_reading_t), intent(inout) :: reading
       logical, intent(in) :: may_be_one
-      integer, intent(out) :: ends(2)      !! vectors
+      integer, intent(out) :: ends(2)      !! indices of the vectors
       logical, intent(out), optional :: is_found
       character(word_length) :: at(2)
       logical :: is_there
@@ -203,7 +205,7 @@ contains
    subroutine find_points(reading, key, ends, is_found)
       type(deck_reading_t), intent(inout) :: reading
       character(*), intent(in) :: key
-      integer, intent(out) :: ends(2)      !! vectors
+      integer, intent(out) :: ends(2)      !! indices of the vectors
       logical, intent(out) :: is_found
       character(word_length) :: names(2)
       logical :: is_there(2)
@@ -220,7 +222,7 @@ contains
    subroutine check_apart(reading, key, ends, consequence, are_apart)
       type(deck_reading_t), intent(inout) :: reading
       character(*), intent(in) :: key
-      integer, intent(in) :: ends(2)       !! vectors
+      integer, intent(in) :: ends(2)       !! indices of the vectors
       character(*), intent(in) :: consequence
       logical, intent(out) :: are_apart
       character(word_length) :: names(2)
@@ -235,7 +237,7 @@ contains
    subroutine find_direction(reading, points_key, vector_key, direction, is_given, is_good)
       type(deck_reading_t), intent(inout) :: reading
       character(*), intent(in) :: points_key, vector_key
-      integer, intent(out) :: direction          !! vector: a unit vector; 0 if not is_good
+      integer, intent(out) :: direction          !! index of the vector, a unit vector; 0 if not is_good
       logical, intent(out) :: is_given           !! either key is present
       logical, intent(out) :: is_good
       type(vector_t) :: vector
@@ -273,7 +275,7 @@ contains
       is_good = .true.
    end subroutine find_direction
 
-   !> Finds the curve named by a key. The index is 0 if no curve is given or the curve was rejected.
+   !> Finds the curve named by a key. The index is 0 if no curve is given, or if the curve does not exist or was rejected.
    subroutine find_curve(reading, key, name, curve)
       type(deck_reading_t), intent(inout) :: reading
       character(*), intent(in) :: key, name
@@ -293,11 +295,12 @@ contains
       is_driver = reading%cards(k)%group == joint_group .and. lower(element(reading%records(k), 'type', 1)) == 'driver'
    end function is_driver
 
-   !> Finds the driver joint named by a case. Reports an error if there is no such joint.
+   !> Checks that a case names a driver joint, and finds the unit of the driven value. A missing joint, and a joint that is not a
+   !> driver, are reported as errors.
    subroutine find_driver(reading, name, others, unit)
       type(deck_reading_t), intent(inout) :: reading
       character(*), intent(in) :: name, others(:)     !! others: other names that may be driven, for suggestions
-      real(wp), intent(inout) :: unit                 !! deck unit of the driven value → SI; unchanged if not found
+      real(wp), intent(inout) :: unit                 !! SI value of the deck unit of the driven value; unchanged if not found
       integer :: j, found
 
       found = find_card(reading, joint_group, name)
@@ -316,7 +319,7 @@ contains
       type(deck_reading_t), intent(inout) :: reading
       logical, intent(in) :: may_have_one
       character(*), intent(in) :: which      !! the cases that take the key `wheel`, for the message
-      integer, intent(inout) :: wheel        !! its number
+      integer, intent(inout) :: wheel        !! index of the wheel; unchanged if not found
       integer :: found
 
       if (text_of(reading, 'wheel') == '') return

@@ -29,7 +29,7 @@ contains
       type(record_t), allocatable, intent(out) :: records(:)  !! the first `used` are filled
       integer, intent(out) :: used
       type(deck_errors_t), intent(inout) :: deck_errors
-      integer, intent(in), optional :: source                 !! number of the file, in the order of reading; default 1
+      integer, intent(in), optional :: source                 !! index of the file, in the order of reading; default 1
       type(record_t) :: blank, record
       type(cursor_t) :: cursor
       character(:), allocatable :: text, word
@@ -179,7 +179,7 @@ contains
       if (is_open) call close_entry(entry, record, deck_errors)
    end subroutine scan_record
 
-   !> Reads a key, its subscript and the = sign.
+   !> Reads a key, its subscript and the = sign. A missing = sign, or a colon instead, is reported as an error.
    subroutine open_entry(text, cursor, record, entry, deck_errors)
       character(*), intent(in) :: text
       type(cursor_t), intent(inout) :: cursor
@@ -215,7 +215,8 @@ contains
 
    end subroutine open_entry
 
-   !> Adds a complete entry to its record, unless its key was given before.
+   !> Adds a complete entry to its record, unless one of its elements was given before; this is an error. An entry without values is
+   !> also reported as an error.
    subroutine close_entry(entry, record, deck_errors)
       type(entry_t), intent(inout) :: entry         !! handed over
       type(record_t), intent(inout) :: record
@@ -280,7 +281,8 @@ contains
 
    contains
 
-      !> Reads a string from its opening to its closing quote, which must be on the same line. A doubled quote is one quote.
+      !> Reads a string from its opening to its closing quote, which must be on the same line. A doubled quote is one quote. If the
+      !> closing quote is missing, an error is reported, and the content is only the first word.
       subroutine take_string(content)
          character(:), allocatable, intent(out) :: content
          character :: quote

@@ -3,11 +3,11 @@
 !> | line               | meaning                                                                             |
 !> |--------------------|-------------------------------------------------------------------------------------|
 !> | path = value       | as for --set, also *1.1 and +2                                                      |
-!> | path value         | the same                                                                            |
+!> | path value         | as for --set, with a blank instead of the = sign                                   |
 !> | 105.5 path         | a number before its path                                                            |
-!> | { path = value }   | APREPRO; the names that Dakota adds itself are omitted                             |
+!> | { path = value }   | APREPRO; the names that Dakota adds itself are ignored                              |
 !> | 2 variables        | Dakota's parameters file: two lines `number path` follow, the rest belongs to Dakota |
-!> | # comment          | also after a setting; empty lines                                                  |
+!> | # comment          | ignored, also after a setting; empty lines are ignored too                          |
 module ek_set_file
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t, fail, exit_deck
@@ -23,10 +23,10 @@ module ek_set_file
    !> One setting and its location in the file.
    type :: line_t
       character(:), allocatable :: path, value
-      character(:), allocatable :: where           !! 'params.in:3'
+      character(:), allocatable :: where           !! location of the line: 'params.in:3'
    end type line_t
 
-   !> The settings of a file, in its order.
+   !> The settings of a file, in the order of the lines.
    type :: set_file_t
       private
       type(line_t), allocatable :: lines(:)
@@ -44,7 +44,7 @@ contains
    subroutine read_set_file(path, file, error)
       character(*), intent(in) :: path
       type(set_file_t), intent(out) :: file
-      type(error_t), allocatable, intent(out) :: error     !! exit_file: it cannot be read
+      type(error_t), allocatable, intent(out) :: error     !! exit_file: the file cannot be read
       character(:), allocatable :: text, content
       integer :: first, last, line, left
 
@@ -69,7 +69,7 @@ contains
       if (left > 0) call file%mistakes%add(path//': '//plural(left, 'variable', 'variables')//' missing at the end of the file')
    end subroutine read_set_file
 
-   !> A line without comment and tabs, and without blanks at both ends.
+   !> A line without its comment and without blanks at both ends. Tabs become blanks. A # between quotes does not begin a comment.
    pure function bare(line) result(content)
       character(*), intent(in) :: line
       character(:), allocatable :: content
@@ -96,7 +96,7 @@ contains
       ends_with_variables = at > 1 .and. (content(at + 1:) == 'variables' .or. content(at + 1:) == 'variable')
    end function ends_with_variables
 
-   !> Reads the number of variables in the first line of Dakota's parameters file; −1 for any other line.
+   !> Reads the number of variables if a line is the first line of Dakota's parameters file. `left` is unchanged for any other line.
    subroutine read_head(content, left)
       character(*), intent(in) :: content
       integer, intent(inout) :: left
@@ -107,10 +107,11 @@ contains
       if (status == 0 .and. number >= 0) left = number
    end subroutine read_head
 
-   !> Reads one setting.
+   !> Reads one line as a setting. A line that is not a setting is added to the errors of the file; a value that Dakota adds itself
+   !> is ignored.
    subroutine take_line(content, where, is_variable, file)
       character(*), intent(in) :: content, where
-      logical, intent(in) :: is_variable           !! of Dakota: a number before its path
+      logical, intent(in) :: is_variable           !! a line of Dakota: a number before its path
       type(set_file_t), intent(inout) :: file
       character(:), allocatable :: inner, path, value
       logical :: is_number

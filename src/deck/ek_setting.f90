@@ -3,14 +3,14 @@
 !> | path                | meaning                                                  |
 !> |---------------------|----------------------------------------------------------|
 !> | point.upper.z       | one number; also point.upper.at(3)                       |
-!> | bushing.*.kt(1)     | of every bushing that has it; * stands for any characters |
-!> | axle.wheelbase      | of a group without names                                 |
+!> | bushing.*.kt(1)     | number of every bushing that gives it; * stands for any characters |
+!> | axle.wheelbase      | number of a group without names                          |
 !>
 !> | value  | meaning                                                    |
 !> |--------|------------------------------------------------------------|
 !> | 105.5  | replaces the value                                         |
-!> | *1.1   | a number: multiplies it                                    |
-!> | +2     | a number: adds to it, in the unit of the deck; +-2 subtracts |
+!> | *1.1   | multiplies a number                                        |
+!> | +2     | adds to a number, in the unit of the deck; +-2 subtracts   |
 module ek_setting
    use ek_kinds, only: wp
    use ek_text, only: str, quoted, plural, did_you_mean
@@ -44,7 +44,7 @@ contains
       value = trim(adjustl(setting(mark + 1:)))
    end subroutine split_setting
 
-   !> Changes the records to which a path leads. `message` describes an error; '' if there is no error.
+   !> Applies a setting to the records to which a path leads. `message` describes an error; '' if there is no error.
    subroutine apply_setting(records, used, path_text, text, message, is_found)
       type(record_t), intent(inout) :: records(:)
       integer, intent(in) :: used
@@ -83,7 +83,7 @@ contains
       if (message /= '') message = '--set '//setting//': '//message
    end subroutine apply_setting
 
-   !> Returns a message if a path leads to no record.
+   !> Finds whether a path leads to a record. `message` is '' if it does; otherwise it describes the error.
    subroutine check_target(records, path, is_found, message)
       type(record_t), intent(in) :: records(:)
       type(path_t), intent(in) :: path
@@ -124,7 +124,8 @@ contains
       change%term = merge(0.0_wp, value, text(:1) == '*')
    end subroutine read_change
 
-   !> Changes the numbers of a record to which the path leads and which the deck gives.
+   !> Changes the numbers of a record to which the path leads, if the record gives them. `is_changed` becomes .true. if a number was
+   !> changed.
    subroutine change_numbers(record, path, change, setting, is_changed)
       type(record_t), intent(inout) :: record
       type(path_t), intent(in) :: path
@@ -207,7 +208,7 @@ contains
 
    end subroutine read_values
 
-   !> Replaces elements of the record by the values, or adds the values to it.
+   !> Replaces the elements of a key of the record by the values of a setting. Elements that the record does not give are added.
    subroutine put_values(record, given, setting)
       type(record_t), intent(inout) :: record
       type(entry_t), intent(in) :: given

@@ -15,7 +15,7 @@ module ek_target_band
 
 contains
 
-   !> Reads the current record. Its name is compared with the key numbers when the report has computed them.
+   !> Reads the current record. The quantity is compared with the names of the key numbers when the report has computed them.
    subroutine read_target_band(reading, target)
       type(deck_reading_t), intent(inout) :: reading
       type(target_band_t), intent(out) :: target

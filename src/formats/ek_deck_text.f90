@@ -8,14 +8,14 @@ module ek_deck_text
    private
    public :: deck_text_t
 
-   integer, parameter :: widest = 118      !! characters of a line before it is broken
+   integer, parameter :: widest = 118      !! characters of a line after which a list continues on a new line
 
    !> The deck being written. A group is begun, gets its keys, and is ended.
    type :: deck_text_t
       private
       type(buffer_t) :: buffer
       integer :: column = 0                !! characters of the present line
-      logical :: is_first = .true.         !! no key in the group so far
+      logical :: is_first = .true.         !! the group has no key so far
    contains
       procedure :: comment => text_comment, heading => text_heading, blank => text_blank, begin => text_begin, &
          word => text_word, words => text_words, add_word => text_add_word, number => text_number, numbers => text_numbers, &
@@ -24,7 +24,7 @@ module ek_deck_text
 
 contains
 
-   !> Writes a comment line. Characters that could end the line are shown as their numbers.
+   !> Writes a comment line. Line feeds in the string become blanks, and other invisible characters are shown by their numbers.
    subroutine text_comment(self, words)
       class(deck_text_t), intent(inout) :: self
       character(*), intent(in) :: words
@@ -34,7 +34,7 @@ contains
       call self%buffer%line('')
    end subroutine text_comment
 
-   !> Writes a comment line as the heading of a section.
+   !> Writes a comment line as the heading of a section, between two empty lines.
    subroutine text_heading(self, words)
       class(deck_text_t), intent(inout) :: self
       character(*), intent(in) :: words
@@ -175,8 +175,8 @@ contains
       self%column = self%column + self%buffer%length() - before
    end subroutine put_quoted
 
-   !> Adds a string without line ends and other invisible characters. An apostrophe becomes the typographic apostrophe (’), because
-   !> a string in a deck cannot contain the ASCII apostrophe.
+   !> Adds a string. Line feeds become blanks, and other invisible characters are shown by their numbers. An apostrophe becomes the
+   !> typographic apostrophe (’), which does not end a string of the deck.
    subroutine add_safe(self, text)
       class(deck_text_t), intent(inout) :: self
       character(*), intent(in) :: text

@@ -11,7 +11,7 @@ module ek_fields
 
    character, parameter :: tab = achar(9)
    real(wp), parameter :: most = 1.0e25_wp          !! larger numbers are errors; smaller numbers are legal in a deck in any unit
-   integer, parameter :: max_fields = 64            !! of a line; no format has more
+   integer, parameter :: max_fields = 64            !! most fields of a line; no format has more
 
    !> The content of a file with the positions of its lines.
    type :: lines_t
@@ -30,7 +30,7 @@ module ek_fields
 
 contains
 
-   !> Splits a file into lines, with the line ends of any system. Reports a file that is not a text file.
+   !> Splits the content of a file into lines, with the line ends of any system. Reports a file that is empty or not a text file.
    subroutine split_lines(text, lines, flaws)
       character(*), intent(in) :: text
       type(lines_t), intent(out) :: lines
@@ -64,7 +64,7 @@ contains
       end do
    end subroutine split_lines
 
-   !> Line k.
+   !> Line k of the file, without its line end.
    pure function lines_line(self, k) result(text)
       class(lines_t), intent(in) :: self
       integer, intent(in) :: k
@@ -72,11 +72,12 @@ contains
       text = self%text(self%first(k):self%last(k))
    end function lines_line
 
-   !> Splits a line into fields. A quote that is not closed is reported, and its string ends with the line.
+   !> Splits a line into fields. A quote that is not closed is reported, and its string ends with the line. More than 64 fields are
+   !> reported, and only the first 64 are returned.
    subroutine split_fields(text, line, fields, used, flaws, commas_separate)
       character(*), intent(in) :: text
       integer, intent(in) :: line
-      type(field_t), intent(inout) :: fields(:)     !! at least max_fields
+      type(field_t), intent(inout) :: fields(:)     !! of size 64 (max_fields)
       integer, intent(out) :: used
       type(flaws_t), intent(inout) :: flaws
       logical, intent(in), optional :: commas_separate   !! default .true.
@@ -121,7 +122,7 @@ contains
    subroutine take_number(text, line, what, value, flaws, is_good)
       character(*), intent(in) :: text, what      !! what: 'x of hardpoint', for the message
       integer, intent(in) :: line
-      real(wp), intent(out) :: value              !! 0 if it is not a number
+      real(wp), intent(out) :: value              !! 0 if an error is reported
       type(flaws_t), intent(inout) :: flaws
       logical, intent(out) :: is_good
 
@@ -139,7 +140,8 @@ contains
       end if
    end subroutine take_number
 
-   !> A name of the file converted to a legal name of a deck: letters, digits and _, at most 50 characters, with a letter first.
+   !> A name of the file converted to a legal name of a deck: letters, digits and _, with a letter first. A longer name is cut after
+   !> 50 characters; a name that begins with a digit or _ then gets a p in front. A blank name becomes 'unnamed'.
    pure function legal_name(text) result(name)
       character(*), intent(in) :: text
       character(:), allocatable :: name

@@ -7,11 +7,11 @@ module ek_flaws
    private
    public :: flaws_t, new_flaws, shown
 
-   integer, parameter :: most_kept = 50      !! a file with more is probably another file
-   integer, parameter :: most_shown = 60     !! characters of the file in a message
+   integer, parameter :: most_kept = 50      !! most errors stored; a file with more is probably another file
+   integer, parameter :: most_shown = 60     !! most characters of the file in a message
 
    type :: flaws_t
-      character(:), allocatable :: file        !! as given by the user
+      character(:), allocatable :: file        !! path as given by the user
       integer, private :: lines(most_kept) = 0
       type(message_list_t), private :: words
       integer, private :: untold = 0
@@ -27,11 +27,11 @@ contains
       flaws%file = file
    end function new_flaws
 
-   !> Adds an error. Only the first errors are stored if there are very many.
+   !> Adds an error. Only the first 50 errors are stored; further errors are counted.
    pure subroutine flaws_add(self, line, what)
       class(flaws_t), intent(inout) :: self
       integer, intent(in) :: line              !! 0: the file as a whole
-      character(*), intent(in) :: what         !! expected, found
+      character(*), intent(in) :: what         !! the message, as in 'expected …, found …'
 
       if (self%words%count() == most_kept) then
          self%untold = self%untold + 1

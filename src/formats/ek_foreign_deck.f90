@@ -55,7 +55,7 @@ contains
       character(*), intent(in) :: path
       character(:), allocatable, intent(out) :: text
       integer, intent(out) :: kind
-      type(error_t), allocatable, intent(out) :: error      !! exit_file: it cannot be read; exit_deck: errors in it
+      type(error_t), allocatable, intent(out) :: error      !! exit_file: the file cannot be read; exit_deck: it has errors
       character(:), allocatable :: content
       type(flaws_t) :: flaws
 
@@ -91,7 +91,8 @@ contains
       if (flaws%count() > 0) text = ''
    end subroutine import_text
 
-   !> The group &model of a deck in mm, N, deg with x rearward, which are the units and axes of Adams/Car files.
+   !> The group &model of a deck, as a string. Its units are mm, N and deg, and its x axis points rearward, as in files of
+   !> Adams/Car.
    function put_model(name) result(text)
       character(*), intent(in) :: name
       character(:), allocatable :: text
@@ -152,7 +153,8 @@ contains
 
    end subroutine import_points
 
-   !> Writes a &curve for each law. Comments contain the element that uses the curves.
+   !> Writes a &curve for the law of a spring or a stop, or for each law of a bushing that is not a constant rate. Comments contain
+   !> the element that uses the curves.
    subroutine import_law(content, path, text, flaws)
       character(*), intent(in) :: content, path
       character(:), allocatable, intent(inout) :: text
@@ -221,7 +223,8 @@ contains
    end subroutine import_axle
 
    !> Finds the law of a bushing in its file. The file is in the folder of the axle, or below this folder at the path that the axle
-   !> gives. IPGKinematics has files such as lin01000.gum for 1000 N/mm in all directions; these files need not exist.
+   !> gives. IPGKinematics has files such as lin01000.gum for 1000 N/mm in all directions, without rotational stiffness; these files
+   !> need not exist.
    subroutine find_mount(path, named, line, mount, flaws)
       character(*), intent(in) :: path, named
       integer, intent(in) :: line

@@ -17,15 +17,15 @@ module ek_gum
    type :: gum_t
       type(law_points_t) :: halves(2, 3)      !! (positive or negative side, axis); y is 0 until the forces are read
       integer :: force_line(2, 3) = 0
-      real(wp) :: stiffness(3) = 0.0_wp       !! about each axis [N m/rad]
+      real(wp) :: stiffness(3) = 0.0_wp       !! rotational stiffness about each axis [N m/rad]
       logical :: has_stiffness(3) = .false.
-      integer :: axis = 0                     !! of the last list
-      integer :: flag = -1                    !! 0: the negative side is the image of the positive one; 1: it has separate numbers
+      integer :: axis = 0                     !! axis of the list that was read last; 0: none
+      integer :: flag = -1                    !! 0: the negative side is the image of the positive side; 1: its numbers are separate
    end type gum_t
 
 contains
 
-   !> Whether a file is a bushing: a line has a label that contains `displacement`.
+   !> Whether a file is a bushing: a line that begins with a quote contains `displacement`.
    pure logical function is_gum(lines)
       type(lines_t), intent(in) :: lines
       integer :: k
@@ -187,7 +187,8 @@ contains
       call add_point(law, 1.0_wp, gum%stiffness(axis), line)
    end subroutine put_stiffness
 
-   !> Joins the laws of both sides to one law, with the origin between them.
+   !> Joins the laws of both sides to one law, with the origin between them. If the file is symmetric, the negative side is the
+   !> image of the positive side.
    subroutine join_halves(gum, axis, law, flaws)
       type(gum_t), intent(inout) :: gum
       integer, intent(in) :: axis
@@ -222,7 +223,8 @@ contains
       call finish_law(law, 'the list of '//axes(axis:axis), flaws)
    end subroutine join_halves
 
-   !> Checks that the points of one side are on this side, and that their distance from 0 increases. A point at 0 is dropped.
+   !> Checks that the distance of the points of one side from 0 increases, and that no point of the positive side has a negative
+   !> displacement. A first point at the origin is dropped.
    subroutine finish_half(half, side, flaws)
       type(law_points_t), intent(inout) :: half
       integer, intent(in) :: side

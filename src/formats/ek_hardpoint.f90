@@ -12,8 +12,8 @@ module ek_hardpoint
    integer, parameter :: most_points = 5000
 
    type :: hardpoint_t
-      character(63) :: name = ''            !! legal in a deck
-      real(wp) :: at(3) = 0.0_wp            !! m; in the frame of the file
+      character(63) :: name = ''            !! name that is legal in a deck
+      real(wp) :: at(3) = 0.0_wp            !! position [m], in the frame of the file
       integer :: symmetry = single_point
       integer :: line = 0
    end type hardpoint_t
@@ -26,7 +26,7 @@ module ek_hardpoint
 
 contains
 
-   !> Adds a point. Two rows with the same name must be a left and a right point.
+   !> Adds a point. Two points with the same name must be a left and a right point; otherwise, the second is reported and not added.
    subroutine add_hardpoint(sheet, name, at, symmetry, line, flaws)
       type(hardpoints_t), intent(inout) :: sheet
       character(*), intent(in) :: name
@@ -79,7 +79,7 @@ contains
       end select
    end function symmetry_of
 
-   !> Reads a symmetry; any other string is an error.
+   !> Reads a symmetry. A string that is not the name of a symmetry is reported, and `symmetry` is then −1.
    subroutine take_symmetry(text, line, symmetry, flaws)
       character(*), intent(in) :: text
       integer, intent(in) :: line

@@ -40,7 +40,7 @@ contains
       end do
    end subroutine take_blocks
 
-   !> Advice for a file without hardpoints. An assembly names its subsystems, whose files contain the hardpoints.
+   !> Advice for a file without hardpoints: the subsystems that an assembly names, whose files contain the hardpoints; otherwise ''.
    function advice(file) result(words)
       type(teimorbit_t), intent(in) :: file
       character(:), allocatable :: words

@@ -19,10 +19,10 @@ contains
    !> Reads a file; errors in its content are in `flaws`.
    subroutine read_hardpoints(path, length, sheet, flaws, error, may_stream)
       character(*), intent(in) :: path
-      real(wp), intent(in) :: length                       !! m: unit of a column of a CSV file that names none
+      real(wp), intent(in) :: length                       !! unit of a CSV column whose heading names none [m]
       type(hardpoints_t), intent(out) :: sheet
       type(flaws_t), intent(out) :: flaws
-      type(error_t), allocatable, intent(out) :: error     !! exit_file: it cannot be read
+      type(error_t), allocatable, intent(out) :: error     !! exit_file: the file cannot be read
       logical, intent(in), optional :: may_stream
       character(:), allocatable :: text
 

@@ -1,7 +1,7 @@
 !> A table of hardpoints as CSV. The first line has the column headings, in any order and with any further columns: `name`, `x`,
 !> `y`, `z`, with or without their unit (`x_mm`, `Y [m]`, `z (in)`), optionally `symmetry` or `side`. Without headings the columns
-!> are name, x, y, z. Columns are separated by commas, semicolons or tabs; # begins a comment. With semicolons or tabs a decimal
-!> comma is accepted.
+!> are name, x, y, z. Columns are separated by commas, semicolons or tabs. A line that begins with # is a comment. With semicolons
+!> or tabs a decimal comma is accepted.
 module ek_hardpoint_table
    use ek_kinds, only: wp
    use ek_error, only: message_list_t
@@ -85,7 +85,7 @@ contains
       if (index(text, ';') > 0) separator = ';'
    end function separator_of
 
-   !> A number with a decimal point instead of a decimal comma.
+   !> A number with a decimal point instead of a decimal comma, if the separator of the columns is not a comma.
    pure function with_point(text, separator) result(number)
       character(*), intent(in) :: text
       character, intent(in) :: separator
@@ -112,7 +112,7 @@ contains
       end do
    end function is_row
 
-   !> Finds the columns of name, symmetry, x, y, z (0 if there is none), and the units of x, y and z.
+   !> Finds the columns of name, symmetry, x, y, z (0 if a column does not exist), and the SI values of the units of x, y and z.
    subroutine find_columns(cells, length, columns, units)
       type(message_list_t), intent(in) :: cells
       real(wp), intent(in) :: length

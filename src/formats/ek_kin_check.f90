@@ -12,7 +12,7 @@ module ek_kin_check
 
 contains
 
-   !> Whether the model of the file uses bushing k of its list.
+   !> Whether the deck uses bushing k of the list in the file.
    pure logical function is_used_mount(kin, k)
       type(kin_t), intent(in) :: kin
       integer, intent(in) :: k
@@ -47,7 +47,7 @@ contains
          'expected factors of the spring curves of 0 or more, found one below')
    end subroutine check_kin
 
-   !> Load on a wheel [N]: half the weight of the axle and of all masses that the axle carries.
+   !> Load on a wheel [N]: half the weight of the axle and of all masses that the axle carries, without the anti-roll bar.
    pure real(wp) function wheel_load(kin)
       type(kin_t), intent(in) :: kin
       real(wp) :: whole, half

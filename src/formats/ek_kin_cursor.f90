@@ -1,4 +1,5 @@
-!> The lines of a file of IPGKinematics (.kin) and the index of the line being read: a label in quotes and values, in a fixed order.
+!> The lines of a file of IPGKinematics (.kin), and the index of the line that was read last. A line has a label in quotes and
+!> values. The labels are in a fixed order.
 !>
 !> A value is found by the form of its label after the line of the previous value, so that headings, comments and further
 !> lines do not matter.
@@ -15,18 +16,19 @@ module ek_kin_cursor
    type :: kin_cursor_t
       type(lines_t) :: lines
       integer :: line = 0
-      logical :: is_lost = .false.            !! a value is missing; the values after it are not read
+      logical :: is_lost = .false.            !! a value is missing; the values further down are not read
    end type kin_cursor_t
 
 contains
 
-   !> Moves to the next line with a label of this form and at least `least` values; the values are `fields(2:used)`.
+   !> Moves to the next line whose label matches `pattern`; the values are `fields(2:used)`. A missing line, or fewer than `least`
+   !> values, is reported as an error. If `least` is 1, a line without a value is skipped.
    subroutine go_to(cursor, pattern, least, fields, used, flaws)
       type(kin_cursor_t), intent(inout) :: cursor
       character(*), intent(in) :: pattern
       integer, intent(in) :: least
       type(field_t), intent(inout) :: fields(64)
-      integer, intent(out) :: used          !! 0: not found
+      integer, intent(out) :: used          !! 0: no line with enough values was found
       type(flaws_t), intent(inout) :: flaws
       integer :: k
 
@@ -94,7 +96,7 @@ contains
       if (value < 0.0_wp) call flaws%add(cursor%line, 'expected a mass of 0 or more, found '//str(value))
    end subroutine take_mass
 
-   !> Reads an integer from 0 to `most`.
+   !> Reads an integer from 0 to `most`. Any other value is reported, and `choice` is then 0.
    subroutine take_choice(cursor, pattern, most, choice, flaws)
       type(kin_cursor_t), intent(inout) :: cursor
       character(*), intent(in) :: pattern
@@ -115,7 +117,7 @@ contains
       choice = int(value)
    end subroutine take_choice
 
-   !> Reads an integer from 0 to 1 as a logical: 1 is .true..
+   !> Reads an integer from 0 to 1; `flag` is .true. for 1.
    subroutine take_flag(cursor, pattern, flag, flaws)
       type(kin_cursor_t), intent(inout) :: cursor
       character(*), intent(in) :: pattern
@@ -127,7 +129,7 @@ contains
       flag = choice == 1
    end subroutine take_flag
 
-   !> Reads a choice of 1 or 2.
+   !> Reads an integer from 0 to 2; `is_second` is .true. for 2.
    subroutine take_choice_of_two(cursor, pattern, is_second, flaws)
       type(kin_cursor_t), intent(inout) :: cursor
       character(*), intent(in) :: pattern
@@ -157,7 +159,7 @@ contains
       end do
    end subroutine take_point
 
-   !> Whether the label of a line has a form. Several blanks count as one.
+   !> Whether the label of a line matches a pattern with *. Letter case is ignored, and several blanks count as one.
    pure logical function has_label(line, pattern)
       character(*), intent(in) :: line, pattern
       integer, parameter :: longest = 200

@@ -1,8 +1,8 @@
 !> Converts an axle of IPGKinematics to a deck: double wishbones, their bushings, the tie rods on a rack, coil springs directly or
 !> by push or pull rods and rockers, a U-shaped anti-roll bar, masses and wheel loads.
 !>
-!> As in IPGKinematics, the design position is an equilibrium under the weights and the wheel loads. The springs get the preloads
-!> that this requires.
+!> As in IPGKinematics, the design position is an equilibrium under the weights and the wheel loads, if the file contains forces.
+!> `balance` = 'all' then finds the preloads that this equilibrium requires.
 module ek_kin_deck
    use ek_kinds, only: wp
    use ek_flaws, only: flaws_t

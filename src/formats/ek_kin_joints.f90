@@ -1,4 +1,4 @@
-!> The joints of an axle of IPGKinematics, its rack and its drive as groups of a deck.
+!> The joints of an axle of IPGKinematics, and the driver of its rack, as groups of a deck.
 module ek_kin_joints
    use ek_kinds, only: wp
    use ek_deck_text, only: deck_text_t
@@ -10,7 +10,7 @@ module ek_kin_joints
 
 contains
 
-   !> Writes the joints of the axle into the deck.
+   !> Writes the joints of the axle into the deck, and the driver of the rack with its measure.
    subroutine put_joints(deck, kin, mounts)
       type(deck_text_t), intent(inout) :: deck
       type(kin_t), intent(in) :: kin

@@ -70,7 +70,7 @@ contains
       end do
    end function turns_freely
 
-   !> Name of the body that carries an arm or the rack.
+   !> Name of the body that carries an arm or the rack: 'subframe' or 'chassis'.
    pure function frame_of(is_subframe) result(name)
       logical, intent(in) :: is_subframe
       character(:), allocatable :: name

@@ -16,7 +16,8 @@ module ek_kin_points
 
 contains
 
-   !> Writes the hardpoints of the axle into the deck, with their numbers in the file.
+   !> Writes the hardpoints of the axle into the deck, with their numbers in the file. Also writes the centre of the rack and the
+   !> points of the masses.
    subroutine put_points(deck, kin)
       type(deck_text_t), intent(inout) :: deck
       type(kin_t), intent(in) :: kin

@@ -1,4 +1,4 @@
-!> Reads an axle of IPGKinematics (.kin): which values its file has, in their order.
+!> Reads an axle of IPGKinematics (.kin). `parse_kin` lists the values in the order of the file.
 module ek_kin_reader
    use ek_kinds, only: wp
    use ek_text, only: str, lower
@@ -13,7 +13,8 @@ module ek_kin_reader
 
 contains
 
-   !> Whether a string is the content of such a file, whose first lines name the program.
+   !> Whether a string is the content of a .kin file: it begins with a single quote, and its first 2000 characters contain
+   !> 'kinematics'.
    pure logical function is_kin(text)
       character(*), intent(in) :: text
       character(:), allocatable :: head

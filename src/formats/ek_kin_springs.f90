@@ -12,7 +12,7 @@ module ek_kin_springs
 
 contains
 
-   !> Writes the springs of the axle, their curves and the bar into the deck.
+   !> Writes the springs of the axle and the torsion spring of the bar into the deck, with the curves of all springs.
    subroutine put_springs(deck, kin, flaws)
       type(deck_text_t), intent(inout) :: deck
       type(kin_t), intent(in) :: kin
@@ -59,13 +59,13 @@ contains
       call deck%end()
    end subroutine put_spring
 
-   !> Writes the curve of a law with points, named <name>_law.
+   !> Writes the curve of a law with points, named <name>_law. Nothing is written for a rate.
    subroutine put_curve_of(deck, name, law, x_unit, component, flaws)
       type(deck_text_t), intent(inout) :: deck
       character(*), intent(in) :: name
       type(kin_curve_t), intent(in) :: law
       real(wp), intent(in) :: x_unit
-      integer, intent(in) :: component       !! 4 for a moment
+      integer, intent(in) :: component       !! 1 for a force, 4 for a moment
       type(flaws_t), intent(inout) :: flaws
       type(law_points_t) :: points
       integer :: k

@@ -7,15 +7,15 @@ module ek_law_points
    private
    public :: law_points_t, add_point, finish_law, constant_rate
 
-   integer, parameter :: most_points = 200      !! of a curve of a deck
+   integer, parameter :: most_points = 200      !! most points of a curve of a deck
 
    type :: law_points_t
       logical :: is_given = .false.
       logical :: is_bad = .false.                !! an error was reported
       integer :: line = 0                        !! line at which the law begins
       integer :: used = 0
-      real(wp), allocatable :: x(:), y(:)        !! SI
-      integer, allocatable :: lines(:)           !! of the points
+      real(wp), allocatable :: x(:), y(:)        !! displacement and force, or angle and moment [SI]
+      integer, allocatable :: lines(:)           !! line of each point in the file
    end type law_points_t
 
 contains
@@ -42,7 +42,7 @@ contains
    !> points, a list that neither rises nor falls, and two values at one x.
    subroutine finish_law(law, name, flaws)
       type(law_points_t), intent(inout) :: law
-      character(*), intent(in) :: name           !! of the block, for messages
+      character(*), intent(in) :: name           !! name of the block, for messages
       type(flaws_t), intent(inout) :: flaws
       integer :: k, kept
       logical :: falls
@@ -88,7 +88,8 @@ contains
       end if
    end subroutine finish_law
 
-   !> Finds whether all points lie on one straight line through the origin (to 1e-9 of the largest force), and its slope.
+   !> Finds whether all points lie on one straight line through the origin (to 1e-9 of the largest force), and the slope of this
+   !> line.
    pure subroutine constant_rate(law, rate, is_constant)
       type(law_points_t), intent(in) :: law
       real(wp), intent(out) :: rate

@@ -13,7 +13,7 @@ contains
    !> Returns the SI values of the units of a law: the units of displacement and force of a component of a bushing.
    pure subroutine units_of_law(component, length, force, angle, x_unit, y_unit)
       integer, intent(in) :: component
-      real(wp), intent(in) :: length, force, angle      !! of the deck
+      real(wp), intent(in) :: length, force, angle      !! SI values of the units of the deck
       real(wp), intent(out) :: x_unit, y_unit
 
       x_unit = merge(angle, length, is_of_rotation(component))
@@ -25,7 +25,7 @@ contains
       type(deck_text_t), intent(inout) :: deck
       character(*), intent(in) :: name, kind
       type(law_points_t), intent(in) :: law
-      integer, intent(in) :: component           !! of a bushing; 1 for a spring or a stop
+      integer, intent(in) :: component           !! component of a bushing; 1 for a spring or a stop
       real(wp) :: x_unit, y_unit
 
       call units_of_law(component, millimetre, 1.0_wp, degree, x_unit, y_unit)
@@ -37,7 +37,7 @@ contains
       call deck%end()
    end subroutine put_curve
 
-   !> Writes a &curve for each component that is not a rate. The curves are named <name>_fx ….
+   !> Writes a &curve, named <name>_fx …, for each component of a bushing without a constant rate of 0 or more.
    subroutine put_curves(deck, name, laws, kind)
       type(deck_text_t), intent(inout) :: deck
       character(*), intent(in) :: name, kind
@@ -53,7 +53,8 @@ contains
       end do
    end subroutine put_curves
 
-   !> Writes the keys kt, kr and curve of a bushing. `put_curves` writes the curves.
+   !> Writes the keys kt, kr and curve of a bushing. Constant rates of 0 or more are in kt and kr. The other components refer to the
+   !> curves that `put_curves` writes.
    subroutine put_bushing_law(deck, name, laws)
       type(deck_text_t), intent(inout) :: deck
       character(*), intent(in) :: name

@@ -32,7 +32,7 @@ module ek_lcf
 
    type :: lcf_t
       integer :: rows = 0
-      real(wp), allocatable :: values(:, :)     !! (column, row), SI
+      real(wp), allocatable :: values(:, :)     !! numbers (column, row) [SI]
       logical :: is_force = .false.             !! columns 1 and 2 are forces
       logical :: is_rack = .false.              !! column 19 is the travel of the rack
    end type lcf_t
@@ -127,7 +127,8 @@ contains
       call move_alloc(grown, values)
    end subroutine grow
 
-   !> The table of loads as CSV. Columns of zeros are omitted, except heights.
+   !> The table of loads as CSV. Columns 1 and 2 are always included, and damage columns (5 to 8) never. Other columns of zeros are
+   !> omitted.
    function lcf_table(lcf, driver, source) result(text)
       type(lcf_t), intent(in) :: lcf
       character(*), intent(in) :: driver      !! name of the driver that column 19 moves

@@ -1,8 +1,8 @@
 !> Property files of elastic elements: .bus, .spr, .bum, .reb of Adams/Car and .gum of IPGKinematics, as curves in SI.
 !>
-!> The kind of the file follows from its content. In all of them force and moment oppose the displacement: a positive
-!> displacement gives a positive number, as in a curve of a deck. The displacement of a spring is its compression; the
-!> displacement of a stop is its penetration.
+!> The kind of the file follows from its content. In every file, force and moment oppose the displacement: a positive displacement
+!> gives a positive number, as in a curve of a deck. The displacement of a spring is its compression; the displacement of a stop is
+!> its penetration.
 module ek_property
    use ek_kinds, only: wp
    use ek_error, only: error_t
@@ -29,9 +29,9 @@ module ek_property
 
    !> The content of a property file.
    type :: property_t
-      integer :: kind = 0                      !! 0: not a property file
-      type(law_points_t) :: laws(6)            !! [m, N], [rad, N m]; of a spring or a stop the first
-      real(wp) :: free_length = 0.0_wp         !! m; 0: not given
+      integer :: kind = 0                      !! kind of the file, as in file_kinds; 0: not a property file
+      type(law_points_t) :: laws(6)            !! [m, N], [rad, N m]; a spring or a stop has only the first
+      real(wp) :: free_length = 0.0_wp         !! free length of a spring [m]; 0: not given
       integer :: free_length_line = 0
    end type property_t
 
@@ -48,7 +48,7 @@ contains
       character(*), intent(in) :: path
       type(property_t), intent(out) :: property
       type(flaws_t), intent(out) :: flaws
-      type(error_t), allocatable, intent(out) :: error       !! exit_file: it cannot be read
+      type(error_t), allocatable, intent(out) :: error       !! exit_file: the file cannot be read
       logical, intent(in), optional :: may_stream
       character(:), allocatable :: text
 
@@ -116,7 +116,7 @@ contains
       end if
    end function kind_of
 
-   !> Whether two strings are equal apart from letter case and blanks; the second is in lower case.
+   !> Whether two strings are equal apart from letter case and surrounding blanks. The second string is in lower case.
    pure logical function is_same(a, b)
       character(*), intent(in) :: a, b
       is_same = lower(trim(adjustl(a))) == b
@@ -182,10 +182,11 @@ contains
          shown(file%items(item)%fields(1)%text))
    end subroutine take_curve
 
-   !> Reads the points of a curve: rows of two numbers, from all blocks with a name and from their parts.
+   !> Reads the points of a curve: rows of two numbers, from all blocks that have the name of `block`, and from the parts of these
+   !> blocks.
    subroutine take_points(file, block, x_unit, y_unit, law, flaws)
       type(teimorbit_t), intent(in) :: file
-      integer, intent(in) :: block                  !! the first of its name
+      integer, intent(in) :: block                  !! index of the first block of its name
       real(wp), intent(in) :: x_unit, y_unit
       type(law_points_t), intent(inout) :: law
       type(flaws_t), intent(inout) :: flaws
@@ -216,7 +217,7 @@ contains
       call finish_law(law, upper(trim(file%names(block))), flaws)
    end subroutine take_points
 
-   !> Changes the signs of a stop law with negative penetration and force.
+   !> Changes the signs of the law of a stop if no penetration and no force is positive.
    pure subroutine turn_rebound(law)
       type(law_points_t), intent(inout) :: law
 

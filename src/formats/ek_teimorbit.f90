@@ -25,17 +25,17 @@ module ek_teimorbit
    !> An entry, a row or the headings of a block.
    type :: item_t
       integer :: kind = 0
-      integer :: block = 0                  !! number of the block, from 1
+      integer :: block = 0                  !! index of the block
       integer :: line = 0
-      character(name_length) :: key = ''    !! of an entry, lower case
+      character(name_length) :: key = ''    !! key of an entry, in lower case
       integer :: used = 0
-      type(field_t), allocatable :: fields(:)   !! of a row, of headings; the value of an entry
+      type(field_t), allocatable :: fields(:)   !! values of a row or of an entry; headings
    end type item_t
 
-   !> The file. A part of a block is stored as a separate block with the name of the block.
+   !> A file as blocks and items. A part of a block is stored as a separate block with the name of the block.
    type :: teimorbit_t
       integer :: blocks = 0
-      character(name_length), allocatable :: names(:)     !! lower case
+      character(name_length), allocatable :: names(:)     !! names of the blocks in lower case
       integer, allocatable :: block_lines(:)
       integer :: used = 0
       type(item_t), allocatable :: items(:)
@@ -65,7 +65,7 @@ contains
       end do
    end function is_teimorbit
 
-   !> Splits the content of a file into blocks. The reader of the file checks the content of the lines.
+   !> Splits the content of a file into blocks, and the blocks into items. The readers of the kinds of file check the values.
    subroutine parse_teimorbit(lines, file, flaws)
       type(lines_t), intent(in) :: lines
       type(teimorbit_t), intent(out) :: file
@@ -214,7 +214,8 @@ contains
       entry_of = 0
    end function entry_of
 
-   !> Reads the SI values of the units of the file, in the order of ek_unit_word; 0 for a unit that the file does not name.
+   !> Reads the SI values of the units of the file, in the order of ek_unit_word. The value is 0 for a unit that the file does not
+   !> name. An unknown unit is reported, and its value is then 1.
    subroutine units_in(file, units, flaws)
       type(teimorbit_t), intent(in) :: file
       real(wp), intent(out) :: units(size(quantity_names))
@@ -262,7 +263,7 @@ contains
    !> Reports the units that a reader needs but the file does not name.
    subroutine check_units(file, units, needed, flaws)
       type(teimorbit_t), intent(in) :: file
-      real(wp), intent(inout) :: units(:)         !! a missing one becomes 1
+      real(wp), intent(inout) :: units(:)         !! a value of 0 becomes 1
       integer, intent(in) :: needed(:)            !! quantities of ek_unit_word
       type(flaws_t), intent(inout) :: flaws
       integer :: block, k

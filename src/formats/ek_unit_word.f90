@@ -44,7 +44,8 @@ module ek_unit_word
 
 contains
 
-   !> The SI value of a unit; 0 if the unit is not known. Letter case and a plural s are ignored.
+   !> The SI value of a unit of a quantity; 0 if the unit is not known. Letter case is ignored, and so is a plural s of a unit of
+   !> three letters or more.
    pure real(wp) function unit_of(quantity, text) result(value)
       integer, intent(in) :: quantity
       character(*), intent(in) :: text
