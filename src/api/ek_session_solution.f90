@@ -204,8 +204,8 @@ contains
          is_other = any(abs(session%workspace%x - session%solved_x) > 0.0_wp)
       end if
       if (is_other) call fail(error, exit_usage, &
-         'key numbers were read of changed numbers since the last solution: solve again before its compliance matrix or '// &
-         'derivatives are read')
+         'numbers were changed after the last solution, and key numbers or messages on the model were requested with them: '// &
+         'solve again before the compliance matrix or derivatives are requested')
    end subroutine refuse_other_numbers
 
    !> Computes the compliance matrix at the wheel centres in one row of the last solution: displacements x y z [m] and rotations

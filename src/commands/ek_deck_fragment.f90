@@ -44,13 +44,15 @@ contains
       real(wp), intent(in) :: x(:)                 !! numbers of the new design [SI, axes of the deck]
       type(choice_t), intent(in) :: found(:)       !! numbers that change
       character(:), allocatable :: text
+      character(:), allocatable :: all             ! lines, of which `text` has the first
       integer :: j, lines
 
       text = ''
+      all = ''
       lines = 0
       do j = 1, size(found)
          if (is_image(design, x, found, found(j)%number)) cycle
-         call add_line(design, x, found(j)%number, has_image(design, x, found, found(j)%number), lines, text)
+         call add_line(design, x, found(j)%number, has_image(design, x, found, found(j)%number), lines, all, text)
       end do
       if (lines > most_lines) text = text//'! and '//str(lines - most_lines)//' more lines'//nl
       if (len(text) > 0) text = text(:len(text) - 1)
@@ -87,13 +89,13 @@ contains
    end function has_image
 
    !> Adds the line of the key of a parameter, unless the string already contains the line.
-   subroutine add_line(design, x, number, is_half, lines, text)
+   subroutine add_line(design, x, number, is_half, lines, all, text)
       type(design_t), intent(in) :: design
       real(wp), intent(in) :: x(:)
       integer, intent(in) :: number
       logical, intent(in) :: is_half               !! whether the line is written as in the half deck
       integer, intent(inout) :: lines
-      character(:), allocatable, intent(inout) :: text
+      character(:), allocatable, intent(inout) :: all, text
       character(:), allocatable :: line, name
       integer :: k
 
@@ -112,7 +114,8 @@ contains
          end do
          line = line//' /'//nl
       end associate
-      if (index(nl//text, nl//line) > 0) return
+      if (index(nl//all, nl//line) > 0) return
+      all = all//line
       lines = lines + 1
       if (lines <= most_lines) text = text//line
    end subroutine add_line

@@ -54,8 +54,11 @@ contains
       end if
       call write_results(line%value('--results', '-'), text%text(), unwritten)
       if (.not. allocated(unwritten)) return
-      if (allocated(error) .and. len(unwritten%message) > 0) unwritten%message = error%message//nl//unwritten%message
-      if (.not. allocated(error)) call move_alloc(unwritten, error)
+      if (allocated(error)) then
+         if (len(unwritten%message) == 0) return   ! nobody reads standard output any more
+         unwritten%message = error%message//nl//unwritten%message
+      end if
+      call move_alloc(unwritten, error)
    end subroutine run_numbers
 
    !> Writes the complete results of a design, or no file.

@@ -41,7 +41,7 @@ contains
    pure function largest_motion(motion, length) result(largest)
       real(num), contiguous, intent(in) :: motion(:)   !! [Δr Δπ] of each body [m, rad]
       real(num), intent(in) :: length                  !! m
-      real(num) :: largest, total, unlimited
+      real(num) :: largest, total, unlimited, shift, turn
       logical(mask) :: is_finite
       integer :: k
 
@@ -49,9 +49,10 @@ contains
       largest = 0.0_wp
       total = 0.0_wp
       do k = 1, size(motion), 6
-         largest = max(largest, max(motion(k)**2 + motion(k + 1)**2 + motion(k + 2)**2, &
-            length**2*(motion(k + 3)**2 + motion(k + 4)**2 + motion(k + 5)**2)))
-         total = total + (abs(motion(k)) + abs(motion(k + 3)))      ! max() may drop what is not a number: the sum does not
+         shift = motion(k)**2 + motion(k + 1)**2 + motion(k + 2)**2
+         turn = length**2*(motion(k + 3)**2 + motion(k + 4)**2 + motion(k + 5)**2)
+         largest = max(largest, max(shift, turn))
+         total = total + (shift + turn)             ! max() may drop what is not a number: the sum does not
       end do
       is_finite = total < unlimited
       largest = merge(sqrt(largest), unlimited, is_finite)

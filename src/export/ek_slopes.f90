@@ -50,20 +50,20 @@ contains
       curve = map%value(quantity, :, zero_of(map%travel), side)
    end function steer_curve
 
-   !> Slope dy/dx at the inner point where x is nearest to 0, from the parabola through this point and its neighbours. With two
-   !> points, the slope of the line through both.
+   !> Slope dy/dx at the point where x is nearest to 0, from the parabola through this point and its neighbours; at an end of the
+   !> list, through the three points at this end. With two points, the slope of the line through both.
    pure real(wp) function slope_at_zero(x, y) result(slope)
       real(wp), intent(in) :: x(:), y(:)        !! at least 2 points
       integer :: k
       real(wp) :: before, after, h(2)
 
-      k = min(max(zero_of(x), 2), max(size(x) - 1, 2))
+      k = min(max(zero_of(x), 2), max(size(x) - 1, 2))       ! the middle of the three points
       before = (y(k) - y(k - 1))/(x(k) - x(k - 1))
       slope = before
       if (size(x) < 3) return
       after = (y(k + 1) - y(k))/(x(k + 1) - x(k))
       h = [x(k) - x(k - 1), x(k + 1) - x(k)]
-      slope = (before*h(2) + after*h(1))/(h(1) + h(2))
+      slope = (before*h(2) + after*h(1))/(h(1) + h(2)) + 2.0_wp*(after - before)/(h(1) + h(2))*(x(zero_of(x)) - x(k))
    end function slope_at_zero
 
    !> The response of a wheel to a unit of one load on this wheel: component 1–6 is Fx, Fy, Fz, Mx, My, Mz in ISO.

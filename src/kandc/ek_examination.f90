@@ -150,15 +150,18 @@ contains
       if (is_sound) kkt%is_at_design = kkt%fallbacks == 0      ! for the first state of its path
    end subroutine recognise
 
-   !> A string without its digits, signs, decimal points and capital letters E.
+   !> A string without digits, signs, decimal points and capital letters E outside of quoted names.
    pure function without_numbers(text) result(rest)
       character(*), intent(in) :: text
       character(:), allocatable :: rest
+      logical :: is_quoted
       integer :: k
 
       rest = ''
+      is_quoted = .false.
       do k = 1, len(text)
-         if (index('0123456789.+-E', text(k:k)) == 0) rest = rest//text(k:k)
+         if (text(k:k) == '''') is_quoted = .not. is_quoted
+         if (is_quoted .or. index('0123456789.+-E', text(k:k)) == 0) rest = rest//text(k:k)
       end do
    end function without_numbers
 

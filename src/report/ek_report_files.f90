@@ -115,8 +115,8 @@ contains
       integer :: k
 
       results%path = path
-      results%label = label_of(path)
       results%is_report = folder_exists(path)
+      results%label = label_of(path, results%is_report)
       allocate (results%numbers(0))
       if (.not. results%is_report) then
          allocate (results%tests(1))
@@ -236,12 +236,15 @@ contains
       if (test%kind == 'other' .and. test%abscissa /= 'factor') test%kind = 'parallel_travel'
    end subroutine read_test
 
-   !> The label of a result in the legend: the last part of its path, without suffix.
-   pure function label_of(path) result(label)
+   !> The label of a result in the legend: the last part of its path, of a file without its extension.
+   pure function label_of(path, is_folder) result(label)
       character(*), intent(in) :: path
+      logical, intent(in) :: is_folder
       character(:), allocatable :: label
 
-      label = base_name(path(:min(len(path), max(1, verify(path, '/', back=.true.)))))
+      label = path(:min(len(path), max(1, verify(path, '/', back=.true.))))
+      if (is_folder) label = label(index(label(:len(label) - 1), '/', back=.true.) + 1:)
+      if (.not. is_folder) label = base_name(label)
    end function label_of
 
 end module ek_report_files
