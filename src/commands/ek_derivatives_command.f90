@@ -37,13 +37,12 @@ contains
       type(deck_settings_t) :: settings
       class(session_t), allocatable :: session
       type(direction_t), allocatable :: directions(:)
-      class(derivatives_t), allocatable :: derivatives
+      type(derivatives_t) :: derivatives           ! as a class, a schedule in it would not be freed by gfortran 12
       type(error_t), allocatable :: unreached
       character(name_length), allocatable :: columns(:)
       integer, allocatable :: states(:)
       integer :: k
 
-      allocate (derivatives)
       call read_deck_settings(line, settings)
       call load_session(settings, session, error)
       if (allocated(error)) return

@@ -77,14 +77,14 @@ contains
       map%title = suspension%title
       if (len(map%title) == 0) map%title = suspension%name
       map%kind = request%kind
-      map%travel = request%travel
+      allocate (map%travel, source=request%travel)
       select case (map%kind)
       case (over_steer)
-         map%second = request%second
+         allocate (map%second, source=request%second)
       case (over_opposite)
-         map%second = request%travel
+         allocate (map%second, source=request%travel)
       case default
-         map%second = [0.0_wp]
+         allocate (map%second(1), source=0.0_wp)
       end select
       map%driver = request%driver
       map%held = request%held

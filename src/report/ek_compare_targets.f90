@@ -28,7 +28,7 @@ contains
       type(results_t), intent(in) :: results(:)
       type(target_t), allocatable, intent(out) :: targets(:)
       type(target_t) :: this
-      type(message_list_t) :: names
+      type(message_list_t) :: names, none
       integer :: r, k
 
       allocate (targets(0))
@@ -38,7 +38,7 @@ contains
          end do
       end do
       do k = 1, names%count()
-         this = target_t('', '')
+         this = target_t('', '', none, none, none)
          do r = 1, size(results)
             call judge(results(r), names%line(k), this)
          end do
