@@ -10,16 +10,17 @@
  *
  * A function whose result is an error code returns one of the EK_ codes below. The program `elastokin` has the same
  * codes as exit status. If a function whose result is a string fails, it returns NULL. ek_message never returns NULL;
- * it gives the message of the failed call. For an error in a deck, the message gives the file, the line and the remedy.
- * (ek_use_one_thread has no handle, and therefore no message.) The library prints nothing, never stops the process, and
- * shares no state between handles. One thread at a time may use a handle. Different threads may use different handles
- * at the same time.
+ * it gives the message of the failed call. For an error in a deck, the message gives the file and, if the error
+ * belongs to a line, the line. For an error in a changed number, the message gives the path of the number.
+ * (ek_use_one_thread has no handle, and therefore no message.) The library prints nothing, never stops the process,
+ * and shares no state between handles. One thread at a time may use a handle. Different threads may use different
+ * handles at the same time.
  *
  * Counts and positions are of type int. Positions are counted from 0. Strings are UTF-8 and end with '\0'. A returned
- * string belongs to the handle and stays valid until the handle has returned 16 further strings. The string returned by
- * ek_message stays valid until the next call with this handle. Parameters are in the units of the deck. ek_column_unit
- * gives the unit of a result column, ek_number_unit the unit of a key number. The values of ek_compliance are in SI
- * units. Missing numbers are NaN. input/QUANTITIES.md defines signs and frames.
+ * string belongs to the handle and stays valid until the handle has returned 16 further strings. The string returned
+ * by ek_message stays valid until the next call with this handle. Parameters are in the units of the deck.
+ * ek_column_unit gives the unit of a result column, ek_number_unit the unit of a key number. The values of
+ * ek_compliance are in SI units. A result without a value is NaN. input/QUANTITIES.md defines signs and frames.
  *
  * Compatibility: the names, arguments and meanings of the functions and codes in this file do not change while the
  * SONAME is libelastokin.so.0. New functions may be added; an added function has a new symbol version. */
@@ -42,7 +43,7 @@ enum {
   EK_MODEL = 3,       /* the model cannot be solved: it has a mechanism or redundant constraints, or preload trim
                          (`balance`) has no solution */
   EK_CONVERGENCE = 4, /* some states did not converge, the model does not define a requested key number, or preload trim
-                         (`balance`) did not converge. In the last case there are no results.
+                         (`balance`) did not converge. If preload trim did not converge, there are no results.
                          ek_solve computes the states from design towards each end of the range. In each direction, the
                          table ends with the first state that is not reached. In its row, `converged` is 0 and the
                          results are NaN. If the states are those of a load table or of the grid travel_and_steering,
@@ -63,8 +64,8 @@ int ek_use_one_thread(void);
 
 /* ---- a model ---- */
 int ek_open_file(const char *path, ek_model **model);                       /* reads a deck from a file */
-/* Reads a deck from a string. name is the file name in messages. Relative paths of the files that are named in the deck
- * start from the folder of name. If name is NULL, the name is "deck". */
+/* Reads a deck from a string. name is the file name in messages. Relative paths of the files that are named in the
+ * deck start from the folder of name. If name is NULL, the name is "deck". */
 int ek_open_text(const char *text, const char *name, ek_model **model);
 void ek_close(ek_model *model);                     /* frees the handle; NULL is allowed */
 const char *ek_message(ek_model *model);            /* message of the last call; "" if that call succeeded */
@@ -74,13 +75,13 @@ int ek_wheel_count(ek_model *model);                /* 0, 1 or 2; the left wheel
 
 /* ---- copies ----
  * ek_copy opens a new handle, and copies the deck as it was opened and all changes made since then. ek_copy does not
- * copy the solution, and does not read files. If model contains no deck, ek_copy returns an error code and leaves *copy
- * unchanged. After any other error, ek_message(*copy) gives the message, and *copy must be closed.
+ * copy the solution, and does not read files. If model contains no deck, ek_copy returns an error code and leaves
+ * *copy unchanged. After any other error, ek_message(*copy) gives the message, and *copy must be closed.
  *
  * A handle contains a list of files. The first file of the list is the deck. The other files are named in the deck:
- * included files, hardpoints, property files and load tables. ek_file_path returns the path of file k, and ek_file_text
- * the content that the file had when the deck was opened. ek_open_files opens a deck from such contents, for instance
- * in another process. A file that is named in the deck but is not in the list is read from disk. */
+ * included files, hardpoints, property files and load tables. ek_file_path returns the path of file k, and
+ * ek_file_text the content that the file had when the deck was opened. ek_open_files opens a deck from such contents,
+ * for instance in another process. A file that is named in the deck but not given in paths is read from disk. */
 int ek_copy(ek_model *model, ek_model **copy);
 int ek_file_count(ek_model *model);
 const char *ek_file_path(ek_model *model, int k);   /* path of the file; NULL outside the list */
@@ -93,8 +94,8 @@ int ek_open_files(int n, const char *const *paths, const char *const *texts, ek_
 const char *ek_deck_as_used(ek_model *model);
 
 /* ---- messages on the model ----
- * ek_model_remarks examines the model with its current numbers, and sets count to the number of messages found. No case
- * is solved. The program prints the same messages before it solves a case:
+ * ek_model_remarks examines the model with its current numbers, and sets count to the number of messages found. No
+ * case is solved. The program prints the same messages before it solves a case:
  *   failure: the reason why no case can be solved
  *   note:    a spring preload found by preload trim (`balance`)
  *   warning: a missing spring; a contact point that does not match the wheel; a driver that preload trim excludes;
@@ -105,14 +106,17 @@ int ek_model_remarks(ek_model *model, int *count);
 const char *ek_model_remark_text(ek_model *model, int k);
 const char *ek_model_remark_severity(ek_model *model, int k);      /* "note", "warning" or "failure" */
 
-/* ---- parameters: every number of the deck ----
- * If a number is outside its legal range (input/README.md), a function that sets numbers returns EK_DECK and changes no
- * number. ek_set_all sets either all numbers or none. Legal numbers are stored even if they do not define a valid model
- * together (two points that coincide, a case whose range is from 1 to 1). The next ek_solve or ek_numbers then returns
- * the error. ek_set_text checks the whole deck with the new value, and rejects a value that causes an error. For this
- * check, the files of the deck are not read again; only a file with a new path is read. */
+/* ---- parameters: every real number of the deck ----
+ * Integers, for example `increments` of a case, are not in this list. ek_set and ek_set_text set integers; ek_get does
+ * not read integers.
+ *
+ * If a number is outside its legal range (input/README.md), a function that sets numbers returns EK_DECK and changes
+ * no number. ek_set_all sets either all numbers or none. Legal numbers are stored even if they do not define a valid
+ * model together (two points that coincide, a case whose range is from 1 to 1). The next ek_solve or ek_numbers then
+ * returns the error. ek_set_text checks the whole deck with the new value, and rejects a value that causes an error.
+ * For this check, the files of the deck are not read again; only a file with a new path is read. */
 int ek_parameter_count(ek_model *model);
-const char *ek_parameter_path(ek_model *model, int k);       /* "bushing.lca_front.kt(1)"; NULL outside the range */
+const char *ek_parameter_path(ek_model *model, int k);       /* "bushing.lca_front.kt(1)"; NULL outside the list */
 const char *ek_parameter_unit(ek_model *model, int k);       /* "N/mm"; "" if the number is dimensionless */
 int ek_parameter_is_given(ek_model *model, int k);           /* 1: given in the deck; 0: default value */
 int ek_parameter_twin(ek_model *model, int k);               /* for a number of the right side of a mirrored axle:
@@ -124,8 +128,8 @@ int ek_get_all(ek_model *model, int n, double *values);      /* n must be ek_par
 int ek_set_all(ek_model *model, int n, const double *values);
 int ek_get(ek_model *model, const char *path, double *value);    /* NaN if the path leads to several
                                                                     numbers with different values */
-/* Sets all numbers to which a path leads; path as in --set. On a mirrored axle, a path without left_ or right_ leads to
- * the numbers of both sides. In a name, * matches any sequence of characters, also an empty sequence. */
+/* Sets all numbers to which a path leads; path as in --set. On a mirrored axle, a path without left_ or right_ leads
+ * to the numbers of both sides. In a name, * matches any sequence of characters, also an empty sequence. */
 int ek_set(ek_model *model, const char *path, double value);
 /* Sets a number or a string. text is the new value as in --set: "1.5", "*1.1" (multiplies a number by 1.1), "+2" (adds
  * 2 to a number, in the unit of the deck), or a string. */
@@ -133,8 +137,8 @@ int ek_set_text(ek_model *model, const char *path, const char *text);
 int ek_reset(ek_model *model);                      /* resets all numbers and strings to the deck as opened */
 
 /* ---- cases ----
- * The list begins with the cases of the deck. Then follow the standard tests that the deck does not define. If the deck
- * has a &steering group, the standard tests include the grid travel_and_steering. */
+ * The list begins with the cases of the deck. Then follow the standard tests that the deck does not define. If the
+ * deck has a &steering group, the standard tests include the grid travel_and_steering. */
 int ek_case_count(ek_model *model);
 const char *ek_case_name(ek_model *model, int k);
 int ek_case_is_of_deck(ek_model *model, int k);     /* 1: defined in the deck; 0: standard test */
@@ -163,25 +167,27 @@ const char *ek_remark_severity(ek_model *model, int k);      /* "note", "warning
  * displacement or rotation of a wheel centre (x y z [m], rx ry rz [rad]). Each column of the matrix is a load at a
  * wheel centre (fx fy fz [N], mx my mz [N m]). Displacements and loads are in the frame of the deck. The vertical
  * forces of the ground on the wheels stay constant (`load_held` in input/QUANTITIES.md). All entries are NaN if the
- * state did not converge or the matrix is singular.
+ * state was not reached or the matrix is singular.
  *
  * ek_compliance and ek_derivatives return EK_USAGE if numbers were changed after the solution and ek_numbers or
  * ek_model_remarks was called after the change. Call ek_solve again before ek_compliance or ek_derivatives. */
 int ek_compliance(ek_model *model, int row, int n, double *values);
 
-/* Derivatives of columns with respect to numbers of the deck, at one state of the last solution [unit of the column per
- * unit of the number], from the exact derivative of the state. row is the position of the state in the result table.
+/* Computes derivatives of columns with respect to numbers of the deck, at one state of the last solution. The unit is
+ * the unit of the column per unit of the number. The derivative of the state is exact; each column is differenced
+ * along this derivative, and errors gives the estimated error. row is the position of the state in the result table.
  * values contains the n_numbers derivatives of the first column, then the n_numbers derivatives of the second column,
  * and so on. The case is not solved again. The derivatives account for the change of the state, of the static
- * equilibrium and of the trimmed preloads (`balance`). For a case with follow = 'arc', or
- * with a method other than equilibrium, ek_derivatives returns EK_USAGE.
+ * equilibrium and of the trimmed preloads (`balance`). For a case with follow = 'arc', or with a method other than
+ * equilibrium, ek_derivatives returns EK_USAGE.
  *   columns: columns of the case, also columns not requested in ek_solve; or entries of the compliance matrix, with the
  *            names in the files of run --compliance
  *   paths:   as in ek_set; each path must lead to one number, or to the corresponding numbers on both sides of a
  *            mirrored axle
  *   errors:  estimated errors of the derivatives, in the order of values; may be NULL
- * A derivative is NaN if the state did not converge, if the column has no value at the state, or if the number cannot
- * be changed. A further call with the same case, columns and paths is faster, even if numbers were changed. */
+ * A derivative is NaN if the state did not converge, if the matrix of the state is singular, or if the column has no
+ * value at the state. It is also NaN if neighbouring values of the number do not define a valid model. A further call
+ * with the same case, columns and paths is faster, even if numbers were changed. */
 int ek_derivatives(ek_model *model, int row, int n_columns, const char *const *columns, int n_numbers,
                    const char *const *paths, double *values, double *errors);
 
@@ -192,7 +198,9 @@ int ek_derivatives(ek_model *model, int row, int n_columns, const char *const *c
  *
  * If ek_numbers returns EK_CONVERGENCE, the key numbers listed in the message are NaN, and the key numbers not listed
  * are valid. The message gives the reason for each: a required state has `converged` = 0, or the model does not define
- * the key number. A slope requires only the states inside its window. */
+ * the key number. A key number that is a slope requires only the states inside the window of the slope
+ * (input/QUANTITIES.md). If preload trim (`balance`) did not converge, the message lists no key numbers, and all
+ * values are NaN. */
 int ek_numbers(ek_model *model, int n, const char *const *names, double *values);
 int ek_number_count(ek_model *model);               /* count of all names. No case is solved; a listed key
                                                        number may be NaN */
