@@ -110,7 +110,7 @@ contains
       of_one_wheel = test%action == moves_heights .and. any(.not. abs(test%shares) > 0.0_wp)
    end function of_one_wheel
 
-   !> Whether a test mainly moves or loads the wheels upward.
+   !> Whether a test moves or loads the wheels vertically, on average over both wheels: .false. for opposite travel and roll.
    pure logical function lifts(test)
       type(rig_test_t), intent(in) :: test
       lifts = sum(test%shares) > 0.0_wp .or. test%force(3) > 0.0_wp

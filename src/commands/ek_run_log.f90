@@ -21,7 +21,7 @@ module ek_run_log
 
    character(*), parameter :: log_option = '--log'
 
-   !> The record of the run.
+   !> The content of the log entry of a run.
    type :: log_t
       character(20) :: time
       real(wp) :: start = 0.0_wp                     !! time of a clock when the log was opened [s]

@@ -213,7 +213,7 @@ contains
       if (size(names) == 0) text = file//': no &case group and no wheel, so there is no case to solve'
    end function unknown_case
 
-   !> Writes the numbers found as settings, and prints the findings.
+   !> Writes the solution as a file of settings, and prints the findings.
    subroutine write_results(settings, session, unknowns, wanted, targets, found, error)
       type(deck_settings_t), intent(in) :: settings
       type(session_t), intent(in) :: session

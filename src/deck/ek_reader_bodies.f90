@@ -76,7 +76,7 @@ contains
       reading%plan%masses = [reading%plan%masses, plan]
    end subroutine read_mass
 
-   !> Reads &load: force and moment in the axes of the deck at design. A load that follows turns with its body.
+   !> Reads &load: force and moment in the axes of the deck at design. With `follows`, the load rotates with its body.
    subroutine read_load(reading)
       type(deck_reading_t), intent(inout) :: reading
       type(load_plan_t) :: plan

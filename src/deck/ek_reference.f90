@@ -72,7 +72,8 @@ contains
 
    contains
 
-      !> The hint for a name with a side in a deck without &mirror; for any other name the given hint.
+      !> The hint that &mirror is missing, if the deck has no &mirror, the name begins with left_ or right_, and the deck defines
+      !> the name without this prefix. Otherwise the given hint.
       function mirror_or(hint) result(words)
          character(*), intent(in) :: hint
          character(:), allocatable :: words

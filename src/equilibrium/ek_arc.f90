@@ -48,7 +48,8 @@ module ek_arc
    type :: arc_t
       type(schedule_t) :: schedule
       real(wp) :: range = 1.0_wp                     !! range of swept values: a change by the range has the length 1
-      real(wp) :: size = 1.0_wp                      !! L [m]: characteristic length, or the longest spring or stop at design
+      real(wp) :: size = 1.0_wp                      !! L [m]: the larger of the characteristic length and the longest spring,
+                                                     !! stop or damper on a distance at design
       real(wp) :: tolerance = 0.0_wp                 !! limit of the last correction [m]
       logical :: is_symmetric = .true.               !! no load makes the true matrix unsymmetric
       real(wp) :: length = 0.0_wp                    !! length of the path from design to a [-]

@@ -42,7 +42,7 @@ module ek_branch
    integer, parameter, public :: max_crossings = 8   !! largest number of bifurcations reported
 
    real(wp), parameter :: shortest = 2.5e3_wp      !! times the least step, 1e-6 of the range: shorter steps may bend without a law
-   real(wp), parameter :: even = 0.3_wp            !! limit of the change of ln |det N| in a step; above 0.7 near a loss of rank
+   real(wp), parameter :: even = 0.3_wp            !! limit of the change of ln |det N| in a step; near a loss of rank: over 0.7
    real(wp), parameter, public :: tiny_step = 1.0e3_wp     !! times the least step: near a lock, only shorter steps are accepted
    real(wp), parameter :: zero = 9.2_wp            !! fall of ln |det N| after which 1e-4 of |det N| is left
    real(wp), parameter :: fresh = 1.0e-2_wp        !! distance from which factors give a good tangent, as a share of the motion

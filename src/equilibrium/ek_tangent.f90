@@ -11,8 +11,8 @@ module ek_tangent
    public :: tangent_t, new_tangent, renew_tangent, find_tangent, is_bend
 
    real(wp), parameter :: bent = 5.0e-2_wp         !! error allowed in the shortest steps, as a share of the motion
-   real(wp), parameter :: takes_part = 5.0e-2_wp   !! limit, as a share of the largest motion: the direction of larger motions is
-                                                   !! checked
+   real(wp), parameter :: takes_part = 5.0e-2_wp   !! share of the largest motion: above this share, the direction of a body's
+                                                   !! motion is checked
    real(wp), parameter :: min_cosine = 0.5_wp    !! least cosine between the directions of a body at both ends of a bend: 60 deg
 
    !> Work space, and whether the loads leave the true matrix symmetric.

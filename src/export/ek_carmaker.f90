@@ -23,7 +23,7 @@ module ek_carmaker
 
    character(1), parameter :: sides(2) = ['L', 'R']
    integer, parameter :: columns = 10                     !! number of quantities in the tables, tx to lStabi
-   character(5), parameter :: load_names(5) = [character(5) :: 'Frc.x', 'Frc.y', 'Trq.x', 'Trq.y', 'Trq.z']  !! of load_parts
+   character(5), parameter :: load_names(5) = [character(5) :: 'Frc.x', 'Frc.y', 'Trq.x', 'Trq.y', 'Trq.z']  !! keys of load_parts
 
 contains
 

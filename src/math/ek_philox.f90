@@ -1,7 +1,7 @@
 !> Random numbers by index: the generator Philox4x32-10, a function without any state.
 !>
 !> The same seed, stream, design and factor give the same number on every machine, in any order and with any number of workers.
-!> A stream separates the uses of one seed: the designs, the scrambling of a sequence, a bootstrap.
+!> Each use of one seed has its own stream: the designs, permutations, the scrambling of a sequence, trajectories.
 !>
 !> Source: J. K. Salmon, M. A. Moraes, R. O. Dror, D. E. Shaw, Parallel random numbers: as easy as 1, 2, 3, Proc. SC11 (2011),
 !> doi:10.1145/2063384.2063405. The 32-bit integers of the source are held in 64 bits, so that no operation overflows.

@@ -55,7 +55,7 @@ module ek_element
       logical :: carries          !! the rate at design carries the car (a deck without such an element gives a warning)
       logical :: has_gap          !! a stop: free up to contact; the result column is the clearance, not the value of the measure
       logical :: is_axial_spring        !! the preload trim (`balance`) may set its preload; its motion ratio is reported
-      integer :: shape            !! shape in pictures, for an element on a distance or a bushing
+      integer :: shape            !! shape in pictures, for a bushing, or for an element on a distance
       integer :: share            !! class of the share of an element in a wheel rate or roll rate
    end type element_kind_t
 

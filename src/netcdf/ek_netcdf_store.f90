@@ -88,7 +88,8 @@ contains
       if (fault == nf90_noerr) fault = status
    end subroutine note
 
-   !> Whether a chunk has the sizes of the store: numbers of factors, responses, columns, states and designs.
+   !> Whether a chunk fits into the store: it has as many factors, responses and columns as the store, no more states, and no design
+   !> after the last design of the store.
    pure logical function fits(store, chunk)
       type(store_t), intent(in) :: store
       type(chunk_t), intent(in) :: chunk

@@ -125,7 +125,8 @@ contains
       if (abs(b - a) < huge(1.0_wp)*min(1.0_wp, abs(a))/100) percent = 100*((b - a)/abs(a))
    end function percent
 
-   !> The change of a row with the largest magnitude over all results; NaN if no result has a change.
+   !> The change of largest magnitude among the results of a row, with its sign; NaN if no change can be computed because values are
+   !> missing.
    real(wp) function largest_change(row) result(largest)
       type(difference_t), intent(in) :: row
       real(wp) :: change

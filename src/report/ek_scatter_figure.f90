@@ -19,7 +19,7 @@ module ek_scatter_figure
 
 contains
 
-   !> Script of the pairs of a response and a factor with the largest rank correlations, in order, one panel per pair.
+   !> Script of the pairs of a response and a factor with rank correlations of the largest magnitude, in order, one panel per pair.
    function pairs_script(study, name, subtitle) result(text)
       type(study_data_t), intent(in) :: study
       character(*), intent(in) :: name, subtitle

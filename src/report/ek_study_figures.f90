@@ -20,7 +20,7 @@ module ek_study_figures
       character(11) :: name
       character(48) :: title
       character(80) :: kinds             !! kinds of study; '*': all
-      character(9) :: panels             !! responses, columns, pairs of response and factor; '': one panel
+      character(9) :: panels             !! a panel for each of 'responses', 'columns', 'pairs' (response and factor); '': one
       logical :: needs_curves            !! the figure needs columns in &study and designs with curves
       logical :: needs_responses
       integer :: least_factors, most_factors

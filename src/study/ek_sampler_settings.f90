@@ -16,7 +16,8 @@ module ek_sampler_settings
    !> A factor: one number, or a group of numbers that change together.
    type :: factor_t
       type(distribution_t) :: distribution
-      real(wp) :: nominal = 0.0_wp             !! nominal value for one_at_a_time: mean_of(distribution) unless the study gives it
+      real(wp) :: nominal = 0.0_wp             !! nominal value for one_at_a_time: from the study; otherwise the deck's value (0 for
+                                               !! delta, 1 for scale); the mean if the paths have different values
       real(wp), allocatable :: values(:)       !! if allocated, the only values; `distribution` is then not used
    end type factor_t
 
