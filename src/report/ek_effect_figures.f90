@@ -193,7 +193,11 @@ contains
       if (study%kind == 'tolerance') way = ', to second order by derivatives'
       sheet = new_bars(study, panels, name, 'One factor at a time'//way, subtitle// &
          '; blue: the smallest value of the factor, orange: the largest'//cut(study))
-      if (any_gap(study%effects(panels))) sheet%subtitle = sheet%subtitle//'; –: the design at this end failed'
+      do p = 1, size(panels)             ! not effects(panels): gfortran would not free what that copies
+         if (.not. any_gap(study%effects(panels(p):panels(p)))) cycle
+         sheet%subtitle = sheet%subtitle//'; –: the design at this end failed'
+         exit
+      end do
       do p = 1, size(panels)
          r = panels(p)
          associate (effect => study%effects(r))
