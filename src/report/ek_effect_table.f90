@@ -84,7 +84,7 @@ contains
       real(wp), allocatable :: sizes(:)
       integer :: f
 
-      sizes = effect_sizes(study, r)
+      allocate (sizes, source=effect_sizes(study, r))
       count_of = count([(.not. has_no_effect(sizes, f), f=1, size(sizes))])
    end function count_of
 
