@@ -248,7 +248,7 @@ contains
       integer :: k, r
 
       call begin_section(page, 'factors', 'Factors')
-      order = factor_order(study)
+      allocate (order, source=factor_order(study))
       if (size(order) > 1 .and. size(study%responses) > 0) call add_text(page, 'p', 'Sorted '//effect_measure(study)//'.')
       if (size(order) > 1 .and. size(study%responses) > 0) then
          call begin_table(page, [character(24) :: 'Response', 'Strongest factors'])
