@@ -146,8 +146,8 @@ contains
    end subroutine ready_cases
 
    !> Puts a case on the rig with the present numbers, balanced, and solves nothing. No string is created. The numbers are not
-   !> examined: they must be close to the numbers of an examined design. is_done is .false. if the numbers are outside the range of
-   !> the blueprint, or if the preload trim failed.
+   !> examined: they must be close to the numbers of an examined design, whose scales the system keeps. is_done is .false. if the
+   !> numbers are outside the range of the blueprint, or if the preload trim failed.
    subroutine mount_numbers(k, tolerance, workspace, is_done)
       integer, intent(in) :: k
       real(wp), intent(in) :: tolerance                    !! tolerance of the preload trim [m]
@@ -160,7 +160,7 @@ contains
       call balance_once(tolerance, workspace)
       is_done = workspace%stage == balanced
       if (.not. is_done) return
-      call put_on_rig(workspace%suspension, workspace%cases(k))
+      call put_on_rig(workspace%suspension, workspace%cases(k), keeps_scales=.true.)
       workspace%cases(k)%stage = min(workspace%cases(k)%stage, examined)      ! the caller uses its work space
    end subroutine mount_numbers
 

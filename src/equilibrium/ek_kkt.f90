@@ -19,8 +19,8 @@ module ek_kkt
    use ek_plan_factors, only: substitute_by
    implicit none(type, external)
    private
-   public :: kkt_t, new_kkt, renew_kkt, assemble, assemble_rows, assemble_rate, release, factorise, factorise_by_lapack, solve, &
-      solve_many, condition, holds, whole_matrix, count_inertia
+   public :: kkt_t, new_kkt, renew_kkt, copy_scales, assemble, assemble_rows, assemble_rate, release, factorise, &
+      factorise_by_lapack, solve, solve_many, condition, holds, whole_matrix, count_inertia
    public :: whole_tangent, material_only, residual_only, nothing, lapack_factors, wrench, load_factor, max_growth
 
 contains
@@ -52,11 +52,12 @@ contains
 
    !> Renews the work space for the next design of a model. The parts that depend on the connections, including the plans, are
    !> unchanged, and nothing is allocated. For a model with other connections, or an empty kkt, the work space is created again.
-   subroutine renew_kkt(suspension, wants_plan, kkt)
+   subroutine renew_kkt(suspension, wants_plan, kkt, keeps_scales)
       type(suspension_t), intent(in) :: suspension
       logical, intent(in) :: wants_plan
       type(kkt_t), intent(inout) :: kkt
-      logical :: is_same
+      logical, intent(in), optional :: keeps_scales        !! .true.: keeps length, stiffness and scales of a design close to this one
+      logical :: is_same, has_scales
 
       is_same = allocated(kkt%store) .and. (kkt%has_plan .eqv. wants_plan)
       if (is_same) is_same = same_pattern(kkt%pattern, suspension) .and. size(kkt%factor) == size(suspension%loads)
@@ -64,7 +65,9 @@ contains
          kkt = new_kkt(suspension, wants_plan)
          return
       end if
-      call set_scales(suspension, kkt)
+      has_scales = .false.
+      if (present(keeps_scales)) has_scales = keeps_scales
+      if (.not. has_scales) call set_scales(suspension, kkt)
       kkt%imbalance(:) = 0.0_wp
       kkt%norm = 0.0_wp
       kkt%factorisations = 0
@@ -90,6 +93,17 @@ contains
          kkt%scaling(k) = kkt%scale(kkt%pattern%row(k))*kkt%scale(kkt%pattern%column(k))
       end do
    end subroutine set_scales
+
+   !> Copies the scales of a system of the same model.
+   pure subroutine copy_scales(from, kkt)
+      type(kkt_t), intent(in) :: from
+      type(kkt_t), intent(inout) :: kkt
+
+      kkt%length = from%length
+      kkt%stiffness = from%stiffness
+      kkt%scale(:) = from%scale
+      kkt%scaling(:) = from%scaling
+   end subroutine copy_scales
 
    !> Estimates the reciprocal condition number of the scaled matrix at a state (as LAPACK's dsycon). The matrix is factorised by
    !> plan if the factors are small enough to give the estimate for the original matrix; otherwise by LAPACK.

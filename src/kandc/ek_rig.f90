@@ -93,10 +93,11 @@ contains
    !> Puts the next design of a blueprint on the rig, like mount_case. Since `mounted` was put on the rig, only numbers of the
    !> suspension and of the case may have changed. Numbers are replaced in the existing variables: no name is copied, and no memory
    !> is allocated after the first design.
-   subroutine mount_again(base, given, mounted)
+   subroutine mount_again(base, given, mounted, keeps_scales)
       type(suspension_t), intent(in) :: base
       type(case_t), intent(in) :: given                !! is_mountable
       type(mounted_case_t), intent(inout) :: mounted   !! from mount_case or mount_again; if empty, filled by mount_case
+      logical, intent(in), optional :: keeps_scales    !! as for renew_kkt
       integer :: k
 
       if (.not. stands_there(base, given, mounted)) then
@@ -115,7 +116,7 @@ contains
          this%from = rig%from
          this%to = rig%to
          this%increments = rig%increments
-         call renew_kkt(suspension, given%uses_plan, mounted%kkt)
+         call renew_kkt(suspension, given%uses_plan, mounted%kkt, keeps_scales)
       end associate
    end subroutine mount_again
 

@@ -14,7 +14,7 @@ module ek_blueprint
    public :: blueprint_t, vector_t, body_plan_t, mass_plan_t, readout_plan_t, joint_plan_t, element_plan_t, bushing_plan_t
    public :: wheel_plan_t, load_plan_t, curve_plan_t, case_plan_t
    public :: hardpoint, along, given, fixed, chosen, chosen_right, across
-   public :: new_blueprint, add_vector, inward, number_at, triple_at
+   public :: new_blueprint, add_vector, mark_own_elements, inward, number_at, triple_at
 
    ! kinds of vector
    integer, parameter :: fixed = 0         !! the constant vector `value`
@@ -146,6 +146,78 @@ contains
       self%vectors = [self%vectors, vector]
       number = size(self%vectors)
    end subroutine add_vector
+
+   !> Marks the elastic elements that have a parameter as a number of their own: a rate, a preload, a length, a point of a curve.
+   !> is_alone is .true. if the parameter changes nothing else in a case.
+   pure subroutine mark_own_elements(self, number, case, is_own, is_alone)
+      type(blueprint_t), intent(in) :: self
+      integer, intent(in) :: number              !! index of the parameter
+      integer, intent(in) :: case                !! index of the case in the deck; 0: a standard test
+      logical, intent(inout) :: is_own(:)        !! of each element
+      logical, intent(out) :: is_alone
+      integer :: k, c
+
+      do k = 1, size(self%elements)
+         if (any(self%elements(k)%numbers == number) .or. is_on_curve(self%elements(k)%curve)) is_own(k) = .true.
+      end do
+      do k = 1, size(self%bushings)
+         associate (this => self%bushings(k), of_bushing => is_own(size(self%elements) + k))
+            if (is_of_triple(this%kt) .or. is_of_triple(this%kr) .or. is_of_triple(this%preload_force) .or. &
+               is_of_triple(this%preload_moment)) of_bushing = .true.
+            do c = 1, size(this%curves)
+               if (is_on_curve(this%curves(c))) of_bushing = .true.
+            end do
+         end associate
+      end do
+      is_alone = .not. is_used_elsewhere()
+
+   contains
+
+      !> Whether the parameter is one of three from index `first` on.
+      pure logical function is_of_triple(first)
+         integer, intent(in) :: first
+         is_of_triple = first > 0 .and. number >= first .and. number <= first + 2
+      end function is_of_triple
+
+      pure logical function is_on_curve(curve)
+         integer, intent(in) :: curve
+
+         is_on_curve = .false.
+         if (curve == 0) return
+         associate (this => self%curves(curve))
+            is_on_curve = (number >= this%x .and. number < this%x + this%points) .or. &
+               (number >= this%y .and. number < this%y + this%points)
+         end associate
+      end function is_on_curve
+
+      !> Whether the case, or a part that is not an elastic element, has the parameter.
+      pure logical function is_used_elsewhere()
+         integer :: j
+
+         is_used_elsewhere = any(self%vectors%kind /= fixed .and. number >= self%vectors%first .and. &
+            number <= self%vectors%first + 2 .and. self%vectors%first > 0) .or. any(self%bodies%mass == number) .or. &
+            any(self%masses%kg == number) .or. any(self%joints%stiffness == number) .or. self%gravity == number .or. &
+            any(self%axle == number) .or. any(self%steering == number)
+         do j = 1, size(self%joints)
+            if (.not. allocated(self%joints(j)%ratios)) cycle
+            is_used_elsewhere = is_used_elsewhere .or. any(self%joints(j)%ratios == number)
+         end do
+         do j = 1, size(self%wheels)
+            associate (w => self%wheels(j))
+               is_used_elsewhere = is_used_elsewhere .or. &
+                  any([w%toe, w%camber, w%radius, w%tyre_rate, w%tyre_width, w%sprung_mass] == number)
+            end associate
+         end do
+         do j = 1, size(self%loads)
+            is_used_elsewhere = is_used_elsewhere .or. is_of_triple(self%loads(j)%force) .or. is_of_triple(self%loads(j)%moment)
+         end do
+         if (case == 0) return
+         associate (c => self%cases(case))
+            is_used_elsewhere = is_used_elsewhere .or. any([c%from, c%to, c%offset, c%steer_from, c%steer_to] == number)
+         end associate
+      end function is_used_elsewhere
+
+   end subroutine mark_own_elements
 
    !> A vector converted from the axes of the deck to x rearward, y right, z up.
    pure function inward(self, vector) result(turned)

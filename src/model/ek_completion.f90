@@ -9,7 +9,7 @@ module ek_completion
    use ek_suspension, only: suspension_t
    implicit none(type, external)
    private
-   public :: settle_design
+   public :: settle_design, settle_element
 
 contains
 
@@ -29,11 +29,7 @@ contains
          call subtract_origins(self, self%readouts(k)%measure)
       end do
       do k = 1, size(self%elements)
-         associate (element => self%elements(k), measure => self%elements(k)%measure)
-            if (element%kind == bushing_element) element%bushing%gap0 = measure%arm_j - measure%arm_i
-            if (measure%kind == distance) call set_design_value(element, norm2(measure%arm_j - measure%arm_i))
-            if (.not. is_of_angle(measure%kind)) call subtract_origins(self, measure)
-         end associate
+         call settle_element(k, self)
       end do
       do k = 1, size(self%joints)
          self%joints(k)%arm_j = self%joints(k)%arm_j - origin_of(self, self%joints(k)%body_j)
@@ -63,16 +59,25 @@ contains
       do k = 1, size(self%readouts)
          self%readouts(k)%design_value = design_value(self, self%readouts(k)%measure)
       end do
-      do k = 1, size(self%elements)
-         associate (element => self%elements(k))
-            if (element%kind == bushing_element) then
-               call set_bushing_axes(element%bushing)
-            else if (element%measure%kind /= distance) then
-               call set_design_value(element, design_value(self, element%measure))
-            end if
-         end associate
-      end do
    end subroutine settle_design
+
+   !> Converts the design points of an element to arms, and computes its values at design. The reference points of the bodies are
+   !> settled.
+   pure subroutine settle_element(k, self)
+      integer, intent(in) :: k
+      type(suspension_t), intent(inout) :: self
+
+      associate (element => self%elements(k), measure => self%elements(k)%measure)
+         if (element%kind == bushing_element) element%bushing%gap0 = measure%arm_j - measure%arm_i
+         if (measure%kind == distance) call set_design_value(element, norm2(measure%arm_j - measure%arm_i))
+         if (.not. is_of_angle(measure%kind)) call subtract_origins(self, measure)
+         if (element%kind == bushing_element) then
+            call set_bushing_axes(element%bushing)
+         else if (measure%kind /= distance) then
+            call set_design_value(element, design_value(self, measure))
+         end if
+      end associate
+   end subroutine settle_element
 
    !> The value of a measure with arms at design, in the unit of the measure.
    pure real(wp) function design_value(self, measure) result(value)

@@ -17,12 +17,12 @@ module ek_realise
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t
    use ek_grid, only: is_grid
-   use ek_completion, only: settle_design
+   use ek_completion, only: settle_design, settle_element
    use ek_blueprint, only: blueprint_t, inward, number_at, triple_at
    use ek_design_vector, only: find_vectors, marker_axes, spin_of
    implicit none(type, external)
    private
-   public :: new_design, realise, realise_cases
+   public :: new_design, realise, realise_element, realise_cases
 
    real(wp), parameter, public :: steepest_roll = 0.5_wp      !! largest axle roll of a test [rad]
 
@@ -66,8 +66,12 @@ contains
          end associate
       end do
       call place_joints(plan, x, suspension, is_good)
-      call place_elements(plan, x, suspension, is_good)
-      call place_bushings(plan, x, suspension, is_good)
+      do k = 1, size(plan%elements)
+         call place_element(plan, x, k, suspension, is_good)
+      end do
+      do k = 1, size(plan%bushings)
+         call place_bushing(plan, x, k, suspension, is_good)
+      end do
       call place_loads(plan, x, suspension, is_good)
       call place_wheels(plan, x, suspension, is_good)
       associate (axle => suspension%axle, steering => suspension%steering)
@@ -152,68 +156,84 @@ contains
       end do
    end subroutine place_joints
 
-   !> Computes the elastic elements of one measure.
-   subroutine place_elements(plan, x, suspension, is_good)
+   !> Computes one element again, for parameters that differ from those of the last `realise` in numbers of the element alone
+   !> (own_element). All other parts keep their numbers, and the result equals that of `realise`.
+   subroutine realise_element(plan, x, k, suspension, is_good)
+      type(blueprint_t), intent(in) :: plan
+      real(wp), intent(in) :: x(:)                        !! SI, axes of the deck
+      integer, intent(in) :: k                            !! index of the element
+      type(suspension_t), intent(inout) :: suspension     !! after `realise`
+      logical, intent(out) :: is_good
+
+      is_good = .true.
+      if (k <= suspension%scalars) then
+         call place_element(plan, x, k, suspension, is_good)
+      else
+         call place_bushing(plan, x, k - suspension%scalars, suspension, is_good)
+      end if
+      if (is_good) call settle_element(k, suspension)
+   end subroutine realise_element
+
+   !> Computes elastic element k, of one measure.
+   subroutine place_element(plan, x, k, suspension, is_good)
       type(blueprint_t), intent(in) :: plan
       real(wp), intent(in) :: x(:)
+      integer, intent(in) :: k
       type(suspension_t), intent(inout) :: suspension
       logical, intent(inout) :: is_good
       real(wp) :: numbers(element_numbers), force, slope
-      integer :: k, n
+      integer :: n
 
-      do k = 1, size(plan%elements)
-         associate (spring => suspension%elements(k), this => plan%elements(k))
-            if (this%readout > 0) then
-               spring%measure = suspension%readouts(this%readout)%measure
-            else
-               spring%measure%arm_i = suspension%vectors(:, this%ends(1))
-               spring%measure%arm_j = suspension%vectors(:, this%ends(2))
-               spring%measure%u = suspension%vectors(:, this%axis)
-            end if
-            if (spring%measure%kind == distance) &
-               is_good = is_good .and. norm2(spring%measure%arm_j - spring%measure%arm_i) > 0.0_wp
-            do n = 1, element_numbers
-               numbers(n) = number_at(x, this%numbers(n))
-            end do
-            call set_numbers(spring, numbers)
-            if (this%curve == 0) cycle
-            call renew(plan, this%curve, x, this%value_unit, this%force_unit, spring%law%curve, is_good)
-            if (.not. (element_kinds(spring%kind)%has_gap .and. is_good)) cycle
-            call look_up_curve(spring%law%curve, 0.0_wp, force, slope)
-            is_good = abs(force) <= 0.0_wp      ! without contact it exerts no force
-         end associate
-      end do
-   end subroutine place_elements
+      associate (spring => suspension%elements(k), this => plan%elements(k))
+         if (this%readout > 0) then
+            spring%measure = suspension%readouts(this%readout)%measure
+         else
+            spring%measure%arm_i = suspension%vectors(:, this%ends(1))
+            spring%measure%arm_j = suspension%vectors(:, this%ends(2))
+            spring%measure%u = suspension%vectors(:, this%axis)
+         end if
+         if (spring%measure%kind == distance) &
+            is_good = is_good .and. norm2(spring%measure%arm_j - spring%measure%arm_i) > 0.0_wp
+         do n = 1, element_numbers
+            numbers(n) = number_at(x, this%numbers(n))
+         end do
+         call set_numbers(spring, numbers)
+         if (this%curve == 0) return
+         call renew(plan, this%curve, x, this%value_unit, this%force_unit, spring%law%curve, is_good)
+         if (.not. (element_kinds(spring%kind)%has_gap .and. is_good)) return
+         call look_up_curve(spring%law%curve, 0.0_wp, force, slope)
+         is_good = abs(force) <= 0.0_wp      ! without contact it exerts no force
+      end associate
+   end subroutine place_element
 
-   !> Computes bushings, with design points instead of arms.
-   subroutine place_bushings(plan, x, suspension, is_good)
+   !> Computes bushing k, with design points instead of arms.
+   subroutine place_bushing(plan, x, k, suspension, is_good)
       type(blueprint_t), intent(in) :: plan
       real(wp), intent(in) :: x(:)
+      integer, intent(in) :: k
       type(suspension_t), intent(inout) :: suspension
       logical, intent(inout) :: is_good
       real(wp) :: rates(6)
-      integer :: k, c
+      integer :: c
 
-      do k = 1, size(plan%bushings)
-         associate (measure => suspension%elements(suspension%scalars + k)%measure, this => plan%bushings(k), &
-            bushing => suspension%elements(suspension%scalars + k)%bushing)
-            measure%arm_i = suspension%vectors(:, this%ends(1))
-            measure%arm_j = suspension%vectors(:, this%ends(2))
-            call marker_axes(plan, suspension%vectors(:, this%z), suspension%vectors(:, this%x), bushing%axes, is_good)
-            bushing%kt = triple_at(x, this%kt)
-            bushing%kr = triple_at(x, this%kr)
-            bushing%preload_force = triple_at(x, this%preload_force)
-            bushing%preload_moment = triple_at(x, this%preload_moment)
-            rates = [bushing%kt, bushing%kr]
-            do c = 1, 6
-               if (this%curves(c) == 0) cycle
-               call renew(plan, this%curves(c), x, merge(plan%length_unit, plan%angle_unit, c <= 3), &
-                  plan%force_unit*merge(1.0_wp, plan%length_unit, c <= 3), bushing%laws(c)%curve, is_good)
-               is_good = is_good .and. abs(rates(c)) <= 0.0_wp      ! a component has either a rate or a curve
-            end do
-         end associate
-      end do
-   end subroutine place_bushings
+      associate (measure => suspension%elements(suspension%scalars + k)%measure, this => plan%bushings(k), &
+         bushing => suspension%elements(suspension%scalars + k)%bushing)
+         measure%arm_i = suspension%vectors(:, this%ends(1))
+         measure%arm_j = suspension%vectors(:, this%ends(2))
+         call marker_axes(plan, suspension%vectors(:, this%z), suspension%vectors(:, this%x), bushing%axes, is_good)
+         bushing%kt = triple_at(x, this%kt)
+         bushing%kr = triple_at(x, this%kr)
+         bushing%preload_force = triple_at(x, this%preload_force)
+         bushing%preload_moment = triple_at(x, this%preload_moment)
+         rates = [bushing%kt, bushing%kr]
+         do c = 1, 6
+            if (this%curves(c) == 0) cycle
+            call renew(plan, this%curves(c), x, merge(plan%length_unit, plan%angle_unit, c <= 3), &
+               plan%force_unit*merge(1.0_wp, plan%length_unit, c <= 3), bushing%laws(c)%curve, is_good)
+            is_good = is_good .and. abs(rates(c)) <= 0.0_wp      ! a component has either a rate or a curve
+         end do
+      end associate
+   end subroutine place_bushing
 
    !> Computes a curve of an element in SI. If its points are unchanged, the curve is not computed again.
    subroutine renew(plan, number, x, x_unit, y_unit, curve, is_good)

@@ -228,7 +228,7 @@ contains
       type(state_t) :: moved
       real(wp) :: forces(result%kkt%n, size(self%directions)), doubts(size(self%directions)), &
          gradients(result%kkt%n, parts_of_gradient, size(self%columns)), share(parts_of_gradient)
-      integer :: c, p, s
+      integer :: c, p, s, k
 
       ! at states that do not move
       do p = 1, size(self%directions)
@@ -261,7 +261,10 @@ contains
          do p = 1, size(self%directions)
             if (.not. self%can_move(p)) cycle
             do c = 1, size(self%columns)
-               share = matmul(forces(:, p), gradients(:, :, c))
+               share = 0.0_wp
+               do k = 1, result%kkt%n
+                  if (.not. abs(forces(k, p)) <= 0.0_wp) share = share + forces(k, p)*gradients(k, :, c)   ! most of F stays
+               end do
                self%slopes(c, p, s) = self%slopes(c, p, s) + share(1)
                self%errors(c, p, s) = self%errors(c, p, s) + abs(share(2)) + abs(share(3)) + doubts(p)*abs(share(1))
             end do

@@ -3,16 +3,21 @@
 module ek_neighbour
    use ek_kinds, only: wp
    use ek_case, only: case_t
+   use ek_parameter, only: in_range
+   use ek_blueprint, only: mark_own_elements
+   use ek_realise, only: realise_element
+   use ek_element, only: copy_element
    use ek_suspension, only: suspension_t, copy_numbers
    use ek_rotation, only: perpendicular
    use ek_state, only: state_t, inputs_t, design_state, unpack_state
    use ek_schedule, only: schedule_t, make_schedule, inputs_at, same_schedule
+   use ek_kkt, only: copy_scales
    use ek_path, only: path_t, new_path
    use ek_case_result, only: case_result_t
    use ek_workspace, only: workspace_t, put_numbers, mount_numbers
    use ek_direction, only: direction_t, move_along
    use ek_stencil, only: stencil_t, stencils, close_pair, close_four
-   use ek_part_change, only: change_t, draft_t, begin_draft, learn_neighbour, finish_draft
+   use ek_part_change, only: change_t, draft_t, begin_draft, learn_neighbour, learn_elements, finish_draft
    implicit none(type, external)
    private
    public :: neighbour_t, point_t, begin_neighbour, follow_design, take_states, learn_number, go_to
@@ -28,6 +33,11 @@ module ek_neighbour
       real(wp), allocatable :: x(:)
       type(schedule_t), private :: here, schedule          !! schedules of the inputs: of the design, of the neighbour
       type(path_t), private :: path
+      ! a number of a few elements alone, of a model without preload trim: only these elements are realised
+      logical, private :: has_elements_alone = .false.     !! such a number was moved last
+      logical, private :: is_at_design = .false.           !! all parts except the moved elements have the numbers of the design
+      logical, allocatable, private :: is_own(:)           !! each element that has the number
+      logical, allocatable, private :: is_moved(:)         !! each element that does not have the numbers of the design
    end type neighbour_t
 
    !> One state on the path of the design.
@@ -51,16 +61,23 @@ contains
       ! they keep the reference points of the design, also of bodies for which the deck names a point that moves
       self%workspace%design%plan%bodies%origin = 0
       self%x = workspace%x
+      associate (elements => size(workspace%raw%elements))
+         self%is_own = spread(.false., 1, elements)
+         self%is_moved = spread(.false., 1, elements)
+      end associate
    end subroutine begin_neighbour
 
-   !> Copies the present design to the neighbour, so that numbers that do not change in the neighbour are identical bit for bit.
+   !> Copies the present design to the neighbour, so that numbers that do not change in the neighbour are identical bit for bit, and
+   !> the scales of its system.
    subroutine follow_design(workspace, self)
       type(workspace_t), intent(in) :: workspace
       type(neighbour_t), intent(inout) :: self
 
       call copy_numbers(workspace%raw, self%workspace%raw)
       self%workspace%raw%bodies%has_origin = .true.
+      self%is_at_design = .false.
       call keep_choices(workspace%raw, self%workspace%raw)
+      call copy_scales(workspace%cases(self%case)%result%kkt, self%workspace%cases(self%case)%result%kkt)
    end subroutine follow_design
 
    !> Copies to the neighbour the directions across the joint axes that the rows of joints use. Each direction is computed from the
@@ -157,7 +174,13 @@ contains
       do k = 1, stencil%points
          call go_to(x, direction, stencil%at(k), result, points, self, there, has_inputs, can_move)
          if (.not. can_move) return
-         call learn_neighbour(result%suspension, self%workspace%cases(self%case)%result%suspension, k, change, draft)
+         associate (there => self%workspace%cases(self%case)%result%suspension)
+            if (self%has_elements_alone) then
+               call learn_elements(result%suspension, there, k, self%is_own, change, draft)
+            else
+               call learn_neighbour(result%suspension, there, k, change, draft)
+            end if
+         end associate
          if (has_inputs) call add_rates(points, here, there, change%weight(k), change%rates)
       end do
       call finish_draft(direction%step, draft, change)
@@ -199,11 +222,17 @@ contains
       real(wp) :: place
       integer :: s
 
+      has_inputs = .false.
+      call find_own_elements(direction, self)
+      if (self%has_elements_alone) then
+         call move_elements(x, direction, steps, self, is_done)
+         return
+      end if
       self%x(:) = x
       call move_along(direction, steps*direction%step, self%x)
+      self%is_at_design = .false.
       call put_numbers(self%x, self%workspace)
       call mount_numbers(self%case, balance_tolerance, self%workspace, is_done)
-      has_inputs = .false.
       if (.not. is_done) return
       associate (there => self%workspace%cases(self%case)%result, path => result%path)
          is_done = has_same_axes(result%suspension, there%suspension)
@@ -224,6 +253,56 @@ contains
          end do
       end associate
    end subroutine go_to
+
+   !> Finds the elements that a direction changes, if it changes nothing else. With a preload trim, each number changes preloads, too.
+   pure subroutine find_own_elements(direction, self)
+      type(direction_t), intent(in) :: direction
+      type(neighbour_t), intent(inout) :: self
+      integer :: j
+
+      self%has_elements_alone = self%workspace%raw%balance == 'none'
+      if (.not. self%has_elements_alone) return
+      self%is_own(:) = .false.
+      do j = 1, size(direction%found)
+         call mark_own_elements(self%workspace%design%plan, direction%found(j)%number, &
+            self%workspace%cases(self%case)%number, self%is_own, self%has_elements_alone)
+         if (.not. self%has_elements_alone) return
+      end do
+   end subroutine find_own_elements
+
+   !> Puts the neighbour with changed elements on the rig, where the design itself is put first. Elements that the neighbour before
+   !> changed get their numbers back.
+   subroutine move_elements(x, direction, steps, self, is_done)
+      real(wp), intent(in) :: x(:)
+      type(direction_t), intent(in) :: direction
+      real(wp), intent(in) :: steps                        !! distance in steps of the direction
+      type(neighbour_t), intent(inout) :: self             !! has_elements_alone
+      logical, intent(out) :: is_done
+      integer :: k
+
+      is_done = .true.
+      if (.not. self%is_at_design) then
+         call put_numbers(x, self%workspace)
+         call mount_numbers(self%case, balance_tolerance, self%workspace, is_done)
+         if (.not. is_done) return
+         self%is_at_design = .true.
+         self%is_moved(:) = .false.
+      end if
+      self%x(:) = x
+      call move_along(direction, steps*direction%step, self%x)
+      is_done = in_range(self%workspace%design%parameters, direction%found, self%x)
+      if (.not. is_done) return
+      associate (raw => self%workspace%raw, there => self%workspace%cases(self%case)%result%suspension)
+         do k = 1, size(raw%elements)
+            if (.not. (self%is_own(k) .or. self%is_moved(k))) cycle
+            self%is_moved(k) = self%is_own(k)
+            call realise_element(self%workspace%design%plan, self%x, k, raw, is_done)
+            if (.not. is_done) exit
+            call copy_element(raw%elements(k), there%elements(k))
+         end do
+      end associate
+      if (.not. is_done) self%is_at_design = .false.       ! not all elements are as `is_moved` says
+   end subroutine move_elements
 
    !> Whether the swept values of two designs of a case differ.
    pure logical function has_other_range(a, b)

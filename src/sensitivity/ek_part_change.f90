@@ -5,7 +5,7 @@
 !> designs. ek_part_force finds the effect of these changes on F at a state.
 module ek_part_change
    use ek_kinds, only: wp
-   use ek_suspension, only: suspension_t, wheel_t
+   use ek_suspension, only: suspension_t, same_wheel, copy_load
    use ek_state, only: inputs_t
    use ek_measure, only: measure_t
    use ek_law, only: law_t
@@ -17,7 +17,7 @@ module ek_part_change
    implicit none(type, external)
    private
    public :: change_t, term_change_t, element_change_t, load_change_t
-   public :: draft_t, begin_draft, learn_neighbour, finish_draft, mark_parts
+   public :: draft_t, begin_draft, learn_neighbour, learn_elements, finish_draft, mark_parts
 
    real(wp), parameter :: rounding = 1.0e-6_wp             !! limit of a corner of preloads [N, N m]; smaller corners are ignored
 
@@ -128,17 +128,31 @@ contains
             call learn_term(here%terms(t), there%terms(t), t, r, change%weight(k), draft%terms(t))
          end do
       end do
+      call learn_elements(here, there, k, [(.true., e=1, size(here%elements))], change, draft)
+      do e = 1, size(here%loads)
+         call learn_load(here%loads(e), there%loads(e), e, k, draft%loads(e))
+      end do
+   end subroutine learn_neighbour
+
+   !> Adds the differences between some elements of neighbour k of the stencil and of the design.
+   !> Equation (E.7) of docs/theory/derivatives.md.
+   subroutine learn_elements(here, there, k, is_meant, change, draft)
+      type(suspension_t), intent(in) :: here, there        !! the design and its neighbour, on the same rig
+      integer, intent(in) :: k
+      logical, intent(in) :: is_meant(:)                   !! of each element
+      type(change_t), intent(inout) :: change
+      type(draft_t), intent(inout) :: draft
+      integer :: e
+
       do e = 1, size(here%elements)
+         if (.not. is_meant(e)) cycle
          if (here%elements(e)%kind == bushing_element) then
             call learn_bushing(here%elements(e), there%elements(e), e, k, change, draft%elements(e), draft%bends(:, e))
          else
             call learn_spring(here%elements(e), there%elements(e), e, k, change, draft%elements(e), draft%bends(:, e))
          end if
       end do
-      do e = 1, size(here%loads)
-         call learn_load(here%loads(e), there%loads(e), e, k, draft%loads(e))
-      end do
-   end subroutine learn_neighbour
+   end subroutine learn_elements
 
    !> Stores the parts that the number affects in `change`, and finds the corner of the preloads.
    subroutine finish_draft(step, draft, change)
@@ -194,13 +208,6 @@ contains
       terms(change%terms%term) = .true.
       elements(change%elements%element) = .true.
    end subroutine mark_parts
-
-   !> Whether two wheels have equal data for their attitude.
-   elemental logical function same_wheel(a, b)
-      type(wheel_t), intent(in) :: a, b
-      same_wheel = .not. (any(abs(a%centre - b%centre) > 0.0_wp) .or. any(abs(a%contact - b%contact) > 0.0_wp) .or. &
-         any(abs(a%spin - b%spin) > 0.0_wp) .or. any(abs(a%steer_axis - b%steer_axis) > 0.0_wp))
-   end function same_wheel
 
    !> Adds the weighted change of a row (target, compliance) between two designs.
    pure subroutine learn_row(here, there, number, weight, change)
@@ -350,17 +357,6 @@ contains
       end if
       call copy_load(there, change%there(k))
    end subroutine learn_load
-
-   !> Copies a load without its names.
-   pure subroutine copy_load(from, to)
-      type(load_t), intent(in) :: from
-      type(load_t), intent(inout) :: to
-
-      to%arm = from%arm
-      to%force = from%force
-      to%moment = from%moment
-      to%follows = from%follows
-   end subroutine copy_load
 
    pure logical function same_law(a, b)
       type(law_t), intent(in) :: a, b

@@ -10,13 +10,13 @@ module ek_part_force
    use ek_suspension, only: suspension_t
    use ek_state, only: state_t, inputs_t
    use ek_element, only: element_t, bushing_element, is_linear
-   use ek_element_force, only: element_evaluation_t, evaluate_element
+   use ek_element_force, only: element_evaluation_t, spring_tension
    use ek_measure, only: evaluation_t
    use ek_row, only: term_t
    use ek_load, only: wrench
    use ek_skew_system, only: factor_of
    use ek_part_change, only: change_t, term_change_t, element_change_t, load_change_t, mark_parts
-   use ek_part_response, only: response_t, respond_element, respond_measure, turn_directions
+   use ek_part_response, only: response_t, respond_element, respond_measure, load_at, turn_directions
    implicit none(type, external)
    private
    public :: part_forces_t, choose_parts, find_responses, add_force
@@ -150,21 +150,31 @@ contains
       type(response_t), intent(in) :: response
       type(change_t), intent(in) :: all
       real(wp), intent(inout) :: force(:), corner(:)
-      type(element_evaluation_t) :: evaluation
-      real(wp) :: pull(12), turned(12), load(6), value, bend(12)
+      real(wp) :: pull(12), turned(12), load(6), moved(6), jump(6), value, bend(12), tensions(4), slope
       integer :: k
 
       pull = 0.0_wp
       associate (m => element%measure, i => 6*(element%measure%body_i - 1), j => 6*(element%measure%body_j - 1))
          if (change%has_arms) call add_columns(response%by_arms, change%arms, pull)
-         if (allocated(change%there)) then
-            bend = 0.0_wp
+         if (allocated(change%there) .and. element%kind /= bushing_element) then       ! the markers, and so the value, stay
             do k = 1, 4
-               call evaluate_element(change%there(k), state%poses(m%body_i + 1), state%poses(m%body_j + 1), evaluation)
-               turned = evaluation%generalised_force - response%force
-               pull = pull + all%weight(k)*turned
-               bend = bend + all%corner(k)*turned
+               call spring_tension(change%there(k), response%value, tensions(k), slope)
             end do
+            tensions = tensions - response%tension
+            pull = pull + dot_product(all%weight, tensions)*response%gradient
+            bend = dot_product(all%corner, tensions)*response%gradient
+            call add_gradient(-1.0_wp, bend, i, j, corner)
+         else if (allocated(change%there)) then
+            load = 0.0_wp
+            jump = 0.0_wp
+            do k = 1, 4
+               moved = load_at(change%there(k), element%bushing%gap0, response) - response%load
+               load = load + all%weight(k)*moved
+               jump = jump + all%corner(k)*moved
+            end do
+            call add_columns(response%by_load, load, pull)
+            bend = 0.0_wp
+            call add_columns(response%by_load, jump, bend)
             call add_gradient(-1.0_wp, bend, i, j, corner)
          else if (element%kind == bushing_element) then
             load = 0.0_wp

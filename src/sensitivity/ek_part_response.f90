@@ -15,10 +15,11 @@ module ek_part_response
    use ek_measure, only: measure_t, evaluation_t, evaluate, add_measure_hessian, is_of_angle, distance, axis_axis, global_gap
    use ek_element, only: element_t, bushing_element
    use ek_element_force, only: element_evaluation_t, evaluate_element, add_element_tangent
-   use ek_elastic, only: bushing_force
+   use ek_block, only: rotated
+   use ek_elastic, only: bushing_evaluation_t, bushing_force, bushing_load
    implicit none(type, external)
    private
-   public :: response_t, respond_element, respond_measure, turn_directions
+   public :: response_t, respond_element, respond_measure, load_at, turn_directions
 
    !> The response of a part at one pair of poses.
    type :: response_t
@@ -31,6 +32,7 @@ module ek_part_response
       real(wp) :: by_load(12, 6) = 0.0_wp      !! ∂g with respect to force and moment of a bushing, axes of body i
       real(wp) :: gap(3) = 0.0_wp, theta(3) = 0.0_wp   !! deflections of a bushing, axes of body i
       real(wp) :: stiffness(3, 3) = 0.0_wp     !! stiffness of a bushing in its gap, axes of body i
+      real(wp) :: load(6) = 0.0_wp             !! force and moment of a bushing with curves, axes of body i
    end type response_t
 
    integer, parameter :: local(3) = [1, 2, 3]  !! indices of the tangent blocks of one part, see ek_block
@@ -63,6 +65,7 @@ contains
          response%gap = bushing%gap
          response%theta = bushing%rotation%theta
          response%stiffness = bushing%stiffness_t
+         if (element%bushing%has_curves) response%load = load_at(element, element%bushing%gap0, response)
          bushing%moment = 0.0_wp
          do k = 1, 3
             bushing%force = pose_i%a(:, k)
@@ -75,6 +78,22 @@ contains
          end do
       end associate
    end subroutine respond_element
+
+   !> Computes force and moment of the law of a bushing at a response's deflections, dV/d(gap) and dV/dθ, in axes of body i. The law
+   !> may have another gap at design.
+   pure function load_at(law, gap0, response) result(load)
+      type(element_t), intent(in) :: law
+      real(wp), intent(in) :: gap0(3)                    !! gap at design of the bushing to which the response belongs
+      type(response_t), intent(in) :: response
+      real(wp) :: load(6), force(3), moment(3)
+      type(bushing_evaluation_t) :: there
+
+      there%gap = response%gap + (gap0 - law%bushing%gap0)
+      there%rotation%theta = response%theta
+      call bushing_load(law%bushing, there, force, moment)
+      load(1:3) = -rotated(law%bushing%axes, force)
+      load(4:6) = -rotated(law%bushing%axes, moment)
+   end function load_at
 
    !> Computes the response of a measure at a pair of poses.
    !> Equation (E.7) of docs/theory/derivatives.md.
