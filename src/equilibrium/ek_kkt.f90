@@ -8,8 +8,8 @@ module ek_kkt
    use ek_state, only: state_t, inputs_t
    use ek_load, only: wrench
    use ek_pattern, only: new_pattern, same_pattern, whole_tangent, material_only, residual_only
-   use ek_kkt_system, only: kkt_t, assemble, assemble_rows, assemble_rate, release, holds, load_factor, whole_matrix, nothing, &
-      held, lapack_factors, plan_factors
+   use ek_kkt_system, only: kkt_t, assemble, assemble_rows, assemble_gradients, assemble_rate, release, holds, load_factor, &
+      whole_matrix, nothing, held, lapack_factors, plan_factors
    use ek_kkt_factors, only: allocate_dense, factorise, factorise_within, proven_growth, factorise_by_lapack, solve, &
       solve_many, count_inertia, max_growth
    use ek_kkt_plans, only: make_plans
@@ -19,8 +19,8 @@ module ek_kkt
    use ek_plan_factors, only: substitute_by
    implicit none(type, external)
    private
-   public :: kkt_t, new_kkt, renew_kkt, copy_scales, assemble, assemble_rows, assemble_rate, release, factorise, &
-      factorise_by_lapack, solve, solve_many, condition, holds, whole_matrix, count_inertia
+   public :: kkt_t, new_kkt, renew_kkt, copy_scales, assemble, assemble_rows, assemble_gradients, assemble_rate, release, &
+      factorise, factorise_by_lapack, solve, solve_many, condition, holds, whole_matrix, count_inertia
    public :: whole_tangent, material_only, residual_only, nothing, lapack_factors, wrench, load_factor, max_growth
 
 contains

@@ -16,11 +16,12 @@ module ek_kkt_system
    use ek_suspension, only: suspension_t
    use ek_state, only: state_t, inputs_t, is_design
    use ek_pattern, only: pattern_t, whole_tangent, residual_only
+   use ek_measure, only: evaluation_t, evaluate
    use ek_kkt_terms, only: assemble_terms, assemble_rate_terms
    use ek_plan, only: plan_t
    implicit none(type, external)
    private
-   public :: kkt_t, assemble, assemble_rows, assemble_rate, release, holds, load_factor, whole_matrix
+   public :: kkt_t, assemble, assemble_rows, assemble_gradients, assemble_rate, release, holds, load_factor, whole_matrix
    public :: nothing, assembled, lapack_factors, plan_factors, held, released
 
    integer, parameter :: nothing = 0, assembled = 1, lapack_factors = 2, plan_factors = 3   !! stages of the matrix
@@ -117,6 +118,24 @@ contains
          state%poses, state%reaction, kkt%factor, kkt%change, residual_only, kkt%gradients, kkt%values, kkt%store(1), &
          kkt%store(kkt%pattern%jacobian + 1), kkt%rhs)
    end subroutine assemble_rows
+
+   !> Finds the gradients of some rows of Φ at a state, equal to the results of `assemble`.
+   pure subroutine assemble_gradients(suspension, state, first, last, kkt)
+      type(suspension_t), intent(in) :: suspension
+      type(state_t), intent(in) :: state
+      integer, intent(in) :: first, last         !! rows
+      type(kkt_t), intent(inout) :: kkt          !! gradients of the terms of these rows; all else is unchanged
+      type(evaluation_t) :: evaluation
+      integer :: t
+
+      kkt%is_at_design = .false.
+      do t = suspension%rows(first)%first, suspension%rows(last)%first + suspension%rows(last)%terms - 1
+         associate (term => suspension%terms(t))
+            call evaluate(term%measure, state%poses(term%measure%body_i + 1), state%poses(term%measure%body_j + 1), evaluation)
+            kkt%gradients(:, t) = term%coefficient*evaluation%gradient
+         end associate
+      end do
+   end subroutine assemble_gradients
 
    !> Sets the change of the value of each row [m, -, rad].
    pure subroutine set_change(inputs, change)

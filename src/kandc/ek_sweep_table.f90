@@ -31,7 +31,7 @@ module ek_sweep_table
       character(name_length), allocatable :: columns(:)     !! column headings of the table
       integer, private :: shown = 0, reported = 0, ended = 0    !! index of the last column of the state, the quantities, the table
       integer, allocatable, private :: kept(:)              !! indices of the columns of the table among all columns
-      type(column_list_t), private :: list                  !! columns of the state
+      type(column_list_t) :: list                           !! columns of the state
       type(kandc_t), private :: kandc                       !! K&C columns, if the case requests them
       character(name_length), allocatable, private :: wanted(:)
       logical, private :: has_wanted = .false., has_all = .false., has_stability = .false., has_violation = .true.

@@ -14,7 +14,7 @@ module ek_suspension
    implicit none(type, external)
    private
    public :: suspension_t, body_t, point_t, load_t, wheel_t, readout_t, axle_t, steering_t
-   public :: allocate_lists, copy_numbers, copy_load, same_wheel, body_name, design_poses, driver_row, driver_unit, load_number, &
+   public :: allocate_lists, copy_numbers, copy_load, body_name, design_poses, driver_row, driver_unit, load_number, &
       has_symmetric_loads
 
    !> A rigid body.
@@ -205,13 +205,6 @@ contains
       to%moment = from%moment
       to%follows = from%follows
    end subroutine copy_load
-
-   !> Whether two wheels have equal data for their attitude.
-   elemental logical function same_wheel(a, b)
-      type(wheel_t), intent(in) :: a, b
-      same_wheel = .not. (any(abs(a%centre - b%centre) > 0.0_wp) .or. any(abs(a%contact - b%contact) > 0.0_wp) .or. &
-         any(abs(a%spin - b%spin) > 0.0_wp) .or. any(abs(a%steer_axis - b%steer_axis) > 0.0_wp))
-   end function same_wheel
 
    !> The number of unknowns of the bodies, the length of Δq.
    pure integer function unknowns(self)

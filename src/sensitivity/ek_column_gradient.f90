@@ -15,7 +15,7 @@ module ek_column_gradient
    use ek_column_observer, only: column_observer_t, observe_columns
    implicit none(type, external)
    private
-   public :: find_gradients, parts_of_gradient
+   public :: find_gradients, parts_of_gradient, step_of_place
 
    integer, parameter :: parts_of_gradient = 3             !! the gradient, and two parts of its error
    real(wp), parameter :: step_of_place = 1.0e-4_wp        !! step of Δr [m]; for other unknowns, the step of equal work

@@ -4,10 +4,11 @@ module ek_column_observer
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t
    use ek_state, only: state_t, inputs_t
-   use ek_kkt, only: kkt_t
-   use ek_attitude, only: attitude_t
+   use ek_kkt, only: kkt_t, assemble_gradients
+   use ek_attitude, only: attitude_t, find_attitude
    use ek_table, only: name_length
    use ek_sweep_table, only: observer_t, make_observer, observe_state, quantity_columns, reads_matrix, reads_poses_of_wheels
+   use ek_state_columns, only: block_values, block_reads, same_block, parts_of_block
    use ek_compliance, only: compliance_t, new_compliance, keep_responses
    use ek_skew_system, only: has_skew_part
    use ek_compliance_table, only: compliance_columns, observe_compliance
@@ -15,6 +16,7 @@ module ek_column_observer
    private
    public :: column_observer_t, new_column_observer, observe_columns, keep_state, kept_loads, &
       reads_states, reads_wheels_only
+   public :: count_blocks, columns_of_block, find_reads, is_same_block, observe_block
 
    !> The requested columns of a model, and work space to observe the columns.
    type :: column_observer_t
@@ -75,6 +77,73 @@ contains
       end if
       values(self%quantities + 1:) = self%matrix(self%entries)
    end subroutine observe_columns
+
+   !> Number of blocks of columns: a wheel, an element, a joint, … Each block has columns next to one another. Only if reads_states.
+   pure integer function count_blocks(self)
+      type(column_observer_t), intent(in) :: self
+      count_blocks = size(self%observer%list%blocks)
+   end function count_blocks
+
+   !> Finds the first and last column of a block.
+   pure subroutine columns_of_block(self, k, first, last)
+      type(column_observer_t), intent(in) :: self
+      integer, intent(in) :: k                             !! 1 … count_blocks
+      integer, intent(out) :: first, last
+
+      associate (list => self%observer%list)
+         first = 1
+         if (list%blocks(k) > 1) first = list%last_asked(list%blocks(k) - 1) + 1
+         last = list%last_asked(list%blocks(k))
+      end associate
+   end subroutine columns_of_block
+
+   !> Finds the unknowns that the values of a block follow from.
+   pure subroutine find_reads(suspension, self, k, is_read)
+      type(suspension_t), intent(in) :: suspension
+      type(column_observer_t), intent(in) :: self
+      integer, intent(in) :: k
+      logical, intent(out) :: is_read(:)                   !! of each unknown of the system
+      call block_reads(suspension, self%observer%list, self%observer%list%blocks(k), is_read)
+   end subroutine find_reads
+
+   !> Whether the values of a block at any state are equal in two designs.
+   pure logical function is_same_block(here, there, self, k)
+      type(suspension_t), intent(in) :: here, there
+      type(column_observer_t), intent(in) :: self
+      integer, intent(in) :: k
+      is_same_block = same_block(here, there, self%observer%list, self%observer%list%blocks(k))
+   end function is_same_block
+
+   !> Computes the values of a block, as observe_columns does, which must have been called before.
+   subroutine observe_block(suspension, state, kkt, self, k, values)
+      type(suspension_t), intent(in) :: suspension         !! suspension on the rig
+      type(state_t), intent(in) :: state
+      type(kkt_t), intent(inout) :: kkt                    !! work space
+      type(column_observer_t), intent(inout) :: self
+      integer, intent(in) :: k
+      real(wp), intent(inout) :: values(:)                 !! of all columns; those of the block change
+      integer :: j, first, last, wheel, joint
+
+      associate (list => self%observer%list, b => self%observer%list%blocks(k))
+         call parts_of_block(list, b, wheel, joint)
+         if (wheel > 0) then
+            associate (body => suspension%wheels(wheel)%body)
+               call find_attitude(suspension%wheels(wheel), suspension%bodies(body)%origin, state%poses(body + 1), &
+                  self%wheels(wheel))
+            end associate
+         end if
+         if (joint > 0) then
+            associate (row => suspension%joints(joint)%first_row, rows => suspension%joints(joint)%rows)
+               call assemble_gradients(suspension, state, row, row + rows - 1, kkt)
+            end associate
+         end if
+         call block_values(suspension, state, self%wheels, kkt, list, b, self%work(3:))
+         call columns_of_block(self, k, first, last)
+         do j = first, last
+            values(j) = self%work(2 + list%asked(j))
+         end do
+      end associate
+   end subroutine observe_block
 
    !> Whether all columns follow from a state alone, without the compliance matrix and without a model in addition to the state.
    pure logical function reads_states(self)

@@ -31,15 +31,16 @@ module ek_derivatives
    use ek_table, only: name_length
    use ek_case_result, only: case_result_t
    use ek_workspace, only: workspace_t
-   use ek_state_derivative, only: solve_motions, displace
+   use ek_state_derivative, only: solve_motions
    use ek_part_change, only: change_t, draft_t
    use ek_part_force, only: part_forces_t, choose_parts, find_responses, add_force
-   use ek_stencil, only: stencils, differentiate
    use ek_column_observer, only: column_observer_t, new_column_observer, observe_columns, keep_state, kept_loads, reads_states, &
       reads_wheels_only
    use ek_column_gradient, only: find_gradients, parts_of_gradient
    use ek_direction, only: direction_t
-   use ek_neighbour, only: neighbour_t, point_t, begin_neighbour, follow_design, take_states, learn_number, go_to
+   use ek_block_gradient, only: block_gradients_t, begin_gradients, are_cheaper, find_block_gradients, add_motions
+   use ek_observed_slopes, only: find_slopes_along, find_slopes_at
+   use ek_neighbour, only: neighbour_t, point_t, begin_neighbour, follow_design, take_states, learn_number
    implicit none(type, external)
    private
    public :: derivatives_t, begin_derivatives, find_derivatives, refuse_case
@@ -190,6 +191,7 @@ contains
       type(point_t), intent(inout) :: points(first:)
       type(derivatives_t), intent(inout) :: self
       type(part_forces_t) :: parts
+      type(block_gradients_t) :: gradients
       real(wp), allocatable :: motions(:, :, :), doubts(:, :)
       integer :: p, s
 
@@ -202,15 +204,48 @@ contains
          call solve_motions(result%suspension, points(s)%state, inputs(s), result%kkt, size(self%directions), motions(:, :, s), &
             points(s)%is_regular)
       end do
-      do p = 1, size(self%directions)
-         if (.not. self%can_move(p) .or. size(self%columns) == 0) cycle
-         call add_observations(x, p, result, points, inputs, values, kept, self, self%slopes(:, p, first:last), &
-            self%errors(:, p, first:last), motions(:, p, :))
-         do s = first, last
+      if (size(self%columns) == 0) return
+      if (reads_states(self%observer)) call begin_gradients(result%suspension, result%kkt, self%observer, gradients)
+      if (reads_states(self%observer) .and. are_cheaper(gradients, size(self%directions))) then
+         call add_shares(x, result, first, last, values, motions, points, gradients, self)
+      else
+         do p = 1, size(self%directions)
+            if (self%can_move(p)) call find_slopes_along(motions(:, p, :), x, self%directions(p), result, points, inputs, values, &
+               kept, self%neighbour, self%observer, self%can_move(p), self%slopes(:, p, first:last), self%errors(:, p, first:last))
+         end do
+      end if
+      do s = first, last
+         do p = 1, size(self%directions)
             self%errors(:, p, s) = self%errors(:, p, s) + doubts(p, s)*abs(self%slopes(:, p, s))
          end do
       end do
    end subroutine derive_by_numbers
+
+   !> Computes the derivatives of columns of states as ∂y/∂z dz/dp + ∂y/∂p, with one gradient ∂y/∂z for all numbers.
+   !> Equation (E.9) of docs/theory/derivatives.md.
+   subroutine add_shares(x, result, first, last, values, motions, points, gradients, self)
+      real(wp), intent(in) :: x(:)                         !! numbers of the design
+      type(case_result_t), intent(inout) :: result
+      integer, intent(in) :: first, last
+      real(wp), intent(in) :: values(:, first:)            !! (column, state)
+      real(wp), intent(in) :: motions(:, :, first:)        !! (unknown, number, state): dz/dp
+      type(point_t), intent(in) :: points(first:)
+      type(block_gradients_t), intent(inout) :: gradients  !! from begin_gradients
+      type(derivatives_t), intent(inout) :: self
+      type(state_t) :: moved
+      integer :: p, s
+
+      do p = 1, size(self%directions)
+         if (self%can_move(p)) call find_slopes_at(x, self%directions(p), result, points, values, self%neighbour, self%observer, &
+            self%can_move(p), self%slopes(:, p, first:last), self%errors(:, p, first:last))
+      end do
+      moved = design_state(result%suspension)
+      do s = first, last
+         if (.not. points(s)%is_regular) cycle
+         call find_block_gradients(result%suspension, points(s)%state, result%kkt, values(:, s), self%observer, moved, gradients)
+         call add_motions(motions(:, :, s), gradients, self%slopes(:, :, s), self%errors(:, :, s))
+      end do
+   end subroutine add_shares
 
    !> Computes the derivatives from the gradients of the columns, with one solution per column and state (adjoint method).
    !> Equation (E.9) of docs/theory/derivatives.md.
@@ -234,8 +269,8 @@ contains
       do p = 1, size(self%directions)
          if (.not. self%can_move(p)) cycle
          if (changes(p)%moves_wheels .or. .not. reads_wheels_only(self%observer)) then
-            call add_observations(x, p, result, points, inputs, values, kept, self, self%slopes(:, p, first:last), &
-               self%errors(:, p, first:last))
+            call find_slopes_at(x, self%directions(p), result, points, values, self%neighbour, self%observer, &
+               self%can_move(p), self%slopes(:, p, first:last), self%errors(:, p, first:last))
             cycle
          end if
          do s = first, last
@@ -299,53 +334,5 @@ contains
             jump/max(norm2(forces(:, p)*result%kkt%scale), jump))
       end do
    end subroutine add_forces
-
-   !> Adds difference quotients of the columns to `slopes`, along the motions of the states, or without `motions` at the states
-   !> themselves. The first stencil whose points are all valid designs is used.
-   !> Equation (E.2) of docs/theory/derivatives.md.
-   subroutine add_observations(x, p, result, points, here, values, kept, self, slopes, errors, motions)
-      real(wp), intent(in) :: x(:)
-      integer, intent(in) :: p                             !! index of the direction
-      type(case_result_t), intent(in) :: result
-      type(point_t), intent(in) :: points(:)
-      type(inputs_t), intent(in) :: here(:)                !! inputs of the states, of the design itself
-      real(wp), intent(in) :: values(:, :)                 !! (column, state)
-      real(wp), intent(in) :: kept(:, :, :)                !! (load, unknown, state): data from keep_state
-      type(derivatives_t), intent(inout) :: self
-      real(wp), intent(inout) :: slopes(:, :), errors(:, :)
-      real(wp), intent(in), optional :: motions(:, :)      !! (unknown, state)
-      type(inputs_t) :: inputs(size(points))
-      type(state_t) :: moved
-      real(wp) :: step(result%kkt%nq), y(size(values, 1), 4, size(points))
-      logical :: has_inputs
-      integer :: kind, k, s
-
-      moved = design_state(result%suspension)
-      do kind = 1, size(stencils)
-         do k = 1, 4
-            call go_to(x, self%directions(p), stencils(kind)%at(k), result, points, self%neighbour, inputs, has_inputs, &
-               self%can_move(p))
-            if (.not. self%can_move(p)) exit
-            if (.not. has_inputs) inputs = here
-            do s = 1, size(points)
-               if (.not. points(s)%is_regular) cycle
-               associate (there => self%neighbour%workspace%cases(self%case)%result)
-                  if (present(motions)) then
-                     call displace(points(s)%state, motions(:, s), self%directions(p)%step*stencils(kind)%at(k), step, moved)
-                     call observe_columns(there%suspension, moved, inputs(s), there%kkt, self%observer, y(:, k, s), kept(:, :, s))
-                  else
-                     call observe_columns(there%suspension, points(s)%state, inputs(s), there%kkt, self%observer, y(:, k, s))
-                  end if
-               end associate
-            end do
-         end do
-         if (.not. self%can_move(p)) cycle
-         do s = 1, size(points)
-            if (points(s)%is_regular) call differentiate(stencils(kind), self%directions(p)%step, values(:, s), y(:, :, s), &
-               slopes(:, s), errors(:, s))
-         end do
-         return
-      end do
-   end subroutine add_observations
 
 end module ek_derivatives

@@ -5,11 +5,10 @@
 !> designs. ek_part_force finds the effect of these changes on F at a state.
 module ek_part_change
    use ek_kinds, only: wp
-   use ek_suspension, only: suspension_t, same_wheel, copy_load
+   use ek_same_parts, only: same_wheel, same_law, same_form
+   use ek_suspension, only: suspension_t, copy_load
    use ek_state, only: inputs_t
    use ek_measure, only: measure_t
-   use ek_law, only: law_t
-   use ek_curve, only: curve_t
    use ek_element, only: element_t, bushing_element, is_linear
    use ek_row, only: row_t, term_t
    use ek_load, only: load_t
@@ -357,25 +356,6 @@ contains
       end if
       call copy_load(there, change%there(k))
    end subroutine learn_load
-
-   pure logical function same_law(a, b)
-      type(law_t), intent(in) :: a, b
-      same_law = same_form(a, b) .and. .not. (abs(a%reference - b%reference) > 0.0_wp .or. abs(a%rate - b%rate) > 0.0_wp)
-   end function same_law
-
-   !> Whether two laws differ at most by their reference and rate.
-   pure logical function same_form(a, b)
-      type(law_t), intent(in) :: a, b
-
-      same_form = .not. (abs(a%sign - b%sign) > 0.0_wp .or. abs(a%rounding - b%rounding) > 0.0_wp)
-      if (same_form .and. a%has_curve) same_form = same_curve(a%curve, b%curve)
-   end function same_form
-
-   pure logical function same_curve(a, b)
-      type(curve_t), intent(in) :: a, b
-      same_curve = .not. (any(abs(a%breaks - b%breaks) > 0.0_wp) .or. any(abs(a%coefficients - b%coefficients) > 0.0_wp) .or. &
-         abs(a%end_value - b%end_value) > 0.0_wp .or. abs(a%end_slope - b%end_slope) > 0.0_wp)
-   end function same_curve
 
    !> Whether two bushings with curves have equal rates, equal curves, and equal axes to rounding.
    pure logical function same_components(a, b)

@@ -65,29 +65,41 @@ contains
       real(wp) :: gap, corner
       integer :: c
 
-      do c = 1, size(slope)
-         call find_quotients(stencil, h, here(c), [y(c, 1), y(c, 2), y(c, 3), y(c, 4)], slope(c), gap, corner)
-         error(c) = abs(gap) + abs(corner)
-      end do
+      associate (sees => sees_corners(stencil))
+         do c = 1, size(slope)
+            call combine(stencil, sees, h, here(c), y(c, 1), y(c, 2), y(c, 3), y(c, 4), slope(c), gap, corner)
+            error(c) = abs(gap) + abs(corner)
+         end do
+      end associate
    end subroutine differentiate
 
    !> Computes the derivative of one function, and both parts of its error with their signs: the difference of the two quotients,
    !> and the effect of a corner.
-   !> Equation (E.2) of docs/theory/derivatives.md.
    pure subroutine find_quotients(stencil, h, here, y, slope, gap, corner)
       type(stencil_t), intent(in) :: stencil
       real(wp), intent(in) :: h                            !! step h, in the unit of the number
       real(wp), intent(in) :: here, y(4)                   !! values in the middle, and at the points
       real(wp), intent(out) :: slope, gap, corner
+      call combine(stencil, sees_corners(stencil), h, here, y(1), y(2), y(3), y(4), slope, gap, corner)
+   end subroutine find_quotients
+
+   !> Computes what find_quotients does, from numbers alone, so that it is compiled in place.
+   !> Equation (E.2) of docs/theory/derivatives.md.
+   pure subroutine combine(stencil, sees, h, here, y1, y2, y3, y4, slope, gap, corner)
+      type(stencil_t), intent(in) :: stencil
+      logical, intent(in) :: sees                          !! sees_corners
+      real(wp), intent(in) :: h, here, y1, y2, y3, y4
+      real(wp), intent(out) :: slope, gap, corner
       real(wp) :: first, second
 
-      first = dot_product(stencil%first, y)/h
-      second = dot_product(stencil%second, y)/h
+      first = (stencil%first(1)*y1 + stencil%first(2)*y2 + stencil%first(3)*y3 + stencil%first(4)*y4)/h
+      second = (stencil%second(1)*y1 + stencil%second(2)*y2 + stencil%second(3)*y3 + stencil%second(4)*y4)/h
       slope = first + (first - second)/3.0_wp
       gap = 2.0_wp/3.0_wp*(first - second)
       ! a corner in the middle is the same in both quotients
       corner = 0.0_wp
-      if (sees_corners(stencil)) corner = (corner_weights(0)*here + dot_product(corner_weights(1:4), y))/h
-   end subroutine find_quotients
+      if (sees) corner = (corner_weights(0)*here + (corner_weights(1)*y1 + corner_weights(2)*y2 + corner_weights(3)*y3 + &
+         corner_weights(4)*y4))/h
+   end subroutine combine
 
 end module ek_stencil
