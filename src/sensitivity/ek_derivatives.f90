@@ -166,7 +166,7 @@ contains
          call learn_number(x, self%directions(p), result, points, inputs, self%neighbour, draft, changes(p), self%can_move(p))
       end do
       if (is_adjoint(self)) then
-         call derive_by_columns(x, result, first, last, inputs, changes, values, kept, points, self)
+         call derive_by_columns(x, result, first, last, inputs, changes, values, points, self)
       else
          call derive_by_numbers(x, result, first, last, inputs, changes, values, kept, points, self)
       end if
@@ -249,14 +249,13 @@ contains
 
    !> Computes the derivatives from the gradients of the columns, with one solution per column and state (adjoint method).
    !> Equation (E.9) of docs/theory/derivatives.md.
-   subroutine derive_by_columns(x, result, first, last, inputs, changes, values, kept, points, self)
+   subroutine derive_by_columns(x, result, first, last, inputs, changes, values, points, self)
       real(wp), intent(in) :: x(:)                         !! numbers of the design
       type(case_result_t), intent(inout) :: result
       integer, intent(in) :: first, last
       type(inputs_t), intent(in) :: inputs(first:)         !! inputs of each state
       type(change_t), intent(in) :: changes(:)             !! changes from learn_number, of each number
       real(wp), intent(in) :: values(:, first:)            !! (column, state)
-      real(wp), intent(in) :: kept(:, :, first:)           !! (load, unknown, state): data from keep_state
       type(point_t), intent(inout) :: points(first:)
       type(derivatives_t), intent(inout) :: self
       type(part_forces_t) :: parts
