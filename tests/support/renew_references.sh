@@ -1,9 +1,12 @@
 #!/bin/sh
-# renew_references.sh [BUILD_DIR]: write the kept outputs in tests/reference anew (test_reference_text), from a build of the
-# program and the tests; then look through `git diff tests/reference`.
+# renew_references.sh [BUILD_DIR]: write the kept outputs in tests/reference anew, from a build of the
+# program and of the tests that compare with them; then look through `git diff tests/reference`.
 set -eu
 cd "$(dirname "$0")/../.."
 build=${1:-build/release}
-cmake --build "$build" --target elastokin test_reference_text >/dev/null
-EK_RENEW_REFERENCES=1 EK_PROGRAM=$build/bin/elastokin "$build/tests/test_reference_text"
+programs='test_reference_text test_carmaker test_export_tables test_plain_tables'
+cmake --build "$build" --target elastokin $programs >/dev/null
+for program in $programs; do
+  EK_RENEW_REFERENCES=1 EK_PROGRAM=$build/bin/elastokin "$build/tests/$program"
+done
 git --no-pager diff --stat -- tests/reference
