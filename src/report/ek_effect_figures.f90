@@ -258,7 +258,7 @@ contains
       character(:), allocatable :: part
 
       part = ''
-      if (any_gap([effects])) part = '     $gaps'//str(panel)//" using 1:2:('–') with labels offset 1.5, 0 notitle, "//nl
+      if (any_gap([effects])) part = '     $gaps'//str(panel)//" using 1:2:('–') with labels offset 1.5, 0 notitle, \"//nl
    end function gaps_plot
 
    !> Script of the Sobol indices of some responses with their 95 % intervals. Indices from derivatives (tolerance studies)

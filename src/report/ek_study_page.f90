@@ -55,7 +55,7 @@ contains
       call add('Program', 'elastokin '//version)
       call add_facts(page, names, values)
       call add_warnings(page, plural(study%failed, 'design', 'designs')//' of '//str(study%designs)// &
-         ' failed and are omitted below', study%reasons)
+         ' failed and '//trim(merge('is ', 'are', study%failed == 1))//' omitted below', study%reasons)
       if (message /= '') call trouble%add(message)
       call add_warnings(page, 'Figures', trouble)
       ! the summary, in the order of the first page on paper
