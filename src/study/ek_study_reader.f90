@@ -3,21 +3,20 @@
 !> `&study` defines the study, `&factor` a number of the deck that is varied, `&correlation` the correlation of two factors, and
 !> `&response` a value read from the results.
 module ek_study_reader
-   use ek_kinds, only: wp, i8
+   use ek_kinds, only: wp
    use ek_error, only: error_t, fail, exit_deck
    use ek_text, only: str, lower, quoted, did_you_mean
    use ek_case, only: method_names, max_increments
    use ek_record, only: element, place_of
    use ek_group, only: group_number, study_groups, study_group, factor_group, response_group, correlation_group, record_head, &
-      word_length, max_values, max_paths, is_deck_group, names_of_groups
+      word_length, is_deck_group, names_of_groups
    use ek_namelist, only: check_record, is_legal_name
    use ek_deck, only: deck_t, read_deck, include_records
    use ek_deck_reading, only: deck_reading_t, complain, complain_of_all, refuse, choice, choose, has_key, where_of, line_of, &
-      text_of, texts_of, number_of, numbers_of, whole_of, switch_of, value_count, raw
-   use ek_distribution, only: distribution_kinds, uniform_kind, normal_kind, log_normal_kind
+      text_of, texts_of, number_of, whole_of, switch_of, value_count, raw
    use ek_sampler_kind, only: sampler_kinds, grid_kind, list_kind
-   use ek_study, only: study_t, study_factor_t, response_t, of_names, step_size_kind, kind_names, change_names, by_value, &
-      not_given, is_given
+   use ek_study, only: study_t, response_t, of_names, step_size_kind, kind_names
+   use ek_factor_reader, only: take_factor, is_lost
    implicit none(type, external)
    private
    public :: read_study
@@ -160,14 +159,14 @@ contains
          study%columns(c) = raw(reading, 'columns', c)
       end do
       study%columns = pack(study%columns, study%columns /= '')
-      study%increments = [(whole_of(reading, 'increments', 0, m), m=1, value_count(reading, 'increments'))]
+      study%increments = [(whole_of(reading, 'increments', 1, m), m=1, value_count(reading, 'increments'))]
       if (any(study%increments < 1 .or. study%increments > max_increments)) call complain(reading, 'increments', &
          'increments must be 1 to '//str(max_increments))
       do c = 2, size(study%columns)
          if (any(study%columns(:c - 1) == study%columns(c))) call complain(reading, 'columns', &
             'columns: '//quoted(study%columns(c))//' is named twice')
       end do
-      study%chunk = whole_of(reading, 'chunk', 0)
+      study%chunk = whole_of(reading, 'chunk', merge(1, 0, has_key(reading, 'chunk')))
       if (has_key(reading, 'chunk') .and. study%chunk < 1) call complain(reading, 'chunk', 'chunk must be 1 or more')
       call take_settings(reading, study)
       study%where = where_of(reading)
@@ -186,11 +185,12 @@ contains
       if (study%kind == 0) return
       why = 'kind = '//quoted(trim(kind_names(study%kind)))//' does not use it'
       if (study%kind /= list_kind) call refuse(reading, ['list'], why)
-      if (study%kind == list_kind .and. study%list == '') call complain(reading, '', 'kind = ''list'' needs list, a CSV file '// &
-         'with one row per design and one column per factor')
+      if (study%kind == list_kind .and. study%list == '' .and. .not. is_lost(reading, 'list')) call complain(reading, '', &
+         'kind = ''list'' needs list, a CSV file with one row per design and one column per factor')
       if (study%kind == step_size_kind) then
          call refuse(reading, [character(9) :: 'samples', 'levels', 'seed', 'scrambled', 'chunk', 'format'], why)
-         if (size(study%increments) == 0) call complain(reading, '', 'kind = ''step_size'' needs increments = …')
+         if (size(study%increments) == 0 .and. .not. is_lost(reading, 'increments')) call complain(reading, '', &
+            'kind = ''step_size'' needs increments = …')
          return
       end if
       call refuse(reading, [character(7) :: 'methods', 'end'], why)
@@ -199,101 +199,11 @@ contains
          if (.not. kind%has_size) call refuse(reading, ['samples'], why)
          if (.not. kind%has_levels) call refuse(reading, ['levels'], why)
          if (.not. kind%has_seed) call refuse(reading, [character(9) :: 'seed', 'scrambled'], why)
-         if (kind%has_size .and. study%settings%size < 1) call complain(reading, merge('samples', '       ', &
-            has_key(reading, 'samples')), 'kind = '//quoted(trim(kind%name))//' needs samples = 1 or more')
+         if (kind%has_size .and. study%settings%size < 1 .and. .not. is_lost(reading, 'samples')) call complain(reading, &
+            merge('samples', '       ', has_key(reading, 'samples')), &
+            'kind = '//quoted(trim(kind%name))//' needs samples = 1 or more')
       end associate
    end subroutine take_settings
-
-   !> Reads a &factor. Its values are a list, or steps (from, to, count and spacing), or a range.
-   subroutine take_factor(reading, study)
-      type(deck_reading_t), intent(inout) :: reading
-      type(study_t), intent(inout) :: study
-      character(*), parameter :: range_keys(6) = [character(12) :: 'lower', 'upper', 'nominal', 'tolerance', 'deviation', &
-         'distribution']
-      type(study_factor_t) :: this
-      integer :: k
-
-      this%name = text_of(reading, 'name')
-      allocate (this%paths(min(value_count(reading, 'path'), max_paths)))
-      do k = 1, size(this%paths)
-         this%paths(k) = raw(reading, 'path', k)
-      end do
-      this%is_each = switch_of(reading, 'each', .false.)
-      call choice(reading, 'change', change_names, this%change, default=by_value)
-      call choice(reading, 'distribution', distribution_kinds, this%distribution, default=uniform_kind)
-      this%lower = number_of(reading, 'lower', not_given())
-      this%upper = number_of(reading, 'upper', not_given())
-      this%nominal = number_of(reading, 'nominal', not_given())
-      this%tolerance = number_of(reading, 'tolerance', not_given())
-      this%deviation = number_of(reading, 'deviation', not_given())
-      this%where = where_of(reading)
-      call refuse(reading, ['weights'], 'only the factors of a fit have weights')
-      if (has_key(reading, 'values')) then
-         this%values = numbers_of(reading, 'values', value_count(reading, 'values'))
-         call refuse(reading, [character(5) :: 'from', 'to', 'count'], 'give values, or from, to and count, not both')
-      else if (has_key(reading, 'from') .or. has_key(reading, 'to') .or. has_key(reading, 'count')) then
-         call take_steps(reading, this)
-      else
-         call check_range(reading, study, this)
-      end if
-      if (allocated(this%values)) call refuse(reading, [range_keys(:2), range_keys(4:)], &
-         'a factor has values, or a range of its own, not both')
-      study%factors = [study%factors, this]
-   end subroutine take_factor
-
-   !> Reads from, to, count and spacing, which define values in equal steps, or in equal ratios (spacing = 'log').
-   subroutine take_steps(reading, this)
-      type(deck_reading_t), intent(inout) :: reading
-      type(study_factor_t), intent(inout) :: this
-      real(wp) :: from, to
-      integer :: count, spacing, j
-
-      call choice(reading, 'spacing', [character(6) :: 'linear', 'log'], spacing, default=1)
-      count = whole_of(reading, 'count', 2)
-      from = number_of(reading, 'from', 0.0_wp)
-      to = number_of(reading, 'to', 0.0_wp)
-      if (.not. (has_key(reading, 'count') .and. has_key(reading, 'from') .and. has_key(reading, 'to'))) then
-         call complain(reading, '', 'needs values, or from, to and count')
-      else if (count < 2 .or. count > max_values) then
-         call complain(reading, 'count', 'count must be 2 to '//str(max_values))
-      else if (spacing == 2 .and. .not. (from > 0.0_wp .and. to > 0.0_wp)) then
-         call complain(reading, 'spacing', 'spacing = ''log'' needs from and to above 0')
-      else if (spacing == 2) then
-         this%values = [(from*(to/from)**(real(j, wp)/(count - 1)), j=0, count - 1)]
-      else
-         this%values = [(from + (to - from)*real(j, wp)/(count - 1), j=0, count - 1)]
-      end if
-   end subroutine take_steps
-
-   !> Checks the range of a factor: lower and upper, nominal ± tolerance, or a distribution and its deviation.
-   subroutine check_range(reading, study, this)
-      type(deck_reading_t), intent(inout) :: reading
-      type(study_t), intent(in) :: study
-      type(study_factor_t), intent(in) :: this
-
-      if (study%kind == list_kind) return        ! its values are in the list
-      if (is_reversed(this%lower, this%upper)) then
-         call complain(reading, 'upper', 'upper must be above lower, found '//str(this%lower)//' to '//str(this%upper))
-      else if (is_given(this%tolerance) .and. is_given(this%deviation)) then
-         call complain(reading, 'deviation', 'give tolerance or deviation, not both')
-      else if (is_given(this%deviation) .and. this%distribution /= normal_kind .and. this%distribution /= log_normal_kind) then
-         call complain(reading, 'deviation', 'deviation needs distribution = ''normal'' or ''log_normal''')
-      else if (is_given(this%tolerance) .or. is_given(this%deviation)) then
-         continue
-      else if (this%distribution == normal_kind .or. this%distribution == log_normal_kind) then
-         call complain(reading, '', 'a normal distribution needs tolerance (three standard deviations) or deviation')
-      else if (.not. (is_given(this%lower) .and. is_given(this%upper))) then
-         call complain(reading, '', 'needs lower and upper, or tolerance, or values, or from, to and count')
-      end if
-   end subroutine check_range
-
-   !> Whether both ends of a range are given and are not in ascending order.
-   pure logical function is_reversed(lower, upper)
-      real(wp), intent(in) :: lower, upper
-
-      is_reversed = .false.
-      if (is_given(lower) .and. is_given(upper)) is_reversed = lower >= upper
-   end function is_reversed
 
    !> Reads a &correlation: two factors and their correlation.
    subroutine take_correlation(reading, study)
@@ -306,7 +216,7 @@ contains
       pair = 0
       do k = 1, 2
          do j = 1, size(study%factors)
-            if (study%factors(j)%name == names(k)) pair(k) = j
+            if (study%factors(j)%name == names(k) .and. names(k) /= '') pair(k) = j
          end do
          if (pair(k) > 0) then
             if (study%factors(pair(k))%is_each) call complain(reading, 'factors', 'a factor with each = .true. has no correlation')
@@ -328,9 +238,11 @@ contains
       type(study_t), intent(inout) :: study
       character(*), parameter :: of_slopes(2) = [character(4) :: 'at', 'over']
       type(response_t) :: this
+      logical :: is_known                                  ! the kind of the response
       integer :: c
 
       call choice(reading, 'of', of_names, c)
+      is_known = c > 0 .or. (text_of(reading, 'of') == '' .and. .not. is_lost(reading, 'of'))
       this%name = text_of(reading, 'name')
       this%column = text_of(reading, 'column')
       this%case = text_of(reading, 'case')
@@ -344,17 +256,18 @@ contains
          if (this%of == 'gradient' .and. has_key(reading, trim(of_slopes(c)))) call complain(reading, trim(of_slopes(c)), &
             'a gradient has no '//quoted(trim(of_slopes(c)))//', it is taken at design over the input of its test')
       end do
-      if (this%of /= 'gradient' .and. this%side /= '') call complain(reading, 'side', 'only a gradient has a side; '// &
-         'the name of a column begins with it')
+      if (is_known .and. this%of /= 'gradient' .and. this%side /= '') call complain(reading, 'side', &
+         'only a gradient has a side; the name of a column begins with it')
       this%file = text_of(reading, 'file')
       this%lower = number_of(reading, 'lower', this%lower)
       this%upper = number_of(reading, 'upper', this%upper)
       this%where = where_of(reading)
-      if ((this%of == 'rms') .neqv. (this%file /= '')) call complain(reading, merge('file', '    ', has_key(reading, 'file')), &
+      if (is_known .and. .not. is_lost(reading, 'file') .and. ((this%of == 'rms') .neqv. (this%file /= ''))) &
+         call complain(reading, merge('file', '    ', has_key(reading, 'file')), &
          'of = ''rms'' and file, a CSV of the curve from which the column deviates, belong together')
       if (this%lower > this%upper) &
          call complain(reading, 'upper', 'the limits leave no value: lower is above upper')
-      call take_difference(reading, study, this)
+      if (is_known) call take_difference(reading, study, this)
       study%responses = [study%responses, this]
    end subroutine take_response
 
@@ -368,12 +281,13 @@ contains
 
       if (this%of /= 'difference') then
          call refuse(reading, ['responses'], 'only of = ''difference'' has two responses')
-         if (.not. has_key(reading, 'column')) call complain(reading, '', '''column'' is missing')
+         if (.not. (has_key(reading, 'column') .or. is_lost(reading, 'column'))) call complain(reading, '', '''column'' is missing')
          return
       end if
       call refuse(reading, others, 'a difference has what its two responses have')
       this%names = texts_of(reading, 'responses', 2)
-      if (.not. has_key(reading, 'responses')) call complain(reading, '', 'of = ''difference'' needs responses, the names of two')
+      if (.not. (has_key(reading, 'responses') .or. is_lost(reading, 'responses'))) call complain(reading, '', &
+         'of = ''difference'' needs responses, the names of two')
       do k = 1, 2
          do j = 1, size(study%responses)
             if (study%responses(j)%name == this%names(k)) this%less(k) = j
