@@ -193,6 +193,7 @@ contains
       type(part_forces_t) :: parts
       type(block_gradients_t) :: gradients
       real(wp), allocatable :: motions(:, :, :), doubts(:, :)
+      logical :: by_blocks
       integer :: p, s
 
       allocate (doubts(size(self%directions), first:last), source=0.0_wp)
@@ -205,8 +206,12 @@ contains
             points(s)%is_regular)
       end do
       if (size(self%columns) == 0) return
-      if (reads_states(self%observer)) call begin_gradients(result%suspension, result%kkt, self%observer, gradients)
-      if (reads_states(self%observer) .and. are_cheaper(gradients, size(self%directions))) then
+      by_blocks = reads_states(self%observer)
+      if (by_blocks) then
+         call begin_gradients(result%suspension, result%kkt, self%observer, gradients)
+         by_blocks = are_cheaper(gradients, size(self%directions))
+      end if
+      if (by_blocks) then
          call add_shares(x, result, first, last, values, motions, points, gradients, self)
       else
          do p = 1, size(self%directions)

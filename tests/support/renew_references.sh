@@ -4,9 +4,9 @@
 set -eu
 cd "$(dirname "$0")/../.."
 build=${1:-build/release}
-programs='test_reference_text test_carmaker test_export_tables test_plain_tables'
-cmake --build "$build" --target elastokin $programs >/dev/null
-for program in $programs; do
+set -- test_reference_text test_carmaker test_export_tables test_plain_tables
+cmake --build "$build" --target elastokin "$@" >/dev/null
+for program; do
   EK_RENEW_REFERENCES=1 EK_PROGRAM=$build/bin/elastokin "$build/tests/$program"
 done
 git --no-pager diff --stat -- tests/reference
