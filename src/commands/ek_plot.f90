@@ -176,7 +176,7 @@ contains
       type(text_table_t) :: table
       type(message_list_t) :: scripts, pictures
       type(error_t), allocatable :: undrawn
-      character(:), allocatable :: folder, message, name
+      character(:), allocatable :: folder, message, name, script
 
       call read_text_table(join_path(out, study%name//'.csv'), table, error)
       if (allocated(error)) return
@@ -184,12 +184,20 @@ contains
       call make_folder(folder, error)
       if (allocated(error)) return
       name = study%name//figure_ending
-      call write_whole(join_path(folder, name//'.gp'), step_script(study%name, table), error, can_be_redrawn=.true.)
-      if (allocated(error)) return
-      call scripts%add(name//'.gp')
+      script = step_script(study%name, table)
       call pictures%add(name//'.png')
       call pictures%add(name//'.svg')
-      call run_gnuplot(scripts, pictures, folder, message, undrawn)
+      if (script == '') then
+         message = 'no error exceeds 1e-12, so that there is no figure'
+         call remove_file(join_path(folder, name//'.gp'))
+         call remove_file(join_path(folder, pictures%line(1)))
+         call remove_file(join_path(folder, pictures%line(2)))
+      else
+         call write_whole(join_path(folder, name//'.gp'), script, error, can_be_redrawn=.true.)
+         if (allocated(error)) return
+         call scripts%add(name//'.gp')
+         call run_gnuplot(scripts, pictures, folder, message, undrawn)
+      end if
       if (len(message) > 0) call print_note(is_quiet, message)
       if (allocated(undrawn)) message = undrawn%message
       if (len(message) > 0) folder = ''

@@ -93,6 +93,10 @@ contains
                call text%line('   of '//plural(data%summaries(r)%used, 'design', 'designs'))
             end if
          end associate
+         if (abs(data%moments(2, r)%deviation) <= 0.0_wp) then
+            call text%line('the factors do not change it')
+            return
+         end if
          call text%line('share of the variance:')
          is_free = .true.
          do k = 1, min(most_listed, size(data%factors))
@@ -104,7 +108,7 @@ contains
          end do
          call text%line('  interactions'//repeat(' ', 28)//right(percent(1.0_wp - sum(effects%first)), 7))
          call text%line('  not linear'//repeat(' ', 30)// &
-            right(percent(1.0_wp - (data%moments(1, r)%deviation/max(data%moments(2, r)%deviation, tiny(1.0_wp)))**2), 7))
+            right(percent(1.0_wp - (data%moments(1, r)%deviation/data%moments(2, r)%deviation)**2), 7))
       end associate
    end subroutine add_response
 

@@ -104,13 +104,16 @@ contains
       call add_picture(page, svg, 'Errors over the number of increments', 'figures/'//name//figure_ending//'.gp draws this figure.')
    end subroutine add_figure
 
-   !> The script of the figure: magnitudes of the errors over the number of increments, both on logarithmic axes.
+   !> The script of the figure: magnitudes of the errors over the number of increments, both on logarithmic axes. An error that is
+   !> nowhere drawn has no panel. If there is no panel, the script is ''.
    function step_script(name, table) result(text)
       character(*), intent(in) :: name                        !! name of the study
       type(text_table_t), intent(in) :: table
       character(:), allocatable :: text, subtitle, line
       type(sheet_t) :: sheet
       character(16) :: methods(table%rows)
+      integer, allocatable :: panels(:)
+      logical :: has_value(table%rows, errors)     ! (method, error)
       integer :: used, k, m, e
 
       used = 0
@@ -119,8 +122,18 @@ contains
          used = used + 1
          methods(used) = cell_of(table, k, 'method')
       end do
+      has_value = .false.
+      do k = 1, table%rows
+         m = findloc(methods(:used) == cell_of(table, k, 'method'), .true., dim=1)
+         do e = 1, errors
+            if (ieee_is_finite(drawn(value_of(table, k, columns(e))))) has_value(m, e) = .true.
+         end do
+      end do
+      panels = pack([(e, e=1, errors)], any(has_value, dim=1))
+      text = ''
+      if (size(panels) == 0) return
       subtitle = name//'; magnitudes; errors below 1e-12 are not drawn'
-      sheet = new_sheet(name//figure_ending, 'Errors over the number of increments', subtitle, errors)
+      sheet = new_sheet(name//figure_ending, 'Errors over the number of increments', subtitle, size(panels))
       do m = 1, used
          call begin_data(sheet, 'method'//str(m))
          do k = 1, table%rows
@@ -133,16 +146,19 @@ contains
       call sheet%text%line("set logscale xy; set key at screen 0.97, screen "//str(1.0_wp - 12.0_wp/full_height(sheet), 5)// &
          " right top samplen 1.6 textcolor rgb '#404040'")
       call sheet%text%line("set format y '%.0e'")
-      do e = 1, errors
-         call begin_panel(sheet, e, '', 'increments', trim(labels(e)))
+      do k = 1, size(panels)
+         e = panels(k)
+         call begin_panel(sheet, k, '', 'increments', trim(labels(e)))
          line = 'plot '
          do m = 1, used
             if (m > 1) line = line//', '
-            line = line//'$method'//str(m)//' using 1:'//str(e + 1)//" with linespoints pointtype 7 pointsize 0.6 linewidth 2 "// &
-               "linecolor rgb '"//palette(modulo(m - 1, size(palette)) + 1)//"' title '"//trim(methods(m))//"'"
+            if (has_value(m, e)) line = line//'$method'//str(m)//' using 1:'//str(e + 1)
+            if (.not. has_value(m, e)) line = line//'NaN'    ! gnuplot refuses data without a value; the legend has the method
+            line = line//" with linespoints pointtype 7 pointsize 0.6 linewidth 2 linecolor rgb '"// &
+               palette(modulo(m - 1, size(palette)) + 1)//"' title '"//trim(methods(m))//"'"
          end do
          call sheet%text%line(line)
-         if (e == 1) call sheet%text%line('unset key')       ! one legend, above the panels at the right
+         if (k == 1) call sheet%text%line('unset key')       ! one legend, above the panels at the right
       end do
       text = end_panels(sheet)
    end function step_script
