@@ -317,7 +317,7 @@ contains
       associate (list => variable%attributes)
          call list%add('units', units)
          call list%add('long_name', text)
-         call list%add('column', response%column)
+         if (response%column /= '') call list%add('column', response%column)
          call list%add('of', response%of)
          if (response%lower > -huge(1.0_wp)) call list%add('lower_limit', str(response%lower, 17), real_kind)
          if (response%upper < huge(1.0_wp)) call list%add('upper_limit', str(response%upper, 17), real_kind)

@@ -3,6 +3,7 @@
 # BUILD: a build folder of the preset asan, which is made if it does not exist. MUTATIONS: of all files together, default 100000.
 # They are always the same: a number found bad is found again. A text that breaks a reader is left in BUILD/mutation.txt.
 set -uo pipefail
+shopt -s extglob
 cd "$(dirname "$0")/../.." || exit 1
 top=$PWD
 build=$1
@@ -12,4 +13,4 @@ cmake --build "$build" --target readers --parallel "${EK_JOBS:-2}" >"$build/read
 build=$(realpath "$build")
 cd "$build" || exit 1
 ASAN_OPTIONS=detect_leaks=0:abort_on_error=0 UBSAN_OPTIONS=print_stacktrace=1 timeout "${EK_LIMIT:-3600}" \
-  tests/readers "$mutations" "$top"/tests/formats/files/*
+  tests/readers "$mutations" "$top"/tests/formats/files/!(*_*)     # names with _: the decks that are expected of these files

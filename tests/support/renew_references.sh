@@ -3,8 +3,10 @@
 # program and of the tests that compare with them; then look through `git diff tests/reference`.
 set -eu
 cd "$(dirname "$0")/../.."
-build=${1:-build/release}
-set -- test_reference_text test_carmaker test_export_tables test_plain_tables
+build=$(cd "${1:-build/release}" && pwd)
+set -- test_reference_text test_carmaker test_export_tables test_plain_tables test_study_store
+EK_NCDUMP=$(command -v ncdump)
+export EK_NCDUMP
 cmake --build "$build" --target elastokin "$@" >/dev/null
 for program; do
   EK_RENEW_REFERENCES=1 EK_PROGRAM=$build/bin/elastokin "$build/tests/$program"
