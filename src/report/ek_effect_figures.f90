@@ -297,6 +297,12 @@ contains
          r = panels(p)
          call begin_panel(sheet, p, study%responses(r)%label//basis_text(study%effects(r), 'base points'), &
             'share of the variance [–]', '')
+         if (.not. any(ieee_is_finite([study%effects(r)%first, study%effects(r)%total]))) then
+            ! gnuplot refuses data without a value
+            call sheet%text%line("unset ytics; set label 3 'constant, or too few designs' at graph 0.5, graph 0.5 center "// &
+               "textcolor rgb '#606060'; plot [0:1] -1 notitle; unset label 3; set ytics scale 0")
+            cycle
+         end if
          data = '$bars'//str(r)
          call sheet%text%line('plot '//data// &
             " using (0):1:(0):2:($1-0.36):($1-0.02):ytic(6) with boxxyerror linecolor rgb '#0072B2' notitle, \"//nl// &
