@@ -32,7 +32,7 @@ contains
       call read_checked(deck, workspace%design, workspace%raw, error, needs_tables)
       allocate (workspace%cases(0))
       if (allocated(error)) return
-      workspace%x = workspace%design%parameters%x(:workspace%design%parameters%used)
+      allocate (workspace%x, source=workspace%design%parameters%x(:workspace%design%parameters%used))
       workspace%stage = realised
    end subroutine open_model
 
@@ -115,7 +115,7 @@ contains
       call empty_workspace(workspace)
       call build_design(deck, workspace%design, workspace%raw, error, is_whole)
       if (allocated(error)) return
-      workspace%x = workspace%design%parameters%x(:workspace%design%parameters%used)
+      allocate (workspace%x, source=workspace%design%parameters%x(:workspace%design%parameters%used))
       workspace%stage = realised
       call prefer_plan(workspace%design%cases)
       allocate (workspace%cases(size(names)))
