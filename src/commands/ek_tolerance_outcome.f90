@@ -94,7 +94,7 @@ contains
             end if
          end associate
          if (abs(data%moments(2, r)%deviation) <= 0.0_wp) then
-            call text%line('the factors do not change it')
+            call text%line('no shares of the variance: all derivatives at the centre are zero')
             return
          end if
          call text%line('share of the variance:')

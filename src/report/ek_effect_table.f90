@@ -160,6 +160,7 @@ contains
             if (idle > 1) names = names//', '
             names = names//study%factors(f)%name//rests_on(study%effects(r), f)
          end do
+         if (study%kind == 'tolerance') names = names//', near the centre of the factors'
          if (idle > 0) call add_text(page, 'p', study%responses(r)%label//' does not depend on '//names//'.')
       end do
       call add_markup(page, '</details>')
