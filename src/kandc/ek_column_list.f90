@@ -12,7 +12,7 @@ module ek_column_list
    use ek_table, only: name_length
    implicit none(type, external)
    private
-   public :: column_list_t, begin_list, add_quantities, add_column, end_block, fill_block, choose, conditions_of
+   public :: column_list_t, begin_list, add_quantities, add_column, end_block, fill_block, fill_asked, choose, conditions_of
 
    type :: column_list_t
       integer :: used = 0                              !! number of columns
@@ -126,6 +126,22 @@ contains
          end do
       end if
    end subroutine fill_block
+
+   !> Copies the requested values of a block, as fill_block does, to a row of the requested columns alone.
+   pure subroutine fill_asked(list, block, vector, values)
+      class(column_list_t), intent(in) :: list
+      integer, intent(in) :: block
+      real(wp), intent(in) :: vector(*)                !! values of all quantities of the sections of the block, SI
+      real(wp), intent(inout) :: values(*)             !! values of the requested columns, in their units
+      integer :: k, j, first
+
+      first = 1
+      if (block > 1) first = list%last_asked(block - 1) + 1
+      do j = first, list%last_asked(block)
+         k = list%asked(j)
+         values(j) = vector(list%place(k))/list%unit(k)
+      end do
+   end subroutine fill_asked
 
    !> Chooses the columns that are filled. A block without a requested column is skipped. The matrix is solved only if a requested
    !> column needs it.

@@ -13,7 +13,6 @@ module ek_state_columns
    use ek_element, only: element_kinds, is_of_angle
    use ek_element_force, only: spring_tension
    use ek_elastic, only: bushing_evaluation_t, evaluate_bushing, bushing_load
-   use ek_same_parts, only: same_measure, same_element, same_wheel
    use ek_suspension, only: suspension_t
    use ek_state, only: state_t
    use ek_kkt, only: kkt_t
@@ -22,12 +21,13 @@ module ek_state_columns
    use ek_column_list, only: column_list_t, begin_list, add_quantities, add_column, end_block, fill_block, choose
    implicit none(type, external)
    private
-   public :: list_state, state_columns, state_values, has_wheels, has_joints, has_only_wheels
-   public :: block_values, block_reads, same_block, parts_of_block
+   public :: list_state, state_columns, state_values, block_vector, has_wheels, has_joints, has_only_wheels
+   public :: most_values
+   public :: of_position, of_axis, of_element, of_readout, of_bushing, of_joint
 
    ! sections: of a wheel, an element of one measure, a measure, a bushing, a joint
    integer, parameter :: of_position = 1, of_axis = 2, of_element = 3, of_readout = 4, of_bushing = 5, of_joint = 6
-   integer, parameter :: most = max(12, size(wheel_position), size(steer_axis))      !! greatest number of values of a section
+   integer, parameter :: most_values = max(12, size(wheel_position), size(steer_axis))   !! greatest number of values of a section
 
    ! rotations, cosines, lengths: ending of the column of an element's value, and its unit
    character(*), parameter :: endings(3) = [character(10) :: '_angle_deg', '_cosine', '_length_mm']
@@ -134,24 +134,26 @@ contains
       type(kkt_t), intent(in) :: kkt             !! if has_joints, assembled at this state; provides the gradients of the rows
       type(column_list_t), intent(in) :: list    !! of state_columns
       real(wp), intent(inout) :: row(*)          !! one per column; values not requested are unchanged
+      real(wp) :: values(most_values)
       integer :: k
 
       do k = 1, size(list%blocks)
-         call block_values(suspension, state, wheels, kkt, list, list%blocks(k), row)
+         call block_vector(suspension, state, wheels, kkt, list, list%blocks(k), values)
+         call fill_block(list, list%blocks(k), values, .true., row)
       end do
    end subroutine state_values
 
-   !> Computes the values of the requested columns of one block, as state_values does. A new section needs its case here; block_reads
-   !> and same_block are right without one, but with one its derivatives are cheaper.
-   pure subroutine block_values(suspension, state, wheels, kkt, list, b, row)
+   !> Computes the values of all quantities of one block. A new section needs its case here; ek_state_blocks is right without one,
+   !> but with one its derivatives are cheaper.
+   pure subroutine block_vector(suspension, state, wheels, kkt, list, b, values)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
       type(attitude_t), intent(in) :: wheels(:)  !! as for state_values
       type(kkt_t), intent(in) :: kkt             !! as for state_values
       type(column_list_t), intent(in) :: list
       integer, intent(in) :: b                   !! index of the block
-      real(wp), intent(inout) :: row(*)
-      real(wp) :: frame(3), values(most)
+      real(wp), intent(inout) :: values(most_values)      !! as fill_block takes them
+      real(wp) :: frame(3)
 
       frame = deck_frame(suspension)
       select case (list%section(b))
@@ -170,113 +172,13 @@ contains
       case (of_joint)
          call joint_values(suspension, state, kkt%gradients, frame, list%item(b), values)
       end select
-      call fill_block(list, b, values, .true., row)
-   end subroutine block_values
-
-   !> Finds the unknowns that the values of a block follow from: unknowns of bodies, and reactions of rows.
-   pure subroutine block_reads(suspension, list, b, is_read)
-      type(suspension_t), intent(in) :: suspension
-      type(column_list_t), intent(in) :: list
-      integer, intent(in) :: b                   !! index of the block
-      logical, intent(out) :: is_read(:)         !! of each unknown of the system
-      integer :: t
-
-      is_read = .false.
-      associate (k => list%item(b))
-         select case (list%section(b))
-         case (of_position, of_axis)
-            call mark_body(suspension%wheels(k)%body, is_read)
-         case (of_element, of_bushing)
-            call mark_body(suspension%elements(k)%measure%body_i, is_read)
-            call mark_body(suspension%elements(k)%measure%body_j, is_read)
-         case (of_readout)
-            call mark_body(suspension%readouts(k)%measure%body_i, is_read)
-            call mark_body(suspension%readouts(k)%measure%body_j, is_read)
-         case (of_joint)
-            associate (joint => suspension%joints(k))
-               associate (first => suspension%unknowns() + joint%first_row)
-                  is_read(first:first + joint%rows - 1) = .true.
-               end associate
-               if (joint%is_of_measures) return
-               call mark_body(joint%body_j, is_read)
-               do t = first_term(suspension, joint%first_row), last_term(suspension, joint%first_row + joint%rows - 1)
-                  call mark_body(suspension%terms(t)%measure%body_i, is_read)
-                  call mark_body(suspension%terms(t)%measure%body_j, is_read)
-               end do
-            end associate
-         case default
-            is_read = .true.
-         end select
-      end associate
-   end subroutine block_reads
-
-   !> Marks the unknowns of a body.
-   pure subroutine mark_body(body, is_read)
-      integer, intent(in) :: body                !! 0: the chassis, which has none
-      logical, intent(inout) :: is_read(:)
-      if (body > 0) is_read(6*body - 5:6*body) = .true.
-   end subroutine mark_body
-
-   !> Whether the values of a block at a state are equal in two designs: all numbers that they follow from are equal.
-   pure logical function same_block(here, there, list, b)
-      type(suspension_t), intent(in) :: here, there
-      type(column_list_t), intent(in) :: list
-      integer, intent(in) :: b                   !! index of the block
-      integer :: t
-
-      associate (k => list%item(b))
-         select case (list%section(b))
-         case (of_position, of_axis)
-            associate (body => here%wheels(k)%body)
-               same_block = same_wheel(here%wheels(k), there%wheels(k)) .and. &
-                  .not. any(abs(here%bodies(body)%origin - there%bodies(body)%origin) > 0.0_wp)
-            end associate
-         case (of_element, of_bushing)
-            same_block = same_element(here%elements(k), there%elements(k))
-         case (of_readout)
-            same_block = same_measure(here%readouts(k)%measure, there%readouts(k)%measure)
-         case (of_joint)
-            associate (a => here%joints(k), first => here%joints(k)%first_row)
-               same_block = .not. any(abs(a%arm_j - there%joints(k)%arm_j) > 0.0_wp)
-               do t = first_term(here, first), last_term(here, first + a%rows - 1)
-                  same_block = same_block .and. same_measure(here%terms(t)%measure, there%terms(t)%measure) .and. &
-                     .not. abs(here%terms(t)%coefficient - there%terms(t)%coefficient) > 0.0_wp
-               end do
-            end associate
-         case default
-            same_block = .false.
-         end select
-      end associate
-   end function same_block
-
-   !> Finds the wheel whose attitude a block follows from, and the joint whose gradients; 0: none.
-   pure subroutine parts_of_block(list, b, wheel, joint)
-      type(column_list_t), intent(in) :: list
-      integer, intent(in) :: b
-      integer, intent(out) :: wheel, joint
-
-      wheel = merge(list%item(b), 0, list%section(b) <= of_axis)
-      joint = merge(list%item(b), 0, list%section(b) == of_joint)
-   end subroutine parts_of_block
-
-   !> Index of the first term of a row, of the last term of a row.
-   pure integer function first_term(suspension, row)
-      type(suspension_t), intent(in) :: suspension
-      integer, intent(in) :: row
-      first_term = suspension%rows(row)%first
-   end function first_term
-
-   pure integer function last_term(suspension, row)
-      type(suspension_t), intent(in) :: suspension
-      integer, intent(in) :: row
-      last_term = suspension%rows(row)%first + suspension%rows(row)%terms - 1
-   end function last_term
+   end subroutine block_vector
 
    !> Computes the values of the section wheel_position, in SI.
    pure subroutine position_values(now, frame, values)
       type(attitude_t), intent(in) :: now
       real(wp), intent(in) :: frame(3)
-      real(wp), intent(inout) :: values(most)
+      real(wp), intent(inout) :: values(most_values)
 
       values(1) = now%centre(3)
       values(2) = now%toe
@@ -293,7 +195,7 @@ contains
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
       integer, intent(in) :: k
-      real(wp), intent(inout) :: values(most)
+      real(wp), intent(inout) :: values(most_values)
       real(wp) :: length, tension, slope
 
       associate (element => suspension%elements(k), m => suspension%elements(k)%measure)
@@ -310,7 +212,7 @@ contains
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
       integer, intent(in) :: k
-      real(wp), intent(inout) :: values(most)
+      real(wp), intent(inout) :: values(most_values)
       type(bushing_evaluation_t) :: evaluation
       integer :: i
 
@@ -332,7 +234,7 @@ contains
       real(wp), intent(in) :: gradients(:, :)    !! gradients of the terms of rows
       real(wp), intent(in) :: frame(3)
       integer, intent(in) :: k
-      real(wp), intent(inout) :: values(most)
+      real(wp), intent(inout) :: values(most_values)
       real(wp) :: force(3), moment(3), arm(3)
       integer :: r, t
 

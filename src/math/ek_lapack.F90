@@ -1,4 +1,4 @@
-!> The LAPACK routines in use, with floating-point traps restricted to our own code.
+!> The LAPACK and BLAS routines in use, with floating-point traps restricted to our own code.
 !>
 !> In a build that traps invalid operations (EK_TRAPS, the debug preset) each routine is wrapped so that no trap is active
 !> inside the library. Vector kernels also compute on unused lanes: the SSE3 dsymv of OpenBLAS, its fallback for unknown
@@ -12,18 +12,33 @@ module ek_lapack
    use ek_kinds, only: wp
    use ek_lapack_routines, only: lapack_dsytrf => dsytrf, lapack_dsytrs => dsytrs, lapack_dsytrs2 => dsytrs2, &
       lapack_dlacn2 => dlacn2, lapack_dsysv => dsysv, lapack_dgesv => dgesv, lapack_dsyev => dsyev, lapack_dgesvd => dgesvd, &
-      lapack_dgelsd => dgelsd, lapack_dpotrf => dpotrf, lapack_dgetrf => dgetrf, lapack_dgetrs => dgetrs
+      lapack_dgelsd => dgelsd, lapack_dpotrf => dpotrf, lapack_dgetrf => dgetrf, lapack_dgetrs => dgetrs, &
+      lapack_dgemm => dgemm
 #else
-   use ek_lapack_routines, only: dsytrf, dsytrs, dsytrs2, dlacn2, dsysv, dgesv, dsyev, dgesvd, dgelsd, dpotrf, dgetrf, dgetrs
+   use ek_lapack_routines, only: dsytrf, dsytrs, dsytrs2, dlacn2, dsysv, dgesv, dsyev, dgesvd, dgelsd, dpotrf, dgetrf, dgetrs, &
+      dgemm
 #endif
    implicit none(type, external)
    private
-   public :: dsytrf, dsytrs, dsytrs2, dlacn2, dsysv, dgesv, dsyev, dgesvd, dgelsd, dpotrf, dgetrf, dgetrs
+   public :: dsytrf, dsytrs, dsytrs2, dlacn2, dsysv, dgesv, dsyev, dgesvd, dgelsd, dpotrf, dgetrf, dgetrs, dgemm
 
 #ifdef EK_TRAPS
 contains
 
    ! what each does, and its arguments: see ek_lapack_routines
+
+   pure subroutine dgemm(transa, transb, m, n, k, alpha, a, lda, b, ldb, beta, c, ldc)
+      use, intrinsic :: ieee_exceptions, only: ieee_set_halting_mode, ieee_set_flag, ieee_usual
+      character, intent(in) :: transa, transb
+      integer, intent(in) :: m, n, k, lda, ldb, ldc
+      real(wp), intent(in) :: alpha, beta
+      real(wp), intent(in) :: a(lda, *), b(ldb, *)
+      real(wp), intent(inout) :: c(ldc, *)
+
+      call ieee_set_halting_mode(ieee_usual, .false.)
+      call lapack_dgemm(transa, transb, m, n, k, alpha, a, lda, b, ldb, beta, c, ldc)
+      call ieee_set_flag(ieee_usual, .false.)
+   end subroutine dgemm
 
    pure subroutine dpotrf(uplo, n, a, lda, info)
       use, intrinsic :: ieee_exceptions, only: ieee_set_halting_mode, ieee_set_flag, ieee_usual

@@ -1,13 +1,25 @@
-!> Explicit interfaces to the LAPACK routines in use, so that the compiler detects wrong arguments.
+!> Explicit interfaces to the LAPACK and BLAS routines in use, so that the compiler detects wrong arguments.
 !>
 !> Call them through ek_lapack, which disables floating-point traps inside the library.
 module ek_lapack_routines
    use ek_kinds, only: wp
    implicit none(type, external)
    private
-   public :: dsytrf, dsytrs, dsytrs2, dlacn2, dsysv, dsyev, dgesv, dgetrf, dgetrs, dgesvd, dgelsd, dpotrf
+   public :: dsytrf, dsytrs, dsytrs2, dlacn2, dsysv, dsyev, dgesv, dgetrf, dgetrs, dgesvd, dgelsd, dpotrf, dgemm
 
    interface
+      !> Computes c ← alpha op(a) op(b) + beta c, where op(a) has m rows and k columns; op is 'N' for the matrix itself, 'T' for its
+      !> transpose.
+      pure subroutine dgemm(transa, transb, m, n, k, alpha, a, lda, b, ldb, beta, c, ldc)
+         import :: wp
+         implicit none(type, external)
+         character, intent(in) :: transa, transb
+         integer, intent(in) :: m, n, k, lda, ldb, ldc
+         real(wp), intent(in) :: alpha, beta
+         real(wp), intent(in) :: a(lda, *), b(ldb, *)
+         real(wp), intent(inout) :: c(ldc, *)
+      end subroutine dgemm
+
       !> Factorises a symmetric positive definite matrix by Cholesky's method. info is the order of the first minor that is not
       !> positive, or 0.
       pure subroutine dpotrf(uplo, n, a, lda, info)

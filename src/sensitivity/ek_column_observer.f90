@@ -8,7 +8,9 @@ module ek_column_observer
    use ek_attitude, only: attitude_t, find_attitude
    use ek_table, only: name_length
    use ek_sweep_table, only: observer_t, make_observer, observe_state, quantity_columns, reads_matrix, reads_poses_of_wheels
-   use ek_state_columns, only: block_values, block_reads, same_block, parts_of_block
+   use ek_state_columns, only: block_vector, most_values
+   use ek_column_list, only: fill_asked
+   use ek_state_blocks, only: block_reads, same_block, parts_of_block, pair_of_block, is_linear_block
    use ek_compliance, only: compliance_t, new_compliance, keep_responses
    use ek_skew_system, only: has_skew_part
    use ek_compliance_table, only: compliance_columns, observe_compliance
@@ -16,7 +18,7 @@ module ek_column_observer
    private
    public :: column_observer_t, new_column_observer, observe_columns, keep_state, kept_loads, &
       reads_states, reads_wheels_only
-   public :: count_blocks, columns_of_block, find_reads, is_same_block, observe_block
+   public :: count_blocks, columns_of_block, find_reads, find_pair, is_linear, is_same_block, observe_block
 
    !> The requested columns of a model, and work space to observe the columns.
    type :: column_observer_t
@@ -106,6 +108,22 @@ contains
       call block_reads(suspension, self%observer%list, self%observer%list%blocks(k), is_read)
    end subroutine find_reads
 
+   !> Finds the bodies i and j if the values of a block follow from the pose of j relative to i alone; else both are 0.
+   pure subroutine find_pair(suspension, self, k, body_i, body_j)
+      type(suspension_t), intent(in) :: suspension
+      type(column_observer_t), intent(in) :: self
+      integer, intent(in) :: k
+      integer, intent(out) :: body_i, body_j
+      call pair_of_block(suspension, self%observer%list, self%observer%list%blocks(k), body_i, body_j)
+   end subroutine find_pair
+
+   !> Whether the values of a block are proportional to its reactions, at given poses.
+   pure logical function is_linear(self, k)
+      type(column_observer_t), intent(in) :: self
+      integer, intent(in) :: k
+      is_linear = is_linear_block(self%observer%list, self%observer%list%blocks(k))
+   end function is_linear
+
    !> Whether the values of a block at any state are equal in two designs.
    pure logical function is_same_block(here, there, self, k)
       type(suspension_t), intent(in) :: here, there
@@ -122,7 +140,8 @@ contains
       type(column_observer_t), intent(inout) :: self
       integer, intent(in) :: k
       real(wp), intent(inout) :: values(:)                 !! of all columns; those of the block change
-      integer :: j, first, last, wheel, joint
+      real(wp) :: vector(most_values)
+      integer :: wheel, joint
 
       associate (list => self%observer%list, b => self%observer%list%blocks(k))
          call parts_of_block(list, b, wheel, joint)
@@ -137,11 +156,8 @@ contains
                call assemble_gradients(suspension, state, row, row + rows - 1, kkt)
             end associate
          end if
-         call block_values(suspension, state, self%wheels, kkt, list, b, self%work(3:))
-         call columns_of_block(self, k, first, last)
-         do j = first, last
-            values(j) = self%work(2 + list%asked(j))
-         end do
+         call block_vector(suspension, state, self%wheels, kkt, list, b, vector)
+         call fill_asked(list, b, vector, values)
       end associate
    end subroutine observe_block
 

@@ -26,6 +26,7 @@ module ek_derivatives
    use ek_contract, only: are_checked, require
    use ek_error, only: error_t, fail, exit_usage
    use ek_text, only: quoted
+   use ek_lapack, only: dgemm
    use ek_case, only: case_t
    use ek_state, only: state_t, inputs_t, design_state
    use ek_table, only: name_length
@@ -38,8 +39,8 @@ module ek_derivatives
       reads_wheels_only
    use ek_column_gradient, only: find_gradients, parts_of_gradient
    use ek_direction, only: direction_t
-   use ek_block_gradient, only: block_gradients_t, begin_gradients, are_cheaper, find_block_gradients, add_motions
-   use ek_observed_slopes, only: find_slopes_along, find_slopes_at
+   use ek_block_gradient, only: block_gradients_t, begin_gradients, are_cheaper, find_block_gradients, find_shares
+   use ek_observed_slopes, only: find_slopes_along, add_slopes_at
    use ek_neighbour, only: neighbour_t, point_t, begin_neighbour, follow_design, take_states, learn_number
    implicit none(type, external)
    private
@@ -133,9 +134,6 @@ contains
          if (.not. allocated(self%slopes)) allocate (self%values(columns, states), self%slopes(columns, directions, states), &
             self%errors(columns, directions, states))
       end associate
-      self%values(:, :) = ieee_value(1.0_wp, ieee_quiet_nan)
-      self%slopes(:, :, :) = ieee_value(1.0_wp, ieee_quiet_nan)
-      self%errors(:, :, :) = ieee_value(1.0_wp, ieee_quiet_nan)
       self%can_move(:) = .true.
    end subroutine allocate_results
 
@@ -150,6 +148,7 @@ contains
       real(wp), allocatable :: values(:, :), kept(:, :, :)
       type(change_t) :: changes(size(self%directions))
       type(draft_t) :: draft
+      type(block_gradients_t) :: gradients
       integer :: p, s
 
       allocate (points(first:last), inputs(first:last))
@@ -167,9 +166,21 @@ contains
       end do
       if (is_adjoint(self)) then
          call derive_by_columns(x, result, first, last, inputs, changes, values, points, self)
+      else if (is_by_blocks(result, self, gradients)) then
+         call derive_by_blocks(x, result, first, last, inputs, changes, values, points, gradients, self)
       else
          call derive_by_numbers(x, result, first, last, inputs, changes, values, kept, points, self)
       end if
+      do s = first, last
+         if (points(s)%is_regular) cycle
+         self%slopes(:, :, s) = ieee_value(1.0_wp, ieee_quiet_nan)
+         self%errors(:, :, s) = ieee_value(1.0_wp, ieee_quiet_nan)
+      end do
+      do p = 1, size(self%directions)
+         if (self%can_move(p)) cycle
+         self%slopes(:, p, first:last) = ieee_value(1.0_wp, ieee_quiet_nan)
+         self%errors(:, p, first:last) = ieee_value(1.0_wp, ieee_quiet_nan)
+      end do
    end subroutine derive
 
    !> Whether the derivatives are computed by columns: one solution per column costs less than one per number, and all columns
@@ -178,6 +189,18 @@ contains
       type(derivatives_t), intent(in) :: self
       is_adjoint = size(self%columns) > 0 .and. 3*size(self%columns) <= size(self%directions) .and. reads_states(self%observer)
    end function is_adjoint
+
+   !> Whether the derivatives are computed from gradients of blocks of columns. If so, prepares the gradients.
+   logical function is_by_blocks(result, self, gradients)
+      type(case_result_t), intent(in) :: result
+      type(derivatives_t), intent(in) :: self
+      type(block_gradients_t), intent(inout) :: gradients
+
+      is_by_blocks = size(self%columns) > 0 .and. reads_states(self%observer)
+      if (.not. is_by_blocks) return
+      call begin_gradients(result%suspension, result%kkt, self%observer, gradients)
+      is_by_blocks = are_cheaper(gradients, size(self%directions))
+   end function is_by_blocks
 
    !> Computes the derivatives from the motions of the states, with one solution per number and state.
    subroutine derive_by_numbers(x, result, first, last, inputs, changes, values, kept, points, self)
@@ -191,9 +214,7 @@ contains
       type(point_t), intent(inout) :: points(first:)
       type(derivatives_t), intent(inout) :: self
       type(part_forces_t) :: parts
-      type(block_gradients_t) :: gradients
       real(wp), allocatable :: motions(:, :, :), doubts(:, :)
-      logical :: by_blocks
       integer :: p, s
 
       allocate (doubts(size(self%directions), first:last), source=0.0_wp)
@@ -206,51 +227,64 @@ contains
             points(s)%is_regular)
       end do
       if (size(self%columns) == 0) return
-      by_blocks = reads_states(self%observer)
-      if (by_blocks) then
-         call begin_gradients(result%suspension, result%kkt, self%observer, gradients)
-         by_blocks = are_cheaper(gradients, size(self%directions))
-      end if
-      if (by_blocks) then
-         call add_shares(x, result, first, last, values, motions, points, gradients, self)
-      else
-         do p = 1, size(self%directions)
-            if (self%can_move(p)) call find_slopes_along(motions(:, p, :), x, self%directions(p), result, points, inputs, values, &
-               kept, self%neighbour, self%observer, self%can_move(p), self%slopes(:, p, first:last), self%errors(:, p, first:last))
-         end do
-      end if
+      do p = 1, size(self%directions)
+         if (self%can_move(p)) call find_slopes_along(motions(:, p, :), x, self%directions(p), result, points, inputs, values, &
+            kept, self%neighbour, self%observer, self%can_move(p), self%slopes(:, p, first:last), self%errors(:, p, first:last))
+      end do
+      call add_doubts(doubts, first, last, self)
+   end subroutine derive_by_numbers
+
+   !> Adds the errors of ∂F/∂p to the errors of the derivatives.
+   subroutine add_doubts(doubts, first, last, self)
+      integer, intent(in) :: first, last
+      real(wp), intent(in) :: doubts(:, first:)            !! (number, state), from add_forces
+      type(derivatives_t), intent(inout) :: self
+      integer :: p, s
+
       do s = first, last
          do p = 1, size(self%directions)
-            self%errors(:, p, s) = self%errors(:, p, s) + doubts(p, s)*abs(self%slopes(:, p, s))
+            if (.not. abs(doubts(p, s)) <= 0.0_wp) self%errors(:, p, s) = self%errors(:, p, s) + doubts(p, s)* &
+               abs(self%slopes(:, p, s))
          end do
       end do
-   end subroutine derive_by_numbers
+   end subroutine add_doubts
 
    !> Computes the derivatives of columns of states as ∂y/∂z dz/dp + ∂y/∂p, with one gradient ∂y/∂z for all numbers.
    !> Equation (E.9) of docs/theory/derivatives.md.
-   subroutine add_shares(x, result, first, last, values, motions, points, gradients, self)
+   subroutine derive_by_blocks(x, result, first, last, inputs, changes, values, points, gradients, self)
       real(wp), intent(in) :: x(:)                         !! numbers of the design
       type(case_result_t), intent(inout) :: result
       integer, intent(in) :: first, last
+      type(inputs_t), intent(in) :: inputs(first:)         !! inputs of each state
+      type(change_t), intent(in) :: changes(:)             !! changes from learn_number, of each number
       real(wp), intent(in) :: values(:, first:)            !! (column, state)
-      real(wp), intent(in) :: motions(:, :, first:)        !! (unknown, number, state): dz/dp
-      type(point_t), intent(in) :: points(first:)
+      type(point_t), intent(inout) :: points(first:)
       type(block_gradients_t), intent(inout) :: gradients  !! from begin_gradients
       type(derivatives_t), intent(inout) :: self
+      type(part_forces_t) :: parts
       type(state_t) :: moved
+      real(wp) :: motions(result%kkt%n, size(self%directions)), doubts(size(self%directions), first:last)
       integer :: p, s
 
-      do p = 1, size(self%directions)
-         if (self%can_move(p)) call find_slopes_at(x, self%directions(p), result, points, values, self%neighbour, self%observer, &
-            self%can_move(p), self%slopes(:, p, first:last), self%errors(:, p, first:last))
-      end do
+      doubts = 0.0_wp
+      call choose_parts(result%suspension, changes, parts)
       moved = design_state(result%suspension)
       do s = first, last
          if (.not. points(s)%is_regular) cycle
+         motions = 0.0_wp
+         call add_forces(result, points(s)%state, inputs(s), s - first + 1, changes, parts, self, motions, doubts(:, s))
+         call solve_motions(result%suspension, points(s)%state, inputs(s), result%kkt, size(self%directions), motions, &
+            points(s)%is_regular)
+         if (.not. points(s)%is_regular) cycle
          call find_block_gradients(result%suspension, points(s)%state, result%kkt, values(:, s), self%observer, moved, gradients)
-         call add_motions(motions(:, :, s), gradients, self%slopes(:, :, s), self%errors(:, :, s))
+         call find_shares(motions, values(:, s), gradients, self%slopes(:, :, s), self%errors(:, :, s))
       end do
-   end subroutine add_shares
+      do p = 1, size(self%directions)
+         if (self%can_move(p)) call add_slopes_at(x, self%directions(p), result, points, values, self%neighbour, self%observer, &
+            self%can_move(p), self%slopes(:, p, first:last), self%errors(:, p, first:last))
+      end do
+      call add_doubts(doubts, first, last, self)
+   end subroutine derive_by_blocks
 
    !> Computes the derivatives from the gradients of the columns, with one solution per column and state (adjoint method).
    !> Equation (E.9) of docs/theory/derivatives.md.
@@ -266,21 +300,20 @@ contains
       type(part_forces_t) :: parts
       type(state_t) :: moved
       real(wp) :: forces(result%kkt%n, size(self%directions)), doubts(size(self%directions)), &
-         gradients(result%kkt%n, parts_of_gradient, size(self%columns)), share(parts_of_gradient)
-      integer :: c, p, s, k
+         gradients(result%kkt%n, parts_of_gradient, size(self%columns)), &
+         shares(parts_of_gradient, size(self%columns), size(self%directions))
+      integer :: c, p, s
 
-      ! at states that do not move
+      do s = first, last
+         if (.not. points(s)%is_regular) cycle
+         self%slopes(:, :, s) = spread(values(:, s) - values(:, s), 2, size(self%directions))
+         self%errors(:, :, s) = self%slopes(:, :, s)
+      end do
       do p = 1, size(self%directions)
          if (.not. self%can_move(p)) cycle
-         if (changes(p)%moves_wheels .or. .not. reads_wheels_only(self%observer)) then
-            call find_slopes_at(x, self%directions(p), result, points, values, self%neighbour, self%observer, &
-               self%can_move(p), self%slopes(:, p, first:last), self%errors(:, p, first:last))
-            cycle
-         end if
-         do s = first, last
-            if (points(s)%is_regular) self%slopes(:, p, s) = 0.0_wp
-            if (points(s)%is_regular) self%errors(:, p, s) = 0.0_wp
-         end do
+         if (changes(p)%moves_wheels .or. .not. reads_wheels_only(self%observer)) call add_slopes_at(x, self%directions(p), &
+            result, points, values, self%neighbour, self%observer, self%can_move(p), self%slopes(:, p, first:last), &
+            self%errors(:, p, first:last))
       end do
       call choose_parts(result%suspension, changes, parts)
       moved = design_state(result%suspension)
@@ -290,22 +323,17 @@ contains
             gradients)
          call solve_motions(result%suspension, points(s)%state, inputs(s), result%kkt, size(gradients)/result%kkt%n, gradients, &
             points(s)%is_regular, is_transposed=.true.)
-         if (.not. points(s)%is_regular) then
-            self%slopes(:, :, s) = ieee_value(1.0_wp, ieee_quiet_nan)
-            self%errors(:, :, s) = ieee_value(1.0_wp, ieee_quiet_nan)
-            cycle
-         end if
+         if (.not. points(s)%is_regular) cycle
          forces = 0.0_wp
          call add_forces(result, points(s)%state, inputs(s), s - first + 1, changes, parts, self, forces, doubts)
+         call dgemm('T', 'N', size(gradients)/result%kkt%n, size(self%directions), result%kkt%n, 1.0_wp, gradients, result%kkt%n, &
+            forces, result%kkt%n, 0.0_wp, shares, size(gradients)/result%kkt%n)
          do p = 1, size(self%directions)
-            if (.not. self%can_move(p)) cycle
             do c = 1, size(self%columns)
-               share = 0.0_wp
-               do k = 1, result%kkt%n
-                  if (.not. abs(forces(k, p)) <= 0.0_wp) share = share + forces(k, p)*gradients(k, :, c)   ! most of F stays
-               end do
-               self%slopes(c, p, s) = self%slopes(c, p, s) + share(1)
-               self%errors(c, p, s) = self%errors(c, p, s) + abs(share(2)) + abs(share(3)) + doubts(p)*abs(share(1))
+               associate (share => shares(:, c, p))
+                  self%slopes(c, p, s) = self%slopes(c, p, s) + share(1)
+                  self%errors(c, p, s) = self%errors(c, p, s) + abs(share(2)) + abs(share(3)) + doubts(p)*abs(share(1))
+               end associate
             end do
          end do
       end do

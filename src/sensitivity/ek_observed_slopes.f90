@@ -10,7 +10,7 @@ module ek_observed_slopes
    use ek_neighbour, only: neighbour_t, point_t, go_to
    implicit none(type, external)
    private
-   public :: find_slopes_along, find_slopes_at
+   public :: find_slopes_along, add_slopes_at
 
 contains
 
@@ -60,10 +60,10 @@ contains
       end do
    end subroutine find_slopes_along
 
-   !> Finds the difference quotients of the columns at states that do not move, ∂y/∂p. Only blocks of columns whose numbers differ
+   !> Adds the difference quotients of the columns at states that do not move, ∂y/∂p. Only blocks of columns whose numbers differ
    !> between the designs are observed. The columns must follow from states alone (reads_states).
    !> Equation (E.9) of docs/theory/derivatives.md.
-   subroutine find_slopes_at(x, direction, result, points, values, neighbour, observer, can_move, slopes, errors)
+   subroutine add_slopes_at(x, direction, result, points, values, neighbour, observer, can_move, slopes, errors)
       real(wp), intent(in) :: x(:)                         !! numbers of the design
       type(direction_t), intent(in) :: direction
       type(case_result_t), intent(in) :: result
@@ -74,7 +74,7 @@ contains
       logical, intent(out) :: can_move                     !! .false.: every stencil contains a design that is not valid
       real(wp), intent(inout) :: slopes(:, :), errors(:, :)      !! (column, state)
       type(inputs_t) :: inputs(size(points))               ! no column of a state reads the inputs
-      real(wp) :: y(size(values, 1), 4, size(points))
+      real(wp) :: y(size(values, 1), 4, size(points)), slope(size(values, 1)), error(size(values, 1))
       logical :: is_other(count_blocks(observer), 4), has_inputs
       integer :: kind, k, s, b, first, last
 
@@ -96,8 +96,6 @@ contains
          if (.not. can_move) cycle
          do s = 1, size(points)
             if (.not. points(s)%is_regular) cycle
-            slopes(:, s) = values(:, s) - values(:, s)     ! zero, or not a number where the column has no value
-            errors(:, s) = slopes(:, s)
             do b = 1, size(is_other, 1)
                if (.not. any(is_other(b, :))) cycle
                call columns_of_block(observer, b, first, last)
@@ -105,11 +103,13 @@ contains
                   if (.not. is_other(b, k)) y(first:last, k, s) = values(first:last, s)
                end do
                call differentiate(stencils(kind), direction%step, values(first:last, s), y(first:last, :, s), &
-                  slopes(first:last, s), errors(first:last, s))
+                  slope(first:last), error(first:last))
+               slopes(first:last, s) = slopes(first:last, s) + slope(first:last)
+               errors(first:last, s) = errors(first:last, s) + error(first:last)
             end do
          end do
          return
       end do
-   end subroutine find_slopes_at
+   end subroutine add_slopes_at
 
 end module ek_observed_slopes

@@ -90,16 +90,18 @@ contains
       logical, intent(in) :: sees                          !! sees_corners
       real(wp), intent(in) :: h, here, y1, y2, y3, y4
       real(wp), intent(out) :: slope, gap, corner
-      real(wp) :: first, second
+      real(wp), parameter :: third = 1.0_wp/3.0_wp
+      real(wp) :: first, second, per_step
 
-      first = (stencil%first(1)*y1 + stencil%first(2)*y2 + stencil%first(3)*y3 + stencil%first(4)*y4)/h
-      second = (stencil%second(1)*y1 + stencil%second(2)*y2 + stencil%second(3)*y3 + stencil%second(4)*y4)/h
-      slope = first + (first - second)/3.0_wp
-      gap = 2.0_wp/3.0_wp*(first - second)
+      per_step = 1.0_wp/h
+      first = (stencil%first(1)*y1 + stencil%first(2)*y2 + stencil%first(3)*y3 + stencil%first(4)*y4)*per_step
+      second = (stencil%second(1)*y1 + stencil%second(2)*y2 + stencil%second(3)*y3 + stencil%second(4)*y4)*per_step
+      slope = first + third*(first - second)
+      gap = 2.0_wp*third*(first - second)
       ! a corner in the middle is the same in both quotients
       corner = 0.0_wp
       if (sees) corner = (corner_weights(0)*here + (corner_weights(1)*y1 + corner_weights(2)*y2 + corner_weights(3)*y3 + &
-         corner_weights(4)*y4))/h
+         corner_weights(4)*y4))*per_step
    end subroutine combine
 
 end module ek_stencil
