@@ -34,13 +34,24 @@ case $CMAKE_GENERATOR in
   Ninja) go_on=(-k 0) ;;
   *) go_on=(--keep-going --output-sync=target) ;;
 esac
-if ! cmake --preset "$preset" -B "$folder" "$@" >"$log" 2>&1; then
-  tail -n 40 "$log" >&2
-  echo "build: CMake failed; its output is in $log" >&2
-  exit 1
+# CMake configures again only if something changed that the build files do not watch themselves: arguments, environment, installed
+# packages. A machine without dpkg configures each time
+stamp=$folder/configured.txt
+facts() {
+  printf '%s\n' "$preset" "$@" "${CMAKE_PREFIX_PATH:-}" "${FC:-}" "${FFLAGS:-}" "$(pwd)"
+  stat -c '%Y %n' CMakePresets.json /var/lib/dpkg/status
+}
+if ! now=$(facts "$@" 2>/dev/null) || [ ! -s "$folder/CMakeCache.txt" ] || [ "$now" != "$(cat "$stamp" 2>/dev/null)" ]; then
+  rm -f "$stamp"
+  if ! cmake --preset "$preset" -B "$folder" "$@" >"$log" 2>&1; then
+    tail -n 40 "$log" >&2
+    echo "build: CMake failed; its output is in $log" >&2
+    exit 1
+  fi
+  grep '^-- Unit tests:' "$log" | sed 's/^-- //' || true
+  facts "$@" >"$stamp" 2>/dev/null || rm -f "$stamp"
 fi
-grep '^-- Unit tests:' "$log" | sed 's/^-- //' || true
-if ! cmake --build "$folder" --parallel "$jobs" --target "$target" -- "${go_on[@]}" >>"$log" 2>&1; then
+if ! cmake --build "$folder" --parallel "$jobs" --target "$target" -- "${go_on[@]}" >"$log" 2>&1; then
   grep -A 6 -E '^[^ ]+:[0-9]+:[0-9]+:|Error' "$log" | tail -n 60 >&2
   echo "build: compilation failed; the complete output is in $log" >&2
   exit 1
