@@ -34,7 +34,7 @@ module ek_derivatives
    use ek_workspace, only: workspace_t
    use ek_state_derivative, only: solve_motions
    use ek_part_change, only: change_t, draft_t
-   use ek_part_force, only: part_forces_t, choose_parts, find_responses, add_force
+   use ek_part_force, only: part_forces_t, choose_parts, find_responses, find_force
    use ek_column_observer, only: column_observer_t, new_column_observer, observe_columns, keep_state, kept_loads, reads_states, &
       reads_wheels_only
    use ek_column_gradient, only: find_gradients, parts_of_gradient
@@ -218,11 +218,11 @@ contains
       integer :: p, s
 
       allocate (doubts(size(self%directions), first:last), source=0.0_wp)
-      allocate (motions(result%kkt%n, size(self%directions), first:last), source=0.0_wp)
+      allocate (motions(result%kkt%n, size(self%directions), first:last))
       call choose_parts(result%suspension, changes, parts)
       do s = first, last
          if (.not. points(s)%is_regular) cycle
-         call add_forces(result, points(s)%state, inputs(s), s - first + 1, changes, parts, self, motions(:, :, s), doubts(:, s))
+         call find_forces(result, points(s)%state, inputs(s), s - first + 1, changes, parts, self, motions(:, :, s), doubts(:, s))
          call solve_motions(result%suspension, points(s)%state, inputs(s), result%kkt, size(self%directions), motions(:, :, s), &
             points(s)%is_regular)
       end do
@@ -237,7 +237,7 @@ contains
    !> Adds the errors of ∂F/∂p to the errors of the derivatives.
    subroutine add_doubts(doubts, first, last, self)
       integer, intent(in) :: first, last
-      real(wp), intent(in) :: doubts(:, first:)            !! (number, state), from add_forces
+      real(wp), intent(in) :: doubts(:, first:)            !! (number, state), from find_forces
       type(derivatives_t), intent(inout) :: self
       integer :: p, s
 
@@ -271,8 +271,7 @@ contains
       moved = design_state(result%suspension)
       do s = first, last
          if (.not. points(s)%is_regular) cycle
-         motions = 0.0_wp
-         call add_forces(result, points(s)%state, inputs(s), s - first + 1, changes, parts, self, motions, doubts(:, s))
+         call find_forces(result, points(s)%state, inputs(s), s - first + 1, changes, parts, self, motions, doubts(:, s))
          call solve_motions(result%suspension, points(s)%state, inputs(s), result%kkt, size(self%directions), motions, &
             points(s)%is_regular)
          if (.not. points(s)%is_regular) cycle
@@ -301,7 +300,7 @@ contains
       type(state_t) :: moved
       real(wp) :: forces(result%kkt%n, size(self%directions)), doubts(size(self%directions)), &
          gradients(result%kkt%n, parts_of_gradient, size(self%columns)), &
-         shares(parts_of_gradient, size(self%columns), size(self%directions))
+         shares(size(self%directions), parts_of_gradient, size(self%columns))
       integer :: c, p, s
 
       do s = first, last
@@ -324,13 +323,12 @@ contains
          call solve_motions(result%suspension, points(s)%state, inputs(s), result%kkt, size(gradients)/result%kkt%n, gradients, &
             points(s)%is_regular, is_transposed=.true.)
          if (.not. points(s)%is_regular) cycle
-         forces = 0.0_wp
-         call add_forces(result, points(s)%state, inputs(s), s - first + 1, changes, parts, self, forces, doubts)
-         call dgemm('T', 'N', size(gradients)/result%kkt%n, size(self%directions), result%kkt%n, 1.0_wp, gradients, result%kkt%n, &
-            forces, result%kkt%n, 0.0_wp, shares, size(gradients)/result%kkt%n)
+         call find_forces(result, points(s)%state, inputs(s), s - first + 1, changes, parts, self, forces, doubts)
+         call dgemm('T', 'N', size(self%directions), size(gradients)/result%kkt%n, result%kkt%n, 1.0_wp, forces, result%kkt%n, &
+            gradients, result%kkt%n, 0.0_wp, shares, size(self%directions))
          do p = 1, size(self%directions)
             do c = 1, size(self%columns)
-               associate (share => shares(:, c, p))
+               associate (share => shares(p, :, c))
                   self%slopes(c, p, s) = self%slopes(c, p, s) + share(1)
                   self%errors(c, p, s) = self%errors(c, p, s) + abs(share(2)) + abs(share(3)) + doubts(p)*abs(share(1))
                end associate
@@ -341,7 +339,7 @@ contains
 
    !> Computes ∂F/∂p of all numbers at a state.
    !> Equation (E.1) of docs/theory/derivatives.md.
-   subroutine add_forces(result, state, inputs, at, changes, parts, self, forces, doubts)
+   subroutine find_forces(result, state, inputs, at, changes, parts, self, forces, doubts)
       type(case_result_t), intent(in) :: result
       type(state_t), intent(in) :: state
       type(inputs_t), intent(in) :: inputs
@@ -349,22 +347,24 @@ contains
       type(change_t), intent(in) :: changes(:)
       type(part_forces_t), intent(inout) :: parts          !! prepared by choose_parts
       type(derivatives_t), intent(in) :: self
-      real(wp), intent(inout) :: forces(:, :)              !! (unknown, number), zero at the call
+      real(wp), intent(inout) :: forces(:, :)              !! (unknown, number); zero for a number that cannot move
       real(wp), intent(inout) :: doubts(:)                 !! corner of F, as a share of ∂F/∂p
       real(wp) :: corner(size(forces, 1)), jump
       integer :: p
 
       call find_responses(result%suspension, state, parts)
       do p = 1, size(changes)
-         if (.not. self%can_move(p)) cycle
-         if (changes(p)%has_curves) corner = 0.0_wp
-         call add_force(result%suspension, state, inputs, at, changes(p), parts, forces(:, p), corner)
+         if (.not. self%can_move(p)) then
+            forces(:, p) = 0.0_wp
+            cycle
+         end if
+         call find_force(result%suspension, state, inputs, at, changes(p), parts, forces(:, p), corner)
          doubts(p) = changes(p)%doubt
          if (.not. changes(p)%has_curves) cycle
          jump = norm2(corner*result%kkt%scale)
          if (jump*self%directions(p)%step*sqrt(result%kkt%stiffness) > rounding) doubts(p) = max(doubts(p), &
             jump/max(norm2(forces(:, p)*result%kkt%scale), jump))
       end do
-   end subroutine add_forces
+   end subroutine find_forces
 
 end module ek_derivatives

@@ -19,7 +19,7 @@ module ek_part_force
    use ek_part_response, only: response_t, respond_element, respond_measure, load_at, turn_directions
    implicit none(type, external)
    private
-   public :: part_forces_t, choose_parts, find_responses, add_force
+   public :: part_forces_t, choose_parts, find_responses, find_force
 
    !> The parts of a model that some numbers affect, and their responses at a state.
    type :: part_forces_t
@@ -66,9 +66,9 @@ contains
       end do
    end subroutine find_responses
 
-   !> Adds ∂F/∂p at a state [N, N m; m, -, rad, per unit of p].
+   !> Computes ∂F/∂p at a state [N, N m; m, -, rad, per unit of p].
    !> Equation (E.7) of docs/theory/derivatives.md.
-   pure subroutine add_force(suspension, state, inputs, rate, change, self, force, corner)
+   pure subroutine find_force(suspension, state, inputs, rate, change, self, force, corner)
       type(suspension_t), intent(in) :: suspension         !! suspension of the design
       type(state_t), intent(in) :: state
       type(inputs_t), intent(in) :: inputs                 !! inputs of this state
@@ -76,10 +76,12 @@ contains
       type(change_t), intent(in) :: change
       type(part_forces_t), intent(in) :: self              !! responses from find_responses, at this state
       real(wp), intent(inout) :: force(:)                  !! ∂F/∂p, one number per unknown of the system
-      real(wp), intent(inout) :: corner(:)                 !! half the change of the slope of F, one number per unknown; changed
+      real(wp), intent(inout) :: corner(:)                 !! half the change of the slope of F, one number per unknown; computed
                                                            !! only with has_curves
       integer :: nq, k
 
+      force = 0.0_wp
+      if (change%has_curves) corner = 0.0_wp
       nq = suspension%unknowns()
       do k = 1, size(change%rows)
          associate (this => change%rows(k))
@@ -100,7 +102,7 @@ contains
          call add_load(suspension, state, inputs, change%loads(k), change%weight, force)
       end do
       if (allocated(change%rates)) call add_rates(suspension, state, change%rates(rate), nq, force)
-   end subroutine add_force
+   end subroutine find_force
 
    !> Adds the effect of a changed term of a row to ∂F/∂p.
    pure subroutine add_term(term, state, change, response, nq, force)
