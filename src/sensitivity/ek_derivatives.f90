@@ -327,6 +327,7 @@ contains
          call dgemm('T', 'N', size(self%directions), size(gradients)/result%kkt%n, result%kkt%n, 1.0_wp, forces, result%kkt%n, &
             gradients, result%kkt%n, 0.0_wp, shares, size(self%directions))
          do p = 1, size(self%directions)
+            if (.not. self%can_move(p)) cycle
             do c = 1, size(self%columns)
                associate (share => shares(p, :, c))
                   self%slopes(c, p, s) = self%slopes(c, p, s) + share(1)
