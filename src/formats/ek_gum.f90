@@ -149,10 +149,8 @@ contains
       associate (stiffness => gum%stiffness(gum%axis))
          call take_number(fields(1)%text, line, 'the rotational stiffness', stiffness, flaws, is_good)
          gum%has_stiffness(gum%axis) = .true.
-         if (is_good .and. stiffness < 0.0_wp) then
+         if (is_good .and. stiffness < 0.0_wp) &
             call flaws%add(line, 'expected a rotational stiffness of 0 or more, found '//str(stiffness))
-            stiffness = 0.0_wp
-         end if
       end associate
    end subroutine take_stiffness
 
