@@ -177,6 +177,7 @@ contains
       type(law_points_t), intent(inout) :: law
       type(flaws_t), intent(inout) :: flaws
 
+      law%line = line
       if (.not. gum%has_stiffness(axis)) call flaws%add(line, 'expected a rotational stiffness of '//axes(axis:axis)// &
          ', found none')
       call add_point(law, -1.0_wp, -gum%stiffness(axis), line)
