@@ -15,9 +15,9 @@ module ek_quantity
    integer, parameter :: name_length = 192    !! longest column name: two names of a deck (63 letters each) and their suffixes
 
    type :: quantity_t
-      character(52) :: name = ''      !! column without the wheel's prefix; '*' stands for load_held and height_held
-      integer :: needs = 0            !! sum of the conditions below
-      character(56) :: title = ''
+      character(name_length) :: name = ''    !! column without the wheel's prefix; '*' stands for load_held and height_held
+      integer :: needs = 0                   !! sum of the conditions below
+      character(name_length) :: title = ''   !! as long as a name: a column without a title has its name
       character(49) :: sign = ''      !! meaning of a positive value, or a condition
       real(wp) :: span = 0.0_wp       !! least span of a chart, in the unit of the column; smaller spans are drawn flat; 0: no chart
    end type quantity_t

@@ -18,7 +18,8 @@ module ek_property_records
    private
    public :: attach_properties
 
-   integer, parameter :: name_room = word_length - 4      !! longest name of an element whose curves are named after it
+   ! longest name of an element whose curves are named after it: curve = 'name_law', and of a bushing curve = 'fx=name_fx'
+   integer, parameter :: name_room = word_length - len('_law'), name_room_of_bushing = word_length - len('fx=_fx')
 
 contains
 
@@ -63,12 +64,13 @@ contains
       type(entry_t) :: words
       character(:), allocatable :: name, path, curve, content
       real(wp) :: x_unit, y_unit
-      integer :: c, j
+      integer :: c, j, room
 
       name = trim(element(records(k), 'name', 1))
       if (name == '') return                       ! the check of the record reports it
-      if (len(name) > name_room) then
-         call complain(records(k), 'name', 'with property_file the name must have at most '//str(name_room)// &
+      room = merge(name_room_of_bushing, name_room, group_number(records(k)%group) == bushing_group)
+      if (len(name) > room) then
+         call complain(records(k), 'name', 'with property_file the name must have at most '//str(room)// &
             ' characters, found '//str(len(name)), deck_errors)
          return
       end if

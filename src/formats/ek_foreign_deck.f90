@@ -272,7 +272,6 @@ contains
          read (name(4:8), *) rate
          rate = rate/millimetre
          do k = 1, 6
-            mount%laws(k)%is_given = .true.
             call add_point(mount%laws(k), -1.0_wp, merge(-rate, 0.0_wp, k <= 3), line)
             call add_point(mount%laws(k), 1.0_wp, merge(rate, 0.0_wp, k <= 3), line)
          end do

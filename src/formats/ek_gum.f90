@@ -149,10 +149,8 @@ contains
       associate (stiffness => gum%stiffness(gum%axis))
          call take_number(fields(1)%text, line, 'the rotational stiffness', stiffness, flaws, is_good)
          gum%has_stiffness(gum%axis) = .true.
-         if (is_good .and. stiffness < 0.0_wp) then
+         if (is_good .and. stiffness < 0.0_wp) &
             call flaws%add(line, 'expected a rotational stiffness of 0 or more, found '//str(stiffness))
-            stiffness = 0.0_wp
-         end if
       end associate
    end subroutine take_stiffness
 
@@ -179,7 +177,6 @@ contains
       type(law_points_t), intent(inout) :: law
       type(flaws_t), intent(inout) :: flaws
 
-      law%is_given = .true.
       law%line = line
       if (.not. gum%has_stiffness(axis)) call flaws%add(line, 'expected a rotational stiffness of '//axes(axis:axis)// &
          ', found none')
@@ -196,7 +193,6 @@ contains
       type(flaws_t), intent(inout) :: flaws
       integer :: j, k
 
-      law%is_given = .true.
       law%line = gum%halves(1, axis)%line
       do k = 1, 1 + gum%flag
          if (.not. gum%halves(k, axis)%is_given) then
@@ -206,10 +202,7 @@ contains
          else if (.not. gum%halves(k, axis)%is_bad) then
             call finish_half(gum%halves(k, axis), k, flaws)
          end if
-         if (gum%halves(k, axis)%is_bad .or. .not. gum%halves(k, axis)%is_given .or. gum%force_line(k, axis) == 0) then
-            law%is_bad = .true.
-            return
-         end if
+         if (gum%halves(k, axis)%is_bad .or. .not. gum%halves(k, axis)%is_given .or. gum%force_line(k, axis) == 0) return
       end do
       associate (positive => gum%halves(1, axis), negative => gum%halves(1 + gum%flag, axis))
          do j = negative%used, 1, -1

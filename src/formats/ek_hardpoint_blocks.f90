@@ -77,10 +77,10 @@ contains
             if (item%kind == heads_item) then
                order = 0
                do j = 1, item%used
-                  c = findloc([(lower(item%fields(j)%text) == names(c), c=1, 5)], .true., dim=1)
+                  c = findloc(names == lower(item%fields(j)%text), .true., dim=1)
                   if (c > 0) order(c) = j
                end do
-               do c = 1, 5
+               do c = 1, size(names)
                   if (order(c) == 0) call flaws%add(item%line, 'expected a column '//trim(names(c))//', found none')
                end do
                if (any(order == 0)) return

@@ -102,12 +102,10 @@ contains
          character(*), intent(in) :: key, usual, other
          logical, intent(out) :: is_other
          character(:), allocatable :: word
-         integer :: mode, item
+         integer :: item
 
          is_other = .false.
-         mode = find_block(file, 'mode')
-         if (mode == 0) return
-         item = entry_of(file, mode, key)
+         item = entry_of(file, find_block(file, 'mode'), key)
          if (item == 0) return
          word = ''
          if (file%items(item)%used > 0) word = lower(trim(adjustl(file%items(item)%fields(1)%text)))

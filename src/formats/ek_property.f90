@@ -194,7 +194,6 @@ contains
       logical :: is_x, is_y
       integer :: k
 
-      law%is_given = .true.
       law%line = file%block_lines(block)
       do k = 1, file%used
          associate (item => file%items(k))

@@ -40,10 +40,11 @@ contains
       call refuse(reading, ['weights'], 'only the factors of a fit have weights')
       if (has_key(reading, 'values')) then
          this%values = numbers_of(reading, 'values', value_count(reading, 'values'))
-         call refuse(reading, [character(5) :: 'from', 'to', 'count'], 'give values, or from, to and count, not both')
+         call refuse(reading, [character(7) :: 'from', 'to', 'count', 'spacing'], 'give values, or from, to and count, not both')
       else if (has_key(reading, 'from') .or. has_key(reading, 'to') .or. has_key(reading, 'count')) then
          call take_steps(reading, this)
       else
+         call refuse(reading, ['spacing'], 'only from, to and count have a spacing')
          call check_range(reading, study, this)
       end if
       if (allocated(this%values)) call refuse(reading, [range_keys(:2), range_keys(4:)], &

@@ -77,7 +77,7 @@ contains
          end do
       end do
       call dpotrf('U', m, root, m, info)                   ! Qᵀ. Fewer designs than factors: their correlations stay
-      if (info == 0 .and. size(scores, 1) > m) info = merge(0, 1, least(root) > sqrt(epsilon(1.0_wp)))
+      if (info == 0 .and. size(scores, 1) > m) info = merge(0, 1, least(root) > sqrt(epsilon(root)))
       z(:) = 0.0_wp
       do d = 1, size(scores, 1)
          row(:) = scores(d, :)

@@ -16,18 +16,19 @@ module ek_sampler_kind
       logical :: has_size          !! n: number of designs, base points or trajectories
       logical :: has_levels        !! number of levels of a factor without values
       logical :: has_seed
+      logical :: has_scrambling    !! whether the seed may scramble the points
       logical :: has_correlations
    end type sampler_kind_t
 
    type(sampler_kind_t), parameter :: sampler_kinds(*) = [ &
-      sampler_kind_t('grid', .false., .true., .false., .false.), &
-      sampler_kind_t('one_at_a_time', .false., .true., .false., .false.), &
-      sampler_kind_t('list', .false., .false., .false., .false.), &
-      sampler_kind_t('latin_hypercube', .true., .false., .true., .true.), &
-      sampler_kind_t('sobol', .true., .false., .true., .true.), &
-      sampler_kind_t('saltelli', .true., .false., .true., .false.), &
-      sampler_kind_t('monte_carlo', .true., .false., .true., .true.), &
-      sampler_kind_t('morris', .true., .true., .true., .false.), &
-      sampler_kind_t('tolerance', .true., .false., .true., .false.)]
+      sampler_kind_t('grid', .false., .true., .false., .false., .false.), &
+      sampler_kind_t('one_at_a_time', .false., .true., .false., .false., .false.), &
+      sampler_kind_t('list', .false., .false., .false., .false., .false.), &
+      sampler_kind_t('latin_hypercube', .true., .false., .true., .false., .true.), &
+      sampler_kind_t('sobol', .true., .false., .true., .true., .true.), &
+      sampler_kind_t('saltelli', .true., .false., .true., .true., .false.), &
+      sampler_kind_t('monte_carlo', .true., .false., .true., .false., .true.), &
+      sampler_kind_t('morris', .true., .true., .true., .false., .false.), &
+      sampler_kind_t('tolerance', .true., .false., .true., .false., .false.)]
 
 end module ek_sampler_kind

@@ -86,7 +86,7 @@ contains
             call walk_once(suspension, case, kkt, found, closure, time, is_reached)
             row = ieee_value(1.0_wp, ieee_quiet_nan)
             row(1) = case%increments
-            row(10) = merge(1.0_wp, 0.0_wp, is_reached)
+            row(10) = merge(1, 0, is_reached)
             if (is_reached) row(2:9) = [closure, (found%centre(3) - exact%centre(3))/millimetre, (found%toe - exact%toe)/degree, &
                (found%camber - exact%camber)/degree, time, found%centre(3)/millimetre, found%toe/degree, found%camber/degree]
             call put(trim(study%methods(m))//','//csv_row(row, columns == 'increments' .or. columns == 'reached'))

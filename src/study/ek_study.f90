@@ -100,6 +100,7 @@ contains
       type(factor_t), intent(out) :: factor
       type(error_t), allocatable, intent(out) :: error     !! exit_deck
       real(wp) :: nominal
+      character(:), allocatable :: what
 
       nominal = given%nominal
       if (.not. is_given(nominal) .and. given%change == by_value) nominal = usual
@@ -132,7 +133,8 @@ contains
       if (.not. allocated(error)) call truncate(factor%distribution, error, &
          merge(given%lower, -huge(1.0_wp), is_given(given%lower)), merge(given%upper, huge(1.0_wp), is_given(given%upper)))
       if (allocated(error)) then
-         call complain(error%message)
+         what = error%message             ! a copy, as the error is replaced
+         call complain(what)
          return
       end if
       if (.not. is_given(factor%nominal)) factor%nominal = mean_of(factor%distribution)

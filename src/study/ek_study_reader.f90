@@ -198,7 +198,8 @@ contains
       associate (kind => sampler_kinds(study%kind))
          if (.not. kind%has_size) call refuse(reading, ['samples'], why)
          if (.not. kind%has_levels) call refuse(reading, ['levels'], why)
-         if (.not. kind%has_seed) call refuse(reading, [character(9) :: 'seed', 'scrambled'], why)
+         if (.not. kind%has_seed) call refuse(reading, ['seed'], why)
+         if (.not. kind%has_scrambling) call refuse(reading, ['scrambled'], why)
          if (kind%has_size .and. study%settings%size < 1 .and. .not. is_lost(reading, 'samples')) call complain(reading, &
             merge('samples', '       ', has_key(reading, 'samples')), &
             'kind = '//quoted(trim(kind%name))//' needs samples = 1 or more')
