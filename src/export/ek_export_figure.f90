@@ -125,7 +125,7 @@ contains
       range = '[*:*]'
       if (maxval(values) - minval(values) > rounding) return
       middle = 0.5_wp*(maxval(values) + minval(values))
-      range = '['//decimal(middle - 1.0_wp)//':'//decimal(middle + 1.0_wp)//']'
+      range = '['//str(middle - 1.0_wp, 10)//':'//str(middle + 1.0_wp, 10)//']'      ! without the digits of rounding
    end function range_of
 
 end module ek_export_figure

@@ -2,14 +2,17 @@
 !>
 !> Numbers keep six digits, and below 1e-9 they are 0: kernels of the BLAS and optimisers differ by rounding.
 module ek_reference_text
+   use, intrinsic :: iso_fortran_env, only: int32, int64, real32
    use ek_kinds, only: wp
+   use ek_buffer, only: buffer_t
    use ek_error, only: error_t
    use ek_version, only: version
    use ek_file, only: read_whole, write_whole
+   use ek_text, only: str
    use ek_scratch, only: scratch, shell_quoted
    implicit none(type, external)
    private
-   public :: normalised, without_drawings, without_column, is_renewing, against_reference
+   public :: normalised, without_drawings, without_column, condensed, decoded, numbers_of, is_renewing, against_reference
 
    character(*), parameter :: nl = new_line('a')
 
@@ -114,6 +117,133 @@ contains
          at = last + 2
       end do
    end function without_column
+
+   !> The script of a picture in space, or of frames 1, 1 + step … of a moving one. A block of corners or of points of lines is
+   !> written as the number of its points and of its faces or lines, and in tenths of a millimetre: mean and root mean square of
+   !> x, y and z, and the mean distance from one point to the next of a line. A corner that is rounded to the other side does not
+   !> show in them.
+   function condensed(script, step) result(plain)
+      character(*), intent(in) :: script
+      integer, intent(in) :: step
+      character(:), allocatable :: plain
+      character(*), parameter :: last_of_frame = '      1/0 notitle'
+      type(buffer_t) :: out
+      real(wp) :: at_point(3), before(3), total(3), squares(3), way
+      integer :: at, last, frame, points, runs, ways, status
+      logical :: is_in_block, has_before
+
+      frame = 0
+      is_in_block = .false.
+      at = 1
+      do while (at <= len(script))
+         last = at + index(script(at:), nl) - 2
+         if (last == at - 2) last = len(script)
+         associate (line => script(at:last))
+            if (mod(frame, step) /= 0) then
+               continue
+            else if (.not. is_in_block) then
+               call out%line(line)
+               is_in_block = index(line, '$') == 1 .and. index(line, '<< EOD') > 0
+               has_before = .false.
+               points = 0
+               runs = 0
+               ways = 0
+               total = 0.0_wp
+               squares = 0.0_wp
+               way = 0.0_wp
+            else if (line == 'EOD') then
+               is_in_block = .false.
+               call out%line(str(points)//' points of '//str(runs)//':'// &
+                  tenths(total/points)//','//tenths(sqrt(squares/points))//','//tenths([way/max(1, ways)]))
+            else if (line == '') then
+               has_before = .false.
+            else
+               read (line, *, iostat=status) at_point
+               if (status /= 0) call out%line('not three numbers: '//line)
+               if (.not. has_before) runs = runs + 1
+               if (has_before) way = way + norm2(at_point - before)
+               if (has_before) ways = ways + 1
+               points = points + 1
+               total = total + at_point
+               squares = squares + at_point**2
+               before = at_point
+               has_before = .true.
+            end if
+            if (line == last_of_frame) frame = frame + 1
+         end associate
+         at = last + 2
+      end do
+      plain = out%text()
+
+   contains
+
+      function tenths(values) result(text)
+         real(wp), intent(in) :: values(:)
+         character(:), allocatable :: text
+         integer :: k
+
+         text = ''
+         do k = 1, size(values)
+            text = text//' '//str(nint(10.0_wp*values(k)))
+         end do
+      end function tenths
+
+   end function condensed
+
+   !> JSON with its base64 strings as lists of their numbers of 32 bits.
+   function decoded(json) result(plain)
+      character(*), intent(in) :: json
+      character(:), allocatable :: plain
+      character(*), parameter :: letters = 'ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/='
+      type(buffer_t) :: out
+      real(wp), allocatable :: values(:)
+      integer :: at, first, last, k
+
+      at = 1
+      do
+         first = at + index(json(at:), '"')
+         last = first + index(json(first:), '"') - 2
+         if (first == at .or. last < first - 1) exit
+         if (last - first + 1 >= 16 .and. mod(last - first + 1, 4) == 0 .and. verify(json(first:last), letters) == 0) then
+            call out%add(json(at:first - 2)//'[')
+            values = numbers_of(json(first:last))
+            do k = 1, size(values)
+               if (k > 1) call out%add(', ')
+               call out%add(str(values(k), 8))
+            end do
+            call out%add(']')
+         else
+            call out%add(json(at:last + 1))
+         end if
+         at = last + 2
+      end do
+      call out%add(json(at:))
+      plain = out%text()
+   end function decoded
+
+   !> The numbers of 32 bits, lowest byte first, of a base64 string.
+   function numbers_of(text) result(values)
+      character(*), intent(in) :: text
+      real(wp), allocatable :: values(:)
+      character(*), parameter :: letters = 'ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/'
+      integer :: bytes(3*(len(text)/4) + 3), k, l, three
+      integer(int64) :: bits
+
+      bytes = 0
+      do k = 1, len(text) - 3, 4
+         three = 0
+         do l = k, k + 3
+            three = 64*three + max(0, index(letters, text(l:l)) - 1)
+         end do
+         bytes(3*(k/4) + 1:3*(k/4) + 3) = [three/65536, mod(three/256, 256), mod(three, 256)]
+      end do
+      allocate (values((3*(len(text)/4) - count([(text(k:k) == '=', k=1, len(text))]))/4))
+      do k = 1, size(values)
+         bits = bytes(4*k - 3) + 256_int64*(bytes(4*k - 2) + 256_int64*(bytes(4*k - 1) + 256_int64*bytes(4*k)))
+         if (bits >= 2147483648_int64) bits = bits - 4294967296_int64
+         values(k) = real(transfer(int(bits, int32), 1.0_real32), wp)
+      end do
+   end function numbers_of
 
    function replaced(text, old, new) result(changed)
       character(*), intent(in) :: text, old, new
