@@ -79,8 +79,11 @@ contains
       case (a_gradient)
          call slope_over_window(table%values(over, :), y, reading%asked%window, value, points, undefined)
          if (undefined > 0) return
-         if (.not. ieee_is_finite(value)) fault = merge(has_few_states, is_flat, points < 3)
-         if (fault == no_fault .and. abs(value)*reading%asked%window <= reading%noise) value = 0.0_wp
+         if (ieee_is_finite(value)) then
+            if (abs(value)*reading%asked%window <= reading%noise) value = 0.0_wp
+         else
+            fault = merge(has_few_states, is_flat, points < 3)
+         end if
          value = value*reading%size
       case (an_rms)
          spread = 0.0_wp
