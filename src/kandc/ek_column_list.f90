@@ -116,16 +116,24 @@ contains
       if (is_known) then
          do j = first, list%last_asked(block)
             k = list%asked(j)
-            values(k) = vector(list%place(k))/list%unit(k)
+            values(k) = column_value(list, k, vector)
          end do
       else
          do j = first, list%last_asked(block)
             k = list%asked(j)
             values(k) = ieee_value(1.0_wp, ieee_quiet_nan)
-            if (.not. list%is_of_matrix(k)) values(k) = vector(list%place(k))/list%unit(k)
+            if (.not. list%is_of_matrix(k)) values(k) = column_value(list, k, vector)
          end do
       end if
    end subroutine fill_block
+
+   !> The value of a column in its unit, from the vector of its block.
+   pure real(wp) function column_value(list, column, vector)
+      class(column_list_t), intent(in) :: list
+      integer, intent(in) :: column
+      real(wp), intent(in) :: vector(*)                !! values of all quantities of the sections of the block, SI
+      column_value = vector(list%place(column))/list%unit(column)
+   end function column_value
 
    !> Copies the requested values of a block, as fill_block does, to a row of the requested columns alone.
    pure subroutine fill_asked(list, block, vector, values)
@@ -139,7 +147,7 @@ contains
       if (block > 1) first = list%last_asked(block - 1) + 1
       do j = first, list%last_asked(block)
          k = list%asked(j)
-         values(j) = vector(list%place(k))/list%unit(k)
+         values(j) = column_value(list, k, vector)
       end do
    end subroutine fill_asked
 

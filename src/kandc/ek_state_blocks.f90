@@ -27,11 +27,9 @@ contains
          case (of_position, of_axis)
             call mark_body(suspension%wheels(k)%body, is_read)
          case (of_element, of_bushing)
-            call mark_body(suspension%elements(k)%measure%body_i, is_read)
-            call mark_body(suspension%elements(k)%measure%body_j, is_read)
+            call mark_bodies(suspension%elements(k)%measure, is_read)
          case (of_readout)
-            call mark_body(suspension%readouts(k)%measure%body_i, is_read)
-            call mark_body(suspension%readouts(k)%measure%body_j, is_read)
+            call mark_bodies(suspension%readouts(k)%measure, is_read)
          case (of_joint)
             associate (joint => suspension%joints(k))
                associate (first => suspension%unknowns() + joint%first_row)
@@ -47,8 +45,7 @@ contains
                         call mark_rotation(m%body_j, is_read)
                      case default
                         call mark_body(joint%body_j, is_read)
-                        call mark_body(m%body_i, is_read)
-                        call mark_body(m%body_j, is_read)
+                        call mark_bodies(m, is_read)
                      end select
                   end associate
                end do
@@ -58,6 +55,15 @@ contains
          end select
       end associate
    end subroutine block_reads
+
+   !> Marks the unknowns of the bodies of a measure.
+   pure subroutine mark_bodies(measure, is_read)
+      type(measure_t), intent(in) :: measure
+      logical, intent(inout) :: is_read(:)
+
+      call mark_body(measure%body_i, is_read)
+      call mark_body(measure%body_j, is_read)
+   end subroutine mark_bodies
 
    !> Marks the unknowns of a body.
    pure subroutine mark_body(body, is_read)

@@ -69,10 +69,12 @@ do for [k = 1:3] {
       set format x ''
       set ylabel axis[k]
       set xzeroaxis linestyle 9; set yzeroaxis linestyle 9
+      set offsets 0, 0, graph 0.02, graph 0.02      # gnuplot cuts a line that ends just outside a tic
       plot sweep('equilibrium') using 'wheel_travel_mm':column with lines linestyle 1 title 'equilibrium (exact)', \
            sweep('recursive') using 'wheel_travel_mm':column with lines linestyle 3 title 'recursive (paper)', \
            sweep('corrected') using 'wheel_travel_mm':column with lines linestyle 2 title 'corrected'
       xlow = GPVAL_X_MIN; xhigh = GPVAL_X_MAX
+      unset offsets
 
       unset label 1; unset label 2; unset key
       set label 3 'Difference at equal stroke; maximum:' at screen 0.125, screen 0.356 \
