@@ -34,13 +34,14 @@ module ek_bench_derivatives
    character(*), parameter :: nl = new_line('a')
    integer, parameter :: rounds = 7
 
-   !> A use of derivatives: the columns and the directions (numbers of the deck), and the time of their derivatives.
+   !> A use of derivatives: the columns, the directions (numbers of the deck) and the states, and the time of their derivatives.
    type :: use_t
       character(:), allocatable :: name
       character(name_length), allocatable :: columns(:)
       type(direction_t), allocatable :: directions(:)
+      integer, allocatable :: states(:)          !! places in the sweep
       type(derivatives_t) :: derivatives
-      real(wp) :: time = huge(1.0_wp)            !! shortest time of the derivatives at all states [s]
+      real(wp) :: time = huge(1.0_wp)            !! shortest time of the derivatives at these states [s]
    end type use_t
 
 contains
@@ -88,14 +89,10 @@ contains
       type(error_t), allocatable, intent(out) :: error
       type(use_t), allocatable :: uses(:)
       real(wp) :: walk, row
-      integer, allocatable :: states(:)
-      integer :: u, round, s
+      integer :: u, round
 
-      allocate (uses(5), states(workspace%cases(k)%result%path%states))
+      allocate (uses(6))
       call list_uses(workspace, k, uses)
-      do s = 1, size(states)
-         states(s) = s
-      end do
       walk = huge(walk)
       row = huge(row)
       do u = 1, size(uses)
@@ -105,7 +102,7 @@ contains
          call time_sweep(workspace, k, walk)
          call time_columns(workspace, k, uses(3)%columns, row)
          do u = 1, size(uses)
-            call time_use(workspace, states, uses(u))
+            call time_use(workspace, uses(u))
          end do
       end do
       if (is_json) then
@@ -115,15 +112,16 @@ contains
       end if
    end subroutine time_uses
 
-   !> Lists the five uses of derivatives. Three are with respect to all coordinates of points: motion of the states, all columns of
-   !> the state, compliance matrix. Two are with respect to all numbers of the deck: one response, motion of the states.
+   !> Lists the six uses of derivatives. Three are with respect to all coordinates of points: motion of the states, all columns of
+   !> the state, compliance matrix. Three are with respect to all numbers of the deck: one column at all states, motion of the
+   !> states, and one response, which is the column at the last state.
    subroutine list_uses(workspace, k, uses)
       type(workspace_t), intent(in) :: workspace
       integer, intent(in) :: k
-      type(use_t), intent(inout) :: uses(5)
+      type(use_t), intent(inout) :: uses(6)
       type(direction_t), allocatable :: all(:), points(:)
       type(column_list_t) :: list
-      integer :: p
+      integer :: p, s
 
       call all_directions(workspace%design, all)
       allocate (points(0))
@@ -136,18 +134,21 @@ contains
          uses(2)%name = 'all '//str(list%used)//' columns of the state, '//str(size(points))//' coordinates'
          call compliance_columns(suspension, uses(3)%columns)
          uses(3)%name = 'all '//str(size(uses(3)%columns))//' entries of the compliance matrix, '//str(size(points))//' coordinates'
-         uses(4)%name = 'one response, all '//str(size(all))//' numbers'
-         uses(5)%name = 'motion of the states, all '//str(size(all))//' numbers'
-         allocate (uses(1)%columns(0), uses(4)%columns(1), uses(5)%columns(0))
+         allocate (uses(1)%columns(0), uses(4)%columns(1), uses(5)%columns(0), uses(6)%columns(1))
          uses(2)%columns = list%names(:list%used)
          uses(4)%columns = 'toe_deg'
          if (size(suspension%wheels) > 1) uses(4)%columns = prefix_of(suspension, 1)//'toe_deg'
-         do p = 1, 3
-            uses(p)%directions = points
-         end do
-         uses(4)%directions = all
-         uses(5)%directions = all
+         uses(6)%columns = uses(4)%columns
+         uses(4)%name = trim(uses(4)%columns(1))//' at all states, all '//str(size(all))//' numbers'
+         uses(5)%name = 'motion of the states, all '//str(size(all))//' numbers'
+         uses(6)%name = 'one response ('//trim(uses(6)%columns(1))//' at the last state), all '//str(size(all))//' numbers'
       end associate
+      do p = 1, size(uses)
+         if (p <= 3) uses(p)%directions = points
+         if (p > 3) uses(p)%directions = all
+         uses(p)%states = [(s, s=1, workspace%cases(k)%result%path%states)]
+      end do
+      uses(6)%states = uses(6)%states(size(uses(6)%states):)
    end subroutine list_uses
 
    !> Times the sweep of the case by LAPACK, and stores the shortest time so far.
@@ -202,14 +203,13 @@ contains
    end subroutine time_columns
 
    !> Times the derivatives of one use, and stores the shortest time so far.
-   subroutine time_use(workspace, states, this)
+   subroutine time_use(workspace, this)
       type(workspace_t), intent(inout) :: workspace
-      integer, intent(in) :: states(:)
       type(use_t), intent(inout) :: this
       real(wp) :: start, now
 
       call cpu_time(start)
-      call find_derivatives(workspace, states, this%derivatives)
+      call find_derivatives(workspace, this%states, this%derivatives)
       call cpu_time(now)
       this%time = min(this%time, now - start)
    end subroutine time_use
@@ -270,6 +270,7 @@ contains
       call json%item('motion_sweeps', json_number(uses(1)%time/walk))
       call json%item('state_columns_sweeps', json_number(uses(2)%time/walk))
       call json%item('response_sweeps', json_number(uses(4)%time/walk))
+      call json%item('response_at_one_state_sweeps', json_number(uses(6)%time/walk))
       call json%item('all_motions_sweeps', json_number(uses(5)%time/walk))
       if (size(uses(3)%columns) > 0) call json%item('compliance_rows_per_number', json_number(of_one(uses(3), row)))
       call json%close('}')
