@@ -81,20 +81,18 @@ contains
       type(deck_reading_t), intent(inout) :: reading
       type(study_t), intent(in) :: study
       type(study_factor_t), intent(in) :: this
-      logical :: is_normal, has_lost_kind, has_lost_tolerance
+      logical :: is_normal
 
       if (study%kind == list_kind) return        ! its values are in the list
-      has_lost_kind = is_lost(reading, 'distribution')
-      has_lost_tolerance = is_lost(reading, 'tolerance')
       is_normal = this%distribution == normal_kind .or. this%distribution == log_normal_kind
       if (is_reversed(this%lower, this%upper)) then
          call complain(reading, 'upper', 'upper must be above lower, found '//str(this%lower)//' to '//str(this%upper))
       else if (has_key(reading, 'tolerance') .and. has_key(reading, 'deviation')) then
          call complain(reading, 'deviation', 'give tolerance or deviation, not both')
       else if (has_key(reading, 'deviation')) then
-         if (.not. (is_normal .or. this%distribution == 0 .or. has_lost_kind)) call complain(reading, 'deviation', &
-            'deviation needs distribution = ''normal'' or ''log_normal''')
-      else if (has_key(reading, 'tolerance') .or. has_lost_tolerance) then
+         if (.not. (is_normal .or. this%distribution == 0 .or. is_lost(reading, 'distribution'))) call complain(reading, &
+            'deviation', 'deviation needs distribution = ''normal'' or ''log_normal''')
+      else if (has_key(reading, 'tolerance') .or. is_lost(reading, 'tolerance')) then
          continue
       else if (is_normal) then
          call complain(reading, '', 'a normal distribution needs tolerance (three standard deviations) or deviation')
