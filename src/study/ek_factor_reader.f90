@@ -111,7 +111,7 @@ contains
 
    !> Whether the record being read has no value for a key because of an error that is already reported: the value was rejected, or
    !> the record has an unknown key, which may be this key misspelt. Then it is not an error that the value is missing.
-   logical function is_lost(reading, key)
+   pure logical function is_lost(reading, key)
       type(deck_reading_t), intent(in) :: reading
       character(*), intent(in) :: key
       type(key_t) :: row
