@@ -166,7 +166,7 @@ contains
       call drop_repeated_angles(shown)
       allocate (changes(size(shown)))
       do k = 1, size(shown)
-         changes(k) = rounded(abs(largest_change(shown(k))), 6)         ! equal but for rounding: their order stays
+         changes(k) = abs(largest_change(shown(k)))
          if (.not. ieee_is_finite(changes(k))) changes(k) = -1.0_wp
       end do
       shown = shown(descending(changes))
@@ -271,15 +271,17 @@ contains
       end do
    end function are_same
 
-   !> The indices of values in descending order; equal values are in their original order.
+   !> The indices of values in descending order; values that are equal to six digits are in their original order.
    pure function descending(values) result(order)
       real(wp), intent(in) :: values(:)
       integer :: order(size(values))
+      real(wp) :: sizes(size(values))
       integer :: k, j
 
+      sizes = rounded(values, 6)
       do k = 1, size(values)
          do j = k - 1, 1, -1
-            if (values(order(j)) >= values(k)) exit
+            if (sizes(order(j)) >= sizes(k)) exit
             order(j + 1) = order(j)
          end do
          order(j + 1) = k

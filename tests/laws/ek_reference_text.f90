@@ -1,6 +1,7 @@
 !> Text that the program wrote, against text that is kept: without what differs from one machine or run to the next.
 !>
-!> Numbers keep six digits, and below 1e-9 they are 0: kernels of the BLAS and optimisers differ by rounding.
+!> Numbers keep six digits, without a point if they are whole then, and below 1e-9 they are 0, without a sign or a place for it:
+!> kernels of the BLAS and optimisers differ by rounding.
 module ek_reference_text
    use, intrinsic :: iso_fortran_env, only: int32, int64, real32
    use ek_kinds, only: wp
@@ -12,7 +13,8 @@ module ek_reference_text
    use ek_scratch, only: scratch, shell_quoted
    implicit none(type, external)
    private
-   public :: normalised, without_drawings, without_column, condensed, decoded, numbers_of, is_renewing, against_reference
+   public :: normalised, without_drawings, without_column, without_values, without_empty_places, condensed, decoded, numbers_of, &
+      is_renewing, against_reference
 
    character(*), parameter :: nl = new_line('a')
 
@@ -117,6 +119,55 @@ contains
          at = last + 2
       end do
    end function without_column
+
+   !> JSON with … as the value, a number or a list, of every item with a key.
+   function without_values(json, key) result(plain)
+      character(*), intent(in) :: json, key
+      character(:), allocatable :: plain
+      character(:), allocatable :: mark
+      integer :: at, first, last, depth
+
+      mark = '"'//key//'": '
+      plain = ''
+      at = 1
+      do
+         first = index(json(at:), mark)
+         if (first == 0) exit
+         first = at + first - 1 + len(mark)
+         depth = 0
+         do last = first, len(json)
+            if (json(last:last) == '[') depth = depth + 1
+            if (json(last:last) == ']') depth = depth - 1
+            if (depth < 0 .or. (depth == 0 .and. scan(json(last:last), ',}]') > 0)) exit
+         end do
+         if (json(first:first) == '[') last = last + 1
+         plain = plain//json(at:first - 1)//'…'
+         at = last
+      end do
+      plain = plain//json(at:)
+   end function without_values
+
+   !> Differences of curves as CSV, without the place of a difference of 0: with another rounding it is at another state.
+   function without_empty_places(csv) result(plain)
+      character(*), intent(in) :: csv
+      character(:), allocatable :: plain, line
+      character(*), parameter :: ending = ',0,same'
+      integer :: at, last, comma
+
+      plain = ''
+      at = 1
+      do while (at <= len(csv))
+         last = at + index(csv(at:)//nl, nl) - 2
+         line = csv(at:last)
+         if (index(line, ending, back=.true.) == len(line) - len(ending) + 1 .and. len(line) > len(ending)) then
+            line = line(:len(line) - len(ending))
+            comma = index(line, ',', back=.true.)
+            line = line(:comma)//'-'//ending
+         end if
+         plain = plain//line//nl
+         at = last + 2
+      end do
+   end function without_empty_places
 
    !> The script of a picture in space, or of frames 1, 1 + step … of a moving one. A block of corners or of points of lines is
    !> written as the number of its points and of its faces or lines, and in tenths of a millimetre: mean and root mean square of
@@ -297,9 +348,14 @@ contains
             if (used >= len(minus)) then
                if (plain(used - len(minus) + 1:used) == minus) used = used - len(minus)
             end if
+            if (used > 1) then
+               if (plain(used - 1:used) == '  ') used = used - 1
+            end if
             call append('0')
          else
             write (number, '(es12.5)') value
+            read (number, *) value
+            if (abs(value) < 9.0e5_wp .and. .not. abs(value - anint(value)) > 0.0_wp) write (number, '(i0)') nint(value)
             call append(trim(adjustl(number)))
          end if
          at = last + 1

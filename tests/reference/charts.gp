@@ -305,7 +305,7 @@ set label 2 'd(length)/d(wheel travel)    (− shortens in bump)' at screen 2.00
 set xlabel 'wheel travel [mm]    (+ bump)' offset 0, 6.50000E-01 font ',12' textcolor rgb '#606060'
 set yrange [*:*]
 unset object; unset label 3
-set key at screen 2.00000E-02, screen 8.45000E-01 left top vertical Left reverse samplen 1.60000E+00 spacing 1.00000E+00 width -1 font ',11' textcolor rgb '#404040' maxrows 1
+set key at screen 2.00000E-02, screen 8.45000E-01 left top vertical Left reverse samplen 1.60000E+00 spacing 1 width -1 font ',11' textcolor rgb '#404040' maxrows 1
 set tmargin at screen 7.60000E-01
 plot $data index 0 using 1:2 with lines linewidth 2.20000E+00 linecolor rgb '#0072B2' title 'coil (left = right)', \
      $data index 1 using 1:2 with points pointtype 6 pointsize 9.00000E-01 linewidth 1.60000E+00 linecolor rgb '#202020' notitle, \
@@ -348,7 +348,7 @@ set label 2 'force, N    (+ compression)' at screen 2.00000E-02, screen 8.75000E
 set xlabel 'wheel travel [mm]    (+ bump)' offset 0, 6.50000E-01 font ',12' textcolor rgb '#606060'
 set yrange [*:*]
 unset object; unset label 3
-set key at screen 2.00000E-02, screen 8.45000E-01 left top vertical Left reverse samplen 1.60000E+00 spacing 1.00000E+00 width -1 font ',11' textcolor rgb '#404040' maxrows 1
+set key at screen 2.00000E-02, screen 8.45000E-01 left top vertical Left reverse samplen 1.60000E+00 spacing 1 width -1 font ',11' textcolor rgb '#404040' maxrows 1
 set tmargin at screen 7.60000E-01
 plot $data index 0 using 1:2 with lines linewidth 2.20000E+00 linecolor rgb '#0072B2' title 'coil (left = right)', \
      $data index 1 using 1:2 with points pointtype 6 pointsize 9.00000E-01 linewidth 1.60000E+00 linecolor rgb '#202020' notitle, \
@@ -419,7 +419,7 @@ set label 2 'force, magnitude, N    (the 8 largest of 10)' at screen 2.00000E-02
 set xlabel 'wheel travel [mm]    (+ bump)' offset 0, 6.50000E-01 font ',12' textcolor rgb '#606060'
 set yrange [*:*]
 unset object; unset label 3
-set key at screen 2.00000E-02, screen 8.45000E-01 left top vertical Left reverse samplen 1.60000E+00 spacing 1.00000E+00 width -1 font ',11' textcolor rgb '#404040' maxrows 2
+set key at screen 2.00000E-02, screen 8.45000E-01 left top vertical Left reverse samplen 1.60000E+00 spacing 1 width -1 font ',11' textcolor rgb '#404040' maxrows 2
 set tmargin at screen 7.10000E-01
 plot $data index 0 using 1:2 with lines linewidth 2.20000E+00 linecolor rgb '#0072B2' title 'lca_hinge (left = right)', \
      $data index 1 using 1:2 with points pointtype 6 pointsize 9.00000E-01 linewidth 1.60000E+00 linecolor rgb '#202020' notitle, \

@@ -28,7 +28,7 @@ set label 2 'deg    (+ top outward)' at screen 2.00000E-02, screen 8.75000E-01 f
 set xlabel 'wheel travel [mm]    (+ bump)' offset 0, 6.50000E-01 font ',12' textcolor rgb '#606060'
 set yrange [*:*]
 unset object; unset label 3
-set key at screen 2.00000E-02, screen 8.45000E-01 left top vertical Left reverse samplen 1.60000E+00 spacing 1.00000E+00 width -1 font ',11' textcolor rgb '#404040' maxrows 1
+set key at screen 2.00000E-02, screen 8.45000E-01 left top vertical Left reverse samplen 1.60000E+00 spacing 1 width -1 font ',11' textcolor rgb '#404040' maxrows 1
 set tmargin at screen 7.60000E-01
 plot $data index 0 using 1:2 with lines linewidth 2.20000E+00 linecolor rgb '#0072B2' title 'A = B = C, left = right', \
      $data index 1 using 1:2 with points pointtype 6 pointsize 9.00000E-01 linewidth 1.60000E+00 linecolor rgb '#202020' notitle
@@ -51,7 +51,7 @@ set label 2 'mm    (contact patch, + outward)' at screen 2.00000E-02, screen 8.7
 set xlabel 'wheel travel [mm]    (+ bump)' offset 0, 6.50000E-01 font ',12' textcolor rgb '#606060'
 set yrange [*:*]
 unset object; unset label 3
-set key at screen 2.00000E-02, screen 8.45000E-01 left top vertical Left reverse samplen 1.60000E+00 spacing 1.00000E+00 width -1 font ',11' textcolor rgb '#404040' maxrows 1
+set key at screen 2.00000E-02, screen 8.45000E-01 left top vertical Left reverse samplen 1.60000E+00 spacing 1 width -1 font ',11' textcolor rgb '#404040' maxrows 1
 set tmargin at screen 7.60000E-01
 plot $data index 0 using 1:2 with lines linewidth 2.20000E+00 linecolor rgb '#0072B2' title 'A = B = C, left = right', \
      $data index 1 using 1:2 with points pointtype 6 pointsize 9.00000E-01 linewidth 1.60000E+00 linecolor rgb '#202020' notitle
@@ -67,11 +67,31 @@ $data << EOD
 0 0
 
 
+-80 -1.69367E+03
+-40 -8.42339E+02
+0 0
+40 8.70487E+02
+80 1.80069E+03
+
+
+0 0
+
+
 -80 -1.66642E+03
 -40 -8.28591E+02
 0 0
 40 8.56275E+02
 80 1.77163E+03
+
+
+0 0
+
+
+-80 -1.83607E+03
+-40 -8.97645E+02
+0 0
+40 9.04202E+02
+80 1.85210E+03
 
 
 0 0
@@ -94,14 +114,18 @@ set label 2 'N    (ground on wheel)' at screen 2.00000E-02, screen 8.75000E-01 f
 set xlabel 'wheel travel [mm]    (+ bump)' offset 0, 6.50000E-01 font ',12' textcolor rgb '#606060'
 set yrange [*:*]
 unset object; unset label 3
-set key at screen 2.00000E-02, screen 8.45000E-01 left top vertical Left reverse samplen 1.60000E+00 spacing 1.00000E+00 width -1 font ',11' textcolor rgb '#404040' maxrows 2
-set tmargin at screen 7.10000E-01
+set key at screen 2.00000E-02, screen 8.45000E-01 left top vertical Left reverse samplen 1.60000E+00 spacing 1 width -1 font ',11' textcolor rgb '#404040' maxrows 3
+set tmargin at screen 6.60000E-01
 plot $data index 0 using 1:2 with lines linewidth 2.20000E+00 linecolor rgb '#0072B2' title 'A, left = right', \
      $data index 1 using 1:2 with points pointtype 6 pointsize 9.00000E-01 linewidth 1.60000E+00 linecolor rgb '#202020' notitle, \
-     $data index 2 using 1:2 with lines linewidth 2.20000E+00 linecolor rgb '#D55E00' title 'B, left = right', \
+     $data index 2 using 1:2 with lines linewidth 2.20000E+00 linecolor rgb '#D55E00' title 'B, left', \
      $data index 3 using 1:2 with points pointtype 6 pointsize 9.00000E-01 linewidth 1.60000E+00 linecolor rgb '#202020' notitle, \
-     $data index 4 using 1:2 with lines linewidth 2.20000E+00 linecolor rgb '#009E73' title 'C, left = right', \
-     $data index 5 using 1:2 with points pointtype 6 pointsize 9.00000E-01 linewidth 1.60000E+00 linecolor rgb '#202020' notitle
+     $data index 4 using 1:2 with lines linewidth 2.20000E+00 dashtype (10, 6) linecolor rgb '#D55E00' title 'B, right', \
+     $data index 5 using 1:2 with points pointtype 6 pointsize 9.00000E-01 linewidth 1.60000E+00 linecolor rgb '#202020' notitle, \
+     $data index 6 using 1:2 with lines linewidth 2.20000E+00 linecolor rgb '#009E73' title 'C, left', \
+     $data index 7 using 1:2 with points pointtype 6 pointsize 9.00000E-01 linewidth 1.60000E+00 linecolor rgb '#202020' notitle, \
+     $data index 8 using 1:2 with lines linewidth 2.20000E+00 dashtype (10, 6) linecolor rgb '#009E73' title 'C, right', \
+     $data index 9 using 1:2 with points pointtype 6 pointsize 9.00000E-01 linewidth 1.60000E+00 linecolor rgb '#202020' notitle
 
 $data << EOD
 -80 2.31244E+01
@@ -114,21 +138,41 @@ $data << EOD
 0 2.16322E+01
 
 
--80 2.14386E+01
--40 2.06570E+01
+-80 2.17831E+01
+-40 2.09984E+01
+0 2.12721E+01
+40 2.23835E+01
+80 2.42640E+01
+
+
+0 2.12721E+01
+
+
+-80 2.14309E+01
+-40 2.06552E+01
 0 2.09234E+01
-40 2.20191E+01
-80 2.38769E+01
+40 2.20174E+01
+80 2.38702E+01
 
 
 0 2.09234E+01
 
 
--80 2.37458E+01
--40 2.20029E+01
+-80 2.44986E+01
+-40 2.27277E+01
+0 2.23533E+01
+40 2.30143E+01
+80 2.45427E+01
+
+
+0 2.23533E+01
+
+
+-80 2.37231E+01
+-40 2.19976E+01
 0 2.16322E+01
-40 2.22796E+01
-80 2.37826E+01
+40 2.22746E+01
+80 2.37628E+01
 
 
 0 2.16322E+01
@@ -141,14 +185,18 @@ set label 2 'N/mm    (wheels in parallel travel)' at screen 2.00000E-02, screen 
 set xlabel 'wheel travel [mm]    (+ bump)' offset 0, 6.50000E-01 font ',12' textcolor rgb '#606060'
 set yrange [*:*]
 unset object; unset label 3
-set key at screen 2.00000E-02, screen 8.45000E-01 left top vertical Left reverse samplen 1.60000E+00 spacing 1.00000E+00 width -1 font ',11' textcolor rgb '#404040' maxrows 2
-set tmargin at screen 7.10000E-01
+set key at screen 2.00000E-02, screen 8.45000E-01 left top vertical Left reverse samplen 1.60000E+00 spacing 1 width -1 font ',11' textcolor rgb '#404040' maxrows 3
+set tmargin at screen 6.60000E-01
 plot $data index 0 using 1:2 with lines linewidth 2.20000E+00 linecolor rgb '#0072B2' title 'A, left = right', \
      $data index 1 using 1:2 with points pointtype 6 pointsize 9.00000E-01 linewidth 1.60000E+00 linecolor rgb '#202020' notitle, \
-     $data index 2 using 1:2 with lines linewidth 2.20000E+00 linecolor rgb '#D55E00' title 'B, left = right', \
+     $data index 2 using 1:2 with lines linewidth 2.20000E+00 linecolor rgb '#D55E00' title 'B, left', \
      $data index 3 using 1:2 with points pointtype 6 pointsize 9.00000E-01 linewidth 1.60000E+00 linecolor rgb '#202020' notitle, \
-     $data index 4 using 1:2 with lines linewidth 2.20000E+00 linecolor rgb '#009E73' title 'C, left = right', \
-     $data index 5 using 1:2 with points pointtype 6 pointsize 9.00000E-01 linewidth 1.60000E+00 linecolor rgb '#202020' notitle
+     $data index 4 using 1:2 with lines linewidth 2.20000E+00 dashtype (10, 6) linecolor rgb '#D55E00' title 'B, right', \
+     $data index 5 using 1:2 with points pointtype 6 pointsize 9.00000E-01 linewidth 1.60000E+00 linecolor rgb '#202020' notitle, \
+     $data index 6 using 1:2 with lines linewidth 2.20000E+00 linecolor rgb '#009E73' title 'C, left', \
+     $data index 7 using 1:2 with points pointtype 6 pointsize 9.00000E-01 linewidth 1.60000E+00 linecolor rgb '#202020' notitle, \
+     $data index 8 using 1:2 with lines linewidth 2.20000E+00 dashtype (10, 6) linecolor rgb '#009E73' title 'C, right', \
+     $data index 9 using 1:2 with points pointtype 6 pointsize 9.00000E-01 linewidth 1.60000E+00 linecolor rgb '#202020' notitle
 
 $data << EOD
 -80 3.03005E+02
@@ -168,7 +216,7 @@ set label 2 'mm    (+ above the ground)' at screen 2.00000E-02, screen 8.75000E-
 set xlabel 'wheel travel [mm]    (+ bump)' offset 0, 6.50000E-01 font ',12' textcolor rgb '#606060'
 set yrange [*:*]
 unset object; unset label 3
-set key at screen 2.00000E-02, screen 8.45000E-01 left top vertical Left reverse samplen 1.60000E+00 spacing 1.00000E+00 width -1 font ',11' textcolor rgb '#404040' maxrows 1
+set key at screen 2.00000E-02, screen 8.45000E-01 left top vertical Left reverse samplen 1.60000E+00 spacing 1 width -1 font ',11' textcolor rgb '#404040' maxrows 1
 set tmargin at screen 7.60000E-01
 plot $data index 0 using 1:2 with lines linewidth 2.20000E+00 linecolor rgb '#0072B2' title 'A = B = C', \
      $data index 1 using 1:2 with points pointtype 6 pointsize 9.00000E-01 linewidth 1.60000E+00 linecolor rgb '#202020' notitle
@@ -191,7 +239,7 @@ set label 2 'mm' at screen 2.00000E-02, screen 8.75000E-01 font ',12' textcolor 
 set xlabel 'wheel travel [mm]    (+ bump)' offset 0, 6.50000E-01 font ',12' textcolor rgb '#606060'
 set yrange [-20000 < * : * < 20000]
 unset object; unset label 3
-set key at screen 2.00000E-02, screen 8.45000E-01 left top vertical Left reverse samplen 1.60000E+00 spacing 1.00000E+00 width -1 font ',11' textcolor rgb '#404040' maxrows 1
+set key at screen 2.00000E-02, screen 8.45000E-01 left top vertical Left reverse samplen 1.60000E+00 spacing 1 width -1 font ',11' textcolor rgb '#404040' maxrows 1
 set tmargin at screen 7.60000E-01
 plot $data index 0 using 1:2 with lines linewidth 2.20000E+00 linecolor rgb '#0072B2' title 'A = B = C, left = right', \
      $data index 1 using 1:2 with points pointtype 6 pointsize 9.00000E-01 linewidth 1.60000E+00 linecolor rgb '#202020' notitle
@@ -207,21 +255,41 @@ $data << EOD
 0 1.72277E+00
 
 
--80 7.70105E+00
--40 4.10764E+00
+-80 7.57927E+00
+-40 4.04086E+00
+0 1.75194E+00
+40 4.85494E-01
+80 1.65010E-02
+
+
+0 1.75194E+00
+
+
+-80 7.69827E+00
+-40 4.10728E+00
 0 1.78114E+00
-40 4.93527E-01
-80 1.67685E-02
+40 4.93489E-01
+80 1.67638E-02
 
 
 0 1.78114E+00
 
 
--80 7.06966E+00
--40 3.87359E+00
+-80 6.85241E+00
+-40 3.75007E+00
+0 1.66720E+00
+40 4.74364E-01
+80 1.66163E-02
+
+
+0 1.66720E+00
+
+
+-80 7.06289E+00
+-40 3.87265E+00
 0 1.72277E+00
-40 4.90006E-01
-80 1.71474E-02
+40 4.89896E-01
+80 1.71331E-02
 
 
 0 1.72277E+00
@@ -234,14 +302,18 @@ set label 2 'mm/kN    (in phase, load held)' at screen 2.00000E-02, screen 8.750
 set xlabel 'wheel travel [mm]    (+ bump)' offset 0, 6.50000E-01 font ',12' textcolor rgb '#606060'
 set yrange [*:*]
 unset object; unset label 3
-set key at screen 2.00000E-02, screen 8.45000E-01 left top vertical Left reverse samplen 1.60000E+00 spacing 1.00000E+00 width -1 font ',11' textcolor rgb '#404040' maxrows 2
-set tmargin at screen 7.10000E-01
+set key at screen 2.00000E-02, screen 8.45000E-01 left top vertical Left reverse samplen 1.60000E+00 spacing 1 width -1 font ',11' textcolor rgb '#404040' maxrows 3
+set tmargin at screen 6.60000E-01
 plot $data index 0 using 1:2 with lines linewidth 2.20000E+00 linecolor rgb '#0072B2' title 'A, left = right', \
      $data index 1 using 1:2 with points pointtype 6 pointsize 9.00000E-01 linewidth 1.60000E+00 linecolor rgb '#202020' notitle, \
-     $data index 2 using 1:2 with lines linewidth 2.20000E+00 linecolor rgb '#D55E00' title 'B, left = right', \
+     $data index 2 using 1:2 with lines linewidth 2.20000E+00 linecolor rgb '#D55E00' title 'B, left', \
      $data index 3 using 1:2 with points pointtype 6 pointsize 9.00000E-01 linewidth 1.60000E+00 linecolor rgb '#202020' notitle, \
-     $data index 4 using 1:2 with lines linewidth 2.20000E+00 linecolor rgb '#009E73' title 'C, left = right', \
-     $data index 5 using 1:2 with points pointtype 6 pointsize 9.00000E-01 linewidth 1.60000E+00 linecolor rgb '#202020' notitle
+     $data index 4 using 1:2 with lines linewidth 2.20000E+00 dashtype (10, 6) linecolor rgb '#D55E00' title 'B, right', \
+     $data index 5 using 1:2 with points pointtype 6 pointsize 9.00000E-01 linewidth 1.60000E+00 linecolor rgb '#202020' notitle, \
+     $data index 6 using 1:2 with lines linewidth 2.20000E+00 linecolor rgb '#009E73' title 'C, left', \
+     $data index 7 using 1:2 with points pointtype 6 pointsize 9.00000E-01 linewidth 1.60000E+00 linecolor rgb '#202020' notitle, \
+     $data index 8 using 1:2 with lines linewidth 2.20000E+00 dashtype (10, 6) linecolor rgb '#009E73' title 'C, right', \
+     $data index 9 using 1:2 with points pointtype 6 pointsize 9.00000E-01 linewidth 1.60000E+00 linecolor rgb '#202020' notitle
 
 $data << EOD
 -80 5.43250E-01
@@ -264,41 +336,41 @@ $data << EOD
 0 -3.52446E-01
 
 
--80 5.87960E-01
--40 4.88216E-01
-0 3.64387E-01
-40 2.18985E-01
-80 4.68115E-02
+-80 5.78663E-01
+-40 4.80278E-01
+0 3.58413E-01
+40 2.15421E-01
+80 4.60647E-02
 
 
-0 3.64387E-01
+0 3.58413E-01
 
 
--80 -5.87960E-01
--40 -4.88216E-01
+-80 -5.87749E-01
+-40 -4.88173E-01
 0 -3.64387E-01
-40 -2.18985E-01
-80 -4.68115E-02
+40 -2.18969E-01
+80 -4.67983E-02
 
 
 0 -3.64387E-01
 
 
--80 5.39755E-01
--40 4.60397E-01
-0 3.52446E-01
-40 2.17423E-01
-80 4.78692E-02
+-80 5.23169E-01
+-40 4.45716E-01
+0 3.41077E-01
+40 2.10482E-01
+80 4.63867E-02
 
 
-0 3.52446E-01
+0 3.41077E-01
 
 
--80 -5.39755E-01
--40 -4.60397E-01
+-80 -5.39239E-01
+-40 -4.60285E-01
 0 -3.52446E-01
-40 -2.17423E-01
-80 -4.78692E-02
+40 -2.17374E-01
+80 -4.78294E-02
 
 
 0 -3.52446E-01
@@ -311,7 +383,7 @@ set label 2 'deg/kN    (in phase, load held)' at screen 2.00000E-02, screen 8.75
 set xlabel 'wheel travel [mm]    (+ bump)' offset 0, 6.50000E-01 font ',12' textcolor rgb '#606060'
 set yrange [*:*]
 unset object; unset label 3
-set key at screen 2.00000E-02, screen 8.45000E-01 left top vertical Left reverse samplen 1.60000E+00 spacing 1.00000E+00 width -1 font ',11' textcolor rgb '#404040' maxrows 2
+set key at screen 2.00000E-02, screen 8.45000E-01 left top vertical Left reverse samplen 1.60000E+00 spacing 1 width -1 font ',11' textcolor rgb '#404040' maxrows 2
 set tmargin at screen 7.10000E-01
 plot $data index 0 using 1:2 with lines linewidth 2.20000E+00 linecolor rgb '#0072B2' title 'A, left', \
      $data index 1 using 1:2 with points pointtype 6 pointsize 9.00000E-01 linewidth 1.60000E+00 linecolor rgb '#202020' notitle, \
@@ -344,7 +416,7 @@ set label 2 'mm    (distance of the patches)' at screen 2.00000E-02, screen 8.75
 set xlabel 'wheel travel [mm]    (+ bump)' offset 0, 6.50000E-01 font ',12' textcolor rgb '#606060'
 set yrange [*:*]
 unset object; unset label 3
-set key at screen 2.00000E-02, screen 8.45000E-01 left top vertical Left reverse samplen 1.60000E+00 spacing 1.00000E+00 width -1 font ',11' textcolor rgb '#404040' maxrows 1
+set key at screen 2.00000E-02, screen 8.45000E-01 left top vertical Left reverse samplen 1.60000E+00 spacing 1 width -1 font ',11' textcolor rgb '#404040' maxrows 1
 set tmargin at screen 7.60000E-01
 plot $data index 0 using 1:2 with lines linewidth 2.20000E+00 linecolor rgb '#0072B2' title 'A = B = C', \
      $data index 1 using 1:2 with points pointtype 6 pointsize 9.00000E-01 linewidth 1.60000E+00 linecolor rgb '#202020' notitle
@@ -387,7 +459,7 @@ set label 2 'd(length)/d(wheel travel)    (− shortens in bump)' at screen 2.00
 set xlabel 'wheel travel [mm]    (+ bump)' offset 0, 6.50000E-01 font ',12' textcolor rgb '#606060'
 set yrange [*:*]
 unset object; unset label 3
-set key at screen 2.00000E-02, screen 8.45000E-01 left top vertical Left reverse samplen 1.60000E+00 spacing 1.00000E+00 width -1 font ',11' textcolor rgb '#404040' maxrows 2
+set key at screen 2.00000E-02, screen 8.45000E-01 left top vertical Left reverse samplen 1.60000E+00 spacing 1 width -1 font ',11' textcolor rgb '#404040' maxrows 2
 set tmargin at screen 7.10000E-01
 plot $data index 0 using 1:2 with lines linewidth 2.20000E+00 linecolor rgb '#0072B2' title 'A = C, coil (left = right)', \
      $data index 1 using 1:2 with points pointtype 6 pointsize 9.00000E-01 linewidth 1.60000E+00 linecolor rgb '#202020' notitle, \
@@ -417,11 +489,41 @@ $data << EOD
 0 0
 
 
+-80 -2.85655E+03
+-40 -1.43364E+03
+0 0
+40 1.44969E+03
+80 2.91968E+03
+
+
+0 0
+
+
 -80 -2.80972E+03
 -40 -1.41014E+03
 0 0
 40 1.42593E+03
 80 2.87182E+03
+
+
+0 0
+
+
+-80 -2.97593E+03
+-40 -1.48771E+03
+0 0
+40 1.49163E+03
+80 2.98958E+03
+
+
+0 0
+
+
+-80 -2.87994E+03
+-40 -1.43972E+03
+0 0
+40 1.44352E+03
+80 2.89314E+03
 
 
 0 0
@@ -444,16 +546,22 @@ set label 2 'force, N    (+ compression)' at screen 2.00000E-02, screen 8.75000E
 set xlabel 'wheel travel [mm]    (+ bump)' offset 0, 6.50000E-01 font ',12' textcolor rgb '#606060'
 set yrange [*:*]
 unset object; unset label 3
-set key at screen 2.00000E-02, screen 8.45000E-01 left top vertical Left reverse samplen 1.60000E+00 spacing 1.00000E+00 width -1 font ',11' textcolor rgb '#404040' maxrows 2
-set tmargin at screen 7.10000E-01
-plot $data index 0 using 1:2 with lines linewidth 2.20000E+00 linecolor rgb '#0072B2' title 'A = C, coil (left = right)', \
+set key at screen 2.00000E-02, screen 8.45000E-01 left top vertical Left reverse samplen 1.60000E+00 spacing 1 width -1 font ',11' textcolor rgb '#404040' maxrows 4
+set tmargin at screen 6.10000E-01
+plot $data index 0 using 1:2 with lines linewidth 2.20000E+00 linecolor rgb '#0072B2' title 'A, coil (left = right)', \
      $data index 1 using 1:2 with points pointtype 6 pointsize 9.00000E-01 linewidth 1.60000E+00 linecolor rgb '#202020' notitle, \
      $data index 2 using 1:2 with lines linewidth 2.20000E+00 linecolor rgb '#D55E00' title 'A = B, across', \
      $data index 3 using 1:2 with points pointtype 6 pointsize 9.00000E-01 linewidth 1.60000E+00 linecolor rgb '#202020' notitle, \
-     $data index 4 using 1:2 with lines linewidth 2.20000E+00 dashtype (2, 4) linecolor rgb '#0072B2' title 'B, coil (left = right)', \
+     $data index 4 using 1:2 with lines linewidth 2.20000E+00 dashtype (2, 4) linecolor rgb '#0072B2' title 'B, left_coil', \
      $data index 5 using 1:2 with points pointtype 6 pointsize 9.00000E-01 linewidth 1.60000E+00 linecolor rgb '#202020' notitle, \
-     $data index 6 using 1:2 with lines linewidth 2.20000E+00 linecolor rgb '#D55E00' title 'C, across', \
-     $data index 7 using 1:2 with points pointtype 6 pointsize 9.00000E-01 linewidth 1.60000E+00 linecolor rgb '#202020' notitle
+     $data index 6 using 1:2 with lines linewidth 2.20000E+00 dashtype (10, 4, 2, 4) linecolor rgb '#0072B2' title 'B, right_coil', \
+     $data index 7 using 1:2 with points pointtype 6 pointsize 9.00000E-01 linewidth 1.60000E+00 linecolor rgb '#202020' notitle, \
+     $data index 8 using 1:2 with lines linewidth 2.20000E+00 linecolor rgb '#0072B2' title 'C, left_coil', \
+     $data index 9 using 1:2 with points pointtype 6 pointsize 9.00000E-01 linewidth 1.60000E+00 linecolor rgb '#202020' notitle, \
+     $data index 10 using 1:2 with lines linewidth 2.20000E+00 dashtype (10, 6) linecolor rgb '#0072B2' title 'C, right_coil', \
+     $data index 11 using 1:2 with points pointtype 6 pointsize 9.00000E-01 linewidth 1.60000E+00 linecolor rgb '#202020' notitle, \
+     $data index 12 using 1:2 with lines linewidth 2.20000E+00 linecolor rgb '#D55E00' title 'C, across', \
+     $data index 13 using 1:2 with points pointtype 6 pointsize 9.00000E-01 linewidth 1.60000E+00 linecolor rgb '#202020' notitle
 
 $data << EOD
 -80 1.25036E+03
@@ -496,6 +604,16 @@ $data << EOD
 0 0
 
 
+-80 1351
+-40 6.98430E+02
+0 0
+40 7.35190E+02
+80 1.49358E+03
+
+
+0 0
+
+
 -80 1.32664E+03
 -40 6.86411E+02
 0 0
@@ -506,11 +624,31 @@ $data << EOD
 0 0
 
 
+-80 2.75512E+02
+-40 1.27021E+02
+0 0
+40 1.12470E+02
+80 2.11114E+02
+
+
+0 0
+
+
 -80 2.71080E+02
 -40 1.24948E+02
 0 0
 40 1.10634E+02
 80 2.07707E+02
+
+
+0 0
+
+
+-80 1.67235E+03
+-40 8.54194E+02
+0 0
+40 9.18106E+02
+80 1.92389E+03
 
 
 0 0
@@ -526,11 +664,31 @@ $data << EOD
 0 0
 
 
+-80 2.75512E+02
+-40 1.27021E+02
+0 0
+40 1.12470E+02
+80 2.11114E+02
+
+
+0 0
+
+
 -80 2.71080E+02
 -40 1.24948E+02
 0 0
 40 1.10634E+02
 80 2.07707E+02
+
+
+0 0
+
+
+-80 1.24437E+03
+-40 6.47639E+02
+0 0
+40 6.92477E+02
+80 1.41729E+03
 
 
 0 0
@@ -546,6 +704,16 @@ $data << EOD
 0 0
 
 
+-80 2.98677E+02
+-40 1.35361E+02
+0 0
+40 1.16826E+02
+80 2.17141E+02
+
+
+0 0
+
+
 -80 2.89292E+02
 -40 1.31022E+02
 0 0
@@ -556,11 +724,31 @@ $data << EOD
 0 0
 
 
+-80 1.81296E+03
+-40 9.10279E+02
+0 0
+40 9.53665E+02
+80 1.97882E+03
+
+
+0 0
+
+
 -80 1.75599E+03
 -40 8.81098E+02
 0 0
 40 9.23082E+02
 80 1.91644E+03
+
+
+0 0
+
+
+-80 2.98677E+02
+-40 1.35361E+02
+0 0
+40 1.16826E+02
+80 2.17141E+02
 
 
 0 0
@@ -583,8 +771,8 @@ set label 2 'force, magnitude, N    (the 8 largest of 10)' at screen 2.00000E-02
 set xlabel 'wheel travel [mm]    (+ bump)' offset 0, 6.50000E-01 font ',12' textcolor rgb '#606060'
 set yrange [*:*]
 unset object; unset label 3
-set key at screen 2.00000E-02, screen 8.45000E-01 left top vertical Left reverse samplen 1.60000E+00 spacing 1.00000E+00 width -1 font ',11' textcolor rgb '#404040' maxrows 6
-set tmargin at screen 5.10000E-01
+set key at screen 2.00000E-02, screen 8.45000E-01 left top vertical Left reverse samplen 1.60000E+00 spacing 1 width -1 font ',11' textcolor rgb '#404040' maxrows 10
+set tmargin at screen 3.10000E-01
 plot $data index 0 using 1:2 with lines linewidth 2.20000E+00 linecolor rgb '#0072B2' title 'A, lca_hinge (left = right)', \
      $data index 1 using 1:2 with points pointtype 6 pointsize 9.00000E-01 linewidth 1.60000E+00 linecolor rgb '#202020' notitle, \
      $data index 2 using 1:2 with lines linewidth 2.20000E+00 linecolor rgb '#009E73' title 'A, uca_hinge (left = right)', \
@@ -593,20 +781,36 @@ plot $data index 0 using 1:2 with lines linewidth 2.20000E+00 linecolor rgb '#00
      $data index 5 using 1:2 with points pointtype 6 pointsize 9.00000E-01 linewidth 1.60000E+00 linecolor rgb '#202020' notitle, \
      $data index 6 using 1:2 with lines linewidth 2.20000E+00 linecolor rgb '#4D4D4D' title 'A, upper_ball (left = right)', \
      $data index 7 using 1:2 with points pointtype 6 pointsize 9.00000E-01 linewidth 1.60000E+00 linecolor rgb '#202020' notitle, \
-     $data index 8 using 1:2 with lines linewidth 2.20000E+00 dashtype (2, 4) linecolor rgb '#0072B2' title 'B, lca_hinge (left = right)', \
+     $data index 8 using 1:2 with lines linewidth 2.20000E+00 dashtype (2, 4) linecolor rgb '#0072B2' title 'B, left_lca_hinge', \
      $data index 9 using 1:2 with points pointtype 6 pointsize 9.00000E-01 linewidth 1.60000E+00 linecolor rgb '#202020' notitle, \
-     $data index 10 using 1:2 with lines linewidth 2.20000E+00 dashtype (2, 4) linecolor rgb '#009E73' title 'B, uca_hinge (left = right)', \
+     $data index 10 using 1:2 with lines linewidth 2.20000E+00 dashtype (2, 4) linecolor rgb '#D55E00' title 'B, right_lca_hinge', \
      $data index 11 using 1:2 with points pointtype 6 pointsize 9.00000E-01 linewidth 1.60000E+00 linecolor rgb '#202020' notitle, \
-     $data index 12 using 1:2 with lines linewidth 2.20000E+00 dashtype (2, 4) linecolor rgb '#E69F00' title 'B, lower_ball (left = right)', \
+     $data index 12 using 1:2 with lines linewidth 2.20000E+00 dashtype (2, 4) linecolor rgb '#009E73' title 'B, left_uca_hinge', \
      $data index 13 using 1:2 with points pointtype 6 pointsize 9.00000E-01 linewidth 1.60000E+00 linecolor rgb '#202020' notitle, \
-     $data index 14 using 1:2 with lines linewidth 2.20000E+00 dashtype (2, 4) linecolor rgb '#4D4D4D' title 'B, upper_ball (left = right)', \
+     $data index 14 using 1:2 with lines linewidth 2.20000E+00 dashtype (2, 4) linecolor rgb '#CC79A7' title 'B, right_uca_hinge', \
      $data index 15 using 1:2 with points pointtype 6 pointsize 9.00000E-01 linewidth 1.60000E+00 linecolor rgb '#202020' notitle, \
-     $data index 16 using 1:2 with lines linewidth 2.20000E+00 linecolor rgb '#0072B2' title 'C, lca_hinge (left = right)', \
+     $data index 16 using 1:2 with lines linewidth 2.20000E+00 dashtype (2, 4) linecolor rgb '#E69F00' title 'B, left_lower_ball', \
      $data index 17 using 1:2 with points pointtype 6 pointsize 9.00000E-01 linewidth 1.60000E+00 linecolor rgb '#202020' notitle, \
-     $data index 18 using 1:2 with lines linewidth 2.20000E+00 linecolor rgb '#009E73' title 'C, uca_hinge (left = right)', \
+     $data index 18 using 1:2 with lines linewidth 2.20000E+00 dashtype (2, 4) linecolor rgb '#56B4E9' title 'B, right_lower_ball', \
      $data index 19 using 1:2 with points pointtype 6 pointsize 9.00000E-01 linewidth 1.60000E+00 linecolor rgb '#202020' notitle, \
-     $data index 20 using 1:2 with lines linewidth 2.20000E+00 linecolor rgb '#E69F00' title 'C, lower_ball (left = right)', \
+     $data index 20 using 1:2 with lines linewidth 2.20000E+00 dashtype (2, 4) linecolor rgb '#4D4D4D' title 'B, left_upper_ball', \
      $data index 21 using 1:2 with points pointtype 6 pointsize 9.00000E-01 linewidth 1.60000E+00 linecolor rgb '#202020' notitle, \
-     $data index 22 using 1:2 with lines linewidth 2.20000E+00 linecolor rgb '#4D4D4D' title 'C, upper_ball (left = right)', \
-     $data index 23 using 1:2 with points pointtype 6 pointsize 9.00000E-01 linewidth 1.60000E+00 linecolor rgb '#202020' notitle
+     $data index 22 using 1:2 with lines linewidth 2.20000E+00 dashtype (2, 4) linecolor rgb '#8C510A' title 'B, right_upper_ball', \
+     $data index 23 using 1:2 with points pointtype 6 pointsize 9.00000E-01 linewidth 1.60000E+00 linecolor rgb '#202020' notitle, \
+     $data index 24 using 1:2 with lines linewidth 2.20000E+00 linecolor rgb '#0072B2' title 'C, left_lca_hinge', \
+     $data index 25 using 1:2 with points pointtype 6 pointsize 9.00000E-01 linewidth 1.60000E+00 linecolor rgb '#202020' notitle, \
+     $data index 26 using 1:2 with lines linewidth 2.20000E+00 linecolor rgb '#D55E00' title 'C, right_lca_hinge', \
+     $data index 27 using 1:2 with points pointtype 6 pointsize 9.00000E-01 linewidth 1.60000E+00 linecolor rgb '#202020' notitle, \
+     $data index 28 using 1:2 with lines linewidth 2.20000E+00 linecolor rgb '#009E73' title 'C, left_uca_hinge', \
+     $data index 29 using 1:2 with points pointtype 6 pointsize 9.00000E-01 linewidth 1.60000E+00 linecolor rgb '#202020' notitle, \
+     $data index 30 using 1:2 with lines linewidth 2.20000E+00 linecolor rgb '#CC79A7' title 'C, right_uca_hinge', \
+     $data index 31 using 1:2 with points pointtype 6 pointsize 9.00000E-01 linewidth 1.60000E+00 linecolor rgb '#202020' notitle, \
+     $data index 32 using 1:2 with lines linewidth 2.20000E+00 linecolor rgb '#E69F00' title 'C, left_lower_ball', \
+     $data index 33 using 1:2 with points pointtype 6 pointsize 9.00000E-01 linewidth 1.60000E+00 linecolor rgb '#202020' notitle, \
+     $data index 34 using 1:2 with lines linewidth 2.20000E+00 linecolor rgb '#56B4E9' title 'C, right_lower_ball', \
+     $data index 35 using 1:2 with points pointtype 6 pointsize 9.00000E-01 linewidth 1.60000E+00 linecolor rgb '#202020' notitle, \
+     $data index 36 using 1:2 with lines linewidth 2.20000E+00 linecolor rgb '#4D4D4D' title 'C, left_upper_ball', \
+     $data index 37 using 1:2 with points pointtype 6 pointsize 9.00000E-01 linewidth 1.60000E+00 linecolor rgb '#202020' notitle, \
+     $data index 38 using 1:2 with lines linewidth 2.20000E+00 linecolor rgb '#8C510A' title 'C, right_upper_ball', \
+     $data index 39 using 1:2 with points pointtype 6 pointsize 9.00000E-01 linewidth 1.60000E+00 linecolor rgb '#202020' notitle
 unset output

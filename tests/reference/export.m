@@ -8,7 +8,7 @@
 
 BumpSteer = [9.03846E-01 9.03846E-01 1.02854E+00 1.02854E+00]; % deg/mm: steer per travel
 BumpCamber = [7.11538E-01 7.11538E-01 1.04263E+00 1.04263E+00]; % deg/mm: camber per travel
-BumpCaster = [1.00000E+00 1.00000E+00 1.00000E+00 1.00000E+00]; % deg/mm: caster per travel
+BumpCaster = [1 1 1 1]; % deg/mm: caster per travel
 LatWhlCtrDisp = [7.11538E-01 7.11538E-01 1.04263E+00 1.04263E+00]; % mm/mm: y of the wheel centre per travel
 LngWhlCtrDisp = [9.03846E-01 9.03846E-01 1.02854E+00 1.02854E+00]; % mm/mm: x of the wheel centre per travel
 NrmlWhlRates = [7.11538E-01 7.11538E-01 1.04263E+00 1.04263E+00]; % N/mm: wheel rate in parallel travel
@@ -29,7 +29,7 @@ StatToe = [-6.22700E+00 6.22800E+00 -6.22700E+00 6.22800E+00]; % deg: toe at des
 StatCamber = [1.22230E+01 1.22240E+01 1.22230E+01 1.22240E+01]; % deg: camber at design
 StatCaster = [1.32290E+01 1.32300E+01 1.32290E+01 1.32300E+01]; % deg: caster at design
 StatLdWhlR = [3.11000E-01 3.12000E-01 3.42100E-01 3.43200E-01]; % m: height of the wheel centre above the contact point at design
-MotRatios = [-1.00000E+00 -1.00000E+00]; % -: compression of the damper per travel; axles
+MotRatios = [-1 -1]; % -: compression of the damper per travel; axles
 RollStiffArb = [1.69492E+03 4.93009E+02]; % N m/deg: roll stiffness with the bar; axles
 RollStiffNoArb = [1.21326E+03 3.52853E+02]; % N m/deg: roll stiffness from the wheel rates in parallel travel, without the bar
 

@@ -830,31 +830,31 @@ do for [format in 'png svg'] {
    set ylabel 'tx [mm]' noenhanced
    set yrange [*:*]
    plot $curve1 using 1:2 with lines linecolor rgb '#d04020' linewidth 2 title 'solved separately', \
-      'push.skc' skip 27 every ::0:0:14:0 using ($2==1 ? $5*1.00000E+03 : NaN):($3*1000) with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#204080' title 'written file'
+      'push.skc' skip 27 every ::0:0:14:0 using ($2==1 ? $5*1000 : NaN):($3*1000) with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#204080' title 'written file'
    set title 'ty over travel, side L' noenhanced
    set xlabel 'wheel centre, height [mm]' noenhanced
    set ylabel 'ty [mm]' noenhanced
    set yrange [*:*]
    plot $curve2 using 1:2 with lines linecolor rgb '#d04020' linewidth 2 title '', \
-      'push.skc' skip 27 every ::0:0:14:0 using ($2==1 ? $5*1.00000E+03 : NaN):($4*1000) with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#204080' title ''
+      'push.skc' skip 27 every ::0:0:14:0 using ($2==1 ? $5*1000 : NaN):($4*1000) with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#204080' title ''
    set title 'rx over travel, side L' noenhanced
    set xlabel 'wheel centre, height [mm]' noenhanced
    set ylabel 'rx [deg]' noenhanced
    set yrange [*:*]
    plot $curve3 using 1:2 with lines linecolor rgb '#d04020' linewidth 2 title '', \
-      'push.skc' skip 27 every ::0:0:14:0 using ($2==1 ? $5*1.00000E+03 : NaN):($6*5.72958E+01) with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#204080' title ''
+      'push.skc' skip 27 every ::0:0:14:0 using ($2==1 ? $5*1000 : NaN):($6*5.72958E+01) with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#204080' title ''
    set title 'rz over travel, side L' noenhanced
    set xlabel 'wheel centre, height [mm]' noenhanced
    set ylabel 'rz [deg]' noenhanced
    set yrange [*:*]
    plot $curve4 using 1:2 with lines linecolor rgb '#d04020' linewidth 2 title '', \
-      'push.skc' skip 27 every ::0:0:14:0 using ($2==1 ? $5*1.00000E+03 : NaN):($8*5.72958E+01) with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#204080' title ''
+      'push.skc' skip 27 every ::0:0:14:0 using ($2==1 ? $5*1000 : NaN):($8*5.72958E+01) with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#204080' title ''
    set title 'lSpring over travel, side L' noenhanced
    set xlabel 'wheel centre, height [mm]' noenhanced
    set ylabel 'lSpring [mm]' noenhanced
    set yrange [*:*]
    plot $curve5 using 1:2 with lines linecolor rgb '#d04020' linewidth 2 title '', \
-      'push.skc' skip 27 every ::0:0:14:0 using ($2==1 ? $5*1.00000E+03 : NaN):($9*1000) with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#204080' title ''
+      'push.skc' skip 27 every ::0:0:14:0 using ($2==1 ? $5*1000 : NaN):($9*1000) with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#204080' title ''
    set title 'rz over steer, side L' noenhanced
    set xlabel 'steer, driver [mm]' noenhanced
    set ylabel 'rz [deg]' noenhanced

@@ -4,7 +4,7 @@ set multiplot layout 2, 3 title 'axle of two plane four-bars: matlab-kc' noenhan
    set ylabel 'deg' noenhanced
    set yrange [-1:1]
    plot $curve1 using 1:2 with lines linecolor rgb '#d04020' linewidth 2 title 'solved separately', \
-      0*x with lines dashtype 2 linewidth 2 linecolor rgb '#204080' title '', 'plane_axle_kandc.m' skip 38 every ::0:0:3:0 using 1:2 with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#204080' title 'written file'
+     0*x with lines dashtype 2 linewidth 2 linecolor rgb '#204080' title '', 'plane_axle_kandc.m' skip 38 every ::0:0:3:0 using 1:2 with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#204080' title 'written file'
    set title 'BumpCamber.FL' noenhanced
    set xlabel 'wheel centre, height [mm]' noenhanced
    set ylabel 'deg' noenhanced
@@ -22,7 +22,7 @@ set multiplot layout 2, 3 title 'axle of two plane four-bars: matlab-kc' noenhan
    set ylabel 'mm' noenhanced
    set yrange [-1:1]
    plot $curve4 using 1:2 with lines linecolor rgb '#d04020' linewidth 2 title '', \
-      0*x with lines dashtype 2 linewidth 2 linecolor rgb '#204080' title '', 'plane_axle_kandc.m' skip 90 every ::0:0:3:0 using 1:2 with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#204080' title ''
+     0*x with lines dashtype 2 linewidth 2 linecolor rgb '#204080' title '', 'plane_axle_kandc.m' skip 90 every ::0:0:3:0 using 1:2 with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#204080' title ''
    set title 'NrmlWhlRates.FL' noenhanced
    set xlabel 'wheel centre, height [mm]' noenhanced
    set ylabel 'N' noenhanced
