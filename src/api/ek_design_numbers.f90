@@ -186,9 +186,11 @@ contains
       type(design_t), intent(in) :: design                 !! prepared by begin_numbers
       type(deck_t), intent(inout) :: deck
       type(error_t), allocatable, intent(out) :: error     !! exit_usage
-      integer :: turn, k, s
+      logical :: was_set(size(numbers%turn))               ! by an earlier setting
+      integer :: turn, k, s, j
 
       turn = 0
+      was_set = .false.
       do
          s = next(numbers%settings(:numbers%used)%turn, turn)
          k = next(numbers%turn, turn)
@@ -199,14 +201,30 @@ contains
          if (s > 0) then
             turn = numbers%settings(s)%turn
             call set_value(deck, numbers%settings(s)%path, shortest(numbers%settings(s)%value), error)
+            associate (this => numbers%settings(s))
+               do j = 1, size(this%found)
+                  ! the name of one side has priority over the name of both, also if it was set before
+                  if (was_set(this%found(j)%number) .and. .not. allocated(error)) &
+                     call set_one(this%found(j)%number, this%found(j)%sign*this%value)
+                  was_set(this%found(j)%number) = .true.
+               end do
+            end associate
          else
             turn = numbers%turn(k)
-            call set_value(deck, parameter_path(design%parameters%list(k), design%records), shortest(numbers%value(k)), error)
+            call set_one(k, numbers%value(k))
+            was_set(k) = .true.
          end if
          if (allocated(error)) return
       end do
 
    contains
+
+      !> Applies the value of one number by its own path.
+      subroutine set_one(number, value)
+         integer, intent(in) :: number
+         real(wp), intent(in) :: value                     !! in the unit of the deck
+         call set_value(deck, parameter_path(design%parameters%list(number), design%records), shortest(value), error)
+      end subroutine set_one
 
       !> The index of the smallest turn that is larger than `last`; 0 if no turn is larger.
       pure integer function next(turns, last)

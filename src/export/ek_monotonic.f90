@@ -31,7 +31,8 @@ contains
                associate (values => map%value(columns(c), j, :, side))
                   do i = 2, size(values) - 1
                      if ((values(i) - values(i - 1))*(values(i + 1) - values(i)) > 0.0_wp) cycle
-                     call mistakes%add(message(side, c, i, j, values(i - 1:i + 1)))
+                     ! not values(i - 1:i + 1): gfortran 12 passes a section of a strided associate name wrongly
+                     call mistakes%add(message(side, c, i, j, map%value(columns(c), j, i - 1:i + 1, side)))
                      exit search
                   end do
                end associate

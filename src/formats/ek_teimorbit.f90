@@ -57,8 +57,8 @@ contains
          if (next == 0) next = len(text) - at + 2
          associate (line => text(at:at + next - 2))
             if (verify(line, ' '//tab) > 0) then
-               is_teimorbit = index(adjustl(line), '[') == 1
-               if (scan(adjustl(line), '$!') /= 1) return
+               is_teimorbit = index(bare(line), '[') == 1
+               if (scan(bare(line), '$!') /= 1) return
             end if
          end associate
          at = at + next
@@ -88,7 +88,7 @@ contains
                ending = len(text) + 1
             end if
             if (text(1:1) == '[') then
-               call begin_block(file, lower(trim(adjustl(text(2:ending - 1)))), k)
+               call begin_block(file, lower(bare(text(2:ending - 1))), k)
             else if (file%blocks > 0) then
                call begin_block(file, trim(file%names(file%blocks)), k)
             end if
@@ -111,7 +111,7 @@ contains
             if (scan(text(:max(mark, 1)), '''"') > 0) mark = 0      ! the sign is in a text
             if (mark > 0) then
                call split_fields(text(mark + 1:), k, fields, used, flaws)
-               call add_item(file, entry_item, k, lower(trim(text(:mark - 1))), fields, used)
+               call add_item(file, entry_item, k, lower(bare(text(:mark - 1))), fields, used)
             else
                call split_fields(text, k, fields, used, flaws)
                call add_item(file, row_item, k, '', fields, used)
@@ -120,6 +120,13 @@ contains
       end do
       if (file%blocks == 0 .and. .not. is_lost) call flaws%add(0, 'expected blocks as [UNITS], found none')
    end subroutine parse_teimorbit
+
+   !> A string without surrounding blanks and tabs.
+   pure function bare(string) result(text)
+      character(*), intent(in) :: string
+      character(:), allocatable :: text
+      text = string(max(1, verify(string, ' '//tab)):verify(string, ' '//tab, back=.true.))
+   end function bare
 
    !> A line without its comment and surrounding blanks.
    pure function without_comment(line) result(text)
@@ -144,8 +151,7 @@ contains
             if (index(line(k + 1:), line(k:k)) > 0) quote = line(k:k)
          end if
       end do
-      last = verify(line(:last), ' '//tab, back=.true.)
-      text = line(first:last)
+      text = bare(line(first:last))
    end function without_comment
 
    subroutine begin_block(file, name, line)

@@ -82,8 +82,8 @@ contains
       end do
    end subroutine extremes
 
-   !> The limit of the axis on both sides of 0; 0 if there is no limit. The limit is the cap of the chart. If a curve has a
-   !> pole, the limit is 8 times the geometric mean of the magnitudes of all curves, unless the cap is smaller. At a pole, the
+   !> The limit of the axis on both sides of 0; 0 if there is no limit. The limit is the cap of the chart, if a value lies within
+   !> the cap. If a curve has a pole, the limit is 8 times the geometric mean of the magnitudes of all curves, unless the cap is smaller. At a pole, the
    !> value changes sign between two adjacent states and jumps by more than half of the whole span. Curves of less than 12
    !> states are not examined for poles.
    pure real(wp) function cut_of(chart) result(cut)
@@ -94,7 +94,12 @@ contains
       integer :: k, row
       logical :: has_pole
 
-      cut = chart%cap
+      cut = 0.0_wp
+      do k = 1, size(chart%traces)
+         associate (y => chart%traces(k)%y)
+            if (any(abs(pack(y, ieee_is_finite(y))) <= chart%cap)) cut = chart%cap
+         end associate
+      end do
       call extremes(chart, huge(1.0_wp), low, high)
       has_pole = .false.
       do k = 1, size(chart%traces)

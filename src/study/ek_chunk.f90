@@ -57,7 +57,8 @@ contains
 
       self%first = first
       if (allocated(self%status)) then
-         if (size(self%status) /= designs) deallocate (self%status, self%states, self%factors, self%responses, self%curves)
+         if (size(self%status) /= designs .or. size(self%factors, 1) /= factors .or. size(self%responses, 1) /= responses .or. &
+            size(self%curves, 1) /= columns) deallocate (self%status, self%states, self%factors, self%responses, self%curves)
       end if
       if (.not. allocated(self%status)) then
          allocate (self%status(designs), self%states(designs), self%factors(factors, designs), &
