@@ -204,8 +204,9 @@ contains
             associate (this => numbers%settings(s))
                do j = 1, size(this%found)
                   ! the name of one side has priority over the name of both, also if it was set before
-                  if (was_set(this%found(j)%number) .and. .not. allocated(error)) &
-                     call set_one(this%found(j)%number, this%found(j)%sign*this%value)
+                  if (was_set(this%found(j)%number) .and. .not. allocated(error)) then
+                     if (is_of_a_side(this%found(j)%number)) call set_one(this%found(j)%number, this%found(j)%sign*this%value)
+                  end if
                   was_set(this%found(j)%number) = .true.
                end do
             end associate
@@ -225,6 +226,14 @@ contains
          real(wp), intent(in) :: value                     !! in the unit of the deck
          call set_value(deck, parameter_path(design%parameters%list(number), design%records), shortest(value), error)
       end subroutine set_one
+
+      !> Whether a number belongs to one side of a mirrored deck.
+      logical function is_of_a_side(number)
+         integer, intent(in) :: number
+         associate (parameter => design%parameters%list(number))
+            is_of_a_side = parameter_path(parameter, design%records) /= parameter_path(parameter, design%records, is_of_pair=.true.)
+         end associate
+      end function is_of_a_side
 
       !> The index of the smallest turn that is larger than `last`; 0 if no turn is larger.
       pure integer function next(turns, last)
