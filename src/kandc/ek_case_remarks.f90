@@ -19,7 +19,7 @@ module ek_case_remarks
    use ek_law, only: law_t, deflection
    use ek_measure, only: measure_value, rotation
    use ek_element_label, only: element_label
-   use ek_elastic, only: bushing_evaluation_t, evaluate_bushing
+   use ek_elastic, only: deflect_bushing
    implicit none(type, external)
    private
    public :: settling_remarks, drift_remarks, travel_remarks, rack_remarks, closure_remarks, curve_reach_remarks
@@ -192,7 +192,7 @@ contains
       type(remark_list_t), intent(inout) :: remarks
       type(reach_t) :: reach(6, size(suspension%elements))      ! of an element of one measure: the first
       type(state_t) :: state
-      type(bushing_evaluation_t) :: evaluation
+      real(wp) :: gap(3), theta(3)
       type(curve_t) :: curve
       logical :: is_reported(2)
       integer :: s, k, c
@@ -209,12 +209,12 @@ contains
                if (element%law%has_curve) &
                   call extend(reach(1, k), element%law, measure_value(element%measure, pose_i, pose_j), s)
                if (.not. b%has_curves) cycle
-               call evaluate_bushing(b, element%measure, pose_i, pose_j, evaluation)
+               call deflect_bushing(b, element%measure, pose_i, pose_j, gap, theta)
                do c = 1, 3
                   if (b%laws(c)%has_curve) &
-                     call extend(reach(c, k), b%laws(c), dot_product(b%axes(:, c), evaluation%gap), s)
+                     call extend(reach(c, k), b%laws(c), dot_product(b%axes(:, c), gap), s)
                   if (b%laws(c + 3)%has_curve) &
-                     call extend(reach(c + 3, k), b%laws(c + 3), dot_product(b%axes(:, c), evaluation%rotation%theta), s)
+                     call extend(reach(c + 3, k), b%laws(c + 3), dot_product(b%axes(:, c), theta), s)
                end do
             end associate
          end do

@@ -12,7 +12,7 @@ module ek_state_columns
    use ek_law, only: deflection
    use ek_element, only: element_kinds, is_of_angle
    use ek_element_force, only: spring_tension
-   use ek_elastic, only: bushing_evaluation_t, evaluate_bushing, bushing_load
+   use ek_elastic, only: deflect_bushing, bushing_load
    use ek_suspension, only: suspension_t
    use ek_state, only: state_t
    use ek_kkt, only: kkt_t
@@ -213,16 +213,16 @@ contains
       type(state_t), intent(in) :: state
       integer, intent(in) :: k
       real(wp), intent(inout) :: values(most_values)
-      type(bushing_evaluation_t) :: evaluation
+      real(wp) :: gap(3), theta(3)
       integer :: i
 
       associate (bushing => suspension%elements(k)%bushing, m => suspension%elements(k)%measure)
-         call evaluate_bushing(bushing, m, state%poses(m%body_i + 1), state%poses(m%body_j + 1), evaluation)
+         call deflect_bushing(bushing, m, state%poses(m%body_i + 1), state%poses(m%body_j + 1), gap, theta)
          do i = 1, 3
-            values(i) = dot_product(evaluation%gap, bushing%axes(:, i))/millimetre
-            values(i + 3) = dot_product(evaluation%rotation%theta, bushing%axes(:, i))/degree
+            values(i) = dot_product(gap, bushing%axes(:, i))/millimetre
+            values(i + 3) = dot_product(theta, bushing%axes(:, i))/degree
          end do
-         call bushing_load(bushing, evaluation, values(7:9), values(10:12))
+         call bushing_load(bushing, gap, theta, values(7:9), values(10:12))
       end associate
    end subroutine bushing_values
 

@@ -17,7 +17,7 @@ module ek_elastic
    implicit none(type, external)
    private
    public :: bushing_t, bushing_evaluation_t, set_bushing_axes
-   public :: evaluate_bushing, bushing_force, add_bushing_tangent, add_bushing_material, bushing_load, design_rates
+   public :: evaluate_bushing, bushing_force, add_bushing_tangent, add_bushing_material, deflect_bushing, bushing_load, design_rates
 
    !> The law of a six-axis bushing from marker I on body i to marker J on body j. The markers are parallel at design. They may be
    !> at two points; the displacement between them at design causes no force. The numbers that every evaluation reads come first.
@@ -91,9 +91,7 @@ contains
       evaluation%a = a
       evaluation%b = b
       evaluation%d = d
-      evaluation%gap(1) = dot_product(pose_i%a(:, 1), d) - bushing%gap0(1)
-      evaluation%gap(2) = dot_product(pose_i%a(:, 2), d) - bushing%gap0(2)
-      evaluation%gap(3) = dot_product(pose_i%a(:, 3), d) - bushing%gap0(3)
+      evaluation%gap = gap_of(bushing, pose_i, d)
       call relative_rotation(pose_i, pose_j, evaluation%rotation)
       if (bushing%has_curves) then
          call evaluate_components(bushing, evaluation%gap, evaluation%rotation%theta, load, slope)
@@ -109,6 +107,33 @@ contains
       end if
       evaluation%force = rotated(pose_i%a, force)
    end subroutine evaluate_bushing
+
+   !> Computes the deflections of a bushing alone, as evaluate_bushing does.
+   !> Equation (M.15) of docs/theory/measures.md.
+   pure subroutine deflect_bushing(bushing, measure, pose_i, pose_j, gap, theta)
+      type(bushing_t), intent(in) :: bushing
+      type(measure_t), intent(in) :: measure            !! of the element: arms of the markers
+      type(pose_t), intent(in) :: pose_i, pose_j
+      real(num), intent(out) :: gap(3)                  !! displacement minus its value at design, axes of body i [m]
+      real(num), intent(out) :: theta(3)                !! rotation vector, axes of body i [rad]
+      type(relative_rotation_t) :: turn
+
+      gap = gap_of(bushing, pose_i, (pose_j%r - pose_i%r) + (rotated(pose_j%a, measure%arm_j) - rotated(pose_i%a, measure%arm_i)))
+      call relative_rotation(pose_i, pose_j, turn)
+      theta = turn%theta
+   end subroutine deflect_bushing
+
+   !> The displacement d between the markers minus its value at design, in the axes of body i.
+   pure function gap_of(bushing, pose_i, d) result(gap)
+      type(bushing_t), intent(in) :: bushing
+      type(pose_t), intent(in) :: pose_i
+      real(num), intent(in) :: d(3)                     !! global [m]
+      real(num) :: gap(3)
+
+      gap(1) = dot_product(pose_i%a(:, 1), d) - bushing%gap0(1)
+      gap(2) = dot_product(pose_i%a(:, 2), d) - bushing%gap0(2)
+      gap(3) = dot_product(pose_i%a(:, 3), d) - bushing%gap0(3)
+   end function gap_of
 
    !> Computes dV/d(component) [N, N m], with the preload subtracted, along and about the marker axes. Also computes the slopes
    !> [N/m, N m/rad].
@@ -138,13 +163,13 @@ contains
    !> Computes force and moment of the bushing law on body j, marker axes: preload minus restoring force of rates or curves [N,
    !> N m]. The force is the force on body j. The moment is conjugate to θ (−dV/dθ); the moment on body j is ∂θ/∂δᵀ times this
    !> moment, as in bushing_force.
-   pure subroutine bushing_load(bushing, evaluation, force, moment)
+   pure subroutine bushing_load(bushing, gap, theta, force, moment)
       type(bushing_t), intent(in) :: bushing
-      type(bushing_evaluation_t), intent(in) :: evaluation      !! of evaluate_bushing
+      real(num), intent(in) :: gap(3), theta(3)          !! deflections, of deflect_bushing
       real(num), intent(out) :: force(3), moment(3)
       real(num) :: load(6), slope(6)
 
-      call evaluate_components(bushing, evaluation%gap, evaluation%rotation%theta, load, slope)
+      call evaluate_components(bushing, gap, theta, load, slope)
       force = -load(1:3)
       moment = -load(4:6)
    end subroutine bushing_load

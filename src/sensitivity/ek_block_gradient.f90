@@ -165,6 +165,8 @@ contains
       real(wp) :: rates(size(motions, 1), size(motions, 2))
       integer :: b, m, c
 
+      slopes = 0.0_wp
+      errors = 0.0_wp
       do b = 1, size(self%blocks)
          associate (this => self%blocks(b))
             m = size(this%unknowns)
@@ -182,13 +184,13 @@ contains
 
    contains
 
-      !> Computes gradientᵀ × rates, the rows of a block.
+      !> Computes gradientᵀ × rates, the rows of a block; they are zero before (a factor β = 0 would cost more).
       subroutine multiply(gradient, factors, columns, numbers, product)
          integer, intent(in) :: columns, numbers
          real(wp), contiguous, intent(in) :: gradient(:, :)      !! (unknown of the block, column of the block)
          real(wp), contiguous, intent(in) :: factors(:, :)       !! (unknown of the block, number)
          real(wp), intent(inout) :: product(columns, numbers)
-         call dgemm('T', 'N', size(gradient, 2), numbers, m, 1.0_wp, gradient, max(1, m), factors, size(factors, 1), 0.0_wp, &
+         call dgemm('T', 'N', size(gradient, 2), numbers, m, 1.0_wp, gradient, max(1, m), factors, size(factors, 1), 1.0_wp, &
             product(self%blocks(b)%first, 1), columns)
       end subroutine multiply
 

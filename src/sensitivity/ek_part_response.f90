@@ -16,7 +16,7 @@ module ek_part_response
    use ek_element, only: element_t, bushing_element
    use ek_element_force, only: element_evaluation_t, evaluate_element, add_element_tangent
    use ek_block, only: rotated
-   use ek_elastic, only: bushing_evaluation_t, bushing_force, bushing_load
+   use ek_elastic, only: bushing_force, bushing_load
    implicit none(type, external)
    private
    public :: response_t, respond_element, respond_measure, load_at, turn_directions
@@ -86,11 +86,8 @@ contains
       real(wp), intent(in) :: gap0(3)                    !! gap at design of the bushing to which the response belongs
       type(response_t), intent(in) :: response
       real(wp) :: load(6), force(3), moment(3)
-      type(bushing_evaluation_t) :: there
 
-      there%gap = response%gap + (gap0 - law%bushing%gap0)
-      there%rotation%theta = response%theta
-      call bushing_load(law%bushing, there, force, moment)
+      call bushing_load(law%bushing, response%gap + (gap0 - law%bushing%gap0), response%theta, force, moment)
       load(1:3) = -rotated(law%bushing%axes, force)
       load(4:6) = -rotated(law%bushing%axes, moment)
    end function load_at
