@@ -41,7 +41,7 @@ contains
 
       call refuse_own_files(deck, path, error)
       if (allocated(error)) return
-      call make_text(deck, base_name(path)//'_', text, tables, error)
+      call make_text(deck, path, text, tables, error)
       if (.not. allocated(error)) call write_whole(path, text, error)
       do k = 1, size(tables)
          if (allocated(error)) return
@@ -56,23 +56,31 @@ contains
       type(deck_t), intent(in) :: deck
       character(*), intent(in) :: path
       type(error_t), allocatable, intent(out) :: error     !! exit_usage
-      type(facts_t) :: target, own
-      integer :: k
 
       if (path == '-') then
          call fail(error, exit_usage, 'the deck as it was used needs a file, found -')
          return
       end if
+      if (is_own_file(deck%kept, path)) call fail(error, exit_usage, quoted(path)//' is a file from which the deck was read; '// &
+         'give another file for the deck as it was used')
+   end subroutine refuse_own_files
+
+   !> Whether a path leads to a file from which the deck was read.
+   logical function is_own_file(kept, path)
+      type(kept_files_t), intent(in) :: kept
+      character(*), intent(in) :: path
+      type(facts_t) :: target, own
+      integer :: k
+
+      is_own_file = .false.
       target = facts_of(path, follow=.true.)
       if (target%kind /= regular_file) return
-      do k = 1, deck%kept%count()
-         own = facts_of(deck%kept%path(k), follow=.true.)
-         if (own%kind /= regular_file .or. own%inode /= target%inode .or. own%device /= target%device) cycle
-         call fail(error, exit_usage, quoted(path)//' is a file from which the deck was read; give another file for the deck '// &
-            'as it was used')
-         return
+      do k = 1, kept%count()
+         own = facts_of(kept%path(k), follow=.true.)
+         is_own_file = own%kind == regular_file .and. own%inode == target%inode .and. own%device == target%device
+         if (is_own_file) return
       end do
-   end subroutine refuse_own_files
+   end function is_own_file
 
    !> Writes a deck as it was used into a string. Load tables are not copied; the string contains their absolute paths.
    subroutine deck_as_used(deck, text, error)
@@ -84,9 +92,9 @@ contains
       call make_text(deck, '', text, tables, error)
    end subroutine deck_as_used
 
-   subroutine make_text(deck, prefix, text, tables, error)
+   subroutine make_text(deck, path, text, tables, error)
       type(deck_t), intent(in) :: deck
-      character(*), intent(in) :: prefix                   !! prefix of the file names of load tables; '': absolute paths
+      character(*), intent(in) :: path                     !! of the written deck; '': absolute paths of load tables
       character(:), allocatable, intent(out) :: text
       type(table_t), allocatable, intent(out) :: tables(:)
       type(error_t), allocatable, intent(out) :: error
@@ -102,18 +110,18 @@ contains
       call lines%line('! included files, hardpoints, property files, both sides and settings are written out')
       do k = 1, size(design%records)
          if (any(written_out == design%records(k)%group)) cycle
-         call add_record(design%records(k), k, design%parameters, deck%kept, prefix, tables, lines)
+         call add_record(design%records(k), k, design%parameters, deck%kept, path, tables, lines)
       end do
       text = lines%text()
    end subroutine make_text
 
    !> Adds one record: its file and line, a line for each key, and comments with the defaults of the numbers that are not given.
-   subroutine add_record(record, number, parameters, kept, prefix, tables, lines)
+   subroutine add_record(record, number, parameters, kept, path, tables, lines)
       type(record_t), intent(in) :: record
       integer, intent(in) :: number
       type(parameters_t), intent(in) :: parameters
       type(kept_files_t), intent(in) :: kept
-      character(*), intent(in) :: prefix
+      character(*), intent(in) :: path                     !! as for make_text
       type(table_t), allocatable, intent(inout) :: tables(:)
       type(buffer_t), intent(inout) :: lines
       character(:), allocatable :: line
@@ -126,7 +134,7 @@ contains
          associate (entry => record%entries(e))
             if (any(replaced == entry%key)) cycle
             if (entry%key == 'file') then
-               line = '  file = '//in_quotes(table_name(record, kept, prefix, tables))
+               line = '  file = '//in_quotes(table_name(record, kept, path, tables))
             else
                line = '  '//entry_text(entry)
             end if
@@ -182,32 +190,50 @@ contains
       words = words//"'"
    end function in_quotes
 
-   !> The name of the load table of a case in the written deck. A new name is added to the list of tables; tables with equal file
-   !> names in different folders are numbered. Without a prefix, and for a table that could not be read, the name is the absolute
-   !> path.
-   function table_name(record, kept, prefix, tables) result(name)
+   !> The name of the load table of a case in the written deck. A new name is added to the list of tables. A name that another table
+   !> has, or a file from which the deck was read, gets a number. Without a path of the deck, and for a table that could not be read,
+   !> the name is the absolute path.
+   function table_name(record, kept, path, tables) result(name)
       type(record_t), intent(in) :: record
       type(kept_files_t), intent(in) :: kept
-      character(*), intent(in) :: prefix
+      character(*), intent(in) :: path                     !! as for make_text
       type(table_t), allocatable, intent(inout) :: tables(:)
       character(:), allocatable :: name
       type(table_t) :: this
-      integer :: k, same
+      integer :: k, number
 
       this%path = path_of(record, text_of(record, 'file'))
       name = join_path(working_folder(), this%path)
-      if (prefix == '' .or. .not. kept%has(this%path)) return
-      same = 0
+      if (path == '' .or. .not. kept%has(this%path)) return
       do k = 1, size(tables)
          name = tables(k)%name
          if (tables(k)%path == this%path) return
-         if (base_name(tables(k)%path) == base_name(this%path)) same = same + 1
       end do
-      name = prefix//base_name(this%path)
-      if (same > 0) name = name//'_'//str(same + 1)
-      name = name//'.csv'
+      number = 0
+      do
+         number = number + 1
+         name = base_name(path)//'_'//base_name(this%path)
+         if (number > 1) name = name//'_'//str(number)
+         name = name//'.csv'
+         if (is_own_file(kept, join_path(folder_name(path), name))) cycle
+         if (.not. is_taken(name)) exit
+      end do
       this%name = name
       tables = [tables, this]
+
+   contains
+
+      !> Whether another table has this name.
+      pure logical function is_taken(name)
+         character(*), intent(in) :: name
+         integer :: k
+
+         is_taken = .false.
+         do k = 1, size(tables)
+            is_taken = is_taken .or. tables(k)%name == name
+         end do
+      end function is_taken
+
    end function table_name
 
 end module ek_deck_writer

@@ -155,7 +155,7 @@ contains
                return
             end if
             if (key%type /= number .or. verify(value%text, digits) > 0) cycle
-            if (verify(before, '+-'//digits) > 0) cycle
+            if (before == '' .or. verify(before, '+-'//digits) > 0) cycle
             words = ' (a decimal comma? Write '//before//'.'//value%text//', not '//before//','//value%text//')'
             return
          end associate

@@ -137,7 +137,8 @@ contains
          reading%k = k
          before = reading%deck_errors%count()
          call check_names(reading)
-         if (reading%cards(k)%group == case_group) in_cases = in_cases + reading%deck_errors%count() - before
+         if (reading%cards(k)%group == case_group .or. reading%records(k)%group == 'target_band') &
+            in_cases = in_cases + reading%deck_errors%count() - before
       end do
       if (.not. any(reading%cards%group == model_group) .and. all(reading%cards%group > 0)) &
          call complain_of_all(reading, 'there is no &model (it gives name, units and axes)')

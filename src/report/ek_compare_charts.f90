@@ -75,7 +75,7 @@ contains
          do r = 2, size(results)
             do k = 1, size(own(r)%list)
                if (chart_number(own(1)%list, own(r)%list(k)) == 0) &
-                  call add_lone(own(r)%list(k), results(1)%tests(t)%name, r, curves)
+                  call add_lone(own(r)%list(k), results(1)%tests(t)%name, r, .false., curves)
             end do
          end do
       end do
@@ -91,18 +91,18 @@ contains
       end do
    end function chart_number
 
-   !> Adds to the list of differences every curve of a chart that result r has, and that the result compared with it lacks.
-   !> For r = 1, the other result lacks the chart, otherwise the first result.
-   subroutine add_lone(chart, test, r, curves)
+   !> Adds to the list of differences every curve of a chart that only the first result or only result r has.
+   subroutine add_lone(chart, test, r, is_of_first, curves)
       type(chart_t), intent(in) :: chart
       character(*), intent(in) :: test
-      integer, intent(in) :: r
+      integer, intent(in) :: r                     !! the result that is compared with the first
+      logical, intent(in) :: is_of_first
       type(curve_difference_t), allocatable, intent(inout) :: curves(:)
       integer :: k
 
       do k = 1, size(chart%traces)
          call add_curve(chart, test, chart%traces(k)%title, r, missing_change(), &
-            verdict_of(0.0_wp, 0.0_wp, r == 1, r > 1, r), curves)
+            verdict_of(0.0_wp, 0.0_wp, is_of_first, .not. is_of_first, r), curves)
       end do
    end subroutine add_lone
 
@@ -173,7 +173,7 @@ contains
       end do
       do r = 2, size(own)
          if (places(r) == 0) then
-            call add_lone(own(1)%list(places(1)), test, 1, curves)
+            call add_lone(own(1)%list(places(1)), test, r, .true., curves)
             cycle
          end if
          associate (mine => own(1)%list(places(1)), other => own(r)%list(places(r)))

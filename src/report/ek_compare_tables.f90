@@ -94,7 +94,7 @@ contains
             call put(table, 4, curve%curve)
             call put(table, 5, curve%label)
             call put(table, 6, this%results(1)%path)
-            call put(table, 7, this%results(max(2, curve%result))%path)
+            call put(table, 7, this%results(curve%result)%path)
             call put(table, 8, decimal(curve%largest))
             call put(table, 9, decimal(curve%at))
             call put(table, 10, decimal(100*curve%change))

@@ -146,7 +146,7 @@ contains
    !> result has equal or opposite numbers for them.
    function results_shown(numbers, rows) result(shown)
       type(difference_t), intent(in) :: numbers(:), rows(:)
-      type(difference_t), allocatable :: shown(:), others(:)
+      type(difference_t), allocatable :: shown(:), others(:), joined(:)
       real(wp), allocatable :: changes(:)
       logical :: is_twin(size(rows))
       integer :: k, l
@@ -162,7 +162,10 @@ contains
       call join_sides(shown)
       others = pack(rows, .not. is_twin)
       call join_sides(others)
-      shown = [shown, others]
+      allocate (joined(size(shown) + size(others)))      ! gfortran 12 leaks an array constructor of these
+      joined(:size(shown)) = shown
+      joined(size(shown) + 1:) = others
+      call move_alloc(joined, shown)
       call drop_repeated_angles(shown)
       allocate (changes(size(shown)))
       do k = 1, size(shown)

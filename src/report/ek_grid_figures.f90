@@ -111,6 +111,7 @@ contains
       type(test_result_t), intent(in) :: test
       real(wp), parameter :: same = 1.0e-6_wp      ! deg, and mm of the driver
       real(wp), dimension(size(test%grid%travel), size(test%grid%steer)) :: left, right
+      logical :: is_there(size(test%grid%travel), size(test%grid%steer))
       integer :: n, c
 
       n = size(test%grid%steer)
@@ -120,8 +121,9 @@ contains
          left = values_of(test, 1, trim(carpet_columns(c)))
          right = values_of(test, 2, trim(carpet_columns(c)))
          right = right(:, n:1:-1)
-         is_symmetric = is_symmetric .and. all(ieee_is_finite(left) .eqv. ieee_is_finite(right)) .and. &
-            .not. any(abs(left - right) > same)
+         is_there = ieee_is_finite(left)
+         is_symmetric = is_symmetric .and. all(is_there .eqv. ieee_is_finite(right))
+         is_symmetric = is_symmetric .and. all(abs(pack(left - right, is_there)) <= same)
       end do
    end function is_symmetric
 

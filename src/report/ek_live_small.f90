@@ -43,11 +43,11 @@ contains
 
       first = findloc(is_used, .true., dim=1)
       allocate (state, source=test%state)
-      call take_sums(of_law, first, state)
+      if (first > 0) call take_sums(of_law, first, state)
       allocate (small%column(0), is_left(size(of_law)))
       is_left = is_exact
       if (.not. is_exact) call find_left(state, first, is_left)
-      do c = first, size(is_used)
+      do c = 1, size(is_used)
          if (.not. is_used(c)) cycle
          if (.not. is_exact) then
             allocate (is_needed(size(of_law)))

@@ -69,7 +69,8 @@ contains
       character(name_length), parameter :: never(3) = [character(name_length) :: 'state', 'factor', 'converged']
       character(name_length), allocatable :: heads(:)
       character(name_length), allocatable :: columns(:)
-      integer :: c, k, before
+      integer :: c, k
+      logical :: is_found
 
       allocate (workspace)
       if (.not. any(index(study%columns, '*') > 0)) return
@@ -79,13 +80,17 @@ contains
       call sweep_columns(suspension, case, heads)
       allocate (columns(0))
       do c = 1, size(study%columns)
-         before = size(columns)
-         if (index(study%columns(c), '*') == 0) call add(study%columns(c))
+         is_found = index(study%columns(c), '*') == 0
+         if (is_found) then
+            call add(study%columns(c))
+            cycle
+         end if
          do k = 1, size(heads)
-            if (any(heads(k) == never)) cycle
-            if (index(study%columns(c), '*') > 0 .and. is_like(trim(heads(k)), trim(study%columns(c)))) call add(heads(k))
+            if (any(heads(k) == never) .or. .not. is_like(trim(heads(k)), trim(study%columns(c)))) cycle
+            is_found = .true.
+            call add(heads(k))
          end do
-         if (size(columns) > before .or. any(columns == study%columns(c))) cycle
+         if (is_found) cycle
          call fail(error, exit_deck, study%where//': columns: the results have no column like '//quoted(trim(study%columns(c))))
          return
       end do

@@ -130,7 +130,7 @@ contains
       if (allocated(error)) return
       if (text == content_of(study, plan)) return
       at = index(text, line_end//build_word)
-      if (at == 0) at = len(text)
+      if (at == 0) at = len(text) + 1
       if (text(at:) == line_end//build_word//plan%build//line_end) then
          call fail(error, exit_file, folder//' holds designs of another study or deck'//remedy)
       else
