@@ -1,7 +1,7 @@
 !> The section of peak loads on the page of a report: one row per member, the loads on its second body.
 module ek_peak_section
    use ek_kinds, only: wp
-   use ek_member_loads, only: load_record_t
+   use ek_member_loads, only: load_record_t, tiny_load
    use ek_page, only: page_t, begin_section, add_text, begin_table, add_cell, end_table, page_number
    implicit none(type, external)
    private
@@ -26,7 +26,7 @@ contains
          '>Moment [N m]', '>own Fx [N]', '>own Fy [N]', '>own Fz [N]', 'Largest load in', '>at'])
       do e = 2, size(record%ends), 2
          if (record%case(resultant, e) == 0) cycle
-         if (record%peaks(resultant, e) <= 0.0_wp .and. record%peaks(moment, e) <= 0.0_wp) cycle
+         if (all(record%peaks([resultant, moment], e) <= tiny_load)) cycle
          call add_cell(page, record%ends(e)%member)
          call add_cell(page, record%ends(e)%body)
          call add_cell(page, record%ends(e)%point)
@@ -38,7 +38,7 @@ contains
             if (record%case(own(c), e) == 0) call add_cell(page, '–', 'n')
             if (record%case(own(c), e) > 0) call add_cell(page, page_number(record%peaks(own(c), e)), 'n')
          end do
-         c = merge(resultant, moment, record%peaks(resultant, e) > 0.0_wp)
+         c = merge(resultant, moment, record%peaks(resultant, e) > tiny_load)      ! the resultant can be rounding
          call add_cell(page, trim(record%cases(record%case(c, e))))
          call add_cell(page, page_number(record%factor(c, e)), 'n')
       end do

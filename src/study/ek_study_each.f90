@@ -80,11 +80,11 @@ contains
       call sweep_columns(suspension, case, heads)
       allocate (columns(0))
       do c = 1, size(study%columns)
-         is_found = index(study%columns(c), '*') == 0
-         if (is_found) then
+         if (index(study%columns(c), '*') == 0) then
             call add(study%columns(c))
             cycle
          end if
+         is_found = .false.
          do k = 1, size(heads)
             if (any(heads(k) == never) .or. .not. is_like(trim(heads(k)), trim(study%columns(c)))) cycle
             is_found = .true.
