@@ -22,7 +22,7 @@ module ek_member_loads
    use ek_wheel_side, only: deck_frame
    implicit none(type, external)
    private
-   public :: member_end_t, member_ends, end_loads, load_record_t, begin_loads, add_loads, peak_loads, tiny_load
+   public :: member_end_t, member_ends, end_loads, load_record_t, begin_loads, add_loads, peak_loads
 
    real(wp), parameter :: at_point = 1.0e-9_wp      !! m: a member is held at a hardpoint that is nearer than this
 
@@ -49,8 +49,7 @@ module ek_member_loads
    end type load_record_t
 
    ! a load that exceeds a peak by less does not replace this peak: the first state stays, on both sides of an axle
-   real(wp), parameter :: rounding = 1.0e-9_wp      !! tolerance of a peak: share of the value
-   real(wp), parameter :: tiny_load = 1.0e-9_wp     !! the same in N or N m; a load that does not exceed it is rounding
+   real(wp), parameter :: rounding = 1.0e-9_wp, tiny_load = 1.0e-9_wp      !! tolerances of a peak: share of the value; N, N m
 
    !> Components of a load. The last three are the force of a bushing in its own axes x, y, z, which move with its first body.
    character(*), parameter :: components(11) = [character(6) :: 'fx', 'fy', 'fz', 'f', 'mx', 'my', 'mz', 'm', 'own_fx', 'own_fy', &
