@@ -212,8 +212,7 @@ contains
             end associate
          else
             turn = numbers%turn(k)
-            call set_one(k, numbers%value(k))
-            was_set(k) = .true.
+            call set_one(k, numbers%value(k))                  ! the last value, also that of a later setting
          end if
          if (allocated(error)) return
       end do
