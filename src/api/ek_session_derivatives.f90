@@ -12,7 +12,7 @@ module ek_session_derivatives
    use ek_workspace, only: workspace_t
    use ek_workspace_cases, only: heads_of_case
    use ek_session, only: session_t, derived_t
-   use ek_session_solution, only: result_of, state_of_row, refuse_other_numbers
+   use ek_session_solution, only: take_row
    implicit none(type, external)
    private
    public :: find_slopes
@@ -28,18 +28,14 @@ contains
       character(*), intent(in) :: columns(:)  !! columns of the case (requested or not), or of its compliance matrix
       character(*), intent(in) :: paths(:)                     !! as in set_number, each of one number, or of both sides of an axle
       real(wp), intent(out) :: slopes(:, :), errors(:, :)      !! (column, path)
-      type(error_t), allocatable, intent(out) :: error         !! exit_usage: wrong columns and paths; a case without derivatives
+      type(error_t), allocatable, intent(out) :: error         !! exit_usage: wrong row, column or path; no derivatives of the case
       type(case_result_t), pointer :: result
+      integer :: state
       logical :: is_ready
 
       slopes = ieee_value(1.0_wp, ieee_quiet_nan)
       errors = slopes
-      result => result_of(session)
-      if (.not. associated(result)) then
-         call fail(error, exit_usage, 'there is no solution')
-         return
-      end if
-      call refuse_other_numbers(session, error)
+      call take_row(session, row, result, state, error)
       if (allocated(error)) return
       is_ready = is_prepared(session, columns, paths)
       if (.not. is_ready) then
@@ -62,7 +58,7 @@ contains
          class(derived_t), intent(inout) :: derived
          integer :: c, p
 
-         call find_derivatives(workspace, [state_of_row(result, row)], derived%derivatives)
+         call find_derivatives(workspace, [state], derived%derivatives)
          do p = 1, size(paths)
             do c = 1, size(columns)
                slopes(c, p) = derived%derivatives%slopes(derived%column(c), derived%direction(p), 1)

@@ -3,7 +3,7 @@ module ek_session_solution
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t, fail, exit_usage
-   use ek_text, only: quoted, is_like, did_you_mean
+   use ek_text, only: str, quoted, is_like, did_you_mean
    use ek_deck, only: deck_t
    use ek_case_result, only: case_result_t, solve_options_t, add_remarks, failure_of
    use ek_remark, only: remark_t, remark_list_t, note, warning
@@ -18,7 +18,7 @@ module ek_session_solution
    use ek_session, only: session_t, without_option, prepared_t, take_new_numbers, changed_deck
    implicit none(type, external)
    private
-   public :: solve, result_of, read_remark, compliance_at, state_of_row, refuse_other_numbers
+   public :: solve, result_of, read_remark, compliance_at, take_row
 
 contains
 
@@ -184,12 +184,29 @@ contains
       if (remark%severity == warning) severity = 'warning'
    end subroutine read_remark
 
-   !> Index of the state of the path that a row of the table shows.
-   pure integer function state_of_row(result, row)
-      type(case_result_t), intent(in) :: result
+   !> Finds the last solution and the state of the path that a row of its table shows.
+   subroutine take_row(session, row, result, state, error)
+      type(session_t), intent(inout), target :: session
       integer, intent(in) :: row
-      state_of_row = nint(result%table%values(column_index(result%table, 'state'), row)) + 1
-   end function state_of_row
+      type(case_result_t), pointer, intent(out) :: result
+      integer, intent(out) :: state                        !! 0 after an error
+      type(error_t), allocatable, intent(out) :: error     !! exit_usage: no solution, no such row, or other numbers since
+
+      state = 0
+      result => result_of(session)
+      if (.not. associated(result)) then
+         call fail(error, exit_usage, 'there is no solution')
+         return
+      end if
+      associate (rows => size(result%table%values, 2))
+         if (row < 1 .or. row > rows) then
+            call fail(error, exit_usage, 'expected a row from 1 to '//str(rows)//', found '//str(row))
+         else
+            call refuse_other_numbers(session, error)
+         end if
+      end associate
+      if (.not. allocated(error)) state = nint(result%table%values(column_index(result%table, 'state'), row)) + 1
+   end subroutine take_row
 
    !> Rejects calls on the last solution if key numbers, or messages on the model, have since been read at changed numbers, because
    !> the model then has the changed numbers.
@@ -215,21 +232,15 @@ contains
       type(session_t), intent(inout), target :: session
       integer, intent(in) :: row
       real(wp), intent(out) :: c(:, :)                     !! matrix of 6 × wheels rows and columns
-      type(error_t), allocatable, intent(out) :: error     !! exit_usage: no solution, or the model has other numbers since
+      type(error_t), allocatable, intent(out) :: error     !! exit_usage: no solution, no such row, or other numbers since
       type(case_result_t), pointer :: result
       type(compliance_t) :: compliance
       real(wp) :: arm(3, size(c, 1)/6), frame(3)
       integer :: state, i, j
 
       c = ieee_value(1.0_wp, ieee_quiet_nan)
-      result => result_of(session)
-      if (.not. associated(result)) then
-         call fail(error, exit_usage, 'there is no solution')
-      else
-         call refuse_other_numbers(session, error)
-      end if
+      call take_row(session, row, result, state, error)
       if (allocated(error)) return
-      state = state_of_row(result, row)
       if (.not. result%path%is_reached(state)) return
       compliance = new_compliance(result%suspension, .false.)
       call state_compliance(result%suspension, new_schedule(result%suspension, result%case), result%path, state, result%kkt, &
