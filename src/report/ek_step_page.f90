@@ -112,8 +112,10 @@ contains
       character(:), allocatable :: text, subtitle, line
       type(sheet_t) :: sheet
       character(16) :: methods(table%rows)
+      character(15) :: why_undrawn
       integer, allocatable :: panels(:)
-      logical :: has_value(table%rows, errors)     ! (method, error)
+      logical :: has_value(table%rows, errors)     ! (method, error): a value that is drawn
+      logical :: has_result(table%rows)
       integer :: used, k, m, e
 
       used = 0
@@ -123,10 +125,12 @@ contains
          methods(used) = cell_of(table, k, 'method')
       end do
       has_value = .false.
+      has_result = .false.
       do k = 1, table%rows
          m = findloc(methods(:used) == cell_of(table, k, 'method'), .true., dim=1)
          do e = 1, errors
             if (ieee_is_finite(drawn(value_of(table, k, columns(e))))) has_value(m, e) = .true.
+            if (ieee_is_finite(value_of(table, k, columns(e)))) has_result(m) = .true.
          end do
       end do
       panels = pack([(e, e=1, errors)], any(has_value, dim=1))
@@ -154,8 +158,10 @@ contains
             if (m > 1) line = line//', '
             if (has_value(m, e)) line = line//'$method'//str(m)//' using 1:'//str(e + 1)
             if (.not. has_value(m, e)) line = line//'NaN'    ! gnuplot refuses data without a value; the legend has the method
+            why_undrawn = ''
+            if (.not. any(has_value(m, :))) why_undrawn = merge(' (below 1e-12)', ' (no result)  ', has_result(m))
             line = line//" with linespoints pointtype 7 pointsize 0.6 linewidth 2 linecolor rgb '"// &
-               palette(modulo(m - 1, size(palette)) + 1)//"' title '"//trim(methods(m))//"'"
+               palette(modulo(m - 1, size(palette)) + 1)//"' title '"//trim(methods(m))//trim(why_undrawn)//"'"
          end do
          call sheet%text%line(line)
          if (k == 1) call sheet%text%line('unset key')       ! one legend, above the panels at the right
