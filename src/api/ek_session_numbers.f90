@@ -2,7 +2,8 @@
 module ek_session_numbers
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
-   use ek_error, only: error_t, message_list_t
+   use ek_error, only: error_t, message_list_t, fail, exit_usage
+   use ek_text, only: str
    use ek_deck, only: deck_t
    use ek_case, only: case_t
    use ek_named_numbers, only: named_numbers_t, prepare_numbers, read_numbers, needed_tests, explain_missing
@@ -30,6 +31,10 @@ contains
       integer :: k, outcome
 
       values = ieee_value(1.0_wp, ieee_quiet_nan)
+      if (size(values) /= size(names)) then
+         call fail(error, exit_usage, 'expected '//str(size(names))//' values, for the names, found room for '//str(size(values)))
+         return
+      end if
       call take_new_numbers(session)
       is_done = session%is_named_ready
       if (is_done) is_done = size(names) == size(session%names)

@@ -5,7 +5,7 @@ module ek_session_settings
    use ek_kinds, only: wp
    use ek_decimal, only: number_limit
    use ek_error, only: error_t, message_list_t, fail, exit_usage, exit_deck
-   use ek_text, only: quoted, replace
+   use ek_text, only: str, quoted, replace
    use ek_deck, only: deck_t, set_value
    use ek_parameter, only: choice_t, find_parameters, parameter_path
    use ek_reader, only: design_t, read_design
@@ -165,14 +165,20 @@ contains
       !!                                                      was changed
       integer, intent(in), optional :: first               !! default 1
       logical :: is_legal
-      integer :: k, before
+      integer :: k, before, last, count
 
       before = 0
       if (present(first)) before = first - 1
-      if (.not. all(ieee_is_finite(values))) then
+      last = before + size(values)
+      count = 0
+      if (allocated(session%numbers%value)) count = size(session%numbers%value)
+      if (before < 0 .or. last > count) then
+         call fail(error, exit_usage, 'expected some of '//str(count)//' numbers, found numbers '//str(before + 1)//' to '// &
+            str(last))
+      else if (.not. all(ieee_is_finite(values))) then
          call fail(error, exit_usage, 'expected finite numbers')
-         return
       end if
+      if (allocated(error)) return
       is_legal = .true.
       do k = 1, size(values)
          is_legal = is_legal .and. is_legal_at(session%numbers, before + k, values(k), session%workspace%design%parameters)

@@ -232,15 +232,21 @@ contains
       type(session_t), intent(inout), target :: session
       integer, intent(in) :: row
       real(wp), intent(out) :: c(:, :)                     !! matrix of 6 × wheels rows and columns
-      type(error_t), allocatable, intent(out) :: error     !! exit_usage: no solution, no such row, or other numbers since
+      type(error_t), allocatable, intent(out) :: error     !! exit_usage: no solution or row, wrong shape, other numbers since
       type(case_result_t), pointer :: result
       type(compliance_t) :: compliance
       real(wp) :: arm(3, size(c, 1)/6), frame(3)
-      integer :: state, i, j
+      integer :: state, wide, i, j
 
       c = ieee_value(1.0_wp, ieee_quiet_nan)
       call take_row(session, row, result, state, error)
       if (allocated(error)) return
+      wide = 6*size(result%suspension%wheels)
+      if (any(shape(c) /= wide)) then
+         call fail(error, exit_usage, 'expected a matrix of '//str(wide)//' rows and columns, found '//str(size(c, 1))//' and '// &
+            str(size(c, 2)))
+         return
+      end if
       if (.not. result%path%is_reached(state)) return
       compliance = new_compliance(result%suspension, .false.)
       call state_compliance(result%suspension, new_schedule(result%suspension, result%case), result%path, state, result%kkt, &
