@@ -11,7 +11,7 @@
 # The other layers are compiled with ${ek_quick_build} or ${ek_plain_build}: a third of the compiler's time, and no time of a solution.
 set(ek_has_kernel OFF)
 set(ek_program_kernel "")
-# gfortran takes 0.7 of the time with -Og that it takes with -O1; a report has 3 % more instructions, a study no more. Without
+# gfortran takes 0.7 of the time with -Og that it takes with -O1; a report then has 3 % more instructions, and a study takes no longer. Without
 # optimisation, and with -Og, it warns that descriptors of unallocated components are uninitialised; with -O1 (.ci) it does not.
 set(ek_no_wrong_warnings -Wno-maybe-uninitialized -Wno-uninitialized)
 set(ek_quick_build -Og ${ek_no_wrong_warnings})

@@ -45,13 +45,16 @@ contains
    end function count_remarks
 
    !> Reads message k: its string, and its severity 'failure', 'note' or 'warning'. The failures come first, then the notes, the
-   !> warnings and the implausible values, which have the severity 'warning'.
+   !> warnings and the implausible values, which have the severity 'warning'. Both are '' if there is no message k.
    subroutine read_model_remark(remarks, k, text, severity)
       type(model_remarks_t), intent(in) :: remarks
       integer, intent(in) :: k
       character(:), allocatable, intent(out) :: text, severity
       integer :: place
 
+      text = ''
+      severity = ''
+      if (k < 1 .or. k > remarks%count()) return
       severity = 'failure'
       place = k
       if (place <= remarks%faults%count()) then

@@ -35,9 +35,9 @@ contains
 
       slopes = ieee_value(1.0_wp, ieee_quiet_nan)
       errors = slopes
-      if (any(shape(slopes) /= [size(columns), size(paths)]) .or. any(shape(errors) /= [size(columns), size(paths)])) then
-         call fail(error, exit_usage, 'expected arrays of '//str(size(columns))//' rows, for the columns, and '// &
-            str(size(paths))//' columns, for the paths')
+      if (any([shape(slopes), shape(errors)] < [size(columns), size(paths), size(columns), size(paths)])) then
+         call fail(error, exit_usage, 'expected arrays of '//str(size(columns))//' x '//str(size(paths))// &
+            ' numbers (columns x paths)')
          return
       end if
       call take_row(session, row, result, state, error)

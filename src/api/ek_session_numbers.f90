@@ -21,7 +21,7 @@ contains
    subroutine read_key_numbers(session, names, values, error)
       type(session_t), intent(inout) :: session
       character(*), intent(in) :: names(:)
-      real(wp), intent(out) :: values(:)                   !! in the units of key_numbers.csv
+      real(wp), intent(out) :: values(:)                   !! one for each name, in the units of key_numbers.csv
       type(error_t), allocatable, intent(out) :: error     !! exit_usage, exit_deck, exit_model: none has a value; exit_convergence:
       !!                                                      some are not a number; the message names them and the states that
       !!                                                      they need and that were not found
@@ -31,8 +31,9 @@ contains
       integer :: k, outcome
 
       values = ieee_value(1.0_wp, ieee_quiet_nan)
-      if (size(values) /= size(names)) then
-         call fail(error, exit_usage, 'expected '//str(size(names))//' values, for the names, found room for '//str(size(values)))
+      if (size(values) < size(names)) then
+         call fail(error, exit_usage, 'expected an array of '//str(size(names))//' values, one for each name, found '// &
+            str(size(values)))
          return
       end if
       call take_new_numbers(session)

@@ -172,9 +172,10 @@ contains
       last = before + size(values)
       count = 0
       if (allocated(session%numbers%value)) count = size(session%numbers%value)
-      if (before < 0 .or. last > count) then
-         call fail(error, exit_usage, 'expected some of '//str(count)//' numbers, found numbers '//str(before + 1)//' to '// &
-            str(last))
+      if (count == 0) then
+         call fail(error, exit_usage, 'the session has no deck')
+      else if (before < 0 .or. last > count) then
+         call fail(error, exit_usage, 'expected positions from 1 to '//str(count)//', found '//str(before + 1)//' to '//str(last))
       else if (.not. all(ieee_is_finite(values))) then
          call fail(error, exit_usage, 'expected finite numbers')
       end if

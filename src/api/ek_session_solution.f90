@@ -170,13 +170,17 @@ contains
       end if
    end function result_of
 
-   !> Reads a message on a solution: its string, and its severity 'note', 'warning' or 'failure'.
+   !> Reads a message on a solution: its string, and its severity 'note', 'warning' or 'failure'. Both are '' if there is no
+   !> message k.
    subroutine read_remark(remarks, k, text, severity)
       type(remark_list_t), intent(in) :: remarks
       integer, intent(in) :: k
       character(:), allocatable, intent(out) :: text, severity
       type(remark_t) :: remark
 
+      text = ''
+      severity = ''
+      if (k < 1 .or. k > remarks%count()) return
       remark = remarks%item(k)
       text = remark%whole()
       severity = 'failure'
