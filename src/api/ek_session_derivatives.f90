@@ -12,7 +12,7 @@ module ek_session_derivatives
    use ek_workspace, only: workspace_t
    use ek_workspace_cases, only: heads_of_case
    use ek_session, only: session_t, derived_t
-   use ek_session_solution, only: take_row
+   use ek_session_solution, only: find_row
    implicit none(type, external)
    private
    public :: find_slopes
@@ -40,7 +40,7 @@ contains
             ' numbers (columns x paths)')
          return
       end if
-      call take_row(session, row, result, state, error)
+      call find_row(session, row, result, state, error)
       if (allocated(error)) return
       is_ready = is_prepared(session, columns, paths)
       if (.not. is_ready) then

@@ -18,7 +18,7 @@ module ek_session_solution
    use ek_session, only: session_t, without_option, prepared_t, take_new_numbers, changed_deck
    implicit none(type, external)
    private
-   public :: solve, result_of, read_remark, compliance_at, take_row
+   public :: solve, result_of, read_remark, compliance_at, find_row
 
 contains
 
@@ -189,7 +189,7 @@ contains
    end subroutine read_remark
 
    !> Finds the last solution and the state of the path that a row of its table shows.
-   subroutine take_row(session, row, result, state, error)
+   subroutine find_row(session, row, result, state, error)
       type(session_t), intent(inout), target :: session
       integer, intent(in) :: row
       type(case_result_t), pointer, intent(out) :: result
@@ -210,7 +210,7 @@ contains
          end if
       end associate
       if (.not. allocated(error)) state = nint(result%table%values(column_index(result%table, 'state'), row)) + 1
-   end subroutine take_row
+   end subroutine find_row
 
    !> Rejects calls on the last solution if key numbers, or messages on the model, have since been read at changed numbers, because
    !> the model then has the changed numbers.
@@ -243,7 +243,7 @@ contains
       integer :: state, wide, i, j
 
       c = ieee_value(1.0_wp, ieee_quiet_nan)
-      call take_row(session, row, result, state, error)
+      call find_row(session, row, result, state, error)
       if (allocated(error)) return
       wide = 6*size(result%suspension%wheels)
       if (any(shape(c) /= wide)) then
