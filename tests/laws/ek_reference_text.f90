@@ -247,8 +247,7 @@ contains
       character(:), allocatable :: plain
       character(*), parameter :: letters = 'ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/='
       type(buffer_t) :: out
-      real(wp), allocatable :: values(:)
-      integer :: at, first, last, k
+      integer :: at, first, last
 
       at = 1
       do
@@ -257,11 +256,7 @@ contains
          if (first == at .or. last < first - 1) exit
          if (last - first + 1 >= 16 .and. mod(last - first + 1, 4) == 0 .and. verify(json(first:last), letters) == 0) then
             call out%add(json(at:first - 2)//'[')
-            values = numbers_of(json(first:last))
-            do k = 1, size(values)
-               if (k > 1) call out%add(', ')
-               call out%add(str(values(k), 8))
-            end do
+            call add_list(numbers_of(json(first:last)), out)
             call out%add(']')
          else
             call out%add(json(at:last + 1))
@@ -271,6 +266,17 @@ contains
       call out%add(json(at:))
       plain = out%text()
    end function decoded
+
+   subroutine add_list(values, out)
+      real(wp), intent(in) :: values(:)
+      type(buffer_t), intent(inout) :: out
+      integer :: k
+
+      do k = 1, size(values)
+         if (k > 1) call out%add(', ')
+         call out%add(str(values(k), 8))
+      end do
+   end subroutine add_list
 
    !> The numbers of 32 bits, lowest byte first, of a base64 string.
    function numbers_of(text) result(values)
