@@ -34,7 +34,7 @@ contains
       logical :: is_ready
 
       slopes = ieee_value(1.0_wp, ieee_quiet_nan)
-      errors = slopes
+      errors = ieee_value(1.0_wp, ieee_quiet_nan)
       if (any([shape(slopes), shape(errors)] < [size(columns), size(paths), size(columns), size(paths)])) then
          call fail(error, exit_usage, 'expected arrays of '//str(size(columns))//' x '//str(size(paths))// &
             ' numbers (columns x paths)')
