@@ -45,23 +45,19 @@ processor_seconds() {
   seconds=$(((stat[15] + stat[16]) / $(getconf CLK_TCK)))
 }
 
-# A wheel takes the library of a finished build of the same sources. It installs and runs in an empty environment in at most 20 s of
-# processor time
+# A wheel takes the library of a finished build of the same sources, and installs in an empty environment in at most 20 s
 wheel_of_finished_build() {
-  local python=$logs/venv_finished/bin start=$SECONDS seconds before made
-  git diff --quiet HEAD || { echo "remark: no wheel of the finished build, as files are changed"; return 0; }
-  rm -rf "$logs/venv_finished" "$logs/wheels/finished"
-  EK_FINISHED_BUILD=$top/build/release "$logs/venv_python/bin/pip" wheel --quiet --no-deps --wheel-dir "$logs/wheels/finished" ./python || return 1
-  made=$((SECONDS - start))
-  start=$SECONDS
+  local python=$logs/venv_finished/bin start=$SECONDS seconds before
   processor_seconds
   before=$seconds
+  git diff --quiet HEAD || { echo "remark: no wheel of the finished build, as files are changed"; return 0; }
+  rm -rf "$logs/venv_finished" "$logs/wheels/finished"
   python3 -m venv "$logs/venv_finished" || return 1
+  EK_FINISHED_BUILD=$top/build/release "$logs/venv_python/bin/pip" wheel --quiet --no-deps --wheel-dir "$logs/wheels/finished" ./python || return 1
   "$python/pip" install --quiet "$logs"/wheels/finished/elastokin-*.whl || return 1
   "$python/python" -c 'import elastokin; print(elastokin.__version__)' || return 1
   processor_seconds
-  echo "remark: wheel of the finished build: made in $made s; installed and run in an empty environment in $((SECONDS - start)) s," \
-    "$((seconds - before)) of processor time: $logs/wheels/finished"
+  echo "remark: wheel of the finished build made and installed in $((SECONDS - start)) s, $((seconds - before)) of processor time: $logs/wheels/finished"
   [ $((seconds - before)) -le 20 ]
 }
 
