@@ -90,13 +90,16 @@ contains
 
    !> Intersection of the normals to the paths of both contact points in the front view [m]. The normal at the contact point
    !> (y0, z0) is dz (z − z0) + dy (y − y0) = 0, with the displacement (dy, dz) of the contact point in roll; dz includes the
-   !> deflection of the tyre. NaN if the two displacements are parallel to 1e-8, or vanish.
+   !> deflection of the tyre. If both normals are one line (level links, trailing arms, sliding pillars: the ground), every point
+   !> of this line is an intersection; the result is the point midway between the contact points, the limit of symmetric changes.
+   !> NaN if the normals are parallel to 1e-8 at a distance, or if a displacement vanishes.
    !> Equations (S.3), (S.4) of docs/theory/suspension.md.
    pure function roll_centre(patch, at, tyre) result(centre)
       real(wp), intent(in) :: patch(2:3, 2, 2:3, 2)
       real(wp), intent(in) :: at(2:3, 2)             !! lateral and vertical position of the contact points [m]
       real(wp), intent(in) :: tyre(2)                !! m/N
-      real(wp) :: centre(2), left(2:3), right(2:3), of_left, of_right, determinant, size_of_both
+      real(wp), parameter :: parallel = 1.0e-8_wp    ! sine of an angle, and distance of parallel lines over the track
+      real(wp) :: centre(2), left(2:3), right(2:3), span(2:3), of_left, of_right, determinant, size_of_both
 
       left = patch(:, 1, 3, 1) - patch(:, 1, 3, 2)
       left(3) = left(3) + tyre(1)
@@ -107,7 +110,13 @@ contains
       determinant = left(2)*right(3) - left(3)*right(2)
       size_of_both = sqrt(left(2)**2 + left(3)**2)*sqrt(right(2)**2 + right(3)**2)
       centre = ieee_value(1.0_wp, ieee_quiet_nan)
-      if (abs(determinant) <= 1.0e-8_wp*size_of_both .or. size_of_both <= min_compliance**2) return
+      if (size_of_both <= min_compliance**2) return
+      if (abs(determinant) <= parallel*size_of_both) then
+         span = at(:, 2) - at(:, 1)
+         if (abs(left(2)*span(2) + left(3)*span(3)) <= parallel*sqrt(left(2)**2 + left(3)**2)*sqrt(span(2)**2 + span(3)**2)) &
+            centre = 0.5_wp*(at(:, 1) + at(:, 2))
+         return
+      end if
       centre(1) = (of_left*right(3) - of_right*left(3))/determinant
       centre(2) = (left(2)*of_right - right(2)*of_left)/determinant
    end function roll_centre
