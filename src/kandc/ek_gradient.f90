@@ -18,6 +18,7 @@ module ek_gradient
    use ek_kinds, only: wp
    use ek_text, only: str, quoted, plural
    use ek_quantity, only: slope_unit, unit_text
+   use ek_noise, only: noise_of, solved
    use ek_table, only: table_t, row_count, column_index, name_length
    use ek_test_result, only: test_result_t, unfolded_rows, wheel_column
    use ek_gradient_definition, only: definition_t, definitions_of, windows_t, window_of
@@ -28,7 +29,7 @@ module ek_gradient
    use ek_text_table, only: text_table_t, new_text_table, add_row, text_table_csv, read_text_table, cell_of
    implicit none(type, external)
    private
-   public :: gradient_t, test_gradients, fit_slope, slope_over_window, noise_of
+   public :: gradient_t, test_gradients, fit_slope, slope_over_window, gradient_noise
    public :: gradients_csv, gradients_json, write_gradients, read_gradients
 
    integer, parameter :: min_points = 3     !! fewer points do not define a fit
@@ -155,19 +156,15 @@ contains
       end if
       call slope_over_window(x, y, half, slope, points, undefined)
       if (.not. ieee_is_finite(slope)) return
-      if (abs(slope)*half <= noise_of(table%columns(place))) slope = 0.0_wp
+      if (abs(slope)*half <= gradient_noise(table%columns(place))) slope = 0.0_wp
    end subroutine fit_slope
 
-   !> Numerical noise of a column in the unit of the column, by the suffix of its name. Travel is driven to 1e-7 mm, which
-   !> corresponds to 1e-8 deg at a lever of 500 mm and to 1e-3 N at 10 kN/mm. The noise is ten times these values, 1e-2 N m for
-   !> moments, and 1e-12 for other units.
-   pure real(wp) function noise_of(column) result(noise)
+   !> Noise of a column as the ordinate of a gradient, in the unit of the column. The abscissa is driven, and each state has its own
+   !> error, so the noise is that of a tolerance which is a thousand times larger: 1e-6 mm, 1e-7 deg, 1e-2 N. Creates no strings.
+   pure real(wp) function gradient_noise(column) result(noise)
       character(*), intent(in) :: column
-      character(4), parameter :: endings(4) = [character(4) :: '_mm', '_deg', '_n', '_nm']
-      real(wp), parameter :: noises(0:4) = [1.0e-12_wp, 1.0e-6_wp, 1.0e-7_wp, 1.0e-2_wp, 1.0e-2_wp]    ! first: any other
-
-      noise = noises(findloc(endings == column(index(column, '_', back=.true.):), .true., dim=1))
-   end function noise_of
+      noise = noise_of(trim(column), 0.0_wp, 1.0e3_wp*solved)
+   end function gradient_noise
 
    !> The sign s_y/s_x of a wheel in a gradient, −1 or 1.
    pure real(wp) function turn_of(test, definition, side) result(turn)

@@ -4,6 +4,7 @@ module ek_change
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
    use ek_quantity, only: all_quantities, unit_of, unit_text
+   use ek_noise, only: widths
    implicit none(type, external)
    private
    public :: least_of, change_of, verdict_of, letter_of, has_changed
@@ -11,14 +12,6 @@ module ek_change
 
    character(*), parameter :: changed = 'changed', same = 'same', unknown = 'not a number', only_in = 'only in '
    real(wp), parameter :: rounding = 1.0e-6_wp      !! share of the scale; a smaller difference counts as rounding
-
-   !> The usual window of a slope, for each unit of an abscissa. It is used for units of slopes that no quantity has.
-   type :: width_t
-      character(8) :: unit
-      real(wp) :: width
-   end type width_t
-   type(width_t), parameter :: widths(*) = [width_t('m', 0.03_wp), width_t('mm', 30.0_wp), width_t('deg', 2.0_wp), &
-      width_t('kN', 2.0_wp), width_t('N', 2000.0_wp), width_t('100 N m', 2.0_wp), width_t('N m', 200.0_wp), width_t('g', 1.0_wp)]
 
 contains
 

@@ -13,7 +13,7 @@ module ek_response
    use ek_table, only: table_t, column_index, name_length, read_csv
    use ek_test_result, only: test_result_t
    use ek_gradient_definition, only: definition_t, definitions_of, windows_t, fitted
-   use ek_gradient, only: gradient_t, test_gradients, noise_of
+   use ek_gradient, only: gradient_t, test_gradients, gradient_noise
    use ek_study, only: response_t, of_names
    use ek_response_value, only: reading_t, read_response, mark_states, is_slope, find_window, unplaced_states, &
       mark_neighbours, rounded, place_of_column, an_rms, a_gradient, a_difference, no_fault, column_is_missing, over_is_missing, &
@@ -163,7 +163,7 @@ contains
          reading%over = gradients(k)%over
          if (.not. reading%asked%window > 0.0_wp) reading%asked%window = gradients(k)%window_half
          reading%size = gradients(k)%turn
-         reading%noise = noise_of(gradients(k)%column)
+         reading%noise = gradient_noise(gradients(k)%column)
          return
       end do
       if (message /= '') return
