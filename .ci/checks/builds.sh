@@ -82,6 +82,23 @@ second_compiler() {
   return $wrong
 }
 
+# Every test under pFUnit itself, where CMake finds one (CMAKE_PREFIX_PATH, or a system folder); the stand-in of tests/support must not
+# allow what pFUnit does not compile. A program that does not compile counts as failed.
+real_pfunit() {
+  local folder=build/ci/pfunit bad=0
+  rm -rf "$logs/find_pfunit" && mkdir -p "$logs/find_pfunit"
+  # shellcheck disable=SC2016  # CMake expands them
+  printf '%s\n' 'cmake_minimum_required(VERSION 3.24)' 'project(find LANGUAGES Fortran)' 'find_package(PFUNIT 4 QUIET)' \
+    'message("pFUnit: ${PFUNIT_FOUND} ${PFUNIT_VERSION}")' >"$logs/find_pfunit/CMakeLists.txt"
+  if ! cmake -S "$logs/find_pfunit" -B "$logs/find_pfunit/build" 2>&1 | grep '^pFUnit: \(1\|TRUE\|ON\) '; then
+    skip "CMake finds no pFUnit; set CMAKE_PREFIX_PATH to its installation"
+    return
+  fi
+  EK_BUILD=$folder tools/build.sh release all || bad=1
+  grep '^PFUNIT_DIR:PATH=/' "$folder/CMakeCache.txt" || return 1
+  run_tests "$folder" && [ $bad -eq 0 ]
+}
+
 # The reference BLAS and LAPACK in place of OpenBLAS
 reference_lapack_tests() {
   if grep -qe -O3 build/ci/reference_lapack/build.ninja; then echo "CMAKE_Fortran_FLAGS_RELEASE=-O1 was overridden"; return 1; fi

@@ -1,5 +1,5 @@
-!> `pf2f90 X.pf DIR`: checks X.pf and writes DIR/X.F90, its tests, and DIR/X_driver.f90, a program
-!> that runs them.
+!> `pf2f90 X.pf DIR NAMES`: checks X.pf and writes DIR/X.F90, its tests, and DIR/X_driver.f90, a program
+!> that runs them. NAMES is the file of the public names of pFUnit's module funit, which a test may not declare.
 !>
 !> Every mistake of the file is reported as `X.pf:line: what`; then nothing is written and the status
 !> is 2. Refused is also what gfortran would take but pFUnit would drop or register wrongly.
@@ -10,17 +10,18 @@ program pf2f90
   implicit none(type, external)
 
   type(pf_file_t) :: file
-  character(len=4096) :: path, directory
+  character(len=4096) :: path, directory, names
   integer :: i
 
   call get_command_argument(1, path)
   call get_command_argument(2, directory)
-  if (command_argument_count() /= 2) then
-    write (error_unit, '(a)') 'usage: pf2f90 X.pf OUTPUT_DIRECTORY'
+  call get_command_argument(3, names)
+  if (command_argument_count() /= 3) then
+    write (error_unit, '(a)') 'usage: pf2f90 X.pf OUTPUT_DIRECTORY FILE_OF_NAMES'
     stop 1, quiet=.true.
   end if
 
-  call file%read(trim(path))
+  call file%read(trim(path), trim(names))
   call file%check()
   if (size(file%mistakes) > 0) then
     do i = 1, size(file%mistakes)

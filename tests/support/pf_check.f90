@@ -1,5 +1,6 @@
 !> One .pf file: its lines, its tests, and what is wrong with it.
 module pf_check
+  use pf_names, only: name_length, taken_names, find_declared
   use pf_text, only: bare, find_arguments, has_word, lower, matching_bracket, word
   implicit none(type, external)
   private
@@ -7,7 +8,6 @@ module pf_check
   public :: pf_file_t, line_length
 
   integer, parameter :: line_length = 1024
-  integer, parameter :: name_length = 63   ! Fortran's own limit
   !> A free-form line has 132 columns, of which pFUnit's `  call ` and `, &` for `@` and `)` take 8 more.
   integer, parameter :: longest_assertion = 132 - 8
 
@@ -27,17 +27,19 @@ module pf_check
     type(test_t), allocatable :: tests(:)      !! in order of appearance
     character(len=:), allocatable :: before, after   !! empty if the file has none
     type(text_t), allocatable :: mistakes(:)
+    character(len=name_length), allocatable :: taken(:)    !! public names of pFUnit's module funit, in lower case
   contains
     procedure :: read => read_lines
     procedure :: check
-    procedure, private :: check_module, check_subroutine, check_directive, check_assertion, refuse
+    procedure, private :: check_module, check_subroutine, check_directive, check_assertion, check_names, refuse
   end type pf_file_t
 
 contains
 
-  subroutine read_lines(this, path)
+  subroutine read_lines(this, path, names)
     class(pf_file_t), intent(inout) :: this
     character(len=*), intent(in) :: path
+    character(len=*), intent(in) :: names    !! file of the names that pFUnit exports, one a line
 
     character(len=line_length) :: line
     integer :: unit, status, i, n
@@ -48,6 +50,8 @@ contains
     allocate (this%tests(0), this%mistakes(0))
     this%before = ''
     this%after = ''
+    call taken_names(names, this%taken)
+    if (size(this%taken) == 0) call this%refuse(0, 'the names of pFUnit cannot be read from ' // names)
 
     open (newunit=unit, file=path, status='old', action='read', iostat=status)
     if (status /= 0) then
@@ -106,7 +110,26 @@ contains
     if (pending /= '') call this%refuse(size(this%lines), 'no subroutine follows ' // trim(pending))
     if (module_name == '') call this%refuse(1, 'the file needs a module named ' // this%base)
     if (.not. has_test) call this%refuse(max(1, size(this%lines)), 'the file has no @test')
+    call this%check_names()
   end subroutine check
+
+  !> `use funit` brings all public names of pFUnit into the file. A name of the file, or of another module, that is one of them is
+  !> ambiguous or is taken for pFUnit's.
+  subroutine check_names(this)
+    class(pf_file_t), intent(inout) :: this
+
+    character(len=name_length), allocatable :: names(:)
+    integer, allocatable :: lines(:)
+    integer :: k
+
+    call find_declared(this%lines, names, lines)
+    do k = 1, size(names)
+      if (names(k) == '*') call this%refuse(lines(k), 'write only: after the module, because every name that it exports is ' // &
+        'imported, and pFUnit may export the same name')
+      if (any(this%taken == names(k))) call this%refuse(lines(k), trim(names(k)) // &
+        ' is a public name of pFUnit (module funit); give it another name')
+    end do
+  end subroutine check_names
 
   !> pFUnit finds the suite by the file name, the tests by the module name.
   subroutine check_module(this, i, code, module_name)

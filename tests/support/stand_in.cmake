@@ -9,6 +9,7 @@ add_library(ek_funit STATIC
   ${EK_TEST_SUPPORT_DIR}/funit_runner.f90)
 add_executable(ek_pf2f90
   ${EK_TEST_SUPPORT_DIR}/pf_text.f90
+  ${EK_TEST_SUPPORT_DIR}/pf_names.f90
   ${EK_TEST_SUPPORT_DIR}/pf_check.f90
   ${EK_TEST_SUPPORT_DIR}/pf_write.f90
   ${EK_TEST_SUPPORT_DIR}/pf2f90.f90)
@@ -25,8 +26,8 @@ function(ek_add_stand_in_test_program name pf_file other_sources link)
   file(MAKE_DIRECTORY ${made}/mod)
   add_custom_command(
     OUTPUT ${made}/${base}.F90 ${made}/${base}_driver.f90
-    COMMAND ek_pf2f90 ${pf_file} ${made}
-    DEPENDS ${pf_file} ek_pf2f90
+    COMMAND ek_pf2f90 ${pf_file} ${made} ${EK_TEST_SUPPORT_DIR}/funit_names.txt
+    DEPENDS ${pf_file} ek_pf2f90 ${EK_TEST_SUPPORT_DIR}/funit_names.txt
     COMMENT "Preprocessing ${base}.pf"
     VERBATIM)
   add_executable(${name} ${made}/${base}.F90 ${made}/${base}_driver.f90 ${other_sources})
@@ -52,7 +53,7 @@ function(ek_add_support_tests)
     cmake_path(GET trap STEM name)
     add_test(NAME support_${name}
       COMMAND sh ${dir}/check_trap.sh $<TARGET_FILE:ek_pf2f90> ${trap}
-        ${CMAKE_CURRENT_BINARY_DIR}/generated/${name})
+        ${CMAKE_CURRENT_BINARY_DIR}/generated/${name} ${EK_TEST_SUPPORT_DIR}/funit_names.txt)
   endforeach()
   add_test(NAME support_run_tests
     COMMAND sh ${dir}/check_run_tests.sh ${EK_TEST_SUPPORT_DIR}/add_up.awk)
