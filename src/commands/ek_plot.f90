@@ -12,6 +12,7 @@ module ek_plot
    use ek_step_page, only: step_page, step_script, figure_ending
    use ek_text_table, only: text_table_t, read_text_table
    use ek_study_results, only: read_results_of
+   use ek_study_list, only: list_figures, check_tables
    use ek_command_line, only: command_line_t
    use ek_opened_study, only: opened_study_t, open_study
    use ek_console, only: print_note, print_path
@@ -80,7 +81,7 @@ contains
       logical, intent(in) :: is_quiet
       type(error_t), allocatable, intent(out) :: error
       class(study_data_t), allocatable :: data
-      type(message_list_t) :: scripts, pictures
+      type(message_list_t) :: scripts, pictures, files
       type(error_t), allocatable :: undrawn
       character(:), allocatable :: folder, message, name
       integer :: k, sheet
@@ -103,6 +104,7 @@ contains
             call scripts%add(name//'.gp')
             call pictures%add(name//'.png')
             call pictures%add(name//'.svg')
+            call add_files(name, files)
          end do
       end do
       if (kinds%count() > 0 .and. scripts%count() == 0) then
@@ -117,6 +119,9 @@ contains
       if (allocated(undrawn)) message = undrawn%message
       if (len(message) > 0) folder = ''
       call write_whole(join_path(out, page_name(data)), study_page(data, folder, message), error)
+      if (allocated(error)) return
+      call files%add(page_name(data))
+      call list_figures(study%name, out, files, is_quiet, error)
       if (allocated(error)) return
       call print_path(join_path(out, page_name(data)), error)
       if (allocated(undrawn)) call move_alloc(undrawn, error)
@@ -149,7 +154,10 @@ contains
             is_current = .not. allocated(unread)
             if (is_current) is_current = script == script_of(rule, data, sheet)
          end if
-         if (is_current) return
+         if (is_current) then
+            call add_files(name, files)
+            return
+         end if
          call remove_file(join_path(folder, name//'.gp'))
          call remove_file(join_path(folder, name//'.png'))
          call remove_file(join_path(folder, name//'.svg'))
@@ -167,6 +175,16 @@ contains
 
    end subroutine draw_study
 
+   !> Adds the script and the pictures of a figure to a list of files.
+   subroutine add_files(figure, files)
+      character(*), intent(in) :: figure             !! name without extension
+      type(message_list_t), intent(inout) :: files
+
+      call files%add('figures/'//figure//'.gp')
+      call files%add('figures/'//figure//'.png')
+      call files%add('figures/'//figure//'.svg')
+   end subroutine add_files
+
    !> Reads the table of a step-size study, draws its figure, and writes its page.
    subroutine draw_steps(study, out, is_quiet, error)
       type(study_t), intent(in) :: study
@@ -174,10 +192,12 @@ contains
       logical, intent(in) :: is_quiet
       type(error_t), allocatable, intent(out) :: error
       type(text_table_t) :: table
-      type(message_list_t) :: scripts, pictures
+      type(message_list_t) :: scripts, pictures, files
       type(error_t), allocatable :: undrawn
       character(:), allocatable :: folder, message, name, script
 
+      call check_tables(study%name, out, study%name//'.csv', error)
+      if (allocated(error)) return
       call read_text_table(join_path(out, study%name//'.csv'), table, error)
       if (allocated(error)) return
       folder = join_path(out, 'figures')
@@ -196,6 +216,7 @@ contains
          call write_whole(join_path(folder, name//'.gp'), script, error, can_be_redrawn=.true.)
          if (allocated(error)) return
          call scripts%add(name//'.gp')
+         call add_files(name, files)
          call run_gnuplot(scripts, pictures, folder, message, undrawn)
       end if
       if (len(message) > 0) call print_note(is_quiet, message)
@@ -203,6 +224,9 @@ contains
       if (len(message) > 0) folder = ''
       call write_whole(join_path(out, study%name//'.html'), step_page(study%title, study%name, study%deck, study%case, table, &
          folder, message), error)
+      if (allocated(error)) return
+      call files%add(study%name//'.html')
+      call list_figures(study%name, out, files, is_quiet, error)
       if (allocated(error)) return
       call print_path(join_path(out, study%name//'.html'), error)
       if (allocated(undrawn)) call move_alloc(undrawn, error)

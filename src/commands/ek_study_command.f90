@@ -74,7 +74,7 @@ contains
       else if (has_designs) then
          call run_designs(line, this, options, ranks, tables, error)
       else if (ranks%is_first) then
-         call write_step_size(this%study, this%deck, this%out, tables, error)
+         call write_step_size(this%study, this%deck, this%out, line%has('--quiet'), tables, error)
       end if
       call show_results(line, this, tables, error)
    end subroutine run_as_rank

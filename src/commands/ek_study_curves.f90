@@ -3,6 +3,7 @@ module ek_study_curves
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
    use ek_error, only: error_t, fail, exit_file
+   use ek_text, only: str
    use ek_sample_statistics, only: ascending_order, percentile
    use ek_study_data, only: study_data_t, percents
    use ek_study_tables, only: repeated_factors
@@ -22,16 +23,19 @@ contains
    end function curve_step
 
    !> Reads the curves of the designs that curve_step selects, and finds their bands and the label of the swept value.
-   subroutine read_curves(path, data, error)
+   subroutine read_curves(path, deck_sum, data, error)
       character(*), intent(in) :: path
+      character(*), intent(in) :: deck_sum             !! checksum of the deck
       type(study_data_t), intent(inout) :: data
       type(error_t), allocatable, intent(out) :: error
       type(lines_t) :: lines
       character(64), allocatable :: names(:)
       real(wp), allocatable :: values(:), rows(:, :), grown(:, :)
+      real(wp) :: before                               ! design of the row before
+      logical :: is_row
       integer :: k, c, status, used, every, rest, last
 
-      call open_table(path, '', lines, names, error)
+      call open_table(path, deck_sum, lines, names, error)
       k = repeated_factors(size(data%factors))
       c = size(data%columns)
       if (.not. allocated(error) .and. size(names) /= k + c + 2) call fail(error, exit_file, path// &
@@ -40,14 +44,21 @@ contains
          every = curve_step(data%designs)
          allocate (values(k + c + 2), rows(c + 2, 1024))
          used = 0
+         before = 1.0_wp
          do
             call next_line(lines, status)
             if (status /= 0) exit
             if (every > 1) then
                call take_numbers(lines%content(:lines%used), values(:1), rest)
+               if (.not. is_design(values(1))) exit
                if (mod(nint(values(1)) - 1, every) /= 0) cycle
             end if
-            call take_numbers(lines%content(:lines%used), values, rest)
+            call take_numbers(lines%content(:lines%used), values, rest, is_row)
+            if (is_row) is_row = is_design(values(1)) .and. rest > lines%used
+            if (is_row) is_row = ieee_is_finite(values(k + 2))
+            if (is_row) is_row = all(abs(values(2:k + 1) - data%x(:k, nint(values(1)))) <= 0.0_wp)
+            if (.not. is_row) exit
+            before = values(1)
             used = used + 1
             if (used > size(rows, 2)) then
                last = size(rows, 2)
@@ -57,11 +68,26 @@ contains
             end if
             rows(:, used) = [values(1), values(k + 2:)]
          end do
-         call sort_curves(rows(:, :used), data)
-         call find_bands(data)
-         call name_sweep(data)
+         if (status == 0) then
+            call fail(error, exit_file, path//':'//str(lines%line)//': this is not a row of the curves of the study; '// &
+               'run the study again')
+         else
+            call sort_curves(rows(:, :used), data)
+            call find_bands(data)
+            call name_sweep(data)
+         end if
       end if
       call close_table(lines)
+
+   contains
+
+      !> Whether a number is the index of a design, which is not before the design of the row before.
+      pure logical function is_design(number)
+         real(wp), intent(in) :: number
+         is_design = number >= before .and. number <= real(data%designs, wp)
+         if (is_design) is_design = abs(number - anint(number)) <= 0.0_wp
+      end function is_design
+
    end subroutine read_curves
 
    !> Places the states of each design at the swept values of the design that has the most swept values. States at other swept

@@ -15,6 +15,7 @@ module ek_study_outcome
    use ek_command_line, only: command_line_t
    use ek_opened_study, only: opened_study_t, results_name
    use ek_tolerance_outcome, only: write_tolerance
+   use ek_study_list, only: list_tables, list_figures
    use ek_plot, only: draw_study, draw_steps
    use ek_console, only: print_note, print_warning, print_error, print_path
    implicit none(type, external)
@@ -46,6 +47,11 @@ contains
       end if
       is_missing = counts%is_missing
       if (allocated(error)) return
+      name = results_name(this)
+      if (this%plan%columns > 0 .and. .not. this%has_store) call tables%add(curves_name(this%study))
+      call tables%add(name)
+      call list_tables(this%study%name, this%out, tables, is_quiet, error)       ! the chunks stay until the list is complete
+      if (allocated(error)) return
       call remove_parts(this%study, this%plan, this%out, hold, user)
       if (user == this_machine) call print_note(is_quiet, 'another run is at work in '//parts_folder(this%study, this%out)// &
          '; it removes that folder')
@@ -54,9 +60,6 @@ contains
       if (counts%kernels%count() > 1) call print_warning('the designs were computed with different BLAS kernels ('// &
          kernels_text(counts)//'): their last digits may differ; set OPENBLAS_CORETYPE='// &
          counts%kernels%line(1)//' on every machine to get equal digits')
-      name = results_name(this)
-      if (this%plan%columns > 0 .and. .not. this%has_store) call tables%add(curves_name(this%study))
-      call tables%add(name)
       if (has_limits(this%study)) call print_note(is_quiet, str(counts%within)//' of '//plural(this%plan%designs, &
          'design satisfies', 'designs satisfy')//' all limits')
       failed = sum(counts%designs(1:))
@@ -75,10 +78,11 @@ contains
    end subroutine write_results
 
    !> Writes the table out/<study>.csv of a step-size study.
-   subroutine write_step_size(study, deck, out, tables, error)
+   subroutine write_step_size(study, deck, out, is_quiet, tables, error)
       type(study_t), intent(in) :: study
       type(deck_t), intent(in) :: deck
       character(*), intent(in) :: out
+      logical, intent(in) :: is_quiet
       type(message_list_t), intent(inout) :: tables      !! names of the tables written
       type(error_t), allocatable, intent(out) :: error
       type(writer_t) :: writer
@@ -88,7 +92,9 @@ contains
       if (.not. allocated(error)) call step_size_text(study, deck, text, error, writer)
       if (.not. allocated(error)) call writer%finish(error)
       call writer%abandon()                              ! no effect on a finished table
-      if (.not. allocated(error)) call tables%add(study%name//'.csv')
+      if (allocated(error)) return
+      call tables%add(study%name//'.csv')
+      call list_tables(study%name, out, tables, is_quiet, error)
    end subroutine write_step_size
 
    !> Prints the paths of the tables, writes the moments of a tolerance study, and draws the figures unless --no-plots is given.
@@ -105,11 +111,13 @@ contains
          call print_path(join_path(this%out, tables%line(k)), unprinted)
       end do
       if (allocated(this%tolerance)) then
-         call write_tolerance(this, undrawn)
+         call write_tolerance(this, line%has('--quiet'), undrawn)
          if (allocated(undrawn) .and. .not. allocated(error)) call move_alloc(undrawn, error)
          if (allocated(undrawn)) deallocate (undrawn)
       end if
       if (line%has('--no-plots')) then
+         call list_figures(this%study%name, this%out, message_list_t(), line%has('--quiet'), undrawn)     ! none
+         if (allocated(undrawn) .and. .not. allocated(error)) call move_alloc(undrawn, error)
          if (allocated(unprinted) .and. .not. allocated(error)) call move_alloc(unprinted, error)
          return
       end if

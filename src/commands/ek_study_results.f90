@@ -3,7 +3,8 @@
 !> All values of factors and responses are stored (8 bytes each). Curves are stored for at most 5,000 designs. A NetCDF store is
 !> first written as tables into a scratch folder (ek_store).
 module ek_study_results
-   use ek_kinds, only: wp
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use ek_kinds, only: wp, i8
    use ek_error, only: error_t, message_list_t, fail, exit_file
    use ek_text, only: str, plural
    use ek_file, only: join_path, file_exists
@@ -11,7 +12,7 @@ module ek_study_results
    use ek_deck, only: deck_t, deck_checksum
    use ek_rig, only: rig_t, rig_of
    use ek_study, only: study_t, by_delta, by_scale
-   use ek_sampler, only: sampler_t, designs_of
+   use ek_sampler, only: sampler_t, designs_of, sample
    use ek_sampler_kind, only: sampler_kinds, tolerance_kind
    use ek_sampler_settings, only: sampler_settings_t
    use ek_designer, only: designer_t, begin_designer
@@ -19,6 +20,9 @@ module ek_study_results
    use ek_study_tables, only: responses_name, curves_name, has_limits
    use ek_study_data, only: study_data_t, study_axis_t, percents
    use ek_store, only: wants_store, read_store, store_name
+   use ek_store_description, only: keeps
+   use ek_study_list, only: check_tables
+   use ek_chunk, only: design_invalid
    use ek_writer, only: scratch_t, begin_scratch, end_scratch
    use ek_study_curves, only: read_curves, curve_step
    use ek_table_lines, only: lines_t, open_table, next_line, take_numbers, close_table
@@ -67,13 +71,14 @@ contains
       call name_axes(study, designer, data)
       call set_bands(designer%workspace%design%targets, study%responses, data%responses)
       call find_tables(study, out, data%designs, scratch, folder, error)
-      if (.not. allocated(error)) call read_rows(study, deck_checksum(deck), join_path(folder, responses_name(study)), data, error)
+      if (.not. allocated(error)) call read_rows(study, deck_checksum(deck), join_path(folder, responses_name(study)), sampler, &
+         data, error)
       if (allocated(error)) then
          call end_scratch(scratch)
          return
       end if
       if (size(data%columns) > 0) then
-         call read_curves(join_path(folder, curves_name(study)), data, error)
+         call read_curves(join_path(folder, curves_name(study)), deck_checksum(deck), data, error)
       else
          allocate (data%drawn(0), data%sweep(0), data%curves(0, 0, 0), data%bands(size(percents), 0, 0))
       end if
@@ -104,7 +109,12 @@ contains
       if (.not. has_tables .and. .not. has_store) then
          call fail(error, exit_file, 'there is no '//join_path(out, responses_name(study))//' and no '//store_name(study)// &
             ': the study is not finished, or its results are in another folder (--out)')
-      else if (has_store .and. (wants_store(study, designs) .or. .not. has_tables)) then
+         return
+      end if
+      has_store = has_store .and. (wants_store(study, designs) .or. .not. has_tables)
+      if (has_store) call check_tables(study%name, out, store_name(study), error)
+      if (.not. has_store) call check_tables(study%name, out, responses_name(study), error)
+      if (has_store .and. .not. allocated(error)) then
          call begin_scratch(join_path(out, ''), scratch, error)
          if (allocated(error)) return
          folder = scratch%path
@@ -180,16 +190,18 @@ contains
       if (unit_of(column) /= '' .and. axis%label /= column) axis%label = axis%label//' ['//unit_text(unit_of(column))//']'
    end subroutine name_column
 
-   !> Reads the table of responses.
-   subroutine read_rows(study, deck_sum, path, data, error)
+   !> Reads the table of responses. Its factors must be those of the study.
+   subroutine read_rows(study, deck_sum, path, sampler, data, error)
       type(study_t), intent(in) :: study
       character(*), intent(in) :: deck_sum, path
+      type(sampler_t), intent(in) :: sampler         !! designs of the study
       type(study_data_t), intent(inout) :: data
       type(error_t), allocatable, intent(out) :: error
       type(lines_t) :: lines
       type(reason_t), allocatable :: reasons(:)
       character(64), allocatable :: names(:)
       real(wp), allocatable :: values(:)
+      logical :: are_numbers
       integer :: k, m, status, rest, d
 
       call open_table(path, deck_sum, lines, names, error)
@@ -212,9 +224,15 @@ contains
             if (status /= 0) exit
             d = d + 1
             if (d > data%designs) exit
-            call take_numbers(lines%content(:lines%used), values, rest)
+            call take_numbers(lines%content(:lines%used), values, rest, are_numbers)
             data%x(:, d) = values(2:k + 1)
             data%y(:, d) = values(k + 2:k + m + 1)
+            if (are_numbers) are_numbers = is_design(values)
+            if (.not. are_numbers) then
+               call fail(error, exit_file, path//':'//str(lines%line)//': this is not design '//str(d)//' of the study; '// &
+                  'run the study again')
+               exit
+            end if
             if (has_limits(study)) data%within = data%within + merge(1, 0, values(k + m + 2) > 0.5_wp)
             if (values(size(values)) < 0.5_wp) cycle
             data%failed = data%failed + 1
@@ -226,6 +244,25 @@ contains
       call close_table(lines)
 
    contains
+
+      !> Whether the numbers of a row are possible for design d of the study: index, factors, within the limits or not, and status.
+      logical function is_design(row)
+         real(wp), intent(in) :: row(:)
+         real(wp), parameter :: noise = 1.0e-9_wp      ! relative; a table has 15 digits, and other processors round differently
+         real(wp) :: factors(k)
+         integer :: f
+
+         is_design = .false.
+         if (abs(row(1) - d) > 0.0_wp .or. .not. all(ieee_is_finite(row(:k + 1)))) return
+         call sample(sampler, int(d, i8), factors)
+         do f = 1, k
+            if (abs(row(f + 1) - factors(f)) > noise*max(abs(factors(f)), maxval(abs(data%x(f, :d))))) return
+         end do
+         if (.not. any(abs(row(size(row)) - [(f, f=0, design_invalid)]) <= 0.0_wp)) return
+         is_design = .true.
+         if (has_limits(study)) is_design = abs(row(k + m + 2) - merge(1.0_wp, 0.0_wp, keeps(row(k + 2:k + m + 1), &
+            study%responses%lower, study%responses%upper))) <= 0.0_wp
+      end function is_design
 
       !> Reports that a table does not belong to the study.
       subroutine wrong()

@@ -80,20 +80,24 @@ contains
    end subroutine next_line
 
    !> Reads the first numbers of a line. Other content becomes NaN. `rest` is the position at which the next field begins.
-   pure subroutine take_numbers(content, values, rest)
+   pure subroutine take_numbers(content, values, rest, are_numbers)
       character(*), intent(in) :: content
       real(wp), intent(out) :: values(:)
       integer, intent(out) :: rest
-      logical :: is_number
+      logical, intent(out), optional :: are_numbers  !! .false. if a field is missing or is not a number; nan is a number
+      logical :: is_number, are_all
       integer :: k, comma
 
+      are_all = .true.
       rest = 1
       do k = 1, size(values)
          comma = index(content(rest:), ',')
          if (comma == 0) comma = len(content) - rest + 2
          call get_decimal(content(rest:rest + comma - 2), values(k), is_number)
+         are_all = are_all .and. is_number
          rest = min(rest + comma, len(content) + 1)
       end do
+      if (present(are_numbers)) are_numbers = are_all
    end subroutine take_numbers
 
    !> Closes a table, if it is open.

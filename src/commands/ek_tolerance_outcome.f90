@@ -12,6 +12,7 @@ module ek_tolerance_outcome
    use ek_study_results, only: read_results_of
    use ek_tolerance, only: find_tolerance
    use ek_moment_tables, only: take_tolerance, take_sample, write_moments
+   use ek_study_list, only: list_tables
    use ek_opened_study, only: opened_study_t
    use ek_console, only: print_path, print_text
    implicit none(type, external)
@@ -37,8 +38,9 @@ contains
    end subroutine expand_study
 
    !> Writes the tables of moments, and prints their paths and the moments.
-   subroutine write_tolerance(this, error)
+   subroutine write_tolerance(this, is_quiet, error)
       type(opened_study_t), intent(in) :: this
+      logical, intent(in) :: is_quiet
       type(error_t), allocatable, intent(out) :: error     !! exit_file
       class(study_data_t), allocatable :: data
       type(message_list_t) :: names
@@ -53,6 +55,7 @@ contains
       call take_tolerance(this%tolerance, this%study%columns, data)
       call take_sample(data)
       call write_moments(data, this%out, names, error)
+      if (.not. allocated(error)) call list_tables(this%study%name, this%out, names, is_quiet, error, is_more=.true.)
       do k = 1, names%count()
          if (.not. allocated(error)) call print_path(join_path(this%out, names%line(k)), error)
       end do

@@ -31,7 +31,7 @@ study() { "$program" study "$work/study.nml" "${few[@]}" --out "$@"; } # study F
 merge() { "$program" merge "$work/study.nml" "${few[@]}" --out "$1"; }
 done_in() { "$program" study "$work/study.nml" "${few[@]}" --out "$1" --status | sed -n 's/.*: \([0-9]*\) of .*/\1/p'; }
 same() { cmp "$work/wanted/s_responses.csv" "$1/s_responses.csv" || complain "$2: not the bytes of an undisturbed study"; }
-only_table() { [ "$(ls -A "$1")" = s_responses.csv ] || complain "$2: left behind: $(ls -A "$1" "$1/s.parts")"; }
+only_table() { [ "$(ls -A "$1")" = s-files.csv$'\n's_responses.csv ] || complain "$2: left behind: $(ls -A "$1" "$1/s.parts")"; }
 refused() { # refused STATUS WORDS COMMAND...
   local status=$1 words=$2
   shift 2
