@@ -121,6 +121,13 @@ report_apart_from_gnuplot() {
   sed -n 's/^million/remark: million/p' "$logs/measure_report.txt"
 }
 
+# Every sentence of a report on a number, computed again from the tables that it names, for every deck of the library
+reports_say_what_is_so() {
+  local decks
+  mapfile -t decks < <(grep -l '^&model' input/*/*.nml)
+  python3 tests/support/check_said.py build/release/bin/elastokin "${decks[@]}"
+}
+
 # Every JSON that the program writes fits its schema in schema/, and a file with a mistake does not
 json_fits_the_schemas() {
   local tools=$logs/venv_json folder=$logs/json program=$top/build/release/bin/elastokin axle=input/mcpherson_axle/mcpherson_axle.nml

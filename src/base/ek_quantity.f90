@@ -185,7 +185,7 @@ module ek_quantity
    type(quantity_t), parameter, public :: wheel_slopes(*) = [ &
       quantity_t('recession_gradient_mm_per_m', matrix, 'Recession gradient', '+ rearward in bump', middle), &
       quantity_t('steer_camber_deg_per_deg', matrix + rack, 'Camber per steer', '+ top outward, steer to the left', 0.01_wp), &
-      quantity_t('ride_frequency_hz', matrix + sprung, 'Ride frequency', 'ride rate and sprung mass', 0.05_wp)]
+      quantity_t('ride_frequency_hz', matrix + sprung, 'Ride frequency', 'ride rate; sprung mass or whole wheel load', 0.05_wp)]
 
    type(quantity_t), parameter, public :: axle_geometry(*) = [ &
       quantity_t('total_track_mm', pair, 'Total track', 'distance of the patches', middle), &

@@ -3,6 +3,7 @@
 !> ek_quantity and ek_gradient_definition.
 module ek_key_numbers
    use ek_kinds, only: wp
+   use ek_text, only: str
    use ek_table, only: column_index
    use ek_quantity, only: quantity_t, quantity_named, without_phase, unit_of, unit_text
    use ek_test_result, only: test_result_t
@@ -102,10 +103,12 @@ contains
       allocate (is_there(size(listed)))
       do k = 1, size(listed)
          values = nothing()
+         is_final = .false.
          do j = 1, size(listed(k)%sources)
             call read_source(listed(k)%how, listed(k)%sources(j), tests(listed(k)%sources(j)%test)%table, values, is_final)
             if (is_final) exit
          end do
+         if (is_final .and. j > 1) call name_test(tests(listed(k)%sources(j)%test)%name, listed(k))
          listed(k)%left = values(1)
          listed(k)%right = values(2)
          ! a slope without a value remains, with the reason among the gradients
@@ -239,9 +242,12 @@ contains
       type(entry_t), intent(in) :: entry
       type(key_number_t), intent(out) :: number
       type(key_source_t) :: source
+      character(:), allocatable :: column, over, unit, sign
+      real(wp) :: times(2), per_factor
       integer :: t, k, wheel
       logical :: is_there
 
+      times = 0.0_wp
       call new_number(trim(entry%group), trim(entry%name)//trim(phases(entry%how))//fitted, '', '', entry%how, number)
       number%name = trim(name_of(entry))
       do t = 1, size(tests)
@@ -264,12 +270,59 @@ contains
             number%held = tests(t)%held
             number%condition = 'test '//tests(t)%name//', within '//gradients(k)%window//' of design'
             if (number%held /= '') number%condition = number%condition//', '//trim(number%held)
-            number%definition = 'least-squares slope of '//without_side(gradients(k)%column)//' over '// &
-               without_side(gradients(k)%over)//sign_of(gradients(k)%sign)
+            column = without_side(gradients(k)%column)
+            over = without_side(gradients(k)%over)
+            per_factor = tests(t)%factor_size
+            unit = gradients(k)%window(index(gradients(k)%window, ' '):)
+            sign = sign_of(gradients(k)%sign)
+            times(wheel) = gradients(k)%size*gradients(k)%turn
          end do
          if (is_there) call add_source(source, number)
       end do
+      if (size(number%sources) == 0) return
+      number%definition = 'least-squares slope of '//column//' over '//over
+      if (over == 'factor') then
+         times = times/per_factor
+         if (abs(per_factor - 1.0_wp) > 0.0_wp) number%definition = number%definition//' (1: '//signed(per_factor)//unit//')'
+      end if
+      number%definition = number%definition//times_of(times)//sign
    end subroutine from_gradients
+
+   !> The factors on the slopes of the columns of both wheels, which include unit and sign: ', times 1000', or ', times −1000 (left
+   !> wheel), 1000 (right wheel)'; '' if both are 1. The factor of a wheel without the number is 0.
+   function times_of(times) result(text)
+      real(wp), intent(in) :: times(2)
+      character(:), allocatable :: text
+      real(wp) :: both(2)
+
+      both = times
+      where (.not. abs(both) > 0.0_wp) both = times([2, 1])
+      text = ''
+      if (all(abs(both - 1.0_wp) <= 0.0_wp)) return
+      if (abs(both(1) - both(2)) <= 0.0_wp) then
+         text = ', times '//signed(both(1))
+      else
+         text = ', times '//signed(both(1))//' (left wheel), '//signed(both(2))//' (right wheel)'
+      end if
+   end function times_of
+
+   !> A number with the minus sign of the page.
+   function signed(number) result(text)
+      real(wp), intent(in) :: number
+      character(:), allocatable :: text
+
+      text = str(abs(number), 9)
+      if (number < 0.0_wp) text = '−'//text
+   end function signed
+
+   !> Replaces the test in the condition of a key number by the test that gave its value: 'test NAME, at design'.
+   subroutine name_test(test, number)
+      character(*), intent(in) :: test
+      type(key_number_t), intent(inout) :: number
+
+      if (all(number%how /= [at_design, largest, least])) return
+      number%condition = 'test '//test//number%condition(index(number%condition, ','):)
+   end subroutine name_test
 
    !> Defines a key number as a column at design, or as the maximum or minimum of a column. Every test that has the column becomes a
    !> source.
@@ -296,10 +349,10 @@ contains
       call new_number(trim(entry%group), trim(quantity%title), unit_text(unit_of(trim(entry%name))), trim(quantity%sign), &
          entry%how, number)
       number%name = trim(name_of(entry))
-      number%condition = 'at design'
+      number%condition = ', at design'
       number%definition = trim(entry%name)//sign
       if (entry%how /= at_design) then
-         number%condition = 'test '//trim(entry%kind)//', over all states'
+         number%condition = ', over all states'
          number%definition = trim(merge('maximum', 'minimum', entry%how == largest))//' of '//trim(entry%name)//sign
       end if
       do t = 1, size(tests)
@@ -314,7 +367,9 @@ contains
             source%column(1) = entry%name
             if (size(number%sources) == 0) number%is_of_axle = size(tests(t)%prefixes) > 1
          end if
-         if (any(source%column /= '')) call add_source(source, number)
+         if (.not. any(source%column /= '')) cycle
+         if (size(number%sources) == 0) number%condition = 'test '//tests(t)%name//number%condition
+         call add_source(source, number)
       end do
    end subroutine from_tables
 

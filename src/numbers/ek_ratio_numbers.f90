@@ -62,8 +62,8 @@ contains
          if (on_right /= '') stem = element(6:)
          call new_number('Motion ratios', 'motion ratio, '//spaced(stem), '–', '− shortens in bump', at_design, number)
          number%name = stem//ratio_ending
-         number%condition = 'at design, wheels in parallel travel'
-         number%definition = 'd(length of '//stem//')/d(wheel travel); − shortens in bump'
+         number%condition = 'test '//tests(t)%name//', at design, wheels in parallel travel'
+         number%definition = stem//ratio_ending//', d(length of '//stem//')/d(wheel travel); − shortens in bump'
          number%is_of_axle = is_pair .and. on_right == ''
          source = key_source_t(test=t)
          source%column(1) = element//ratio_ending

@@ -4,12 +4,12 @@ module ek_number_section
    use ek_kinds, only: wp
    use ek_key_number, only: key_number_t
    use ek_explanation, only: parts_of
-   use ek_number_words, only: steer_effect, target_verdict, short_name, is_symmetric, is_opposite
+   use ek_number_words, only: steer_effect, target_verdict, short_name, is_equal, is_opposite, sides_text
    use ek_verdict, only: verdict_t, verdict_lines
    use ek_page, only: page_t, begin_section, add_markup, page_number
    use ek_report_content, only: report_t
    use ek_sparkline, only: sparkline
-   use ek_summary, only: summary_numbers, kept_number
+   use ek_summary, only: summary_numbers, kept_number, relation_to
    use ek_svg, only: escape_html
    implicit none(type, external)
    private
@@ -113,8 +113,7 @@ contains
             end if
             call add_markup(page, '<tr><th scope="row">'//escape_html(short_name(number))//held_of(number)// &
                details_of(report%numbers, k)//'</th><td class="n" data-number="'//escape_html(number%name)//'">'// &
-               pair_of(number)//trim(merge(' <small>left; right opposite</small>', '                                    ', &
-               is_opposite(number)))//'</td><td>'//escape_html(number%unit)// &
+               pair_of(number)//opposite_of(number)//'</td><td>'//escape_html(number%unit)// &
                '</td><td class="s">'//escape_html(number%sign)//target_of(number)//'</td></tr>')
          end associate
       end do
@@ -131,22 +130,22 @@ contains
       html = '<details class="how"><summary>how</summary><p>'//escape_html(numbers(k)%definition)//'. '// &
          escape_html(numbers(k)%condition)//'.'
       do j = 1, size(numbers)
-         if (kept_number(numbers, j) == k) html = html//' The same as '//escape_html(numbers(j)%quantity)//': '// &
-            pair_of(numbers(j))//' '//escape_html(numbers(j)%unit)//' ('//escape_html(numbers(j)%condition)//').'
+         if (kept_number(numbers, j) /= k) cycle
+         html = html//' '//relation_to(numbers(j)%name)//' '//escape_html(numbers(j)%quantity)//': '//pair_of(numbers(j))//' '// &
+            escape_html(numbers(j)%unit)//opposite_of(numbers(j))//' ('//escape_html(numbers(j)%condition)//').'
       end do
       html = html//' Name: <code>'//escape_html(numbers(k)%name)//'</code></p></details>'
    end function details_of
 
-   !> Value and unit of a key number as HTML: '−3.21 deg/m'. If both wheels have equal or opposite values, 'symmetric' or
-   !> 'left; right wheel opposite' follows.
+   !> Value and unit of a key number as HTML: '−3.21 deg/m'. If both wheels have equal or opposite values, the meaning follows
+   !> (sides_text): 'both wheels to the left'.
    function values_of(number) result(html)
       type(key_number_t), intent(in) :: number
       character(:), allocatable :: html
 
       html = '<b>'//pair_of(number)//'</b> '
       if (number%unit /= '–') html = html//escape_html(number%unit)
-      if (is_symmetric(number)) html = html//' <small>symmetric</small>'
-      if (is_opposite(number)) html = html//' <small>left; right wheel opposite</small>'
+      if (sides_text(number) /= '') html = html//' <small>'//sides_text(number)//'</small>'
    end function values_of
 
    !> The value of a key number as HTML. For the axle, or if both wheels have equal or opposite values to the printed digits,
@@ -156,7 +155,7 @@ contains
       character(:), allocatable :: html, right
 
       html = page_number(number%left)
-      if (number%is_of_axle .or. is_symmetric(number) .or. is_opposite(number)) return
+      if (number%is_of_axle .or. is_equal(number) .or. is_opposite(number)) return
       right = page_number(number%right)
       if (ieee_is_finite(number%left) .and. ieee_is_finite(number%right)) then
          html = '<span title="left">'//html//'</span> <i>|</i> <span title="right">'//right//'</span>'
@@ -164,6 +163,15 @@ contains
          html = right
       end if
    end function pair_of
+
+   !> The meaning of opposite values of both wheels, as HTML; '' for other values.
+   function opposite_of(number) result(html)
+      type(key_number_t), intent(in) :: number
+      character(:), allocatable :: html
+
+      html = ''
+      if (is_opposite(number)) html = ' <small>'//sides_text(number)//'</small>'
+   end function opposite_of
 
    function held_of(number) result(html)
       type(key_number_t), intent(in) :: number

@@ -2,11 +2,11 @@
 module ek_number_words
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
-   use ek_key_number, only: key_number_t
+   use ek_key_number, only: key_number_t, anti_phase
    use ek_page, only: page_number
    implicit none(type, external)
    private
-   public :: steer_effect, target_verdict, mean_value, short_name, is_symmetric, is_opposite
+   public :: steer_effect, target_verdict, mean_value, short_name, is_equal, is_opposite, sides_text
 
    character(*), parameter :: fitted = ' (fitted)'
 
@@ -84,13 +84,13 @@ contains
    end function short_name
 
    !> Whether both wheels have equal numbers to the printed digits.
-   pure logical function is_symmetric(number)
+   pure logical function is_equal(number)
       type(key_number_t), intent(in) :: number
 
-      is_symmetric = .false.
+      is_equal = .false.
       if (number%is_of_axle .or. .not. ieee_is_finite(number%left) .or. .not. ieee_is_finite(number%right)) return
-      is_symmetric = page_number(number%left) == page_number(number%right)
-   end function is_symmetric
+      is_equal = page_number(number%left) == page_number(number%right)
+   end function is_equal
 
    !> Whether left and right differ only in sign, to the printed digits.
    pure logical function is_opposite(number)
@@ -98,7 +98,42 @@ contains
 
       is_opposite = .false.
       if (number%is_of_axle .or. .not. ieee_is_finite(number%left) .or. .not. ieee_is_finite(number%right)) return
-      is_opposite = page_number(number%left) == page_number(-number%right) .and. .not. is_symmetric(number)
+      is_opposite = page_number(number%left) == page_number(-number%right) .and. .not. is_equal(number)
    end function is_opposite
+
+   !> The meaning of equal or opposite numbers of both wheels: 'both wheels to the left', 'toe-in on both', 'both tops to the
+   !> left', and otherwise 'both wheels' or 'left; right wheel opposite'. '' if the numbers differ in size, for the axle and for
+   !> a single wheel. A steer angle is positive to the left on both wheels, toe inward, camber outward. Under opposite loads on
+   !> the two wheels, a number is per load on the wheel itself, so that equal numbers are opposite motions: without a direction.
+   pure function sides_text(number) result(text)
+      type(key_number_t), intent(in) :: number
+      character(:), allocatable :: text
+      logical :: is_same, is_directed
+
+      text = ''
+      is_same = is_equal(number)
+      if (.not. (is_same .or. is_opposite(number))) return
+      text = 'left; right wheel opposite'
+      if (is_same) text = 'both wheels'
+      is_directed = number%how /= anti_phase .and. index(number%name, '_anti_') == 0 .and. page_number(number%left) /= '0'
+      if (.not. is_directed .or. index(number%sign, 'inner wheel') > 0) return
+      if (begins('+ steers to the left') .or. begins('+ to the left')) then
+         text = trim(merge('toe-out on both', 'toe-in on both ', number%left > 0.0_wp))
+         if (is_same) text = 'both wheels to the '//trim(merge('left ', 'right', number%left > 0.0_wp))
+      else if (begins('+ front edge')) then
+         text = 'both wheels to the '//trim(merge('right', 'left ', number%left > 0.0_wp))
+         if (is_same) text = trim(merge('toe-in on both ', 'toe-out on both', number%left > 0.0_wp))
+      else if (.not. is_same .and. (begins('+ top outward') .or. begins('+ top moves outward'))) then
+         text = 'both tops to the '//trim(merge('left ', 'right', number%left > 0.0_wp))
+      end if
+
+   contains
+
+      pure logical function begins(words)
+         character(*), intent(in) :: words
+         begins = index(number%sign, words) == 1
+      end function begins
+
+   end function sides_text
 
 end module ek_number_words

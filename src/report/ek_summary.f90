@@ -3,7 +3,7 @@ module ek_summary
    use ek_key_number, only: key_number_t, has_value
    implicit none(type, external)
    private
-   public :: summary_numbers, kept_number
+   public :: summary_numbers, kept_number, relation_to
 
    integer, parameter :: most = 16, most_ratios = 3
    character(*), parameter :: ratio = '*_motion_ratio'
@@ -16,22 +16,28 @@ module ek_summary
       'anti_squat_percent', 'anti_lift_drive_percent', 'ride_frequency_hz', 'steering_ratio', 'caster_trail_mm', &
       'scrub_radius_mm', 'wheel_roll_camber', 'lateral_force_camber', 'braking_deflection', 'toe_deg', 'camber_deg']
 
-   !> A repeated key number and the equivalent key number that is shown: a slope fitted around design and its value at design;
-   !> a load and its inverse; an angle as toe and as steer angle.
+   !> A key number that says nothing new beside another one, which is shown, and its relation to that number.
    type :: pair_t
       character(44) :: repeated = '', kept = ''
+      integer :: relation = 0
    end type pair_t
 
+   !> Relations: the slope at design of a slope that is fitted around design, and the reverse; the inverse, deflection per force;
+   !> the angle of steer, which is positive to the left on both wheels, instead of toe.
+   integer, parameter :: at_design = 1, inverse = 2, as_steer = 3, fitted = 4
+   character(*), parameter :: relations(4) = [character(20) :: 'As slope at design,', 'Its inverse,', 'As a steer angle,', &
+      'As a fitted slope,']
+
    type(pair_t), parameter :: pairs(*) = [ &
-      pair_t('wheel_rate_n_per_mm', 'wheel_rate'), pair_t('vertical_deflection', 'wheel_rate'), &
-      pair_t('roll_rate', 'suspension_roll_rate_nm_per_deg'), pair_t('bump_steer', 'bump_toe'), &
-      pair_t('lateral_in_load_held_deflection_mm_per_kn', 'lateral_deflection'), &
-      pair_t('lateral_in_load_held_steer_deg_per_kn', 'lateral_force_steer'), &
-      pair_t('lateral_in_load_held_camber_deg_per_kn', 'lateral_force_camber'), &
-      pair_t('aligning_in_load_held_steer_deg_per_100nm', 'aligning_torque_steer'), &
-      pair_t('braking_load_held_deflection_mm_per_kn', 'braking_deflection'), &
-      pair_t('braking_load_held_steer_deg_per_kn', 'braking_steer'), pair_t('steer_camber_deg_per_deg', 'steer_camber'), &
-      pair_t('steer_per_steering_wheel', 'steering_ratio')]
+      pair_t('wheel_rate_n_per_mm', 'wheel_rate', at_design), pair_t('vertical_deflection', 'wheel_rate', inverse), &
+      pair_t('roll_rate', 'suspension_roll_rate_nm_per_deg', fitted), pair_t('bump_steer', 'bump_toe', as_steer), &
+      pair_t('lateral_in_load_held_deflection_mm_per_kn', 'lateral_deflection', at_design), &
+      pair_t('lateral_in_load_held_steer_deg_per_kn', 'lateral_force_steer', at_design), &
+      pair_t('lateral_in_load_held_camber_deg_per_kn', 'lateral_force_camber', at_design), &
+      pair_t('aligning_in_load_held_steer_deg_per_100nm', 'aligning_torque_steer', at_design), &
+      pair_t('braking_load_held_deflection_mm_per_kn', 'braking_deflection', at_design), &
+      pair_t('braking_load_held_steer_deg_per_kn', 'braking_steer', at_design), &
+      pair_t('steer_per_steering_wheel', 'steering_ratio', inverse)]
 
 contains
 
@@ -56,6 +62,18 @@ contains
          end do
       end do
    end function summary_numbers
+
+   !> The label that relates a repeated key number to the key number that is shown, with a comma: 'Its inverse,'.
+   pure function relation_to(repeated) result(label)
+      character(*), intent(in) :: repeated           !! name of a repeated key number
+      character(:), allocatable :: label
+      integer :: p
+
+      label = ''
+      do p = 1, size(pairs)
+         if (pairs(p)%repeated == repeated) label = trim(relations(pairs(p)%relation))
+      end do
+   end function relation_to
 
    !> The index of the key number that is shown instead of key number k; 0 if key number k is not replaced. It is replaced if
    !> it has no target, and an equivalent key number has a value.

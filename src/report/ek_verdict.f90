@@ -6,7 +6,7 @@ module ek_verdict
    use ek_kinds, only: wp
    use ek_text, only: str, plural
    use ek_key_number, only: key_number_t, has_value
-   use ek_number_words, only: steer_effect, target_verdict, short_name, is_symmetric, is_opposite
+   use ek_number_words, only: steer_effect, target_verdict, short_name, is_equal, is_opposite, sides_text
    use ek_plausible_range, only: usual_range
    use ek_page, only: page_number
    use ek_report_content, only: report_t
@@ -146,15 +146,17 @@ contains
       if (words(2:2) < 'A' .or. words(2:2) > 'Z') words(1:1) = lowered(words(1:1))
       unit = ''
       if (number%unit /= '–') unit = ' '//number%unit
-      if (number%is_of_axle .or. is_symmetric(number) .or. .not. ieee_is_finite(number%right)) then
+      if (number%is_of_axle .or. is_equal(number) .or. .not. ieee_is_finite(number%right)) then
          words = words//' '//page_number(number%left)//unit
       else if (is_opposite(number)) then
-         words = words//' '//page_number(number%left)//unit//' (left; right wheel opposite)'
+         words = words//' '//page_number(number%left)//unit//' ('//sides_text(number)//')'
       else
          words = words//' left '//page_number(number%left)//', right '//page_number(number%right)//unit
       end if
       effect = steer_effect(number, axle)
       if (effect /= '') words = words//': '//trim(effect)
+      if (is_equal(number) .and. effect == '' .and. index(sides_text(number), 'both wheels to') == 1) &
+         words = words//' ('//sides_text(number)//')'
       call find_band(number, verdict, band)
       if (verdict /= '') words = words//' ('//trim(verdict)//' '//band//')'
    end subroutine speak
