@@ -223,14 +223,16 @@ contains
       subroutine set_one(number, value)
          integer, intent(in) :: number
          real(wp), intent(in) :: value                     !! in the unit of the deck
-         call set_value(deck, parameter_path(design%parameters%list(number), design%records), shortest(value), error)
+         call set_value(deck, parameter_path(design%parameters%list(number), design%records, is_of_pair=.false.), &
+            shortest(value), error)
       end subroutine set_one
 
       !> Whether a number belongs to one side of a mirrored deck.
       logical function is_of_a_side(number)
          integer, intent(in) :: number
          associate (parameter => design%parameters%list(number))
-            is_of_a_side = parameter_path(parameter, design%records) /= parameter_path(parameter, design%records, is_of_pair=.true.)
+            is_of_a_side = parameter_path(parameter, design%records, is_of_pair=.false.) /= &
+               parameter_path(parameter, design%records, is_of_pair=.true.)
          end associate
       end function is_of_a_side
 

@@ -69,7 +69,9 @@ contains
          rest = rest(min(last + 2, len(rest) + 1):)
       end do
       message = lines%text()
-      if (lines%count() == 0) message = setting//': the number is outside its legal range'
+      if (lines%count() > 0) return
+      message = setting//': the number is outside its legal range'
+      if (allocated(error)) message = setting//': '//error%message      ! the error is found at another key, such as `curve`
    end function range_message
 
    !> Finds a path that is used for the first time, and checks it as --set does. `setting` is 0 if the path leads to no number of

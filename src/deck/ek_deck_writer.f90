@@ -5,9 +5,10 @@ module ek_deck_writer
    use ek_error, only: error_t, message_list_t, fail, exit_usage
    use ek_text, only: str, quoted
    use ek_buffer, only: buffer_t
+   use ek_checksum, only: checksum_t, include, digits_of
    use ek_file, only: write_whole, join_path, folder_name, base_name
    use ek_kept_files, only: kept_files_t, read_kept
-   use ek_record, only: record_t, entry_t
+   use ek_record, only: record_t, entry_t, right_side, is_given, takes_image
    use ek_system, only: working_folder, facts_t, facts_of, regular_file
    use ek_parameter, only: parameters_t, value_path
    use ek_attachment, only: path_of, text_of
@@ -21,6 +22,7 @@ module ek_deck_writer
    character(*), parameter :: written_out(3) = [character(10) :: 'include', 'hardpoints', 'mirror']
    character(*), parameter :: replaced(4) = [character(15) :: 'property_file', 'property_scale', 'property_offset', 'property_kind']
    character(*), parameter :: nl = new_line('a')
+   character(*), parameter :: mark = '! checksum of the lines below: '     !! begins the last line of the head; 16 digits follow
 
    !> A load table that a record names.
    type :: table_t
@@ -45,8 +47,10 @@ contains
       if (.not. allocated(error)) call write_whole(path, text, error)
       do k = 1, size(tables)
          if (allocated(error)) return
-         call read_kept(deck%kept, tables(k)%path, content, error)
-         if (.not. allocated(error)) call write_whole(join_path(folder_name(path), tables(k)%name), content, error)
+         if (.not. is_own_file(deck%kept, join_path(folder_name(path), tables(k)%name))) then     ! a written deck in the same folder
+            call read_kept(deck%kept, tables(k)%path, content, error)
+            if (.not. allocated(error)) call write_whole(join_path(folder_name(path), tables(k)%name), content, error)
+         end if
          if (present(copies)) call copies%add(tables(k)%name)
       end do
    end subroutine write_deck_as_used
@@ -100,20 +104,73 @@ contains
       type(error_t), allocatable, intent(out) :: error
       type(design_t) :: design
       type(buffer_t) :: lines
+      type(checksum_t) :: sum
+      logical :: is_listed
       integer :: k
 
       text = ''
       allocate (tables(0))
       call read_design(deck, design, error)
       if (allocated(error)) return
-      call lines%line('! The deck '//deck%file//' as elastokin '//version//' used it, checksum '//deck_checksum(deck)//':')
-      call lines%line('! included files, hardpoints, property files, both sides and settings are written out')
+      if (is_written_deck(deck)) then
+         call list_tables(deck, path, tables, is_listed)
+         if (is_listed) then
+            text = deck%kept%text(1)
+            return
+         end if
+      end if
       do k = 1, size(design%records)
          if (any(written_out == design%records(k)%group)) cycle
          call add_record(design%records(k), k, design%parameters, deck%kept, path, tables, lines)
       end do
       text = lines%text()
+      call include(sum, text)
+      text = '! The deck '//deck%file//' as elastokin '//version//' used it, checksum '//deck_checksum(deck)//':'//nl// &
+         '! included files, hardpoints, property files, both sides and settings are written out'//nl//mark//digits_of(sum)//nl//text
    end subroutine make_text
+
+   !> Whether a deck is an unchanged file of write_deck_as_used, without settings, so that the file itself is the deck as used.
+   logical function is_written_deck(deck)
+      type(deck_t), intent(in) :: deck
+      character(:), allocatable :: text
+      type(checksum_t) :: sum
+      integer :: k, e, at
+
+      is_written_deck = .false.
+      if (deck%kept%count() == 0 .or. size(deck%late) > 0) return
+      text = deck%kept%text(1)
+      at = index(text, nl//mark)
+      if (index(text, '! The deck ') /= 1 .or. at == 0 .or. len(text) < at + len(nl//mark) + 16) return
+      call include(sum, text(at + len(nl//mark) + 17:))
+      if (text(at + len(nl//mark):at + len(nl//mark) + 15) /= digits_of(sum)) return
+      do k = 1, deck%used
+         do e = 1, deck%records(k)%used
+            if (allocated(deck%records(k)%entries(e)%setting)) return
+         end do
+      end do
+      is_written_deck = .true.
+   end function is_written_deck
+
+   !> Lists the load tables of a written deck, which keep their names. `is_listed` is .false. if a table is not in the folder of the
+   !> deck, could not be read, or would need an absolute path.
+   subroutine list_tables(deck, path, tables, is_listed)
+      type(deck_t), intent(in) :: deck
+      character(*), intent(in) :: path                     !! as for make_text
+      type(table_t), allocatable, intent(inout) :: tables(:)
+      logical, intent(out) :: is_listed
+      type(table_t) :: this
+      integer :: k
+
+      is_listed = .true.
+      do k = 1, deck%used
+         if (deck%records(k)%group /= 'case' .or. .not. is_given(deck%records(k), 'file')) cycle
+         this%name = text_of(deck%records(k), 'file')
+         this%path = path_of(deck%records(k), this%name)
+         is_listed = is_listed .and. path /= '' .and. deck%kept%has(this%path) .and. base_name(this%name)//'.csv' == this%name
+         tables = [tables, this]
+      end do
+      if (.not. is_listed) tables = tables(:0)
+   end subroutine list_tables
 
    !> Adds one record: its file and line, a line for each key, and comments with the defaults of the numbers that are not given.
    subroutine add_record(record, number, parameters, kept, path, tables, lines)
@@ -132,7 +189,7 @@ contains
       call lines%line('&'//record%group//'   ! '//record%file//':'//str(record%line))
       do e = 1, record%used
          associate (entry => record%entries(e))
-            if (any(replaced == entry%key)) cycle
+            if (any(replaced == entry%key) .or. (entry%key == 'mirrored' .and. record%side == right_side)) cycle
             if (entry%key == 'file') then
                line = '  file = '//in_quotes(table_name(record, kept, path, tables))
             else
@@ -146,6 +203,8 @@ contains
          end associate
          call lines%line(line)
       end do
+      if (record%group == 'bushing' .and. record%side == right_side .and. takes_image(record) .and. gives_one_axis(record)) &
+         call lines%line('  mirrored = .true.   ! the axis that is not given is the mirror image of that of the left side')
       do k = 1, parameters%used
          associate (this => parameters%list(k))
             if (this%record /= number .or. this%is_given) cycle
@@ -156,6 +215,14 @@ contains
       end do
       call lines%line('/')
    end subroutine add_record
+
+   !> Whether a bushing gives only one of its marker axes, so that the program chooses the other axis.
+   pure logical function gives_one_axis(record)
+      type(record_t), intent(in) :: record
+
+      gives_one_axis = (is_given(record, 'z_axis') .or. is_given(record, 'z_vector')) .neqv. &
+         (is_given(record, 'x_axis') .or. is_given(record, 'x_vector'))
+   end function gives_one_axis
 
    !> An entry as written in a deck: 'kt = 700, 700, 150', 'kt(2) = 5', "bodies = 'chassis', 'lca'".
    function entry_text(entry) result(text)

@@ -59,6 +59,7 @@ module ek_group
       integer :: range = any_number     !! legal range of a number, see ek_number_range
       character(20) :: unit = ''   !! unit of the limits of the range, for messages
       integer :: role = 0
+      logical :: has_zeros = .false.    !! a setting of one element sets the elements that the deck does not give to 0
    end type key_t
 
    integer, parameter :: named(*) = [model_group, point_group, body_group, mass_group, measure_group, joint_group, &
@@ -108,15 +109,16 @@ module ek_group
       key_t(bushing_group, 'z_vector', number, 3, 3, .false., role=polar), &
       key_t(bushing_group, 'x_axis', word, 2, 2, .false., role=point_group), &
       key_t(bushing_group, 'x_vector', number, 3, 3, .false., role=polar), &
-      key_t(bushing_group, 'kt', number, 3, 3, .false., not_negative), &
-      key_t(bushing_group, 'kr', number, 3, 3, .false., not_negative), &
+      key_t(bushing_group, 'mirrored', switch, 1, 1, .false.), &
+      key_t(bushing_group, 'kt', number, 3, 3, .false., not_negative, has_zeros=.true.), &
+      key_t(bushing_group, 'kr', number, 3, 3, .false., not_negative, has_zeros=.true.), &
       key_t(bushing_group, 'curve', word, 1, 6, .false., role=curves), &
       key_t(bushing_group, 'property_file', prose, 1, 1, .false.), &
       key_t(bushing_group, 'property_scale', number, 1, 6, .false., positive), &
       key_t(bushing_group, 'property_offset', number, 1, 6, .false.), &
       key_t(bushing_group, 'property_kind', word, 1, 1, .false.), &
-      key_t(bushing_group, 'preload_force', number, 3, 3, .false., role=polar), &
-      key_t(bushing_group, 'preload_moment', number, 3, 3, .false., role=axial), &
+      key_t(bushing_group, 'preload_force', number, 3, 3, .false., role=polar, has_zeros=.true.), &
+      key_t(bushing_group, 'preload_moment', number, 3, 3, .false., role=axial, has_zeros=.true.), &
       key_t(spring_group, 'bodies', word, 2, 2, .false., role=body_group), &
       key_t(spring_group, 'at', word, 2, 2, .false., role=point_group), &
       key_t(spring_group, 'measure', word, 1, 1, .false., role=measure_group), &
@@ -181,8 +183,8 @@ module ek_group
       key_t(steering_group, 'travel', number, 1, 1, .true., positive), &
       key_t(load_group, 'body', word, 1, 1, .true., role=body_group), &
       key_t(load_group, 'at', word, 1, 1, .true., role=point_group), &
-      key_t(load_group, 'force', number, 3, 3, .false., role=polar), &
-      key_t(load_group, 'moment', number, 3, 3, .false., role=axial), &
+      key_t(load_group, 'force', number, 3, 3, .false., role=polar, has_zeros=.true.), &
+      key_t(load_group, 'moment', number, 3, 3, .false., role=axial, has_zeros=.true.), &
       key_t(load_group, 'follows', switch, 1, 1, .false.), &
       key_t(load_group, 'factor', word, 1, 1, .false.), &
       key_t(case_group, 'load', word, 1, max_loads, .false., role=load_group), &

@@ -3,11 +3,12 @@ module ek_number_range
    use ek_kinds, only: wp, pi
    implicit none(type, external)
    private
-   public :: any_number, positive, not_negative, not_zero, share, acute, is_inside, range_text
+   public :: any_number, positive, not_negative, not_zero, share, acute, only_zero, is_inside, range_text
 
    integer, parameter :: any_number = 0, positive = 1, not_negative = 2, not_zero = 3
    integer, parameter :: share = 4      !! 0 to 1
    integer, parameter :: acute = 5      !! an angle between −90° and 90°: the only range whose nonzero limits have a unit
+   integer, parameter :: only_zero = 6  !! the rate of a bushing component that has a curve
 
 contains
 
@@ -28,6 +29,8 @@ contains
          is_inside = value >= 0.0_wp .and. value <= 1.0_wp
       case (acute)
          is_inside = abs(value) < right_angle
+      case (only_zero)
+         is_inside = .not. abs(value) > 0.0_wp
       case default
          is_inside = .true.
       end select
@@ -39,8 +42,8 @@ contains
       character(*), intent(in) :: unit        !! unit of the limits: ' kg'; '' for none
       character(*), intent(in) :: shown       !! the value as a string
       character(:), allocatable :: words
-      character(*), parameter :: ranges(5) = [character(22) :: 'above 0', '0 or more', 'not be zero', '0 to 1', &
-         'above -90 and below 90']
+      character(*), parameter :: ranges(6) = [character(32) :: 'above 0', '0 or more', 'not be zero', '0 to 1', &
+         'above -90 and below 90', '0 (the component has a curve)']
 
       words = 'must be '//trim(ranges(range))//trim(unit)//', found '//shown
       if (range == not_zero) words = 'must not be zero'

@@ -6,7 +6,7 @@ module ek_parameter
    use ek_kinds, only: wp
    use ek_contract, only: are_checked, require
    use ek_text, only: str, lower, quoted, is_like, did_you_mean
-   use ek_record, only: record_t, right_side, element, own_name, sign_of_image
+   use ek_record, only: record_t, left_side, right_side, element, own_name, sign_of_image
    use ek_group, only: group_names, group_number, is_deck_group, names_of_groups, is_single, include_group, hardpoints_group, &
       point_group, &
       key_t, find_key
@@ -16,6 +16,8 @@ module ek_parameter
    public :: parameter_t, parameters_t, choice_t, add_parameter, find_parameters, put_value, put_change, in_range
    public :: all_in_range, parameter_path, value_path
    public :: path_t, split_path, is_meant, change_t, changed
+
+   character(*), parameter :: left_wheel_alone = 'left_left'     ! in a path
 
    !> One number of the deck as a parameter of the model.
    type :: parameter_t
@@ -116,14 +118,24 @@ contains
       call find_key(path%group, path%key, path%row, path%is_known)
    end subroutine split_path
 
-   !> Whether a path leads to a record.
+   !> Whether a path leads to a record. The wheel 'left' of a mirrored axle, whose name on the left is that of the half deck, is also
+   !> found as 'left_left': the name of every other record on the left begins with left_.
    pure logical function is_meant(record, path)
       type(record_t), intent(in) :: record
       type(path_t), intent(in) :: path
 
       is_meant = record%group == group_names(path%group)
-      if (is_meant .and. .not. is_single(path%group)) is_meant = is_like(element(record, 'name', 1), path%name)
+      if (.not. is_meant .or. is_single(path%group)) return
+      is_meant = is_like(element(record, 'name', 1), path%name)
+      if (has_name_of_half(record)) is_meant = is_meant .or. lower(path%name) == left_wheel_alone
    end function is_meant
+
+   !> Whether a record of the left side has the name that the half deck uses for both sides: the wheel 'left'.
+   pure logical function has_name_of_half(record)
+      type(record_t), intent(in) :: record
+      has_name_of_half = record%side == left_side
+      if (has_name_of_half) has_name_of_half = own_name(record) == element(record, 'name', 1)
+   end function has_name_of_half
 
    !> The number after a change, rounded to 15 digits, as a string: the number that a person would write into the deck.
    function changed(change, value) result(text)
@@ -257,10 +269,15 @@ contains
    function parameter_path(this, records, is_of_pair) result(path)
       type(parameter_t), intent(in) :: this
       type(record_t), intent(in) :: records(:)
-      logical, intent(in), optional :: is_of_pair      !! .true.: the path of the half deck, which leads to both sides
+      logical, intent(in), optional :: is_of_pair      !! .true.: the path of the half deck, which leads to both sides; .false.: a
+      !!                                                  path that leads to this parameter alone ('wheel.left_left.camber'); absent:
+      !!                                                  the name of the record, also if the path leads to both sides
       character(:), allocatable :: path
 
       path = value_path(records(this%record), trim(this%key), this%at, is_of_pair)
+      if (.not. present(is_of_pair)) return
+      if (is_of_pair .or. .not. has_name_of_half(records(this%record))) return
+      path = records(this%record)%group//'.'//left_wheel_alone//path(index(path, '.', back=.true.):)
    end function parameter_path
 
    !> The path of a value of a record: 'point.upper_ball_joint.z', 'bushing.top_mount.kt(1)', 'model.length'.

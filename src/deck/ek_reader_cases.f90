@@ -84,9 +84,9 @@ contains
       this%name = text_of(reading, 'name')
       this%where = where_of(reading)
       this%is_good = reading%cards(reading%k)%is_good
-      call slot(reading, 'from', unit, plan%from, default=-reach)
-      call slot(reading, 'to', unit, plan%to, default=reach)
-      call slot(reading, 'offset', reading%units%length, plan%offset, default=0.0_wp)
+      if (test%action /= takes_table) call slot(reading, 'from', unit, plan%from, default=-reach)
+      if (test%action /= takes_table) call slot(reading, 'to', unit, plan%to, default=reach)
+      if (test%has_trail) call slot(reading, 'offset', reading%units%length, plan%offset, default=0.0_wp)
       this%from = from*unit
       this%to = to*unit
       reading%plan%cases = [reading%plan%cases, plan]

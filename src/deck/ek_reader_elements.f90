@@ -5,7 +5,8 @@ module ek_reader_elements
    use ek_kinds, only: wp
    use ek_text, only: str, lower, quoted
    use ek_rotation, only: angle_between
-   use ek_record, only: right_side
+   use ek_record, only: takes_image
+   use ek_number_range, only: only_zero
    use ek_curve, only: curve_t, look_up_curve
    use ek_new_curve, only: new_curve, curve_kinds, min_step
    use ek_measure, only: measure_t, distance, rotation, is_of_angle
@@ -252,6 +253,12 @@ contains
          call slot(reading, 'preload_force', units%force, plan%preload_force, default=0.0_wp, count=3)
          call slot(reading, 'preload_moment', units%force*units%length, plan%preload_moment, default=0.0_wp, count=3)
       end associate
+      if (element%bushing%has_curves) then
+         associate (list => reading%parameters%list)
+            where (element%bushing%laws(1:3)%has_curve) list(plan%kt:plan%kt + 2)%range = only_zero
+            where (element%bushing%laws(4:6)%has_curve) list(plan%kr:plan%kr + 2)%range = only_zero
+         end associate
+      end if
       element%name = text_of(reading, 'name')
       element%where = where_of(reading)
       call set_kind(element, bushing_element, measure_t(body_i=number(1), body_j=number(2)))
@@ -304,22 +311,24 @@ contains
       end do
    end subroutine find_laws
 
-   !> Finds the marker axes. If only one axis is given, a perpendicular axis is chosen as the other. On the right side of a mirrored
-   !> axle, the choice is the mirror image of the choice on the left.
+   !> Finds the marker axes. If only one axis is given, a perpendicular axis is chosen as the other, or the mirror image of the axis
+   !> that would be chosen for the mirror image of the given axis (takes_image).
    subroutine find_axes(reading, plan)
       type(deck_reading_t), intent(inout) :: reading
       type(bushing_plan_t), intent(inout) :: plan
       real(wp) :: axes(3, 3), angle
       logical :: has_x, has_z, is_x, is_z, is_good
-      integer :: choice
+      logical :: is_image
 
       call find_direction(reading, 'z_axis', 'z_vector', plan%z, has_z, is_z)
       call find_direction(reading, 'x_axis', 'x_vector', plan%x, has_x, is_x)
+      if (has_key(reading, 'mirrored') .and. (has_x .eqv. has_z)) call complain(reading, 'mirrored', 'mirrored: expected one '// &
+         'axis, z or x, of which the other one is chosen; found '//trim(merge('both', 'none', has_x)))
       if (.not. (has_x .or. has_z)) return
       if ((has_x .and. .not. is_x) .or. (has_z .and. .not. is_z)) return
-      choice = merge(chosen_right, chosen, reading%records(reading%k)%side == right_side)
-      if (.not. has_x) call new_vector(reading, vector_t(kind=choice, a=plan%z), plan%x)
-      if (.not. has_z) call new_vector(reading, vector_t(kind=choice, a=plan%x), plan%z)
+      is_image = takes_image(reading%records(reading%k))
+      if (.not. has_x) call new_vector(reading, vector_t(kind=merge(chosen_right, chosen, is_image), a=plan%z), plan%x)
+      if (.not. has_z) call new_vector(reading, vector_t(kind=merge(chosen_right, chosen, is_image), a=plan%x), plan%z)
       is_good = .true.
       call marker_axes(reading%plan, reading%vectors(:, plan%z), reading%vectors(:, plan%x), axes, is_good)
       if (is_good) return

@@ -11,7 +11,7 @@ module ek_record
    public :: place_t, deck_errors_t, place_in, single, left_side, right_side, side_prefix, has_side
    public :: value_t, entry_t, record_t
    public :: add_value, add_entry, add_record, hand_over, entry_index, element, is_given, place_of, line_text, own_name
-   public :: role_of, sign_of_image, turns
+   public :: role_of, sign_of_image, turns, takes_image
 
    !> Side of a record: left or right for the two records that &mirror creates from one record of the deck, `single` for all others.
    !> The prefix of the side begins the record name.
@@ -259,6 +259,16 @@ contains
       type(record_t), intent(in) :: record
       turns = record%group == 'torsion' .or. (record%group == 'measure' .and. lower(element(record, 'type', 1)) == 'rotation')
    end function turns
+
+   !> Whether the marker axis that the program chooses for a bushing is the mirror image of its ordinary choice: on the right side of
+   !> a mirrored axle, or with `mirrored = .true.`. Both together cancel each other.
+   pure logical function takes_image(record)
+      type(record_t), intent(in) :: record
+      character(:), allocatable :: text
+
+      text = lower(adjustl(element(record, 'mirrored', 1)))
+      takes_image = (index(text, 't') == 1 .or. index(text, '.t') == 1) .neqv. record%side == right_side
+   end function takes_image
 
    !> Whether a name begins with left_ or right_.
    pure logical function has_side(name)

@@ -17,7 +17,7 @@ module ek_setting
    use ek_error, only: error_t, fail, exit_usage
    use ek_record, only: record_t, entry_t, value_t, add_entry, add_value, entry_index, element
    use ek_scanner, only: scan_values
-   use ek_group, only: group_names, is_single, unknown_key, longest, number, word_length
+   use ek_group, only: group_names, is_single, unknown_key, longest, number, word_length, key_t
    use ek_namelist, only: value_fault, surplus
    use ek_parameter, only: path_t, split_path, is_meant, change_t, changed
    implicit none(type, external)
@@ -73,6 +73,7 @@ contains
                call change_numbers(records(j), path, change, setting, is_changed)
             else if (.not. path%is_wild .or. entry_index(records(j), path%key, 0) > 0) then
                call put_values(records(j), given, setting)
+               if (path%row%has_zeros) call put_zeros(records(j), path%row, setting)
                is_changed = .true.
             end if
             if (.not. path%is_wild) exit
@@ -233,5 +234,23 @@ contains
          end if
       end do
    end subroutine put_values
+
+   !> Sets the elements of a vector that a record does not give to 0, their default, because a deck gives all elements or none.
+   subroutine put_zeros(record, row, setting)
+      type(record_t), intent(inout) :: record
+      type(key_t), intent(in) :: row
+      character(*), intent(in) :: setting
+      type(entry_t) :: zero
+      integer :: at
+
+      do at = 1, row%least
+         if (entry_index(record, trim(row%name), at) > 0) cycle
+         zero%key = trim(row%name)
+         zero%first = at
+         zero%used = 0
+         call add_value(zero, '0', .false.)
+         call put_values(record, zero, setting)
+      end do
+   end subroutine put_zeros
 
 end module ek_setting

@@ -4,7 +4,7 @@ module ek_study_each
    use ek_kinds, only: wp
    use ek_error, only: error_t, fail, exit_deck
    use ek_text, only: str, quoted, is_like
-   use ek_record, only: element, own_name, right_side
+   use ek_record, only: own_name, right_side
    use ek_deck, only: deck_t
    use ek_parameter, only: choice_t, path_t, find_parameters, split_path, parameter_path
    use ek_reader, only: design_t, read_design
@@ -132,24 +132,12 @@ contains
             one%is_of_pattern = index(path_text, '*') > 0
             deallocate (one%paths)
             allocate (one%paths(1))
-            one%paths(1) = parameter_path(parameter, design%records)
-            if (is_both) one%paths(1) = without_side(trim(one%paths(1)), element(record, 'name', 1), own_name(record))
+            one%paths(1) = parameter_path(parameter, design%records, is_of_pair=is_both)
             one%name = name_of(trim(one%paths(1)), factors)
             factors = [factors, one]
          end associate
       end do
    end subroutine add_each
-
-   !> A path without its side: 'point.ball.z' for 'point.left_ball.z'.
-   pure function without_side(path, name, own) result(text)
-      character(*), intent(in) :: path, name, own
-      character(:), allocatable :: text
-      integer :: at
-
-      text = path
-      at = index(path, '.'//name//'.')
-      if (at > 0) text = path(:at)//own//path(at + len(name) + 1:)
-   end function without_side
 
    !> Name of the factor of a path: 'lca_front_kt_1' for 'bushing.lca_front.kt(1)'. If another factor has this name, the name begins
    !> with the group.
