@@ -79,8 +79,8 @@ contains
                if (data%deviations(f) > 0.0_wp) effects%slope(f) = y%slopes(f)/data%deviations(f)
                ends = found%factors(f)%ends
                ends = y%value + y%slopes(f)*ends + 0.5_wp*effects%curvature(f)*ends**2
-               effects%at_low(f) = ends(1)
-               effects%at_high(f) = ends(2)
+               effects%at_low(f) = merge(ends(1), nothing(), found%has_end(r, 1, f))
+               effects%at_high(f) = merge(ends(2), nothing(), found%has_end(r, 2, f))
             end do
             call take_ranges(data, r)
          end associate
@@ -93,10 +93,17 @@ contains
    pure subroutine take_ranges(data, r)
       type(study_data_t), intent(inout) :: data
       integer, intent(in) :: r
+      real(wp) :: ends(3)
+      integer :: f
 
       associate (effects => data%effects(r))
-         effects%lowest = min(effects%at_low, effects%at_high, effects%nominal)
-         effects%highest = max(effects%at_low, effects%at_high, effects%nominal)
+         effects%lowest = effects%at_low
+         effects%highest = effects%at_high
+         do f = 1, size(effects%at_low)                ! an end without a value is omitted
+            ends = [effects%at_low(f), effects%at_high(f), effects%nominal]
+            effects%lowest(f) = minval(ends, mask=ieee_is_finite(ends))
+            effects%highest(f) = maxval(ends, mask=ieee_is_finite(ends))
+         end do
          effects%first_error = 0.0_wp*effects%first
          effects%total_error = 0.0_wp*effects%total
       end associate
@@ -110,7 +117,8 @@ contains
 
       row = moment_row_t(mean, deviation, skewness, normal_percentile(mean, deviation, skewness, 0.05_wp), &
          normal_percentile(mean, deviation, skewness, 0.95_wp), 0.0_wp, 0.0_wp, &
-         normal_yield(mean, deviation, skewness, axis%lower, axis%upper), 0.0_wp)
+         0.0_wp, 0.0_wp)
+      row%within = merge(normal_yield(mean, deviation, skewness, axis%lower, axis%upper), nothing(), is_limited(axis))
    end function row_of
 
    !> Computes the moments, percentiles and share within the limits of each response from the designs of the study; NaN with fewer
@@ -142,9 +150,17 @@ contains
             row%high = percentile(values(order), 0.95_wp)
             row%within = real(count(values >= axis%lower .and. values <= axis%upper), wp)/data%designs
             row%within_half = normal_95*sqrt(row%within*(1.0_wp - row%within)/data%designs)
+            if (.not. is_limited(axis)) row%within = nothing()
+            if (.not. is_limited(axis)) row%within_half = nothing()
          end associate
       end do
    end subroutine take_sample
+
+   !> Whether a response has limits.
+   pure logical function is_limited(axis)
+      type(study_axis_t), intent(in) :: axis
+      is_limited = axis%lower > -huge(1.0_wp) .or. axis%upper < huge(1.0_wp)
+   end function is_limited
 
    !> A quiet NaN, which marks a number without a value.
    pure real(wp) function nothing()

@@ -260,8 +260,8 @@ contains
          end do
          if (.not. any(abs(row(size(row)) - [(f, f=0, design_invalid)]) <= 0.0_wp)) return
          is_design = .true.
-         if (has_limits(study)) is_design = abs(row(k + m + 2) - merge(1.0_wp, 0.0_wp, keeps(row(k + 2:k + m + 1), &
-            study%responses%lower, study%responses%upper))) <= 0.0_wp
+         if (has_limits(study)) is_design = abs(row(k + m + 2) - merge(1.0_wp, 0.0_wp, row(size(row)) < 0.5_wp .and. &
+            keeps(row(k + 2:k + m + 1), study%responses%lower, study%responses%upper))) <= 0.0_wp
       end function is_design
 
       !> Reports that a table does not belong to the study.

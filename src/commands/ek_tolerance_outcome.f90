@@ -14,7 +14,7 @@ module ek_tolerance_outcome
    use ek_moment_tables, only: take_tolerance, take_sample, write_moments
    use ek_study_list, only: list_tables
    use ek_opened_study, only: opened_study_t
-   use ek_console, only: print_path, print_text
+   use ek_console, only: print_path, print_text, print_warning
    implicit none(type, external)
    private
    public :: expand_study, write_tolerance
@@ -30,11 +30,16 @@ contains
    subroutine expand_study(this, error)
       type(opened_study_t), intent(inout) :: this
       type(error_t), allocatable, intent(out) :: error     !! exit_deck, exit_model
+      integer :: k
 
       if (this%study%kind /= tolerance_kind) return
       allocate (this%tolerance)
       call find_tolerance(this%study, this%deck, this%designer, this%tolerance, error)
       if (allocated(error)) deallocate (this%tolerance)
+      if (allocated(error)) return
+      do k = 1, this%tolerance%failures%count()
+         call print_warning(this%tolerance%failures%line(k))
+      end do
    end subroutine expand_study
 
    !> Writes the tables of moments, and prints their paths and the moments.
@@ -93,7 +98,9 @@ contains
             if (ieee_is_finite(row%mean)) then
                call text%add('+-, 95 %     '//number(row%mean_half, 2)//number(row%deviation_half, 2))
                if (has_limits) call text%add(repeat(' ', 3*width)//right(percent(row%within_half), width))
-               call text%line('   of '//plural(data%summaries(r)%used, 'design', 'designs'))
+               call text%add('   of '//plural(data%summaries(r)%used, 'design', 'designs'))
+               if (has_limits .and. data%summaries(r)%used < data%designs) call text%add('; within: of all '//str(data%designs))
+               call text%line('')
             end if
          end associate
          if (abs(data%moments(2, r)%deviation) <= 0.0_wp) then

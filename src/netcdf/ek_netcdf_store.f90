@@ -348,7 +348,7 @@ contains
          upper(r) = store%variables(k)%upper
       end do
       do k = 1, size(flags)
-         flags(k) = merge(1_int8, 0_int8, keeps(chunk%responses(:, k), lower, upper))
+         flags(k) = merge(1_int8, 0_int8, chunk%status(k) == 0 .and. keeps(chunk%responses(:, k), lower, upper))
       end do
    end subroutine find_within
 

@@ -55,7 +55,9 @@ contains
       call add('Program', 'elastokin '//version)
       call add_facts(page, names, values)
       call add_warnings(page, plural(study%failed, 'design', 'designs')//' of '//str(study%designs)// &
-         ' failed and '//trim(merge('is ', 'are', study%failed == 1))//' omitted below', study%reasons)
+         ' failed and '//trim(merge('is ', 'are', study%failed == 1))//' omitted below'//trim(merge( &
+         ', but counted as outside in the shares within limits', repeat(' ', 52), any_limit(study, of_study=.false.))), &
+         study%reasons)
       if (message /= '') call trouble%add(message)
       call add_warnings(page, 'Figures', trouble)
       ! the summary, in the order of the first page on paper

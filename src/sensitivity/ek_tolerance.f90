@@ -2,12 +2,13 @@
 !>
 !> The responses are expanded about the centre of the factors, in the standard form of each factor (ek_standard_factor). The slopes
 !> are derivatives (ek_study_slopes). The curvatures are central differences of these derivatives, from two designs close to the
-!> centre for each factor. With k factors, 2 k + 1 designs are solved with their derivatives.
+!> centre for each factor. With k factors, 2 k + 1 designs are solved with their derivatives. Two more designs for each factor, at the
+!> ends of its range, show whether the responses have values there.
 module ek_tolerance
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
-   use ek_kinds, only: wp
-   use ek_error, only: error_t, fail, exit_model
-   use ek_text, only: quoted
+   use ek_kinds, only: wp, i8
+   use ek_error, only: error_t, message_list_t, fail, exit_model
+   use ek_text, only: quoted, str, replace
    use ek_deck, only: deck_t
    use ek_study, only: study_t, define_factor
    use ek_factor_numbers, only: deck_value
@@ -15,6 +16,9 @@ module ek_tolerance
    use ek_sampler_settings, only: factor_t
    use ek_standard_factor, only: standard_factor_t, new_standard_factor, value_at, slope_at
    use ek_moments, only: expansion_t, moments_t, find_moments
+   use ek_chunk, only: chunk_t, new_chunk, reason_of
+   use ek_study_design, only: solve_designs, complete_design
+   use ek_design_cause, only: causes_t
    use ek_study_slopes, only: study_slopes_t, begin_study_slopes, find_study_slopes
    implicit none(type, external)
    private
@@ -30,6 +34,9 @@ module ek_tolerance
       type(moments_t), allocatable :: moments(:)             !! moments of the responses, then of the curves
       real(wp), allocatable :: sweep(:)                      !! swept values of the states of a curve
       integer :: responses = 0
+      logical, allocatable :: has_end(:, :, :)               !! whether the response has a value at the low and at the high end of a
+                                                             !! factor: (response, end, factor)
+      type(message_list_t) :: failures                       !! reasons why designs at the ends have no values
    end type tolerance_t
 
 contains
@@ -98,6 +105,7 @@ contains
             tolerance%moments(k)%deviation = tolerance%moments(k)%mean
          end if
       end do
+      call find_ends(study, deck, designer, here, tolerance)
 
    contains
 
@@ -123,6 +131,53 @@ contains
       end subroutine find_beside
 
    end subroutine find_tolerance
+
+   !> Solves the designs at the ends of each factor, with all other factors at their centres. Finds the responses that have a value
+   !> there, and the reasons of failures. Creates strings.
+   subroutine find_ends(study, deck, designer, here, tolerance)
+      type(study_t), intent(in) :: study
+      type(deck_t), intent(in) :: deck
+      type(designer_t), intent(in) :: designer
+      real(wp), intent(in) :: here(:)                        !! factors at the centre
+      type(tolerance_t), intent(inout) :: tolerance
+      character(*), parameter :: words(2) = [character(5) :: 'lower', 'upper']
+      class(designer_t), allocatable :: mine
+      type(chunk_t) :: chunk
+      type(causes_t) :: causes
+      character(:), allocatable :: reason
+      integer :: f, k, side, together
+
+      allocate (mine, source=designer)
+      call new_chunk(1_i8, 2*size(here), size(here), tolerance%responses, &
+         merge(size(study%columns) + 1, 0, size(study%columns) > 0), designer%states, chunk)
+      do f = 1, size(here)
+         do side = 1, 2
+            k = 2*(f - 1) + side
+            chunk%factors(:, k) = here
+            chunk%factors(f, k) = value_at(tolerance%factors(f), tolerance%factors(f)%ends(side))
+         end do
+      end do
+      together = size(mine%packs%workspaces) + 1
+      do k = 1, size(chunk%status), together
+         call solve_designs(study, mine, k, min(k + together - 1, size(chunk%status)), chunk, causes)
+      end do
+      do k = 1, causes%used
+         call complete_design(study, deck, mine, causes%list(k), chunk)
+      end do
+      allocate (tolerance%has_end(tolerance%responses, 2, size(here)))
+      do f = 1, size(here)
+         do side = 1, 2
+            k = 2*(f - 1) + side
+            tolerance%has_end(:, side, f) = ieee_is_finite(chunk%responses(:, k))
+            if (chunk%status(k) == 0) cycle
+            reason = reason_of(chunk, k)
+            call replace(reason, new_line('a'), '; ')
+            call tolerance%failures%add('factor '//quoted(study%factors(f)%name)//' at its '// &
+               words(side)//' end '//str(chunk%factors(f, k), 6)//': '//reason// &
+               '; responses without a value there have no '//trim(merge('at_low ', 'at_high', side == 1)))
+         end do
+      end do
+   end subroutine find_ends
 
    pure logical function is_finite(expansion)
       type(expansion_t), intent(in) :: expansion

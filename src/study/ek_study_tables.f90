@@ -27,7 +27,7 @@ module ek_study_tables
    !> Counts of the designs of a study by status, and sizes for the tables.
    type :: study_counts_t
       integer :: designs(0:design_invalid) = 0                !! number of designs of each status
-      integer :: within = 0                                  !! number of designs that satisfy all limits of the responses
+      integer :: within = 0                                  !! number of solved designs that satisfy all limits of the responses
       logical :: is_missing = .false.                        !! a chunk is missing or damaged; the counts are then incomplete
       type(message_list_t) :: reasons !! messages of the first failed designs, with the settings of each design
       integer :: states = 0                                  !! largest number of states of a design
@@ -191,7 +191,7 @@ contains
       integer :: k
 
       do k = 1, size(chunk%status)
-         if (keeps_limits(study, chunk%responses(:, k))) counts%within = counts%within + 1
+         if (chunk%status(k) == 0 .and. keeps_limits(study, chunk%responses(:, k))) counts%within = counts%within + 1
          counts%designs(chunk%status(k)) = counts%designs(chunk%status(k)) + 1
          counts%states = max(counts%states, chunk%states(k))
          if (chunk%status(k) == 0) cycle
@@ -240,7 +240,8 @@ contains
       block = block_of(study)
       do k = 1, size(chunk%status)
          values = [real(chunk%first + k - 1, wp), chunk%factors(:, k), chunk%responses(:, k)]
-         if (has_limits(study)) values = [values, merge(1.0_wp, 0.0_wp, keeps_limits(study, chunk%responses(:, k)))]
+         if (has_limits(study)) values = [values, merge(1.0_wp, 0.0_wp, chunk%status(k) == 0 .and. &
+            keeps_limits(study, chunk%responses(:, k)))]
          values = [values, real(chunk%status(k), wp)]
          if (block > 0 .and. chunk%first + k > 2) then
             if (mod(int(chunk%first) + k - 2, block) == 0) call rows%add(new_line('a'))
