@@ -6,6 +6,11 @@ attacks() {
   tests/attacks/attacks.sh build/release/bin/elastokin
 }
 
+# The deck as used gives the same bytes: random axes, preloads and settings of 200 variants of the library
+written_decks_are_the_same() {
+  python3 tests/support/written_decks.py build/release/bin/elastokin 200
+}
+
 # Commands that write are killed 300 times: no incomplete file, and the next run gives the same bytes
 kills() {
   tests/attacks/kills.sh build/release/bin/elastokin
