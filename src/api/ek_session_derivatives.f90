@@ -7,7 +7,7 @@ module ek_session_derivatives
    use ek_case_result, only: case_result_t
    use ek_response, only: no_column
    use ek_table, only: name_length
-   use ek_direction, only: direction_t, find_directions
+   use ek_direction, only: direction_t, find_directions, refuse_shared
    use ek_derivatives, only: derivatives_t, begin_derivatives, find_derivatives, refuse_case
    use ek_workspace, only: workspace_t
    use ek_workspace_cases, only: heads_of_case
@@ -160,6 +160,9 @@ contains
             place(p) = size(directions)
          end if
       end do
+      if (mistakes%count() > 0) return
+      call refuse_shared(workspace%design, directions, error)
+      if (allocated(error)) call mistakes%add(error%message)
    end subroutine place_paths
 
 end module ek_session_derivatives

@@ -8,6 +8,7 @@ module ek_session_settings
    use ek_text, only: str, quoted, replace
    use ek_deck, only: deck_t, set_value
    use ek_parameter, only: choice_t, find_parameters, parameter_path
+   use ek_matched_numbers, only: match_parameters
    use ek_reader, only: design_t, read_design
    use ek_factor_paths, only: shortest
    use ek_design_numbers, only: reset_numbers, place_number, add_path, put_path, put_at, is_legal_path, is_legal_at
@@ -94,7 +95,7 @@ contains
       call set_value(trial, path, shortest(merge(value, 1.0_wp, abs(value) < number_limit)), error)
       call without_option(error)
       if (allocated(error)) return
-      call find_parameters(session%workspace%design%parameters, session%workspace%design%records, path, found)
+      call match_parameters(session%workspace%design%parameters, session%workspace%design%records, path, .false., found)
       if (size(found) == 0) then
          call take_text(session, path, shortest(value), error)
       else

@@ -14,7 +14,7 @@ module ek_derivatives_command
    use ek_table, only: name_length
    use ek_workspace, only: workspace_t, solve_or_explain
    use ek_session, only: session_t
-   use ek_direction, only: direction_t, all_directions, find_directions
+   use ek_direction, only: direction_t, all_directions, find_directions, refuse_shared
    use ek_derivatives, only: derivatives_t, begin_derivatives, find_derivatives, refuse_case
    use ek_command_line, only: command_line_t
    use ek_load_deck, only: deck_settings_t, read_deck_settings, load_session
@@ -107,6 +107,7 @@ contains
          call split(given%line(k), paths)
       end do
       call find_directions(session%workspace%design, session%deck, paths, directions, error)
+      if (.not. allocated(error)) call refuse_shared(session%workspace%design, directions, error)
       if (allocated(error)) error%message = '--with: '//error%message
    end subroutine choose_numbers
 

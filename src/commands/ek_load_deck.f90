@@ -4,7 +4,7 @@ module ek_load_deck
    use ek_text, only: str, quoted, suggestion
    use ek_deck, only: deck_t, read_deck, set_value, deck_checksum
    use ek_setting, only: split_setting
-   use ek_set_file, only: set_file_t, read_set_file, apply_set_file, show_set_file
+   use ek_set_file, only: set_file_t, read_set_file, apply_set_file, show_set_file, setting_count, get_setting
    use ek_workspace, only: workspace_t
    use ek_workspace_cases, only: open_model
    use ek_session, only: session_t, take_deck
@@ -13,7 +13,8 @@ module ek_load_deck
    use ek_case, only: case_t, method_names, solver_names, max_increments
    use ek_command_line, only: command_line_t
    use ek_examination, only: examination_t, examine_cases
-   use ek_run_log, only: is_logging, log_deck
+   use ek_run_log, only: is_logging, log_deck, log_message
+   use ek_setting_log, only: applied_t, add_applied, overridden_settings
    implicit none(type, external)
    private
    public :: deck_settings_t, read_deck_settings, load_deck, load_session, read_changed, add_asked_test, chosen_cases, &
@@ -144,8 +145,39 @@ contains
          if (.not. allocated(error)) call split_setting(changes%line(k), path, value, error)
          if (.not. allocated(error)) call set_value(deck, path, value, error)
       end do
-      if (is_logging() .and. .not. allocated(error)) call log_deck(file, deck_checksum(deck))
+      if (.not. is_logging() .or. allocated(error)) return
+      call log_deck(file, deck_checksum(deck))
+      call log_settings(changes, deck, set_files)
    end subroutine read_changed
+
+   !> Logs where one setting overrides another.
+   subroutine log_settings(changes, deck, set_files)
+      type(message_list_t), intent(in) :: changes
+      type(deck_t), intent(in) :: deck                       !! deck with all settings
+      type(set_file_t), intent(in), optional :: set_files(:)
+      type(applied_t) :: applied
+      type(message_list_t) :: messages
+      type(error_t), allocatable :: error
+      character(:), allocatable :: path, value, where
+      integer :: k, j
+
+      if (present(set_files)) then
+         do k = 1, size(set_files)
+            do j = 1, setting_count(set_files(k))
+               call get_setting(set_files(k), j, path, value, where)
+               call add_applied(applied, where, path, value)
+            end do
+         end do
+      end if
+      do k = 1, changes%count()
+         call split_setting(changes%line(k), path, value, error)
+         if (.not. allocated(error)) call add_applied(applied, '--set', path, value)
+      end do
+      call overridden_settings(applied, deck, messages)
+      do k = 1, messages%count()
+         call log_message(messages%line(k))
+      end do
+   end subroutine log_settings
 
    !> Adds the standard test named by --case if the deck has no case of this name.
    subroutine add_asked_test(settings, suspension, cases)

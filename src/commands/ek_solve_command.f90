@@ -7,11 +7,11 @@ module ek_solve_command
    use ek_buffer, only: buffer_t
    use ek_file, only: make_folder, join_path, write_whole
    use ek_table, only: name_length
-   use ek_parameter, only: choice_t
    use ek_workspace, only: workspace_t
    use ek_workspace_cases, only: case_number
    use ek_session, only: session_t
-   use ek_direction, only: direction_t, find_directions
+   use ek_parameter, only: choice_t
+   use ek_direction, only: direction_t, find_directions, shared_number
    use ek_wanted_number, only: wanted_number_t, find_wanted
    use ek_condition_solver, only: unknown_t, findings_t, solve_conditions
    use ek_solve_text, only: add_findings
@@ -116,24 +116,12 @@ contains
       end do
       do k = 2, size(unknowns)
          do j = 1, k - 1
-            if (shares_number(unknowns(j)%direction%found, unknowns(k)%direction%found)) &
-               call mistakes%add('--vary: '//unknowns(j)%direction%path//' and '//unknowns(k)%direction%path// &
-               ' are the same number')
+            text = shared_number(session%workspace%design, unknowns(j)%direction, unknowns(k)%direction)
+            if (text /= '') call mistakes%add('--vary: '//text)
          end do
       end do
       if (mistakes%count() > 0) call fail(error, exit_usage, mistakes%text())
    end subroutine read_unknowns
-
-   !> Whether two unknowns have all numbers in common.
-   pure logical function shares_number(a, b)
-      type(choice_t), intent(in) :: a(:), b(:)
-      integer :: j
-
-      shares_number = size(a) == size(b)
-      do j = 1, min(size(a), size(b))
-         shares_number = shares_number .and. any(b%number == a(j)%number)
-      end do
-   end function shares_number
 
    !> Reads the conditions of --for, each [case:]quantity[@swept value]=value; reports all errors.
    subroutine read_conditions(line, settings, workspace, wanted, targets, error)

@@ -180,7 +180,7 @@ contains
 
    !> Finds the parameters with a path, which may have * instead of names. No parameter is found if the path is illegal or leads to
    !> a string, or to a number that the deck does not give and that has no default. The path of a half deck leads to both sides of
-   !> the axle.
+   !> the axle. As in apply_setting, a path with * leads only to numbers that the deck gives.
    subroutine find_parameters(parameters, records, path_text, found)
       type(parameters_t), intent(in) :: parameters
       type(record_t), intent(in) :: records(:)
@@ -197,6 +197,7 @@ contains
          associate (this => parameters%list(k), record => records(parameters%list(k)%record))
             if (record%group /= group_names(path%group) .or. this%key /= path%key) cycle
             if (path%has_subscript .and. this%at /= path%first) cycle
+            if (path%is_wild .and. .not. this%is_given) cycle
             if (is_like(own_name(record), path%name)) then      ! of both sides, also if a wild name fits the sided name too
                found = [found, choice_t(k, this%sign)]
             else if (is_meant(record, path)) then

@@ -18,7 +18,7 @@ module ek_set_file
    use ek_deck, only: deck_t, set_value
    implicit none(type, external)
    private
-   public :: set_file_t, read_set_file, apply_set_file, show_set_file
+   public :: set_file_t, read_set_file, apply_set_file, show_set_file, setting_count, get_setting
 
    !> One setting and its location in the file.
    type :: line_t
@@ -171,6 +171,24 @@ contains
       end do
       if (mistakes%count() > 0) call fail(error, exit_deck, visible(mistakes%text()))
    end subroutine apply_set_file
+
+   !> The number of settings of a file.
+   pure integer function setting_count(file)
+      type(set_file_t), intent(in) :: file
+      setting_count = file%used
+   end function setting_count
+
+   !> Returns setting k of a file with its location.
+   pure subroutine get_setting(file, k, path, value, where)
+      type(set_file_t), intent(in) :: file
+      integer, intent(in) :: k
+      character(:), allocatable, intent(out) :: path, value
+      character(:), allocatable, intent(out) :: where        !! 'params.in:3'
+
+      path = file%lines(k)%path
+      value = file%lines(k)%value
+      where = file%lines(k)%where
+   end subroutine get_setting
 
    !> Replaces '--set' in a message about settings by the file and line: 'params.in:3: path=value' instead of '--set path=value'.
    subroutine show_set_file(file, message)

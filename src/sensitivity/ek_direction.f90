@@ -17,7 +17,7 @@ module ek_direction
    use ek_factor_unit, only: parameter_unit
    implicit none(type, external)
    private
-   public :: direction_t, all_directions, find_directions, factor_direction, move_along
+   public :: direction_t, all_directions, find_directions, factor_direction, move_along, shared_number, refuse_shared
 
    !> A number of the deck, and the numbers that change with it.
    type :: direction_t
@@ -85,6 +85,48 @@ contains
          if (directions(k)%path == path) is_listed = .true.
       end do
    end function is_listed
+
+   !> Describes a number that two directions have in common; '' if they have none.
+   function shared_number(design, a, b) result(text)
+      type(design_t), intent(in) :: design
+      type(direction_t), intent(in) :: a, b
+      character(:), allocatable :: text
+      integer :: j
+
+      text = ''
+      do j = 1, size(b%found)
+         if (.not. any(a%found%number == b%found(j)%number)) cycle
+         if (a%path == b%path) then
+            text = a%path//' and '//b%path//' are the same number'
+         else
+            text = a%path//' and '//b%path//' both change '// &
+               parameter_path(design%parameters%list(b%found(j)%number), design%records, is_of_pair=.false.)//'; remove one of them'
+         end if
+         return
+      end do
+   end function shared_number
+
+   !> Rejects directions that have a number in common: their derivatives would count the number twice.
+   subroutine refuse_shared(design, directions, error)
+      type(design_t), intent(in) :: design
+      type(direction_t), intent(in) :: directions(:)
+      type(error_t), allocatable, intent(out) :: error     !! exit_usage: all pairs of directions
+      type(message_list_t) :: mistakes
+      integer :: owner(design%parameters%used), k, j, other
+
+      owner = 0
+      do k = 1, size(directions)
+         other = 0
+         do j = 1, size(directions(k)%found)
+            associate (number => directions(k)%found(j)%number)
+               if (owner(number) > 0 .and. other == 0) other = owner(number)
+               if (owner(number) == 0) owner(number) = k
+            end associate
+         end do
+         if (other > 0) call mistakes%add(shared_number(design, directions(other), directions(k)))
+      end do
+      if (mistakes%count() > 0) call fail(error, exit_usage, mistakes%text())
+   end subroutine refuse_shared
 
    !> Creates one direction for each number found. A y coordinate in the centre plane of a mirrored deck is omitted. The number of
    !> the right side joins the direction of the left number if both were found.

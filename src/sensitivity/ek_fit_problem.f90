@@ -12,6 +12,9 @@ module ek_fit_problem
    use ek_key_number, only: key_number_t, key_source_t, slope
    use ek_workspace, only: workspace_t
    use ek_workspace_cases, only: case_number
+   use ek_parameter, only: parameter_path
+   use ek_matched_numbers, only: claims_t, new_claims
+   use ek_fit_claims, only: claim_factor
    use ek_direction, only: direction_t, find_directions
    use ek_wanted_number, only: wanted_number_t, find_wanted, find_column
    use ek_fit, only: fit_t, fit_factor_t, fit_target_t
@@ -58,11 +61,16 @@ contains
       type(fit_problem_t), intent(out) :: problem
       type(error_t), allocatable, intent(out) :: error     !! exit_deck
       type(message_list_t) :: mistakes
+      type(claims_t) :: claims
+      character(:), allocatable :: twice
       integer :: k
 
       allocate (problem%variables(0), problem%points(0), problem%wanted(0))
+      call new_claims(workspace%design%parameters, claims)
       do k = 1, size(fit%factors)
-         call add_factor(fit%factors(k), deck, workspace, problem%variables, mistakes)
+         call claim_factor(fit, k, workspace, claims, twice)
+         if (twice /= '') call mistakes%add(twice)
+         if (twice == '') call add_factor(fit%factors(k), deck, workspace, problem%variables, mistakes)
       end do
       problem%knows_deviation = any(is_given(fit%targets%deviation))
       do k = 1, size(fit%targets)
@@ -83,10 +91,11 @@ contains
       type(message_list_t) :: path
       type(error_t), allocatable :: error
       character(:), allocatable :: head
-      integer :: k, j, members
+      integer :: k, j, members, many
 
       head = factor%where//': factor '//quoted(factor%name)//': '
       members = 0
+      many = size(variables)
       this%name = factor%name
       do k = 1, size(factor%paths)
          path = message_list_t()
@@ -97,6 +106,7 @@ contains
             return
          end if
          do j = 1, size(found)
+            if (is_known(found(j), factor%is_each)) cycle
             if (factor%is_each) this%name = found(j)%path
             if (factor%is_each .or. members == 0) this%direction = first_member(factor, factor%weights(k), found(j))
             members = members + 1
@@ -112,6 +122,27 @@ contains
       if (.not. factor%is_each) call finish()
 
    contains
+
+      !> Whether earlier paths of the factor already lead to all numbers of a direction. Numbers that they lead to are removed from
+      !> the direction, so that a number counts once.
+      logical function is_known(number, is_each)
+         type(direction_t), intent(inout) :: number
+         logical, intent(in) :: is_each
+         integer :: l, v, last
+
+         last = size(variables)
+         is_known = .false.
+         if (members == 0) return
+         do v = many + 1, merge(last, many, is_each)
+            number%found = pack(number%found, [(all(variables(v)%direction%found%number /= number%found(l)%number), &
+               l=1, size(number%found))])
+         end do
+         if (.not. is_each) number%found = pack(number%found, [(all(this%direction%found%number /= number%found(l)%number), &
+            l=1, size(number%found))])
+         is_known = size(number%found) == 0
+         if (.not. is_known) number%path = parameter_path(workspace%design%parameters%list(number%found(1)%number), &
+            workspace%design%records, is_of_pair=size(number%found) > 1)
+      end function is_known
 
       !> Sets the bounds and the prior of the factor, which is then complete.
       subroutine finish()

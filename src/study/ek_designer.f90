@@ -55,9 +55,10 @@ contains
       allocate (designer%workspace)
       call open_cases(deck, designer%case_names, designer%workspace, error, designer%increments)
       if (allocated(error)) return
-      allocate (designer%paths(size(study%factors)), designer%units(size(study%factors)), designer%heads(size(study%factors)))
+      call find_paths(study, designer%workspace%design, designer%paths, error)
+      if (allocated(error)) return
+      allocate (designer%units(size(study%factors)), designer%heads(size(study%factors)))
       do k = 1, size(study%factors)
-         call find_paths(study%factors(k), designer%workspace%design, designer%paths(k))
          designer%units(k) = factor_unit(designer%workspace%design, designer%paths(k))
          designer%heads(k) = head_with_unit(study%factors(k)%name, unit_ending(trim(designer%units(k))))
       end do

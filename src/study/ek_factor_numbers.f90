@@ -2,6 +2,7 @@
 module ek_factor_numbers
    use ek_kinds, only: wp
    use ek_parameter, only: choice_t, parameters_t
+   use ek_matched_numbers, only: setting_path_t
    use ek_study, only: by_value, by_delta, not_given
    use ek_workspace, only: workspace_t, put_numbers, ready_cases
    implicit none(type, external)
@@ -11,7 +12,8 @@ module ek_factor_numbers
    !> The numbers of the deck that one factor changes.
    type :: factor_paths_t
       integer :: change = by_value                !! by_value, by_delta or by_scale (ek_study)
-      type(choice_t), allocatable :: found(:)     !! the parameters; empty if a path leads to no parameter
+      type(choice_t), allocatable :: found(:)     !! the parameters, each once; empty if a path leads to no parameter
+      type(setting_path_t), allocatable :: settings(:)     !! paths that change each number once in the text of the deck
    end type factor_paths_t
 
 contains

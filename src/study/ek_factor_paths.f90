@@ -7,14 +7,15 @@ module ek_factor_paths
    use ek_record, only: element, own_name, single
    use ek_group, only: group_names, point_group
    use ek_deck, only: deck_t, set_value
-   use ek_parameter, only: find_parameters
+   use ek_matched_numbers, only: matches_t, match_t, claims_t, new_claims, claim, match_paths, match_name, choices_of, &
+      separate_settings
    use ek_reader, only: design_t
    use ek_sampler_kind, only: list_kind
-   use ek_study, only: study_t, study_factor_t, by_delta, by_scale
+   use ek_study, only: study_t, by_value, by_delta, by_scale
    use ek_factor_numbers, only: factor_paths_t
    implicit none(type, external)
    private
-   public :: check_paths, check_planes, find_paths, is_held_in_plane, setting_of, label_of, shortest
+   public :: check_paths, check_planes, find_paths, shared_text, is_held_in_plane, setting_of, label_of, shortest
 
    real(wp), parameter :: plane = 1.0e-9_wp       !! limit of |y| below which a point lies in the centre plane and exists once on a
                                                   !! mirrored axle [m]
@@ -103,26 +104,53 @@ contains
       is_held_in_plane = .true.
    end function is_held_in_plane
 
-   !> Finds the numbers of the deck to which the paths of a factor lead. The list is empty if a path leads to no parameter.
-   subroutine find_paths(factor, design, paths)
-      type(study_factor_t), intent(in) :: factor
+   !> Finds the numbers of the deck that each factor changes. Within a factor, a number counts once, also if several paths match it.
+   !> Two factors that change one number are an error, because the later one would replace the value of the earlier one.
+   subroutine find_paths(study, design, paths, error)
+      type(study_t), intent(in) :: study
       type(design_t), intent(in) :: design
-      type(factor_paths_t), intent(out) :: paths
-      type(factor_paths_t) :: one
-      integer :: k
+      type(factor_paths_t), allocatable, intent(out) :: paths(:)       !! paths of each factor
+      type(error_t), allocatable, intent(out) :: error                 !! exit_deck
+      type(matches_t) :: matches
+      type(match_t), allocatable :: shared(:)
+      type(claims_t) :: claims
+      type(message_list_t) :: mistakes
+      character(:), allocatable :: message, before
+      integer :: f, other
 
-      paths%change = factor%change
-      allocate (paths%found(0))
-      do k = 1, size(factor%paths)
-         call find_parameters(design%parameters, design%records, trim(factor%paths(k)), one%found)
-         if (size(one%found) == 0) then
-            deallocate (paths%found)
-            allocate (paths%found(0))
-            return
-         end if
-         paths%found = [paths%found, one%found]
+      allocate (paths(size(study%factors)))
+      call new_claims(design%parameters, claims)
+      before = ''
+      do f = 1, size(paths)
+         associate (factor => study%factors(f))
+            paths(f)%change = factor%change
+            call match_paths(design%parameters, design%records, factor%paths, factor%change /= by_value, matches, message)
+            if (factor%change == by_scale) message = ''              ! a multiple has no direction
+            if (message /= '') call mistakes%add(factor%where//': factor '//quoted(factor%name)//': '//message)
+            paths(f)%found = choices_of(matches)
+            call separate_settings(design%records, matches, factor%paths, paths(f)%settings)
+            call claim(claims, matches%list, f, other, shared)
+            if (other == 0) cycle
+            message = factor%where//' '//study%factors(other)%where
+            if (message == before) cycle                             ! each = .true. creates many factors in one line
+            before = message
+            call mistakes%add(shared_text(factor%where, factor%name, study%factors(other)%where, study%factors(other)%name, &
+               match_name(design%records, shared(1), shared)))
+         end associate
       end do
+      if (mistakes%count() > 0) call fail(error, exit_deck, mistakes%text())
    end subroutine find_paths
+
+   !> The message about a number that two factors change.
+   function shared_text(where, name, other_where, other_name, path) result(text)
+      character(*), intent(in) :: where, name              !! location and name of the later factor
+      character(*), intent(in) :: other_where, other_name
+      character(*), intent(in) :: path                     !! path of the number
+      character(:), allocatable :: text
+
+      text = where//': factor '//quoted(name)//': its paths match '//path//', which factor '//quoted(other_name)//' ('// &
+         other_where//') also changes; let one factor change each number'
+   end function shared_text
 
    !> The setting of a factor at a value, as in --set path=…: 5 (replaces the number), +5 (adds), *5 (multiplies).
    function setting_of(change, value) result(text)

@@ -12,7 +12,7 @@ module ek_study_design
    use ek_deck, only: deck_t, set_value
    use ek_case_result, only: case_result_t, solve_case, solve_mounted, add_remarks, solved
    use ek_table, only: table_t, column_index
-   use ek_study, only: study_t, not_given
+   use ek_study, only: study_t, not_given, by_scale
    use ek_response_value, only: read_response, is_difference
    use ek_read_states, only: observe_read_states
    use ek_study_pack, only: walk_case, lanes
@@ -129,9 +129,10 @@ contains
       allocate (workspace)
       changed = deck
       do f = 1, size(study%factors)
-         do j = 1, size(study%factors(f)%paths)
-            if (.not. allocated(error)) call set_value(changed, trim(study%factors(f)%paths(j)), &
-               setting_of(study%factors(f)%change, chunk%factors(f, k)), error)
+         do j = 1, size(designer%paths(f)%settings)
+            associate (setting => designer%paths(f)%settings(j))
+               if (.not. allocated(error)) call set_value(changed, setting%path, value_of(f, setting%sign), error)
+            end associate
          end do
       end do
       if (.not. allocated(error)) call open_cases(changed, designer%case_names, workspace, error, designer%increments)
@@ -139,10 +140,9 @@ contains
          if (error%code == exit_file) call put_error(chunk, error)
          chunk%status(k) = merge(design_invalid, design_unsolvable, error%code == exit_deck)
          do f = 1, size(study%factors)          ! a number of the study, not of the command line
-            associate (factor => study%factors(f))
-               do j = 1, size(factor%paths)
-                  call replace(error%message, '--set '//trim(factor%paths(j))//'='// &
-                     setting_of(factor%change, chunk%factors(f, k)), &
+            associate (factor => study%factors(f), settings => designer%paths(f)%settings)
+               do j = 1, size(settings)
+                  call replace(error%message, '--set '//settings(j)%path//'='//value_of(f, settings(j)%sign), &
                      factor%where//': factor '//quoted(factor%name)//' = '//shortest(chunk%factors(f, k)))
                end do
             end associate
@@ -162,6 +162,18 @@ contains
       call find_cause(k, designer%case_of, faults, workspace, cause)
       if (allocated(cause%error%message) .and. cause%error%code == exit_file) call put_error(chunk, cause%error)
       call add_reason(chunk, k, cause_text(cause, designer%case_of, designer%readings, workspace))
+
+   contains
+
+      !> The value of factor f in this design as a setting; a factor that multiplies has no sign.
+      function value_of(f, sign) result(text)
+         integer, intent(in) :: f
+         real(wp), intent(in) :: sign
+         character(:), allocatable :: text
+
+         text = setting_of(study%factors(f)%change, merge(1.0_wp, sign, study%factors(f)%change == by_scale)*chunk%factors(f, k))
+      end function value_of
+
    end subroutine solve_from_text
 
    !> Computes the K&C quantities that solve_case omitted (defers_kandc), at the states from which a response is read.

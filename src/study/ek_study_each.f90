@@ -46,7 +46,7 @@ contains
             cycle
          end if
          do k = 1, size(study%factors(f)%paths)
-            call add_each(design, study%factors(f), trim(study%factors(f)%paths(k)), factors)
+            call add_each(design, study%factors(f), trim(study%factors(f)%paths(k)), before, factors)
          end do
          if (size(factors) > before) cycle
          call fail(error, exit_deck, study%factors(f)%where//': factor '//quoted(study%factors(f)%name)// &
@@ -106,17 +106,18 @@ contains
    end subroutine expand_columns
 
    !> Adds one factor for each number to which a path leads, with the omissions of expand_factors.
-   subroutine add_each(design, given, path_text, factors)
+   subroutine add_each(design, given, path_text, before, factors)
       type(design_t), intent(in) :: design
       type(study_factor_t), intent(in) :: given
       character(*), intent(in) :: path_text
+      integer, intent(in) :: before              !! number of factors of the former lines
       type(study_factor_t), allocatable, intent(inout) :: factors(:)
       type(study_factor_t) :: one
       type(choice_t), allocatable :: found(:)
       type(path_t) :: path
       character(:), allocatable :: message
       logical :: is_both
-      integer :: k
+      integer :: k, j
 
       call split_path(path_text, path, message)
       call find_parameters(design%parameters, design%records, path_text, found)
@@ -133,6 +134,7 @@ contains
             deallocate (one%paths)
             allocate (one%paths(1))
             one%paths(1) = parameter_path(parameter, design%records, is_of_pair=is_both)
+            if (any([(factors(j)%paths(1) == one%paths(1), j=before + 1, size(factors))])) cycle     ! of an earlier path
             one%name = name_of(trim(one%paths(1)), factors)
             factors = [factors, one]
          end associate
