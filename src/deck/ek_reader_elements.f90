@@ -259,6 +259,8 @@ contains
             where (element%bushing%laws(4:6)%has_curve) list(plan%kr:plan%kr + 2)%range = only_zero
          end associate
       end if
+      element%gives_z = plan%z > 0 .and. any([has_key(reading, 'z_axis'), has_key(reading, 'z_vector')])
+      element%gives_x = plan%x > 0 .and. any([has_key(reading, 'x_axis'), has_key(reading, 'x_vector')])
       element%name = text_of(reading, 'name')
       element%where = where_of(reading)
       call set_kind(element, bushing_element, measure_t(body_i=number(1), body_j=number(2)))

@@ -8,7 +8,7 @@ module ek_plausibility
    use ek_measure, only: measure_t, axis_axis, rotation, distance
    use ek_element, only: element_t, element_kinds, coil_shape, damper_shape
    use ek_element_label, only: element_label
-   use ek_suspension, only: suspension_t, body_name, driver_row
+   use ek_suspension, only: suspension_t, body_name
    use ek_case, only: case_t
    use ek_state, only: design_state
    use ek_kkt, only: kkt_t, new_kkt
@@ -16,7 +16,11 @@ module ek_plausibility
    use ek_plausible_range, only: doubts_t, length
    use ek_plausible_parts, only: doubt_elements, doubt_loads, doubt_vehicle, doubt_cases
    use ek_plausible_connection, only: doubt_connections
-   use ek_plausible_response, only: doubt_response
+   use ek_plausible_bushing, only: doubt_bushings
+   use ek_plausible_ends, only: doubt_rod_ends
+   use ek_plausible_names, only: doubt_names
+   use ek_plausible_steering, only: doubt_steering
+   use ek_plausible_response, only: doubt_response, find_shortening
    use ek_plausible_shape, only: doubt_wheels, doubt_points, point_of
    implicit none(type, external)
    private
@@ -34,7 +38,7 @@ contains
       type(doubts_t) :: doubts
       type(diagnosis_t) :: diagnosis
       type(kkt_t) :: kkt
-      logical :: carries
+      logical :: carries, shortens(suspension%scalars)
       integer :: k
 
       if (.not. suspension%is_plausible_wanted) return
@@ -44,7 +48,13 @@ contains
       call doubt_connections(suspension, doubts, carries)
       call doubt_wheels(suspension, doubts)
       call doubt_points(suspension, doubts)
-      call doubt_links(suspension, doubts)
+      call doubt_names(suspension, doubts)
+      shortens = .false.
+      if (diagnosis%is_solvable()) call find_shortening(suspension, kkt, shortens)
+      call doubt_links(suspension, shortens, doubts)
+      call doubt_rod_ends(suspension, doubts)
+      call doubt_bushings(suspension, doubts)
+      call doubt_steering(suspension, doubts)
       if (carries .and. diagnosis%is_solvable()) call doubt_response(suspension, kkt, doubts)
       call doubt_elements(suspension, doubts)
       call doubt_vehicle(suspension, doubts)
@@ -61,15 +71,14 @@ contains
       remarks = doubts%remarks
    end subroutine doubt
 
-   !> Examines the rack, joints, links, bushings, springs and dampers: length, body at each end, direction.
-   subroutine doubt_links(suspension, doubts)
+   !> Examines joints, links, bushings, springs and dampers: length, body at each end, direction.
+   subroutine doubt_links(suspension, shortens, doubts)
       type(suspension_t), intent(in) :: suspension
+      logical, intent(in) :: shortens(:)          !! of find_shortening
       type(doubts_t), intent(inout) :: doubts
       real(wp) :: ends(3, 2), apart(3)
-      integer :: k, rack
+      integer :: k
 
-      rack = rack_body(suspension)
-      if (rack > 0) call doubt_rack(suspension, rack, doubts)
       do k = 1, size(suspension%joints)
          associate (joint => suspension%joints(k), &
                m => suspension%terms(suspension%rows(suspension%joints(k)%first_row)%first)%measure)
@@ -82,9 +91,6 @@ contains
             apart = ends(:, 2) - ends(:, 1)
             call doubts%judge('link length', norm2(apart))
             call doubt_ends(suspension, m, ends, doubts)
-            if (rack == 0 .or. (m%body_i /= rack .and. m%body_j /= rack)) cycle
-            if (abs(apart(2)) < 0.85_wp*norm2(apart)) call doubts%add('askew', &
-               'the tie rod is more than 32 deg off the lateral direction; check the signs of the coordinates of its ends')
          end associate
       end do
       do k = suspension%scalars + 1, size(suspension%elements)
@@ -92,33 +98,11 @@ contains
          call doubt_own_points(suspension, suspension%elements(k)%measure, doubts)
       end do
       do k = 1, suspension%scalars
+         if (shortens(k)) cycle
          if (any(element_kinds(suspension%elements(k)%kind)%shape == [coil_shape, damper_shape])) &
             call doubt_upright(suspension, suspension%elements(k), doubts)
       end do
    end subroutine doubt_links
-
-   !> Examines whether the rack is connected to another moving body, such as a tie rod or a wheel carrier.
-   subroutine doubt_rack(suspension, rack, doubts)
-      type(suspension_t), intent(in) :: suspension
-      integer, intent(in) :: rack
-      type(doubts_t), intent(inout) :: doubts
-      integer :: k
-
-      if (any([(leads(suspension%terms(k)%measure), k=1, size(suspension%terms))])) return
-      if (any([(leads(suspension%elements(k)%measure), k=1, size(suspension%elements))])) return
-      call doubts%examine(suspension%steering%where, '&steering')
-      call doubts%add('no tie rod', 'the rack, body '//quoted(body_name(suspension, rack))// &
-         ', is not connected to a wheel: is a tie rod missing?')
-
-   contains
-
-      !> Whether a measure connects the rack to another moving body.
-      pure logical function leads(m)
-         type(measure_t), intent(in) :: m
-         leads = any([m%body_i, m%body_j] == rack) .and. min(m%body_i, m%body_j) > 0
-      end function leads
-
-   end subroutine doubt_rack
 
    !> Checks that a joint of a wheel carrier is on the same side of the car as the wheel and, if the wheel has a steering axis, near
    !> the wheel centre.
@@ -183,8 +167,9 @@ contains
          str(nint(acos(min(1.0_wp, abs(m%v(3))))/degree))//' deg from the vertical; check the signs of its coordinates')
    end subroutine doubt_slider
 
-   !> Checks the bodies at the ends of a spring or damper within 45° of the vertical. The rank of the body at the upper end must not
-   !> be below the rank of the body at the lower end (rank_of).
+   !> Checks the bodies at the ends of a spring or damper within 45° of the vertical that does not get shorter when the wheel moves
+   !> up. The rank of the body at the upper end must not be below the rank of the body at the lower end (rank_of). A rocker or lever
+   !> pushes the upper end of its spring down, towards the chassis: such a spring gets shorter.
    subroutine doubt_upright(suspension, spring, doubts)
       type(suspension_t), intent(in) :: suspension
       type(element_t), intent(in) :: spring
@@ -215,19 +200,5 @@ contains
       end function rank_of
 
    end subroutine doubt_upright
-
-   !> Index of the body moved by the driver of &steering; 0 without such a driver.
-   pure integer function rack_body(suspension)
-      type(suspension_t), intent(in) :: suspension
-      integer :: row
-
-      rack_body = 0
-      if (.not. suspension%steering%has_steering) return
-      row = driver_row(suspension, suspension%steering%driver)
-      if (row == 0) return
-      associate (joint => suspension%joints(suspension%rows(row)%joint))
-         rack_body = max(joint%body_i, joint%body_j)
-      end associate
-   end function rack_body
 
 end module ek_plausibility

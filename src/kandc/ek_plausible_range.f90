@@ -9,7 +9,7 @@ module ek_plausible_range
    use ek_text, only: str
    implicit none(type, external)
    private
-   public :: doubts_t, length, force, is_usual, usual_range
+   public :: doubts_t, length, rate, rotation_rate, force, is_usual, usual_range
 
    ! dimensions
    integer, parameter :: length = 1, rate = 2, rotation_rate = 3, force = 4, moment = 5, angle = 6, mass = 7, share = 8, &

@@ -16,10 +16,11 @@ module ek_plausible_response
    use ek_wheel_side, only: prefix_of
    use ek_kandc_list, only: kandc_t, list_kandc, choose_kandc
    use ek_kandc_columns, only: observe_kandc
+   use ek_geometry_columns, only: length_ratio
    use ek_plausible_range, only: doubts_t, force, is_usual
    implicit none(type, external)
    private
-   public :: doubt_response
+   public :: doubt_response, find_shortening
 
    real(wp), parameter :: newton_per_mm = 1.0e3_wp      !! 1 N/mm in N/m
    real(wp), parameter :: standard_gravity = 9.80665_wp !! m/s²
@@ -48,6 +49,24 @@ contains
       call doubt_load(suspension, doubts)
       call doubt_bar(suspension, kandc, kkt, doubts)
    end subroutine doubt_response
+
+   !> Finds the springs, dampers and stops that get shorter when the wheels move up. All are .false. if the response is not known.
+   subroutine find_shortening(suspension, kkt, shortens)
+      type(suspension_t), intent(in) :: suspension     !! not on a rig
+      type(kkt_t), intent(inout) :: kkt                !! work space
+      logical, intent(out) :: shortens(:)              !! of the elements on one measure
+      type(kandc_t) :: kandc
+      integer :: k
+
+      shortens = .false.
+      if (size(suspension%wheels) == 0) return
+      call respond_at_design(suspension, kkt, kandc)
+      if (.not. kandc%compliance%is_known) return
+      do k = 1, size(shortens)
+         if (suspension%elements(k)%measure%kind == distance) &
+            shortens(k) = length_ratio(suspension, kandc%compliance, design_state(suspension), k) < 0.0_wp
+      end do
+   end subroutine find_shortening
 
    !> Computes the columns of the response at design that are judged.
    subroutine respond_at_design(suspension, kkt, kandc)

@@ -78,6 +78,7 @@ module ek_element
       real(num) :: design_length = zero    !! value of the measure at design [m, rad, -]
       real(num) :: free_length = zero      !! free length [m]; 0: not given
       real(num) :: clearance = zero        !! clearance of a stop [m]
+      logical :: gives_z = .false., gives_x = .false.   !! bushing: the deck gives its z axis, its x axis
       character(:), allocatable :: name, where
    end type element_t
 

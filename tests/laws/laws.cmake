@@ -18,6 +18,7 @@ add_library(ek_test_laws STATIC
   ${ek_laws_dir}/ek_program.f90
   ${ek_laws_dir}/ek_reference_text.f90
   ${ek_laws_dir}/ek_changed_text.f90
+  ${ek_laws_dir}/ek_remarks_on.f90
   ${ek_laws_dir}/ek_small_study.f90
   ${ek_laws_dir}/ek_exported.f90
   ${ek_laws_dir}/ek_probe.f90)
