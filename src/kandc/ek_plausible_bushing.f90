@@ -151,7 +151,7 @@ contains
       end associate
    end subroutine doubt_voided_order
 
-   !> Examines a bushing between an arm and the chassis. A bushing of this arm on a subframe, with the same axis, belongs to the same
+   !> Examines a bushing between an arm and the chassis. A bushing of this arm on a subframe with the same axis belongs to the same
    !> body.
    subroutine doubt_partner(suspension, k, doubts)
       type(suspension_t), intent(in) :: suspension
