@@ -15,12 +15,13 @@ module ek_named_numbers
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t, is_mountable
    use ek_rig, only: mount_case
-   use ek_table, only: name_length
+   use ek_table, only: table_t, name_length
    use ek_sweep_table, only: observer_t
    use ek_case_result, only: case_result_t, solve_options_t, solve_mounted, add_remarks
    use ek_test_result, only: test_result_t
    use ek_key_number, only: key_number_t, nothing, read_source, largest_of_all
    use ek_number_reach, only: reach_of, lacks_state
+   use ek_missing_number, only: missing_reason
    use ek_number_names, only: list_all, find_number, stems_of, explain_unknown
    implicit none(type, external)
    private
@@ -195,7 +196,7 @@ contains
    end subroutine solve
 
    !> Explains for which key numbers the last read_numbers found no value, and why: states that did not converge, with their cases,
-   !> or a quantity that the model does not define. Returns no error if all key numbers have a value. Only one thread at a time may
+   !> or the reason of ek_missing_number. Returns no error if all key numbers have a value. Only one thread at a time may
    !> call this procedure.
    subroutine explain_missing(numbers, names, values, defects, error)
       type(named_numbers_t), intent(inout) :: numbers
@@ -204,7 +205,8 @@ contains
       type(message_list_t), intent(in) :: defects           !! defects of the model in some of the cases
       type(error_t), allocatable, intent(out) :: error      !! exit_convergence, or exit_model
       type(message_list_t) :: words
-      type(buffer_t) :: lost, undefined
+      type(buffer_t) :: lost
+      logical :: is_told(size(names))
       integer :: c, k, code
 
       code = exit_convergence
@@ -220,17 +222,57 @@ contains
             end if
          end associate
       end do
+      is_told = ieee_is_finite(values(:size(names)))
       do k = 1, size(names)
-         if (ieee_is_finite(values(k))) cycle
-         if (numbers%is_lost(k)) call lost%add(' '//trim(names(k)))
-         if (.not. numbers%is_lost(k)) call undefined%add(' '//trim(names(k)))
+         if (.not. is_told(k) .and. numbers%is_lost(k)) call lost%add(' '//trim(names(k)))
       end do
+      is_told = is_told .or. numbers%is_lost
       if (lost%length() > 0) call words%add('no value of'//lost%text())
-      if (undefined%length() > 0) then
-         call words%add('the model does not define'//undefined%text())
-         if (defects%count() > 0) call words%add(defects%text())
-      end if
+      if (.not. all(is_told) .and. defects%count() > 0) call words%add(defects%text())
+      do while (.not. all(is_told))
+         k = findloc(is_told, .false., dim=1)
+         call say_reason(k)
+      end do
       if (words%count() > 0) call fail(error, code, words%text())
+
+   contains
+
+      !> Adds the reason of a number, with all other numbers that have no value for this reason.
+      subroutine say_reason(first)
+         integer, intent(in) :: first
+         type(buffer_t) :: list
+         character(:), allocatable :: reason
+         integer :: j
+
+         reason = reason_of(numbers, first)
+         do j = first, size(names)
+            if (is_told(j)) cycle
+            if (j > first) then
+               if (reason_of(numbers, j) /= reason) cycle
+            end if
+            is_told(j) = .true.
+            call list%add(' '//trim(names(j)))
+         end do
+         call words%add('no value of'//list%text()//' ('//reason//')')
+      end subroutine say_reason
+
    end subroutine explain_missing
+
+   !> The reason why requested number k has no value, from the first of its tests.
+   function reason_of(numbers, k) result(text)
+      type(named_numbers_t), intent(in) :: numbers
+      integer, intent(in) :: k
+      character(:), allocatable :: text
+      type(table_t) :: none
+
+      associate (case => numbers%cases(numbers%numbers(k)%sources(1)%test), number => numbers%numbers(k))
+         if (case%is_solved) then
+            text = missing_reason(number, numbers%wheel(k), 1, case%result%table)
+         else
+            text = missing_reason(number, numbers%wheel(k), 1, none)
+         end if
+         text = number%condition//': '//text
+      end associate
+   end function reason_of
 
 end module ek_named_numbers

@@ -168,7 +168,7 @@ contains
       if (allocated(error)) return
       call print_path(join_path(page%folder, gradients_file), unprinted)
       call print_path(join_path(page%folder, gradients_json_file), unprinted)
-      call key_numbers(page%tests, page%gradients, page%numbers)
+      call key_numbers(page%tests, page%gradients, page%numbers, page%missing)
       call set_targets(workspace%design%targets, page%numbers, page%warnings)
       call write_key_numbers(page%numbers, size(workspace%suspension%wheels) > 1, workspace%suspension%name, checksum, &
          join_path(page%folder, numbers_file), join_path(page%folder, numbers_json_file), error)

@@ -29,7 +29,7 @@ module ek_gradient
    use ek_text_table, only: text_table_t, new_text_table, add_row, text_table_csv, read_text_table, cell_of
    implicit none(type, external)
    private
-   public :: gradient_t, test_gradients, fit_slope, slope_over_window, gradient_noise
+   public :: gradient_t, test_gradients, fit_slope, slope_note, slope_over_window, gradient_noise
    public :: gradients_csv, gradients_json, write_gradients, read_gradients
 
    integer, parameter :: min_points = 3     !! fewer points do not define a fit
@@ -125,15 +125,26 @@ contains
       gradient%turn = turn_of(test, definition, side)
       gradient%value = slope
       if (.not. ieee_is_finite(slope)) then
-         gradient%note = 'no state in the window'
-         if (gradient%points > 0) gradient%note = 'only '//str(gradient%points)//' of at least '//str(min_points)// &
-            ' states in the window'
-         if (gradient%points >= min_points) gradient%note = trim(gradient%over)//' does not change'
-         if (undefined > 0) gradient%note = 'undefined at '//plural(undefined, 'state', 'states')//' in the window'
+         gradient%note = slope_note(gradient%points, undefined, '', trim(gradient%over))
          return
       end if
       gradient%value = slope*(gradient%size*gradient%turn)
    end function one_gradient
+
+   !> The reason why a slope has no value.
+   function slope_note(points, undefined, column, over) result(note)
+      integer, intent(in) :: points, undefined     !! of fit_slope
+      character(*), intent(in) :: column, over     !! names of both columns; column '': not named
+      character(:), allocatable :: note
+
+      note = 'no state in the window'
+      if (points > 0) note = 'only '//str(points)//' of at least '//str(min_points)//' states in the window'
+      if (points >= min_points) note = over//' does not change'
+      if (undefined > 0) then
+         note = 'undefined at '//plural(undefined, 'state', 'states')//' in the window'
+         if (column /= '') note = column//' is '//note
+      end if
+   end function slope_note
 
    !> Fits the slope of one column over another column, in the units of both; 0 if the slope is within the noise. Creates no
    !> strings.

@@ -37,6 +37,7 @@ module ek_key_number
       character(:), allocatable :: name           !! name for programs, without left_ or right_: 'bump_toe', 'toe_deg'
       character(:), allocatable :: condition      !! test and window of the number: 'parallel_travel, within ±15 mm of design'
       character(:), allocatable :: definition     !! columns of the number, and its sign
+      character(:), allocatable :: reason         !! reason of a missing value; not allocated: it has a value, or was not read
       character(48) :: held = ''                  !! condition of the wheels of a loaded axle: 'vertical force held'
       logical :: has_target = .false.
       real(wp) :: target(2) = 0.0_wp              !! lower and upper limit that the deck gives, in `unit`

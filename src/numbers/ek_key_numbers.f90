@@ -3,7 +3,6 @@
 !> ek_quantity and ek_gradient_definition.
 module ek_key_numbers
    use ek_kinds, only: wp
-   use ek_text, only: str
    use ek_table, only: column_index
    use ek_quantity, only: quantity_t, quantity_named, without_phase, unit_of, unit_text
    use ek_test_result, only: test_result_t
@@ -11,6 +10,8 @@ module ek_key_numbers
    use ek_gradient_definition, only: fitted
    use ek_key_number, only: key_number_t, key_source_t, nothing, read_source, has_value, at_design, largest, least, slope, &
       in_phase, anti_phase
+   use ek_missing_number, only: missing_reason
+   use ek_slope_definition, only: slope_definition
    use ek_ratio_numbers, only: ratio_numbers
    use ek_place_numbers, only: number_list_t, new_number, add_source, append, numbers_of, place_numbers
    implicit none(type, external)
@@ -88,11 +89,13 @@ module ek_key_numbers
 
 contains
 
-   !> Computes all key numbers that the tests provide. A key number without a value is omitted, except a gradient.
-   subroutine key_numbers(tests, gradients, numbers)
+   !> Computes all key numbers that the tests provide. A key number without a value is omitted, except a gradient; `missing` lists
+   !> the omitted key numbers. Every key number without a value has the reason.
+   subroutine key_numbers(tests, gradients, numbers, missing)
       type(test_result_t), intent(in) :: tests(:)        !! solved
       type(gradient_t), intent(in) :: gradients(:)       !! of these tests
       type(key_number_t), allocatable, intent(out) :: numbers(:)
+      type(key_number_t), allocatable, intent(out), optional :: missing(:)
       type(key_number_t), allocatable :: listed(:)
       logical, allocatable :: is_there(:)
       real(wp) :: values(2)
@@ -113,6 +116,7 @@ contains
          listed(k)%right = values(2)
          ! a slope without a value remains, with the reason among the gradients
          is_there(k) = has_value(listed(k)) .or. (listed(k)%how >= slope .and. listed(k)%how <= anti_phase)
+         if (.not. has_value(listed(k))) listed(k)%reason = missing_reason(listed(k), 1, 1, tests(listed(k)%sources(1)%test)%table)
       end do
       allocate (numbers(count(is_there)))
       j = 0
@@ -120,6 +124,14 @@ contains
          if (.not. is_there(k)) cycle
          j = j + 1
          numbers(j) = listed(k)
+      end do
+      if (.not. present(missing)) return
+      allocate (missing(count(.not. is_there)))
+      j = 0
+      do k = 1, size(listed)
+         if (is_there(k)) cycle
+         j = j + 1
+         missing(j) = listed(k)
       end do
    end subroutine key_numbers
 
@@ -280,40 +292,8 @@ contains
          if (is_there) call add_source(source, number)
       end do
       if (size(number%sources) == 0) return
-      number%definition = 'least-squares slope of '//column//' over '//over
-      if (over == 'factor') then
-         times = times/per_factor
-         if (abs(per_factor - 1.0_wp) > 0.0_wp) number%definition = number%definition//' (1: '//signed(per_factor)//unit//')'
-      end if
-      number%definition = number%definition//times_of(times)//sign
+      number%definition = slope_definition(column, over, per_factor, unit, times)//sign
    end subroutine from_gradients
-
-   !> The factors on the slopes of the columns of both wheels, which include unit and sign: ', times 1000', or ', times −1000 (left
-   !> wheel), 1000 (right wheel)'; '' if both are 1. The factor of a wheel without the number is 0.
-   function times_of(times) result(text)
-      real(wp), intent(in) :: times(2)
-      character(:), allocatable :: text
-      real(wp) :: both(2)
-
-      both = times
-      where (.not. abs(both) > 0.0_wp) both = times([2, 1])
-      text = ''
-      if (all(abs(both - 1.0_wp) <= 0.0_wp)) return
-      if (abs(both(1) - both(2)) <= 0.0_wp) then
-         text = ', times '//signed(both(1))
-      else
-         text = ', times '//signed(both(1))//' (left wheel), '//signed(both(2))//' (right wheel)'
-      end if
-   end function times_of
-
-   !> A number with the minus sign of the page.
-   function signed(number) result(text)
-      real(wp), intent(in) :: number
-      character(:), allocatable :: text
-
-      text = str(abs(number), 9)
-      if (number < 0.0_wp) text = '−'//text
-   end function signed
 
    !> Replaces the test in the condition of a key number by the test that gave its value: 'test NAME, at design'.
    subroutine name_test(test, number)

@@ -129,6 +129,7 @@ contains
 
       html = '<details class="how"><summary>how</summary><p>'//escape_html(numbers(k)%definition)//'. '// &
          escape_html(numbers(k)%condition)//'.'
+      if (allocated(numbers(k)%reason)) html = html//' No value: '//escape_html(numbers(k)%reason)//'.'
       do j = 1, size(numbers)
          if (kept_number(numbers, j) /= k) cycle
          html = html//' '//relation_to(numbers(j)%name)//' '//escape_html(numbers(j)%quantity)//': '//pair_of(numbers(j))//' '// &

@@ -25,6 +25,7 @@ module ek_report_content
       type(chart_t), allocatable :: charts(:)          !! charts of all tests
       type(gradient_t), allocatable :: gradients(:)
       type(key_number_t), allocatable :: numbers(:)    !! key numbers of the tests
+      type(key_number_t), allocatable :: missing(:)    !! key numbers without a value, which are not among `numbers`
       type(load_record_t), allocatable :: loads        !! loads of the members, if requested
       type(explanation_t), allocatable :: explanations(:)     !! contributions to the rates and the key compliances
       type(live_t), allocatable :: live                !! rates that the page can change, if requested

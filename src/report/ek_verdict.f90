@@ -114,25 +114,54 @@ contains
       character(:), allocatable :: words
       character(7) :: verdict
       integer :: n, k, used
+      logical :: is_spoken
 
       line%domain = domain%name
       line%text = ''
       used = 0
       do n = 1, size(domain%numbers)
+         if (domain%numbers(n) == '' .or. used == domain%most) exit
+         is_spoken = .false.
          do k = 1, size(report%numbers)
-            if (domain%numbers(n) == '' .or. used == domain%most) exit
-            if (report%numbers(k)%name /= domain%numbers(n) .or. .not. has_value(report%numbers(k))) cycle
+            if (report%numbers(k)%name /= domain%numbers(n)) cycle
             call speak(report%numbers(k), report%axle, words, verdict)
-            if (used > 0) line%text = line%text//'; '
-            line%text = line%text//words
-            if (verdict == 'outside' .or. line%verdict == '') line%verdict = verdict
-            used = used + 1
+            is_spoken = words /= ''
             exit
          end do
+         if (.not. is_spoken .and. allocated(report%missing)) then
+            do k = 1, size(report%missing)
+               if (report%missing(k)%name /= domain%numbers(n)) cycle
+               call speak(report%missing(k), report%axle, words, verdict)
+               is_spoken = words /= ''
+               exit
+            end do
+         end if
+         if (.not. is_spoken) cycle
+         if (used > 0) line%text = line%text//'; '
+         line%text = line%text//words
+         call join_reasons(line%text)
+         if (verdict == 'outside' .or. line%verdict == '') line%verdict = verdict
+         used = used + 1
       end do
    end subroutine judge
 
-   !> Creates the string of a key number: 'bump camber −13.83 deg/m (inside the target −30 … −20)', or 'lateral force steer 0.108
+   !> Joins two numbers at the end of a string that have no value for the same reason: 'no value of a, b (reason)'.
+   pure subroutine join_reasons(text)
+      character(:), allocatable, intent(inout) :: text
+      character(*), parameter :: lost = 'no value of '
+      integer :: first, second, reason(2)
+
+      second = index(text, '; '//lost, back=.true.)
+      if (second == 0) return
+      first = index(text(:second - 1), lost, back=.true.)
+      if (first == 0) return
+      reason(1) = first - 1 + index(text(first:), ' (')
+      reason(2) = second + 1 + index(text(second + 2:), ' (')
+      if (text(reason(1):second - 1) /= text(reason(2):)) return
+      text = text(:reason(1) - 1)//', '//text(second + 2 + len(lost):)
+   end subroutine join_reasons
+
+   !> Creates the string of a key number, '' for a number without a value and without a reason: 'bump camber −13.83 deg/m (inside the target −30 … −20)', or 'lateral force steer 0.108
    !> deg/kN: understeer'.
    subroutine speak(number, axle, words, verdict)
       type(key_number_t), intent(in) :: number
@@ -142,8 +171,13 @@ contains
       character(:), allocatable :: band, unit
       character(48) :: effect
 
-      words = short_name(number)
-      if (words(2:2) < 'A' .or. words(2:2) > 'Z') words(1:1) = lowered(words(1:1))
+      verdict = ''
+      if (.not. has_value(number)) then
+         words = ''
+         if (allocated(number%reason)) words = 'no value of '//without_capital(short_name(number))//' ('//number%reason//')'
+         return
+      end if
+      words = without_capital(short_name(number))
       unit = ''
       if (number%unit /= '–') unit = ' '//number%unit
       if (number%is_of_axle .or. is_equal(number) .or. .not. ieee_is_finite(number%right)) then
@@ -240,6 +274,15 @@ contains
          ascii = ascii(:at - 1)//'-'//ascii(at + len(minus):)
       end do
    end function plain
+
+   !> A title in the middle of a sentence: 'bump toe' for 'Bump toe'; an abbreviation keeps its capitals.
+   pure function without_capital(title) result(words)
+      character(*), intent(in) :: title
+      character(:), allocatable :: words
+
+      words = title
+      if (words(2:2) < 'A' .or. words(2:2) > 'Z') words(1:1) = lowered(words(1:1))
+   end function without_capital
 
    pure character(1) function lowered(letter)
       character(1), intent(in) :: letter

@@ -18,6 +18,7 @@ module ek_wanted_values
    use ek_table, only: name_length, column_index
    use ek_case_result, only: add_remarks, failure_of
    use ek_key_number, only: nothing, largest_of_all
+   use ek_missing_number, only: missing_reason
    use ek_number_reach, only: lacks_state
    use ek_workspace, only: workspace_t, put_numbers, solve_or_explain
    use ek_direction, only: direction_t, move_along
@@ -190,7 +191,8 @@ contains
       if (ieee_is_finite(value)) then
          if (allocated(error)) deallocate (error)
       else if (.not. allocated(error)) then
-         call fail(error, exit_model, 'the model does not define it')
+         call fail(error, exit_model, 'no value ('//wanted%key%condition//': '//missing_reason(wanted%key, wanted%wheel, 1, &
+            needed(needed_number(wanted%cases(1), needed))%table)//')')
       end if
    end subroutine settle
 

@@ -1,0 +1,86 @@
+!> The reason why a key number has no value in the tables of its tests. Every caller that meets a key number without a value
+!> (report, run, solve, fit, interfaces) gives the reason of this module.
+module ek_missing_number
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use ek_kinds, only: wp
+   use ek_text, only: str
+   use ek_table, only: table_t, column_index, name_length, row_count
+   use ek_test_result, only: converged_rows, design_row
+   use ek_gradient, only: fit_slope, slope_note
+   use ek_key_number, only: key_number_t, at_design, slope, anti_phase, at_place, to_contact, largest_of_all
+   implicit none(type, external)
+   private
+   public :: missing_reason
+
+contains
+
+   !> The reason why a key number has no value under its condition: 'only 1 of at least 3 states in the window'. Creates strings.
+   function missing_reason(number, wheel, source, table) result(text)
+      type(key_number_t), intent(in) :: number
+      integer, intent(in) :: wheel              !! 1: left or single wheel, or axle; 2: right
+      integer, intent(in) :: source             !! index of the source whose table is given
+      type(table_t), intent(in) :: table        !! table of its test; without columns: the test was not solved
+      character(:), allocatable :: text
+      character(name_length) :: column
+      real(wp) :: value
+      integer :: place, over, points, undefined
+
+      column = number%sources(source)%column(wheel)
+      if (column == '') column = number%sources(source)%column(3 - wheel)
+      place = 0
+      if (allocated(table%columns)) place = column_index(table, trim(column))
+      over = 0
+      if (place > 0 .and. number%sources(source)%over(wheel) /= '') over = column_index(table, &
+         trim(number%sources(source)%over(wheel)))
+      if (.not. allocated(table%columns)) then
+         text = 'the test was not solved'
+      else if (place == 0) then
+         text = 'the model does not define '//trim(column)
+      else if (number%how >= slope .and. number%how <= anti_phase) then
+         text = 'the model does not define '//trim(number%sources(source)%over(wheel))
+         if (over > 0) then
+            call fit_slope(table, place, over, number%sources(source)%factor_size, number%sources(source)%half, value, points, &
+               undefined)
+            text = slope_note(points, undefined, trim(column), trim(table%columns(over)))
+            if (points == 0 .and. undefined == 0) text = text//range_of(table)
+            if (points < 3 .and. undefined == 0) text = text//'; use more increments, or a range around design'
+         end if
+      else if (number%how == at_design .or. number%how == to_contact .and. design_row(table) == 0) then
+         text = trim(column)//' is not a number (nan) at this state'
+         if (design_row(table) == 0) text = no_design(table)
+      else if (number%how == at_place .or. number%how == to_contact) then
+         text = trim(number%sources(source)%over(wheel))//' does not reach '//str(number%sources(source)%wanted(wheel), 4)
+      else
+         text = trim(column)//' is not a number (nan) at any state'
+      end if
+   end function missing_reason
+
+   !> Why a table has no design state: it did not converge, or it lies outside the states.
+   function no_design(table) result(text)
+      type(table_t), intent(in) :: table
+      character(:), allocatable :: text
+      integer :: factor
+
+      factor = column_index(table, 'factor')
+      text = 'no state at design'//range_of(table)
+      if (factor == 0 .or. row_count(table) == 0) return
+      if (any(abs(table%values(factor, :)) <= 0.0_wp)) text = 'the state at design did not converge'
+   end function no_design
+
+   !> The range of the states of a table: ' (the states are from 20 to 100)'; '' without a state.
+   function range_of(table) result(text)
+      type(table_t), intent(in) :: table
+      character(:), allocatable :: text
+      logical :: is_good(row_count(table))
+      integer :: factor
+
+      text = ''
+      factor = column_index(table, 'factor')
+      if (factor == 0) return
+      is_good = converged_rows(table) .and. ieee_is_finite(table%values(factor, :))
+      if (.not. any(is_good)) return
+      text = ' (the states are from '//str(minval(table%values(factor, :), mask=is_good), 6)//' to '// &
+         str(maxval(table%values(factor, :), mask=is_good), 6)//')'
+   end function range_of
+
+end module ek_missing_number
