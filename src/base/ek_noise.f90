@@ -18,7 +18,7 @@ module ek_noise
    use ek_quantity, only: all_quantities, name_length
    implicit none(type, external)
    private
-   public :: noise_of, is_noise, is_constant, is_flat
+   public :: noise_of, is_noise, is_constant, is_flat, noise_of_slope, widen, is_within
 
    real(wp), parameter, public :: solved = 1.0e-10_wp      !! usual tolerance of a solution [m], the default of a case
    real(wp), parameter, public :: derived = 1.0e-11_wp     !! tolerance that corresponds to the errors of derivatives [m];
@@ -109,8 +109,42 @@ contains
       real(wp), intent(in) :: size              !! magnitude of the result, in its unit
 
       is_flat = .false.
-      if (ieee_is_finite(slope)) is_flat = is_noise(slope*step, column, size, derived)
+      if (ieee_is_finite(slope)) is_flat = abs(slope) <= noise_of_slope(step, column, size)
    end function is_flat
+
+   !> The largest derivative that is only noise, in the unit of the result per unit of the number. Creates no strings.
+   pure real(wp) function noise_of_slope(step, column, size) result(noise)
+      real(wp), intent(in) :: step              !! step of differences of the number (direction_t%step), above 0
+      character(*), intent(in) :: column        !! column heading of the result
+      real(wp), intent(in) :: size              !! magnitude of the result, in its unit
+
+      noise = noise_of(column, size, derived)/step
+   end function noise_of_slope
+
+   !> Extends the limits of a result by noise, so that a value which touches a limit is inside. Limits that are not given
+   !> (-huge, huge) are unchanged.
+   pure subroutine widen(column, tolerance, lower, upper)
+      character(*), intent(in) :: column        !! column heading of the result
+      real(wp), intent(in) :: tolerance         !! tolerance of the solution [m]
+      real(wp), intent(inout) :: lower, upper   !! limits, in the unit of the result
+
+      if (lower > -huge(lower)) lower = lower - noise_of(column, lower, tolerance)
+      if (upper < huge(upper)) upper = upper + noise_of(column, upper, tolerance)
+   end subroutine widen
+
+   !> Whether a value is within limits. A value that touches a limit but for noise is inside; NaN is not.
+   pure logical function is_within(value, lower, upper, column, tolerance)
+      real(wp), intent(in) :: value             !! in the unit of the result
+      real(wp), intent(in) :: lower, upper      !! limits, ∓huge if not given
+      character(*), intent(in) :: column        !! column heading of the result
+      real(wp), intent(in) :: tolerance         !! tolerance of the solution [m]
+      real(wp) :: limits(2)
+
+      limits = [lower, upper]
+      call widen(column, tolerance, limits(1), limits(2))
+      is_within = .false.
+      if (ieee_is_finite(value)) is_within = value >= limits(1) .and. value <= limits(2)
+   end function is_within
 
    !> Index of the first letter of the unit in a column heading: of 'deg_per_m' in 'left_bump_steer_deg_per_m'. Without a known
    !> unit, it is the index of the last word.

@@ -13,6 +13,7 @@ module ek_moment_tables
    use ek_file, only: join_path, write_whole, file_exists
    use ek_table, only: table_t, read_csv
    use ek_sample_statistics, only: mean_and_deviation, ascending_order, percentile, error_of_deviation
+   use ek_share_interval, only: share_interval
    use ek_standard_factor, only: value_at, slope_at
    use ek_moments, only: moments_t, normal_yield, normal_percentile
    use ek_tolerance, only: tolerance_t
@@ -23,7 +24,8 @@ module ek_moment_tables
 
    real(wp), parameter :: normal_95 = 1.959963984540054_wp      !! half width of a 95 % interval [standard errors]
    character(*), parameter :: moment_heads = 'response,method,mean,mean_half_95,deviation,deviation_half_95,skewness,p5,p95,'// &
-      'lower,upper,within,within_half_95'
+      'lower,upper,within,within_half_95,within_low_95,within_high_95'
+   integer, parameter :: moment_columns = 15
    character(*), parameter :: share_heads = 'response,factor,center,deviation,slope,effect,curvature,first,total,nominal,'// &
       'at_low,at_high'
    character(*), parameter :: band_heads = 'column,factor,nominal,mean,deviation,p5,p95'
@@ -109,7 +111,8 @@ contains
       end associate
    end subroutine take_ranges
 
-   !> The moments, percentiles and share within the limits of a nearly normal response.
+   !> The moments, percentiles and share within the limits of a nearly normal response. A constant response that touches a limit is
+   !> within the limits.
    pure function row_of(mean, deviation, skewness, axis) result(row)
       real(wp), intent(in) :: mean, deviation, skewness
       type(study_axis_t), intent(in) :: axis
@@ -117,8 +120,14 @@ contains
 
       row = moment_row_t(mean, deviation, skewness, normal_percentile(mean, deviation, skewness, 0.05_wp), &
          normal_percentile(mean, deviation, skewness, 0.95_wp), 0.0_wp, 0.0_wp, &
-         0.0_wp, 0.0_wp)
-      row%within = merge(normal_yield(mean, deviation, skewness, axis%lower, axis%upper), nothing(), is_limited(axis))
+         nothing(), nothing(), nothing())
+      if (is_limited(axis)) row%within = normal_yield(mean, deviation, skewness, axis%lower, axis%upper)
+      if (.not. deviation > 0.0_wp) then
+         row%skewness = nothing()
+         if (is_limited(axis)) row%within = normal_yield(mean, deviation, skewness, axis%widened(1), axis%widened(2))
+      end if
+      row%within_low = row%within
+      row%within_high = row%within
    end function row_of
 
    !> Computes the moments, percentiles and share within the limits of each response from the designs of the study; NaN with fewer
@@ -127,19 +136,21 @@ contains
       type(study_data_t), intent(inout) :: data
       real(wp), allocatable :: values(:)
       integer, allocatable :: order(:)
-      integer :: n, r
+      real(wp) :: ends(2)
+      integer :: counted, n, r
 
       do r = 1, size(data%responses)
          associate (row => data%moments(3, r), axis => data%responses(r))
             values = pack(data%y(r, :), ieee_is_finite(data%y(r, :)))
             n = size(values)
-            row = moment_row_t(nothing(), nothing(), nothing(), nothing(), nothing(), nothing(), nothing(), nothing(), nothing())
+            row = moment_row_t(nothing(), nothing(), nothing(), nothing(), nothing(), nothing(), nothing(), nothing(), nothing(), &
+               nothing())
             if (n < 2) cycle
             call mean_and_deviation(values, row%mean, row%deviation)
             row%mean_half = normal_95*row%deviation/sqrt(real(n, wp))
-            row%deviation_half = 0.0_wp
-            row%skewness = 0.0_wp
-            if (row%deviation > 0.0_wp) then
+            if (axis%is_constant) then             ! no scatter, so no intervals and no skewness
+               row%mean_half = nothing()
+            else if (row%deviation > 0.0_wp) then
                row%deviation_half = normal_95*error_of_deviation(values)
                row%skewness = sum((values - row%mean)**3)/n/row%deviation**3
             end if
@@ -148,10 +159,13 @@ contains
             call ascending_order(values, order)
             row%low = percentile(values(order), 0.05_wp)
             row%high = percentile(values(order), 0.95_wp)
-            row%within = real(count(values >= axis%lower .and. values <= axis%upper), wp)/data%designs
-            row%within_half = normal_95*sqrt(row%within*(1.0_wp - row%within)/data%designs)
-            if (.not. is_limited(axis)) row%within = nothing()
-            if (.not. is_limited(axis)) row%within_half = nothing()
+            if (.not. is_limited(axis)) cycle
+            counted = count(values >= axis%widened(1) .and. values <= axis%widened(2))
+            row%within = real(counted, wp)/data%designs
+            if (axis%is_constant) cycle            ! no interval
+            ends = share_interval(counted, data%designs)
+            row%within_low = ends(1)
+            row%within_high = ends(2)
          end associate
       end do
    end subroutine take_sample
@@ -182,7 +196,7 @@ contains
             call csv%add('"'//data%responses(r)%name//'","'//trim(methods(m))//'"')
             associate (row => data%moments(m, r), axis => data%responses(r))
                call add_numbers(csv, [row%mean, row%mean_half, row%deviation, row%deviation_half, row%skewness, row%low, row%high, &
-                  axis%lower, axis%upper, row%within, row%within_half])
+                  axis%lower, axis%upper, row%within, 0.5_wp*(row%within_high - row%within_low), row%within_low, row%within_high])
             end associate
          end do
       end do
@@ -252,13 +266,15 @@ contains
       is_good = .true.
       if (size(data%responses) > 0) then
          call read_one('_moments.csv', size(data%responses)*size(methods), moments)
+         if (is_good) is_good = size(moments%values, 1) == moment_columns       ! not the table of an earlier version
          call read_one('_shares.csv', size(data%responses)*size(data%factors), shares)
          if (.not. is_good) return
          allocate (data%moments(size(methods), size(data%responses)))
          do r = 1, size(data%responses)
             do m = 1, size(methods)
                associate (row => moments%values(:, (r - 1)*size(methods) + m))
-                  data%moments(m, r) = moment_row_t(row(3), row(5), row(7), row(8), row(9), row(4), row(6), row(12), row(13))
+                  data%moments(m, r) = moment_row_t(row(3), row(5), row(7), row(8), row(9), row(4), row(6), row(12), row(14), &
+                     row(15))
                end associate
             end do
             k = (r - 1)*size(data%factors)

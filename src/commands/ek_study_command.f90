@@ -7,7 +7,7 @@ module ek_study_command
    use ek_interrupt, only: watch_for_stop
    use ek_writer, only: scratch_t, end_scratch
    use ek_study, only: step_size_kind
-   use ek_factor_remark, only: factor_remarks
+   use ek_factor_remark, only: factor_remarks, sample_remark
    use ek_ranks, only: ranks_t, start_ranks, end_ranks, agree
    use ek_study_run, only: run_options_t, run_state_t, open_parts, run_chunks, count_parts, parts_folder, &
       check_parts
@@ -87,6 +87,7 @@ contains
       integer :: k
 
       associate (workspace => this%designer%workspace)
+         if (sample_remark(this%study) /= '') call words%add(sample_remark(this%study))
          call factor_remarks(this%study, workspace%design, this%designer%paths, words)
          call find_model_remarks(workspace%suspension, workspace%design%cases, workspace%cases%case, .true., remarks)
       end associate

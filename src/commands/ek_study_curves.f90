@@ -6,6 +6,7 @@ module ek_study_curves
    use ek_text, only: str
    use ek_sample_statistics, only: ascending_order, percentile
    use ek_study_data, only: study_data_t, percents
+   use ek_study_noise, only: settle_curves
    use ek_study_tables, only: repeated_factors
    use ek_table_lines, only: lines_t, open_table, next_line, take_numbers, close_table
    implicit none(type, external)
@@ -23,9 +24,10 @@ contains
    end function curve_step
 
    !> Reads the curves of the designs that curve_step selects, and finds their bands and the label of the swept value.
-   subroutine read_curves(path, deck_sum, data, error)
+   subroutine read_curves(path, deck_sum, tolerance, data, error)
       character(*), intent(in) :: path
       character(*), intent(in) :: deck_sum             !! checksum of the deck
+      real(wp), intent(in) :: tolerance                !! tolerance of the cases [m]
       type(study_data_t), intent(inout) :: data
       type(error_t), allocatable, intent(out) :: error
       type(lines_t) :: lines
@@ -73,6 +75,7 @@ contains
                'run the study again')
          else
             call sort_curves(rows(:, :used), data)
+            call settle_curves(tolerance, data)
             call find_bands(data)
             call name_sweep(data)
          end if

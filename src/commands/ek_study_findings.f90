@@ -47,7 +47,7 @@ contains
       do k = 1, size(percents)
          summary%percentiles(k) = percentile(sorted, 0.01_wp*percents(k))
       end do
-      summary%within = count(values >= axis%lower .and. values <= axis%upper)
+      summary%within = count(values >= axis%widened(1) .and. values <= axis%widened(2))
       ! intervals after D. Freedman, P. Diaconis, Z. Wahrscheinlichkeitstheorie 57 (1981): 2 × interquartile range / ∛n
       width = 2.0_wp*(summary%percentiles(4) - summary%percentiles(2))/real(n, wp)**(1.0_wp/3.0_wp)
       bins = 8
@@ -94,7 +94,7 @@ contains
       allocate (effects%correlation(k))
       effects%correlation = ieee_value(1.0_wp, ieee_quiet_nan)
       is_used = ieee_is_finite(data%y(r, :n))
-      if (count(is_used) > 2) then
+      if (count(is_used) > 2 .and. .not. data%responses(r)%is_constant) then
          do f = 1, k
             effects%correlation(f) = rank_correlation(pack(data%x(f, :n), is_used), pack(data%y(r, :n), is_used))
          end do
@@ -104,7 +104,7 @@ contains
          block = k + 2
          if (study%kind == list_kind) block = saltelli_block(data%x)
          if (block == 0) return
-         call sobol_indices(k, data%y(r, :), indices, block)
+         call sobol_indices(k, data%y(r, :), indices, block, data%responses(r)%noise)
          effects%first = indices%first
          effects%total = indices%total
          effects%first_error = indices%first_error
@@ -112,13 +112,13 @@ contains
          effects%used = spread(indices%used, 1, k)
          effects%planned = data%designs/block
       case (morris_kind)
-         call morris_effects(sampler, data%y(r, :), elementary)
+         call morris_effects(sampler, data%y(r, :), elementary, data%responses(r)%noise)
          effects%mean_size = elementary%mean_size
          effects%deviation = elementary%deviation
          effects%used = elementary%used
          effects%planned = data%designs/(k + 1)
       case (one_at_a_time_kind)
-         call tornado(sampler, data%y(r, :), bars)
+         call tornado(sampler, data%y(r, :), bars, data%responses(r)%noise)
          effects%nominal = bars%nominal
          effects%lowest = bars%lowest
          effects%highest = bars%highest
@@ -135,6 +135,10 @@ contains
                   if (values(d) >= maxval(values)) effects%at_high(f) = data%y(r, d)
                end do
             end associate
+            if (.not. ieee_is_finite(bars%lowest(f))) cycle
+            if (bars%highest(f) > bars%lowest(f)) cycle
+            if (ieee_is_finite(effects%at_low(f))) effects%at_low(f) = bars%lowest(f)        ! equal but for noise
+            if (ieee_is_finite(effects%at_high(f))) effects%at_high(f) = bars%lowest(f)
          end do
       end select
    end subroutine find_effects

@@ -6,7 +6,8 @@ module ek_study_outcome
    use ek_deck, only: deck_t
    use ek_writer, only: writer_t, begin_file, remove_stale, scratch_t
    use ek_drawing, only: run_plot_script
-   use ek_study, only: study_t, step_size_kind
+   use ek_study, only: study_t, step_size_kind, kind_names
+   use ek_study_data, only: yield_interval
    use ek_study_run, only: remove_parts, parts_folder, this_machine, other_machine
    use ek_study_tables, only: study_counts_t, write_tables, count_designs, curves_name, has_limits, kernels_text
    use ek_store, only: write_store
@@ -60,8 +61,12 @@ contains
       if (counts%kernels%count() > 1) call print_warning('the designs were computed with different BLAS kernels ('// &
          kernels_text(counts)//'): their last digits may differ; set OPENBLAS_CORETYPE='// &
          counts%kernels%line(1)//' on every machine to get equal digits')
-      if (has_limits(this%study)) call print_note(is_quiet, str(counts%within)//' of '//plural(this%plan%designs, &
-         'design satisfies', 'designs satisfy')//' all limits')
+      if (has_limits(this%study)) then
+         list = yield_interval(trim(kind_names(this%study%kind)), counts%within, this%plan%designs)
+         if (list /= '') list = ' ('//list//')'
+         call print_note(is_quiet, str(counts%within)//' of '//plural(this%plan%designs, 'design satisfies', 'designs satisfy')// &
+            ' all limits'//list)
+      end if
       failed = sum(counts%designs(1:))
       if (failed == 0) return
       list = ''

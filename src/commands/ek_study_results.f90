@@ -28,6 +28,7 @@ module ek_study_results
    use ek_table_lines, only: lines_t, open_table, next_line, take_numbers, close_table
    use ek_moment_tables, only: read_moments
    use ek_response_bands, only: set_bands
+   use ek_study_noise, only: settle_responses
    use ek_study_findings, only: summarise, find_effects, find_extremes
    implicit none(type, external)
    private
@@ -56,7 +57,8 @@ contains
       type(sampler_t) :: sampler
       type(scratch_t) :: scratch
       character(:), allocatable :: folder
-      integer :: r
+      real(wp) :: tolerance
+      integer :: k, r
 
       allocate (designer)
       call begin_designer(study, deck, designer, error)
@@ -77,8 +79,10 @@ contains
          call end_scratch(scratch)
          return
       end if
+      tolerance = maxval([(designer%workspace%cases(k)%case%tolerance, k=1, size(designer%case_names))])
+      call settle_responses(study, tolerance, data)
       if (size(data%columns) > 0) then
-         call read_curves(join_path(folder, curves_name(study)), deck_checksum(deck), data, error)
+         call read_curves(join_path(folder, curves_name(study)), deck_checksum(deck), tolerance, data, error)
       else
          allocate (data%drawn(0), data%sweep(0), data%curves(0, 0, 0), data%bands(size(percents), 0, 0))
       end if

@@ -97,13 +97,15 @@ contains
          associate (row => data%moments(3, r))
             if (ieee_is_finite(row%mean)) then
                call text%add('+-, 95 %     '//number(row%mean_half, 2)//number(row%deviation_half, 2))
-               if (has_limits) call text%add(repeat(' ', 3*width)//right(percent(row%within_half), width))
+               if (has_limits .and. ieee_is_finite(row%within_low)) call text%add(repeat(' ', 2*width)// &
+                  right(percent(row%within_low)//' to '//percent(row%within_high), 2*width))
+               if (has_limits .and. .not. ieee_is_finite(row%within_low)) call text%add(repeat(' ', 3*width)//right('-', width))
                call text%add('   of '//plural(data%summaries(r)%used, 'design', 'designs'))
                if (has_limits .and. data%summaries(r)%used < data%designs) call text%add('; within: of all '//str(data%designs))
                call text%line('')
             end if
          end associate
-         if (abs(data%moments(2, r)%deviation) <= 0.0_wp) then
+         if (.not. abs(data%moments(2, r)%deviation) > 0.0_wp) then
             call text%line('no shares of the variance: all derivatives at the centre are zero')
             return
          end if

@@ -1,6 +1,7 @@
 !> The table of the effects of the factors of a study on its responses. For each response, the strongest factor is first.
 !> Factors after the 12 strongest, and factors without an effect, are folded.
 module ek_effect_table
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
    use ek_text, only: str, plural
    use ek_study_data, only: study_data_t, effects_t, has_indices
@@ -120,8 +121,8 @@ contains
                call add_cell(page, page_number(study%deviations(f)), 'n')
                call add_cell(page, page_number(effect%slope(f)), 'n')
                call add_cell(page, page_number(effect%effect(f)), 'n')
-               call add_cell(page, page_number(100.0_wp*effect%first(f))//' %', 'n')
-               call add_cell(page, page_number(100.0_wp*effect%total(f))//' %', 'n')
+               call add_cell(page, percent(effect%first(f)), 'n')
+               call add_cell(page, percent(effect%total(f)), 'n')
             case ('morris')
                call add_cell(page, page_number(effect%mean_size(f)), 'n')
                call add_cell(page, page_number(effect%deviation(f)), 'n')
@@ -134,6 +135,15 @@ contains
          end associate
       end do
    end subroutine add_rows
+
+   !> A share in percent, '–' if it is unknown.
+   function percent(share) result(text)
+      real(wp), intent(in) :: share
+      character(:), allocatable :: text
+
+      text = page_number(100.0_wp*share)
+      if (ieee_is_finite(share)) text = text//' %'
+   end function percent
 
    !> Adds the factors without an effect, folded.
    subroutine add_idle(page, study)

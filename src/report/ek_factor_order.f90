@@ -24,6 +24,8 @@ contains
       associate (effect => study%effects(r))
          if (allocated(effect%total)) then
             sizes = effect%total
+            ! without a variance there are no indices, and no factor has an effect
+            if (study%kind == 'tolerance' .or. study%responses(r)%is_constant) sizes = merge(sizes, 0.0_wp, ieee_is_finite(sizes))
          else if (allocated(effect%mean_size)) then
             sizes = effect%mean_size
          else if (allocated(effect%highest)) then

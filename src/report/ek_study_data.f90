@@ -4,10 +4,11 @@ module ek_study_data
    use ek_kinds, only: wp
    use ek_error, only: message_list_t
    use ek_text, only: str
+   use ek_share_interval, only: share_interval
    implicit none(type, external)
    private
    public :: study_data_t, study_axis_t, summary_t, effects_t, extreme_t, moment_row_t, percents, methods, basis_text
-   public :: range_of_values, is_geometric, tic_step, has_indices, has_expected
+   public :: range_of_values, is_geometric, tic_step, has_indices, has_expected, yield_interval
 
    integer, parameter :: percents(5) = [5, 25, 50, 75, 95]      !! percentiles of a summary and of a band
 
@@ -19,6 +20,9 @@ module ek_study_data
       character(:), allocatable :: unit                !! unit of a response or column; '' without a unit
       character(:), allocatable :: note                !! path of a factor; description of a response
       real(wp) :: lower = -huge(1.0_wp), upper = huge(1.0_wp)      !! limits of a response
+      real(wp) :: widened(2) = [-huge(1.0_wp), huge(1.0_wp)]       !! limits of a response, widened by noise
+      real(wp) :: noise = 0.0_wp                       !! largest difference of values of a response that is noise
+      logical :: is_constant = .false.                 !! all values of a response are equal but for noise
       logical :: is_target = .false.                   !! the limits are the band of the deck, not of the study
    end type study_axis_t
 
@@ -53,7 +57,8 @@ module ek_study_data
    type :: moment_row_t
       real(wp) :: mean, deviation, skewness, low, high         !! low, high: percentiles 5 and 95
       real(wp) :: mean_half, deviation_half                    !! half-widths of 95 % intervals; 0 without sampling error
-      real(wp) :: within, within_half                          !! share of designs within the limits; half-width of its interval
+      real(wp) :: within = 0.0_wp                              !! share of designs within the limits
+      real(wp) :: within_low = 0.0_wp, within_high = 0.0_wp    !! ends of its 95 % interval
    end type moment_row_t
 
    character(*), parameter :: methods(3) = [character(12) :: 'first_order', 'second_order', 'monte_carlo']
@@ -106,6 +111,39 @@ contains
       if (maxval(effects%used) > minval(effects%used)) text = text//' to '//str(maxval(effects%used))
       text = ' ('//text//' of '//str(effects%planned)//' '//what//')'
    end function basis_text
+
+   !> The 95 % interval of the share of designs that were counted, as a label: '95 % interval 94.4 to 97.7 %'. The designs of a Latin
+   !> hypercube and of Sobol' points are not independent, so their interval is only approximate. '' for kinds of study whose
+   !> designs are not a sample.
+   pure function yield_interval(kind, counted, designs) result(words)
+      character(*), intent(in) :: kind                 !! kind of the study: 'monte_carlo'
+      integer, intent(in) :: counted, designs          !! designs within the limits; all designs
+      character(:), allocatable :: words
+      real(wp) :: ends(2)
+
+      words = ''
+      if (designs == 0) return
+      select case (kind)
+      case ('monte_carlo', 'tolerance')
+         words = '95 % interval '
+      case ('latin_hypercube', 'sobol')
+         words = 'approximate 95 % interval '
+      case default
+         return
+      end select
+      ends = 100.0_wp*share_interval(counted, designs)
+      words = words//rounded(ends(1))//' to '//rounded(ends(2))//' %'
+
+   contains
+
+      !> A percentage with two decimal places, without trailing zeros.
+      pure function rounded(percentage) result(text)
+         real(wp), intent(in) :: percentage
+         character(:), allocatable :: text
+         text = str(0.01_wp*nint(100.0_wp*percentage), 5)
+      end function rounded
+
+   end function yield_interval
 
    !> Whether the study yields Sobol indices: from the designs of a saltelli study, from a list in the order of a Saltelli
    !> design, or from the derivatives of a tolerance study.

@@ -6,7 +6,7 @@ module ek_study_page
    use ek_text, only: str, plural
    use ek_version, only: version
    use ek_file, only: join_path, file_exists, read_whole
-   use ek_study_data, only: study_data_t, study_axis_t, summary_t, percents, methods, range_of_values
+   use ek_study_data, only: study_data_t, study_axis_t, summary_t, percents, methods, range_of_values, yield_interval
    use ek_study_figures, only: rules, applies, figure_name, sheets, others
    use ek_effect_table, only: add_effects
    use ek_factor_order, only: most_open, factor_order, strongest_names, effect_measure
@@ -95,6 +95,14 @@ contains
       text = page_number(100.0_wp*part/max(1, whole))//' %'
    end function share
 
+   !> A label in brackets after a blank; '' for an empty label.
+   pure function in_brackets(words) result(text)
+      character(*), intent(in) :: words
+      character(:), allocatable :: text
+      text = ''
+      if (words /= '') text = ' ('//words//')'
+   end function in_brackets
+
    !> The limits of a response: '−2 … 0.5', '≥ −2', '≤ 0.5'; '' without limits.
    pure function limits_text(axis) result(text)
       type(study_axis_t), intent(in) :: axis
@@ -176,12 +184,17 @@ contains
          type(study_axis_t), intent(in) :: axis
          type(summary_t), intent(in) :: summary
 
+         character(:), allocatable :: interval
+
+         interval = yield_interval(study%kind, summary%within, study%designs)
+         if (axis%is_constant) interval = ''
          if (limits_text(axis) == '') then
             call add_cell(page, '–')
          else if (summary%used == 0) then
             call add_cell(page, limits_words(axis))
          else
-            call add_verdict(page, limits_words(axis)//': '//share(summary%within, study%designs), &
+            call add_verdict(page, limits_words(axis)//': '//share(summary%within, study%designs)// &
+               in_brackets(interval), &
                summary%within == study%designs, summary%within > 0)
          end if
       end subroutine add_limits
@@ -198,7 +211,7 @@ contains
       if (.not. allocated(study%moments)) return
       call begin_section(page, 'moments', 'Scatter by derivatives and by Monte Carlo')
       call begin_table(page, [character(16) :: 'Method', '>mean', '>± 95 %', '>deviation', '>± 95 %', '>skewness', '>5 %', &
-         '>95 %', '>within', '>± 95 %'])
+         '>95 %', '>within', '>95 % interval'])
       do r = 1, size(study%responses)
          call add_group(page, study%responses(r)%label)
          do m = 1, size(methods)
@@ -212,7 +225,7 @@ contains
                call add_number(row%low)
                call add_number(row%high)
                call add_share(row%within)
-               call add_share(merge(row%within_half, nothing(), m == size(methods)))
+               call add_interval(row%within_low, row%within_high, m == size(methods))
             end associate
          end do
       end do
@@ -234,6 +247,18 @@ contains
             call add_cell(page, page_number(100.0_wp*value)//' %', 'n')
          end if
       end subroutine add_share
+
+      !> Adds the 95 % interval of the share within the limits.
+      subroutine add_interval(low, high, is_known)
+         real(wp), intent(in) :: low, high
+         logical, intent(in) :: is_known
+
+         if (limits_text(study%responses(r)) == '' .or. .not. is_known .or. .not. ieee_is_finite(low)) then
+            call add_cell(page, '–', 'n')
+         else
+            call add_cell(page, page_number(100.0_wp*low)//' … '//page_number(100.0_wp*high)//' %', 'n')
+         end if
+      end subroutine add_interval
 
       pure real(wp) function nothing()
          nothing = ieee_value(1.0_wp, ieee_quiet_nan)

@@ -4,7 +4,8 @@
 !>     call find_study_slopes(values, self, is_valid)                      at each design
 !>
 !> The tables of the cases are moved along the derivatives of their columns, as in ek_wanted_values. A response is read from the
-!> moved tables as from any other table. The derivative of the response is a difference quotient of these values.
+!> moved tables as from any other table. The derivative of the response is a difference quotient of these values. A derivative that
+!> is only noise is 0.
 module ek_study_slopes
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
@@ -22,6 +23,7 @@ module ek_study_slopes
    use ek_derivatives, only: begin_derivatives, refuse_case
    use ek_case_slopes, only: case_slopes_t, solve_with_slopes, move_table
    use ek_stencil, only: stencils, differentiate
+   use ek_noise, only: noise_of_slope
    implicit none(type, external)
    private
    public :: study_slopes_t, begin_study_slopes, find_study_slopes
@@ -29,8 +31,10 @@ module ek_study_slopes
    type :: study_slopes_t
       real(wp), allocatable :: values(:)                     !! values of the responses, then of the curves, column by column
       real(wp), allocatable :: slopes(:, :)                  !! (value, factor): derivatives per unit of the factor
+      real(wp), allocatable :: noise(:, :)                   !! (value, factor): largest derivative that is only noise
       integer :: responses = 0                               !! number of responses, which precede the curves
       real(wp), allocatable :: sweep(:)                      !! swept values of the states of a curve
+      character(name_length), allocatable, private :: heads(:)      !! column headings of the values
       integer, allocatable, private :: columns(:)            !! indices of the curves among the differentiated columns
       type(reading_t), allocatable, private :: readings(:)
       integer, allocatable, private :: case_of(:)            !! index in `cases` of the case of each response
@@ -113,7 +117,14 @@ contains
       end associate
       self%responses = size(self%readings)
       allocate (self%values(self%responses + size(self%columns)*size(self%sweep)))
-      allocate (self%slopes(size(self%values), size(self%directions)))
+      allocate (self%slopes(size(self%values), size(self%directions)), self%noise(size(self%values), size(self%directions)))
+      allocate (self%heads(size(self%values)))
+      do c = 1, self%responses
+         self%heads(c) = self%readings(c)%head
+      end do
+      do c = 1, size(self%columns)
+         self%heads(self%responses + (c - 1)*size(self%sweep) + 1:self%responses + c*size(self%sweep)) = study%columns(c)
+      end do
    end subroutine place_curves
 
    !> Computes values and derivatives at a design. No string is created. is_valid is .false. in these cases:
@@ -150,6 +161,7 @@ contains
          call differentiate(stencils(1), h, self%values(:self%responses), y, self%slopes(:self%responses, f), errors)
       end do
       call take_curves(self, is_valid)
+      call remove_noise(self)
       do c = 1, size(self%cases)
          is_valid = is_valid .and. all(self%cases(c)%derivatives%can_move)
       end do
@@ -176,6 +188,25 @@ contains
          end associate
       end do
    end subroutine read_values
+
+   !> Sets derivatives to 0 that are only noise. A difference of two responses has the noise of the larger of them.
+   pure subroutine remove_noise(self)
+      type(study_slopes_t), intent(inout) :: self
+      real(wp) :: sizes(size(self%values))
+      integer :: f, k
+
+      sizes = abs(self%values)
+      do k = 1, size(sizes)
+         if (k <= self%responses) then
+            if (is_difference(self%readings(k))) sizes(k) = max(sizes(k), maxval(sizes(self%readings(k)%asked%less)))
+         end if
+         do f = 1, size(self%directions)
+            self%noise(k, f) = noise_of_slope(self%directions(f)%step, trim(self%heads(k)), sizes(k))
+            if (.not. ieee_is_finite(self%slopes(k, f))) cycle
+            if (abs(self%slopes(k, f)) <= self%noise(k, f)) self%slopes(k, f) = 0.0_wp
+         end do
+      end do
+   end subroutine remove_noise
 
    !> Copies the values and derivatives of the curves, column by column.
    pure subroutine take_curves(self, is_valid)

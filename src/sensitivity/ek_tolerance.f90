@@ -52,9 +52,9 @@ contains
       type(error_t), allocatable, intent(out) :: error       !! exit_deck, exit_model: numbers without a derivative, and the reason
       class(study_slopes_t), allocatable :: slopes
       type(factor_t) :: factor
-      real(wp), allocatable :: here(:), low(:, :), high(:, :)
+      real(wp), allocatable :: here(:), low(:, :), high(:, :), noise(:)
       logical :: is_valid
-      integer :: f, k
+      integer :: f, j, k
 
       allocate (tolerance%factors(size(study%factors)))
       do f = 1, size(study%factors)
@@ -90,7 +90,12 @@ contains
          call find_beside(step, high)
          if (allocated(error)) return
          do k = 1, size(slopes%values)
-            tolerance%expansions(k)%curvatures(:, f) = (high(k, :) - low(k, :))/(2.0_wp*step)
+            ! twice the noise of a slope, because it is a difference of two
+            noise = 2.0_wp*slopes%noise(k, :)*[(slope_at(tolerance%factors(j), 0.0_wp), j=1, size(here))]
+            associate (b => tolerance%expansions(k)%curvatures(:, f))
+               b = (high(k, :) - low(k, :))/(2.0_wp*step)
+               where (abs(high(k, :) - low(k, :)) <= noise) b = 0.0_wp
+            end associate
          end do
       end do
       do k = 1, size(slopes%values)

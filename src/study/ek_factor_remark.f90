@@ -1,17 +1,18 @@
-!> Messages on factors of a study that move hardpoints. One message names points of a wheel that a pattern also moves. The other
+!> Messages on the samples of a study, and on factors that move hardpoints. One message names points of a wheel that a pattern also moves. The other
 !> names a point that is moved away from another point at the same location.
 module ek_factor_remark
-   use ek_kinds, only: wp
+   use ek_kinds, only: wp, i8
    use ek_error, only: message_list_t
    use ek_text, only: str, quoted
    use ek_record, only: record_t, element
    use ek_group, only: group_names, point_group
    use ek_reader, only: design_t
    use ek_study, only: study_t
+   use ek_sampler_kind, only: sobol_kind, saltelli_kind
    use ek_factor_numbers, only: factor_paths_t
    implicit none(type, external)
    private
-   public :: factor_remarks
+   public :: factor_remarks, sample_remark
 
    real(wp), parameter :: same = 1.0e-9_wp        !! limit of a difference of coordinates at one location [m]
    integer, parameter :: most = 3                 !! largest number of points, or of pairs of points, named in a message
@@ -50,6 +51,23 @@ contains
          end associate
       end do
    end subroutine factor_remarks
+
+   !> A message on a number of Sobol' points that is no power of 2; '' otherwise. Only the first 2ᵐ points have one point in each of
+   !> 2ᵐ equal intervals of every factor. Other numbers lose this balance and much of the accuracy.
+   function sample_remark(study) result(words)
+      type(study_t), intent(in) :: study
+      character(:), allocatable :: words
+      integer(i8) :: below
+
+      words = ''
+      if (study%kind /= sobol_kind .and. study%kind /= saltelli_kind) return
+      associate (n => study%settings%size)
+         if (n < 1 .or. popcnt(n) == 1) return
+         below = shiftl(1_i8, bit_size(n) - 1 - leadz(n))
+         words = study%where//': samples = '//str(int(n))//' is no power of 2, so the Sobol'' points are not balanced; use '// &
+            str(int(below))//' or '//str(int(2_i8*below))
+      end associate
+   end function sample_remark
 
    !> Marks the points that a factor moves, by one or more coordinates.
    subroutine find_moved(design, paths, is_moved)

@@ -4,6 +4,7 @@
 !>
 !> The formulas are exact for such a response, for any distributions of the factors.
 module ek_moments
+   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
    use ek_contract, only: are_checked, require
    use ek_normal, only: normal_probability, normal_density, normal_quantile
@@ -26,7 +27,8 @@ module ek_moments
       real(wp) :: deviation = 0.0_wp               !! standard deviation, with the curvatures
       real(wp) :: linear_skewness = 0.0_wp         !! skewness from the slopes alone: 0 if the factors are symmetric
       real(wp) :: skewness = 0.0_wp
-      real(wp), allocatable :: first(:)            !! share of the variance due to each factor alone: first-order Sobol index
+      real(wp), allocatable :: first(:)            !! share of the variance due to each factor alone: first-order Sobol index;
+                                                   !! NaN without a variance
       real(wp), allocatable :: total(:) !! share of the variance due to each factor, with its interactions: total Sobol index
       real(wp) :: interaction = 0.0_wp             !! share of the variance due to interactions of factors: 1 − Σ first
    end type moments_t
@@ -76,7 +78,11 @@ contains
       end do
       moments%linear = sqrt(moments%linear)
       if (moments%linear > 0.0_wp) moments%linear_skewness = moments%linear_skewness/moments%linear**3
-      if (.not. moments%deviation > 0.0_wp) return
+      if (.not. moments%deviation > 0.0_wp) then             ! no variance: no shares, no skewness
+         moments%first = ieee_value(1.0_wp, ieee_quiet_nan)
+         moments%total = moments%first
+         return
+      end if
       moments%skewness = third/moments%deviation**3
       moments%first = moments%first/moments%deviation**2
       moments%total = moments%total/moments%deviation**2

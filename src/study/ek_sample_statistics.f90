@@ -8,7 +8,8 @@ module ek_sample_statistics
 
 contains
 
-   !> Computes the mean and the standard deviation in two passes: s² = Σ (x − x̄)²/(n − 1). The deviation is 0 for one value.
+   !> Computes the mean and the standard deviation in two passes: s² = Σ (x − x̄)²/(n − 1). The deviation is 0 for one
+   !> value, and exactly 0 for equal values, whose mean is the value.
    pure subroutine mean_and_deviation(values, mean, deviation)
       real(wp), intent(in) :: values(:)            !! sample of at least one value
       real(wp), intent(out) :: mean, deviation
@@ -17,6 +18,10 @@ contains
       n = size(values)
       mean = sum(values)/n
       deviation = 0.0_wp
+      if (.not. maxval(values) > minval(values)) then
+         mean = values(1)
+         return
+      end if
       do k = 1, n
          deviation = deviation + (values(k) - mean)**2
       end do
@@ -152,6 +157,7 @@ contains
          xy = xy + (x(k) - mean_x)*(y(k) - mean_y)
       end do
       r = 0.0_wp
+      if (.not. (maxval(x) > minval(x) .and. maxval(y) > minval(y))) return      ! their means are rounded, so xx or yy is not 0
       if (xx > 0.0_wp .and. yy > 0.0_wp) r = max(-1.0_wp, min(1.0_wp, xy/(sqrt(xx)*sqrt(yy))))
    end function linear_correlation
 

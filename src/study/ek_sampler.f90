@@ -10,7 +10,7 @@
 !> | one_at_a_time | 1 + sum of the levels | nominal; then each factor through its levels, the others nominal (tornado) |
 !> | list | rows | rows that were given |
 !> | latin_hypercube | n | u of each factor once in each of n equal intervals (McKay, Beckman, Conover 1979) |
-!> | sobol | n | u = Sobol' point (ek_sobol) |
+!> | sobol | n | u = Sobol' point (ek_sobol); unscrambled points are shifted by half a cell |
 !> | saltelli | n (k + 2) | A, AB₁ … AB_k, B from Sobol' points of 2k coordinates, for sensitivity indices (ek_sensitivity) |
 !> | monte_carlo | n | u independent |
 !> | morris | n (k + 1) | n trajectories (ek_trajectory), on which each factor changes once by p/2 of its p levels (Morris 1991) |
@@ -40,7 +40,7 @@ module ek_sampler
    use ek_trajectory, only: trajectory_t, find_trajectory, level_on, factor_changed, change_of_level
    implicit none(type, external)
    private
-   public :: sampler_t, new_sampler, sample, designs_of, factors_of, is_kind, is_ordered, changed_factor, morris_change
+   public :: sampler_t, new_sampler, sample, designs_of, factors_of, is_kind, is_ordered, is_shifted, changed_factor, morris_change
 
    type :: sampler_t
       private
@@ -51,6 +51,7 @@ module ek_sampler
       integer(i8) :: designs = 0
       type(permutation_t), allocatable :: permutations(:)    !! latin_hypercube: permutation of the intervals of each factor
       type(sobol_t) :: points
+      real(wp) :: shift = 0.0_wp                             !! added to each coordinate of an unscrambled Sobol' point
       type(copula_t) :: copula
       logical :: is_correlated = .false.
       integer, allocatable :: intervals(:, :) !! latin_hypercube: intervals of the correlated factors, see ek_rank_order
@@ -92,6 +93,7 @@ contains
             call new_sobol(k, sampler%points, settings%seed, scramble_stream)
          else
             call new_sobol(k, sampler%points)
+            sampler%shift = shift_of_points(settings%size)
          end if
       end select
       if (allocated(settings%pairs)) sampler%is_correlated = size(settings%pairs, 2) > 0
@@ -102,6 +104,19 @@ contains
          settings%size, sampler%intervals, error)
       sampler%position = sampler%position*[(sum(sampler%position(:j)), j=1, size(factors))]
    end subroutine new_sampler
+
+   !> The shift of unscrambled Sobol' points: half a cell. The first n points are multiples of 1/p, where p is the power of two not
+   !> below n. In the middle of the cells, none of them is at an end of the range of a factor, and their mean is 1/2 if n = p.
+   pure real(wp) function shift_of_points(n) result(shift)
+      integer(i8), intent(in) :: n                 !! number of points
+      real(wp), parameter :: smallest = 2.0_wp**(-33)        ! coordinate of point 0 (ek_sobol)
+
+      shift = 0.5_wp
+      do while (0.5_wp/shift < real(n, wp))
+         shift = 0.5_wp*shift
+      end do
+      shift = shift - smallest
+   end function shift_of_points
 
    !> Counts the designs of a sampler. More than 2⁴⁰ designs of a grid are an error.
    pure subroutine count_designs(sampler, error)
@@ -218,13 +233,13 @@ contains
             end do
          case (sobol_kind)
             do j = 1, k
-               x(j) = sobol_coordinate(sampler%points, design - 1, j)
+               x(j) = sobol_coordinate(sampler%points, design - 1, j) + sampler%shift
             end do
          case (saltelli_kind)
             row = (design - 1)/(k + 2)
             block = design - 1 - row*(k + 2)             ! 0: A, j: A with factor j from B, k + 1: B
             do j = 1, k
-               x(j) = sobol_coordinate(sampler%points, row, merge(j + k, j, block == j .or. block == k + 1))
+               x(j) = sobol_coordinate(sampler%points, row, merge(j + k, j, block == j .or. block == k + 1)) + sampler%shift
             end do
          case default
             call fill_uniforms(s%seed, design_stream, design, x)
@@ -312,6 +327,12 @@ contains
       is_ordered = allocated(sampler%intervals)
    end function is_ordered
 
+   !> Whether the designs are Sobol' points without scrambling, shifted by half a cell.
+   pure logical function is_shifted(sampler)
+      type(sampler_t), intent(in) :: sampler
+      is_shifted = sampler%shift > 0.0_wp
+   end function is_shifted
+
    !> Index of the only factor that differs: from the nominal design (one_at_a_time), from the previous design (morris), or from A
    !> (saltelli). The result is 0 for the nominal design, the start of a trajectory, A, B, and all designs of other kinds.
    pure integer function changed_factor(sampler, design) result(factor)
@@ -339,13 +360,24 @@ contains
       end select
    end function changed_factor
 
-   !> The change of the factor from the previous design, as a fraction of its range: ±p/(2(p − 1)), with p levels.
+   !> The change of the factor from the previous design, as a fraction of its range: ±p/(2(p − 1)), with p levels. The change of a
+   !> factor with `values` is the step between two of its values, which is not p/2 levels if the number of values differs from p.
    pure real(wp) function morris_change(sampler, design, factor) result(change)
       type(sampler_t), intent(in) :: sampler
       integer(i8), intent(in) :: design            !! index of the design, which is not the first of its trajectory
       integer, intent(in) :: factor                !! changed_factor of this design
       type(trajectory_t) :: trajectory
+      real(wp) :: before(size(sampler%factors)), x(size(sampler%factors))
 
+      if (allocated(sampler%factors(factor)%values)) then
+         call sample(sampler, design - 1, before)
+         call sample(sampler, design, x)
+         change = 0.0_wp
+         associate (values => sampler%factors(factor)%values)
+            if (maxval(values) > minval(values)) change = (x(factor) - before(factor))/(maxval(values) - minval(values))
+         end associate
+         return
+      end if
       call find_trajectory(sampler%settings, size(sampler%factors), design, trajectory)
       change = change_of_level(trajectory, factor)
    end function morris_change

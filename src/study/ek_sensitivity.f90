@@ -53,14 +53,18 @@ contains
    !> (θ_r − θ̄)²) (B. Efron, C. Stein, Ann. Stat. 9 (1981) 586–596). For Sobol' points, which are more even than random points, the
    !> interval is too wide.
    !>
+   !> A factor whose changes f_i − f_A are all noise has the indices 0, without an interval. A response whose differences are all
+   !> noise is constant and has no indices.
+   !>
    !> Equation (D.10) of docs/theory/sampling.md.
-   subroutine sobol_indices(factors, responses, indices, block)
+   subroutine sobol_indices(factors, responses, indices, block, noise)
       integer, intent(in) :: factors                         !! k: number of factors
       real(wp), intent(in) :: responses(:)
       type(sobol_indices_t), intent(out) :: indices
       integer, intent(in), optional :: block                 !! number of responses per row, from saltelli_block; default k + 2
+      real(wp), intent(in), optional :: noise                !! largest difference of responses that is noise; default 0
       real(wp), allocatable :: f(:, :)                       ! (0: A, i: AB_i, k + 1: B; row)
-      real(wp) :: nan
+      real(wp) :: nan, least
       real(wp) :: mean                                       ! of all responses of the rows
       integer :: k, i, r, rows, first, last
 
@@ -70,6 +74,8 @@ contains
       if (are_checked) call require(rows >= k + 2 .and. mod(size(responses), rows) == 0, &
          'sobol_indices: responses of another design')
       nan = ieee_value(nan, ieee_quiet_nan)
+      least = 0.0_wp
+      if (present(noise)) least = noise
       allocate (indices%first(k), indices%total(k), indices%first_error(k), indices%total_error(k))
       allocate (f(0:k + 1, size(responses)/rows))
       mean = 0.0_wp
@@ -89,9 +95,15 @@ contains
          indices%first_error(i) = nan
          indices%total_error(i) = nan
          if (indices%used < 2) cycle
+         if (maxval(f(:, :indices%used)) - minval(f(:, :indices%used)) <= least) cycle
          associate (a => f(0, :indices%used), b => f(k + 1, :indices%used), ab => f(i, :indices%used))
             call estimate(a, b, b*(ab - a), indices%first(i), indices%first_error(i))
             call estimate(a, b, 0.5_wp*(a - ab)**2, indices%total(i), indices%total_error(i))
+            if (maxval(abs(a - ab)) > least) cycle
+            indices%first(i) = 0.0_wp
+            indices%total(i) = 0.0_wp
+            indices%first_error(i) = 0.0_wp
+            indices%total_error(i) = 0.0_wp
          end associate
       end do
    end subroutine sobol_indices
@@ -191,14 +203,18 @@ contains
    !>     μ_i = ⟨d⟩,   μ*_i = ⟨|d|⟩,   σ_i² = Σ (d − μ_i)²/(n − 1)
    !>
    !> Sources: M. D. Morris, Technometrics 33 (1991) 161–174; μ*: F. Campolongo, J. Cariboni, A. Saltelli, Environ. Model. Softw. 22
-   !> (2007) 1509–1518. The statistics of a factor without effects are NaN.
+   !> (2007) 1509–1518. The statistics of a factor without effects are NaN. They are 0 if all differences of its responses are
+   !> noise. A step between two equal entries of `values` gives no effect.
    !>
    !> Equation (D.12) of docs/theory/sampling.md.
-   subroutine morris_effects(sampler, responses, effects)
+   subroutine morris_effects(sampler, responses, effects, noise)
       type(sampler_t), intent(in) :: sampler                 !! sampler of kind morris
       real(wp), intent(in) :: responses(:)
       type(morris_effects_t), intent(out) :: effects
+      real(wp), intent(in), optional :: noise                !! largest difference of responses that is noise; default 0
       real(wp), allocatable :: d(:, :)                       ! (effect, factor)
+      logical :: has_moved(factors_of(sampler))
+      real(wp) :: change, least
       integer :: k, i, n
       integer(i8) :: design
 
@@ -207,12 +223,18 @@ contains
       k = factors_of(sampler)
       allocate (effects%used(k), effects%mean(k), effects%mean_size(k), effects%deviation(k), d(size(responses)/(k + 1), k))
       effects%used(:) = 0
+      has_moved = .false.
+      least = 0.0_wp
+      if (present(noise)) least = noise
       do design = 2, size(responses)
          i = changed_factor(sampler, design)
          if (i == 0) cycle
          if (.not. all(ieee_is_finite(responses(design - 1:design)))) cycle
+         change = morris_change(sampler, design, i)
+         if (.not. abs(change) > 0.0_wp) cycle
          effects%used(i) = effects%used(i) + 1
-         d(effects%used(i), i) = (responses(design) - responses(design - 1))/morris_change(sampler, design, i)
+         d(effects%used(i), i) = (responses(design) - responses(design - 1))/change
+         has_moved(i) = has_moved(i) .or. abs(responses(design) - responses(design - 1)) > least
       end do
       do i = 1, k
          n = effects%used(i)
@@ -220,16 +242,19 @@ contains
          effects%mean_size(i) = effects%mean(i)
          effects%deviation(i) = effects%mean(i)
          if (n == 0) cycle
+         if (.not. has_moved(i)) d(:n, i) = 0.0_wp
          call mean_and_deviation(d(:n, i), effects%mean(i), effects%deviation(i))
          effects%mean_size(i) = sum(abs(d(:n, i)))/n
       end do
    end subroutine morris_effects
 
-   !> Finds the range of the response for each factor when only this factor changes.
-   subroutine tornado(sampler, responses, bars)
+   !> Finds the range of the response for each factor when only this factor changes. A range that is only noise is the nominal
+   !> response alone.
+   subroutine tornado(sampler, responses, bars, noise)
       type(sampler_t), intent(in) :: sampler                 !! sampler of kind one_at_a_time
       real(wp), intent(in) :: responses(:)
       type(tornado_t), intent(out) :: bars
+      real(wp), intent(in), optional :: noise                !! largest difference of responses that is noise; default 0
       integer(i8) :: design
       integer :: i, k
 
@@ -251,6 +276,13 @@ contains
          end if
          bars%lowest(i) = min(bars%lowest(i), responses(design))
          bars%highest(i) = max(bars%highest(i), responses(design))
+      end do
+      if (.not. present(noise)) return
+      do i = 1, k
+         if (.not. ieee_is_finite(bars%lowest(i))) cycle
+         if (bars%highest(i) - bars%lowest(i) > noise) cycle
+         if (ieee_is_finite(bars%nominal)) bars%lowest(i) = bars%nominal
+         bars%highest(i) = bars%lowest(i)
       end do
    end subroutine tornado
 

@@ -10,6 +10,7 @@ module ek_store
    use ek_file, only: join_path, program_exists, read_whole, write_whole, remove_file
    use ek_writer, only: scratch_t, begin_scratch, end_scratch, move_file
    use ek_process, only: run_program
+   use ek_noise, only: widen
    use ek_quantity, only: quantity_t, quantity_named, unit_of, unit_text
    use ek_study, only: study_t, study_factor_t, response_t, kind_names, change_names, by_delta, by_scale
    use ek_sampler_kind, only: sampler_kinds
@@ -220,7 +221,7 @@ contains
       n = size(study%factors)
       do k = 1, size(plan%heads)
          call begin_variable(store, n + k, trim(plan%heads(k)), response_role)
-         call describe_response(study%responses(k), store%variables(n + k))
+         call describe_response(study%responses(k), plan%tolerance, store%variables(n + k))
       end do
       n = n + size(plan%heads)
       if (plan%columns == 0) return
@@ -284,8 +285,9 @@ contains
       end associate
    end subroutine describe_factor
 
-   subroutine describe_response(response, variable)
+   subroutine describe_response(response, tolerance, variable)
       type(response_t), intent(in) :: response
+      real(wp), intent(in) :: tolerance           !! largest tolerance of the cases [m]
       type(store_variable_t), intent(inout) :: variable
       type(quantity_t) :: quantity
       character(:), allocatable :: text, over, units
@@ -314,6 +316,7 @@ contains
       if (response%case /= '') text = text//', case '//response%case
       variable%lower = response%lower
       variable%upper = response%upper
+      call widen(variable%name, tolerance, variable%lower, variable%upper)       ! a value that touches a limit is within
       associate (list => variable%attributes)
          call list%add('units', units)
          call list%add('long_name', text)

@@ -9,7 +9,7 @@ module ek_study_plan
    use ek_loaded_library, only: text_from_library
    use ek_table, only: table_t, column_index, name_length, read_csv
    use ek_deck, only: deck_t, deck_checksum
-   use ek_sampler, only: sampler_t, new_sampler, sample, designs_of, factors_of, is_ordered
+   use ek_sampler, only: sampler_t, new_sampler, sample, designs_of, factors_of, is_ordered, is_shifted
    use ek_sampler_kind, only: list_kind
    use ek_sampler_settings, only: sampler_settings_t, factor_t
    use ek_study, only: study_t, define_factor
@@ -36,6 +36,7 @@ module ek_study_plan
       character(name_length), allocatable :: units(:)        !! units of the factors, '' if a factor has no unit
       integer :: columns = 0 !! length of a row of the curves: swept value and columns of the study; 0 without columns
       integer :: states = 0                                  !! number of states of the first case, in the design of the deck
+      real(wp) :: tolerance = 0.0_wp                         !! largest tolerance of the cases [m]
       character(:), allocatable :: deck_sum                  !! checksum of the deck
       character(:), allocatable :: identity                  !! checksum: studies of equal identity have equal results, to rounding
       character(:), allocatable :: build                     !! build of the program, part of the identity
@@ -65,6 +66,7 @@ contains
       plan%chunk = study%chunk
       plan%columns = merge(size(study%columns) + 1, 0, size(study%columns) > 0)
       plan%states = designer%states
+      plan%tolerance = maxval([(designer%workspace%cases(k)%case%tolerance, k=1, size(designer%case_names))])
       if (plan%chunk == 0) plan%chunk = min(max(plan%designs/usual_chunks, min_chunk), max_chunk, &
          max(most_numbers/max(plan%states*plan%columns, 1), 1))
       if (study%chunk == 0 .and. shards > 1) plan%chunk = max(1, min(plan%chunk, plan%designs/(chunks_of_a_shard*shards)))
@@ -81,6 +83,7 @@ contains
       plan%build = build
       plan%kernel = text_from_library('openblas_get_corename')
       call include(sum, version//' '//build//' '//plan%deck_sum//' '//str(plan%designs))
+      if (is_shifted(plan%sampler)) call include(sum, ' shifted by half a cell')   ! not the designs of earlier versions
       if (is_ordered(plan%sampler)) call include(sum, ' ordered by rank')      ! not the designs of earlier versions
       call include_numbers(settings%rows)
       do k = 1, size(designer%readings)

@@ -9,6 +9,7 @@ module ek_study_tables
    use ek_file, only: join_path
    use ek_table, only: table_t, new_table, name_length, csv_head, csv_row
    use ek_writer, only: writer_t, begin_file
+   use ek_noise, only: widen
    use ek_study, only: study_t, kind_names
    use ek_sampler_kind, only: sampler_kinds, grid_kind
    use ek_factor_paths, only: label_of
@@ -18,7 +19,7 @@ module ek_study_tables
    use ek_store_description, only: keeps
    implicit none(type, external)
    private
-   public :: study_counts_t, write_tables, count_designs, responses_name, curves_name, has_limits, tables_of, &
+   public :: study_counts_t, write_tables, count_designs, responses_name, curves_name, has_limits, limits_of, tables_of, &
       repeated_factors, kernels_text, kernel_words, quoted_field
 
    integer, parameter :: max_reasons = 10        !! number of reasons that are printed; all reasons are in the table
@@ -95,8 +96,8 @@ contains
             call load_chunk(study, plan, out, k, chunk, error)
             counts%is_missing = allocated(error)
             if (allocated(error)) exit
-            call count_chunk(study, chunk, counts)
-            call add_rows(study, chunk, rows)
+            call count_chunk(study, plan, chunk, counts)
+            call add_rows(study, plan, chunk, rows)
             if (has_curves) call add_curves(chunk, is_begun, curves)
          end do
       end if
@@ -121,7 +122,7 @@ contains
          call load_chunk(study, plan, out, k, chunk, error)
          counts%is_missing = allocated(error)
          if (allocated(error)) return
-         call count_chunk(study, chunk, counts)
+         call count_chunk(study, plan, chunk, counts)
       end do
    end subroutine count_designs
 
@@ -183,15 +184,19 @@ contains
    end subroutine load_chunk
 
    !> Counts the designs of a chunk by status, and updates the sizes that the tables need.
-   subroutine count_chunk(study, chunk, counts)
+   subroutine count_chunk(study, plan, chunk, counts)
       type(study_t), intent(in) :: study
+      type(study_plan_t), intent(in) :: plan
       type(chunk_t), intent(in) :: chunk
       type(study_counts_t), intent(inout) :: counts
       character(:), allocatable :: reason
+      real(wp), allocatable :: limits(:, :)
       integer :: k
 
+      limits = limits_of(study, plan%heads, plan%tolerance)
       do k = 1, size(chunk%status)
-         if (chunk%status(k) == 0 .and. keeps_limits(study, chunk%responses(:, k))) counts%within = counts%within + 1
+         if (chunk%status(k) == 0 .and. keeps(chunk%responses(:, k), limits(1, :), limits(2, :))) &
+            counts%within = counts%within + 1
          counts%designs(chunk%status(k)) = counts%designs(chunk%status(k)) + 1
          counts%states = max(counts%states, chunk%states(k))
          if (chunk%status(k) == 0) cycle
@@ -229,19 +234,21 @@ contains
    end function seed_of
 
    !> Appends the rows of a chunk to the table of designs.
-   subroutine add_rows(study, chunk, rows)
+   subroutine add_rows(study, plan, chunk, rows)
       type(study_t), intent(in) :: study
+      type(study_plan_t), intent(in) :: plan
       type(chunk_t), intent(in) :: chunk
       type(writer_t), intent(inout) :: rows
-      real(wp), allocatable :: values(:)
+      real(wp), allocatable :: values(:), limits(:, :)
       integer :: k, n, block
 
       n = 1 + size(chunk%factors, 1) + size(chunk%responses, 1)
       block = block_of(study)
+      limits = limits_of(study, plan%heads, plan%tolerance)
       do k = 1, size(chunk%status)
          values = [real(chunk%first + k - 1, wp), chunk%factors(:, k), chunk%responses(:, k)]
          if (has_limits(study)) values = [values, merge(1.0_wp, 0.0_wp, chunk%status(k) == 0 .and. &
-            keeps_limits(study, chunk%responses(:, k)))]
+            keeps(chunk%responses(:, k), limits(1, :), limits(2, :)))]
          values = [values, real(chunk%status(k), wp)]
          if (block > 0 .and. chunk%first + k > 2) then
             if (mod(int(chunk%first) + k - 2, block) == 0) call rows%add(new_line('a'))
@@ -274,13 +281,19 @@ contains
       has_limits = any(study%responses%lower > -huge(1.0_wp) .or. study%responses%upper < huge(1.0_wp))
    end function has_limits
 
-   !> Whether a design satisfies all limits of the responses.
-   pure logical function keeps_limits(study, responses)
+   !> The limits of the responses, widened by noise: (lower and upper; response). A response that touches a limit is inside.
+   pure function limits_of(study, heads, tolerance) result(limits)
       type(study_t), intent(in) :: study
-      real(wp), intent(in) :: responses(:)
+      character(*), intent(in) :: heads(:)           !! column headings of the responses
+      real(wp), intent(in) :: tolerance              !! largest tolerance of the cases [m]
+      real(wp) :: limits(2, size(study%responses))
+      integer :: r
 
-      keeps_limits = keeps(responses, study%responses%lower, study%responses%upper)
-   end function keeps_limits
+      do r = 1, size(study%responses)
+         limits(:, r) = [study%responses(r)%lower, study%responses(r)%upper]
+         call widen(trim(heads(r)), tolerance, limits(1, r), limits(2, r))
+      end do
+   end function limits_of
 
    !> Number of designs between two empty lines of the table of designs; 0 if the table has no empty lines.
    pure integer function block_of(study)
