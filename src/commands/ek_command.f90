@@ -106,7 +106,7 @@ module ek_command
       'A quantity is a column of a case, an entry of its compliance matrix, or a key number of the report. Derivatives are'// &
       nl//'exact, so Newton''s method needs only a few sweeps. Prints the values reached, the changed records, and the reason'// &
       nl//'for each value that was not reached. Writes DIR/<model>_solve.set for --set-file. If there are several solutions,'// &
-      nl//'the solution with the smallest change is used.', &
+      nl//'the solution with the smallest change found from this start is used.', &
       exit_status_text), &
       command_t('fit', 'fit FIT.nml [options]', 'fit FIT', 'fit factors of a deck to measured or required curves', &
       'Finds the factors of a deck, within their bounds, by weighted least squares. Targets are curves, slopes, key numbers'//nl// &
@@ -188,7 +188,9 @@ module ek_command
       option_t('solve', '--vary path=lo:hi', 'a number that may change, and its bounds; may be repeated:'//indent// &
       '--vary point.tie_rod_inner.z=-80:-50'), &
       option_t('solve', '--for name=value', 'a quantity and its requested value: --for left_bump_steer=0; with'// &
-      indent//'case and swept value: --for "roll:left_camber_deg@2=-1.5"; may be repeated'), &
+      indent//'case and swept value: --for "roll:left_camber_deg@2=-1.5"; =keep: the present value; may be repeated'), &
+      option_t('solve', '--weight name=size', 'deviation that counts as 1 if not all conditions can be met'//indent// &
+      '(default: its noticeable change, as printed); may be repeated'), &
       option_t('solve', '--case NAME', 'case of the columns (default: the first case of the deck)'), &
       option_t('solve', '--at VALUE', 'swept value at which columns are read (default: design)'), &
       option_t('solve', '--out DIR', 'output folder (default: out)'), &

@@ -1,8 +1,8 @@
 !> The part of a deck that defines another design: the records whose numbers change, with the new numbers.
 module ek_deck_fragment
    use ek_kinds, only: wp
-   use ek_text, only: str
-   use ek_record, only: element, own_name
+   use ek_text, only: quoted, str
+   use ek_record, only: record_t, element, own_name
    use ek_parameter, only: choice_t
    use ek_reader, only: design_t
    use ek_factor_numbers, only: put_factor
@@ -100,11 +100,9 @@ contains
       integer :: k
 
       associate (this => design%parameters%list(number))
-         line = '&'//design%records(this%record)%group
          name = element(design%records(this%record), 'name', 1)
          if (is_half) name = own_name(design%records(this%record))
-         if (name /= '') line = line//' name = '''//name//''','
-         line = line//' '//trim(this%key)//' ='
+         line = head_of(design%records(this%record), name)//' '//trim(this%key)//' ='
          do k = 1, design%parameters%used
             associate (other => design%parameters%list(k))
                if (other%record /= this%record .or. other%key /= this%key) cycle
@@ -112,13 +110,32 @@ contains
                line = line//' '//number_text(x(k)/other%unit)
             end associate
          end do
-         line = line//' /'//nl
+         if (allocated(design%records(this%record)%origin)) then
+            line = line//' in units and axes of the deck'//nl
+         else
+            line = line//' /'//nl
+         end if
       end associate
       if (index(nl//all, nl//line) > 0) return
       all = all//line
       lines = lines + 1
       if (lines <= most_lines) text = text//line
    end subroutine add_line
+
+   !> The beginning of the line of a record. The line of a record that was created from another file is a comment with the file and
+   !> line, because the deck cannot give such a record.
+   function head_of(record, name) result(head)
+      type(record_t), intent(in) :: record
+      character(*), intent(in) :: name             !! name of the record in the deck; '' without a name
+      character(:), allocatable :: head
+
+      if (allocated(record%origin)) then
+         head = '! '//record%group//' '//quoted(name)//' of '//record%file//':'//str(record%line)//' ('//record%origin//'):'
+         return
+      end if
+      head = '&'//record%group
+      if (name /= '') head = head//' name = '''//name//''','
+   end function head_of
 
    !> A number with 12 digits, which removes the rounding of its conversion from SI.
    function number_text(value) result(text)

@@ -2,19 +2,21 @@
 module ek_solve_command
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t, fail, exit_usage, exit_convergence
-   use ek_text, only: str, quoted, suggestion, plural
+   use ek_text, only: str, plural
+   use ek_letters, only: visible
    use ek_decimal, only: decimal, get_bounded, size_hint
    use ek_buffer, only: buffer_t
-   use ek_file, only: make_folder, join_path, write_whole
-   use ek_table, only: name_length
-   use ek_workspace, only: workspace_t
-   use ek_workspace_cases, only: case_number
-   use ek_session, only: session_t
+   use ek_file, only: make_folder, join_path, write_whole, file_exists, remove_file
+   use ek_system, only: facts_t, facts_of
    use ek_parameter, only: choice_t
+   use ek_session, only: session_t
    use ek_direction, only: direction_t, find_directions, shared_number
-   use ek_wanted_number, only: wanted_number_t, find_wanted
-   use ek_condition_solver, only: unknown_t, findings_t, solve_conditions
-   use ek_solve_text, only: add_findings
+   use ek_wanted_number, only: wanted_number_t
+   use ek_condition_search, only: unknown_t, search_t
+   use ek_condition_solver, only: findings_t, solve_conditions
+   use ek_compromise, only: compromise_t, find_compromise
+   use ek_solve_conditions, only: read_conditions
+   use ek_solve_text, only: add_findings, compromise_csv
    use ek_deck_fragment, only: records_with
    use ek_command_line, only: command_line_t
    use ek_load_deck, only: deck_settings_t, read_deck_settings, load_session
@@ -36,8 +38,10 @@ contains
       class(session_t), allocatable :: session
       type(unknown_t), allocatable :: unknowns(:)
       type(wanted_number_t), allocatable :: wanted(:)
-      real(wp), allocatable :: targets(:)
+      real(wp), allocatable :: targets(:), weights(:)
+      type(search_t) :: search
       type(findings_t) :: found
+      type(compromise_t) :: compromise
       type(error_t), allocatable :: fault
 
       call read_deck_settings(line, settings)
@@ -50,16 +54,18 @@ contains
       call load_session(settings, session, error)
       if (allocated(error)) return
       call read_unknowns(line%values('--vary'), session, unknowns, error)
-      call read_conditions(line, settings, session%workspace, wanted, targets, fault)
+      call read_conditions(line, settings, session%workspace, wanted, targets, weights, fault)
       if (allocated(error) .and. allocated(fault)) error%message = error%message//new_line('a')//fault%message
       if (allocated(fault) .and. .not. allocated(error)) call move_alloc(fault, error)
       if (allocated(error)) return
-      call solve_conditions(unknowns, wanted, targets, max_sweeps, session%workspace, found, error)
+      call solve_conditions(unknowns, wanted, targets, weights, max_sweeps, session%workspace, search, found, error)
       if (allocated(error)) return
-      call write_results(settings, session, unknowns, wanted, targets, found, error)
+      allocate (compromise%x(size(unknowns), 0))
+      if (.not. all(found%is_reached)) call find_compromise(search, max_sweeps, session%workspace, compromise)
+      call write_results(settings, session, unknowns, search, found, compromise, error)
       if (allocated(error)) return
       if (.not. all(found%is_reached)) call fail(error, exit_convergence, 'not met: '//str(count(.not. found%is_reached))// &
-         ' of '//plural(size(targets), 'condition', 'conditions')//'; the numbers that come closest were written')
+         ' of '//plural(size(found%is_reached), 'condition', 'conditions')//'; the numbers that come closest were written')
    end subroutine solve_for
 
    !> Reads the numbers of --vary with their bounds; reports all errors.
@@ -123,92 +129,15 @@ contains
       if (mistakes%count() > 0) call fail(error, exit_usage, mistakes%text())
    end subroutine read_unknowns
 
-   !> Reads the conditions of --for, each [case:]quantity[@swept value]=value; reports all errors.
-   subroutine read_conditions(line, settings, workspace, wanted, targets, error)
-      type(command_line_t), intent(in) :: line
-      type(deck_settings_t), intent(in) :: settings
-      type(workspace_t), intent(in) :: workspace
-      type(wanted_number_t), allocatable, intent(out) :: wanted(:)
-      real(wp), allocatable, intent(out) :: targets(:)
-      type(error_t), allocatable, intent(out) :: error
-      type(message_list_t) :: given, mistakes
-      type(error_t), allocatable :: fault
-      character(:), allocatable :: text, case, place, usual
-      real(wp) :: at
-      logical :: is_number
-      integer :: k, j, c, mark
-
-      usual = line%value('--at', '0')
-      place = ''
-      given = line%values('--for')
-      allocate (wanted(given%count()), targets(given%count()))
-      do k = 1, given%count()
-         text = given%line(k)
-         mark = index(text, '=', back=.true.)
-         is_number = .false.
-         if (mark > 1) call get_bounded(trim(adjustl(text(mark + 1:))), targets(k), is_number)
-         if (.not. is_number) then
-            call mistakes%add('--for '//text//': expected quantity=value, case:quantity=value or quantity@swept value=value'// &
-               size_hint(text(mark + 1:)))
-            cycle
-         end if
-         text = trim(adjustl(text(:mark - 1)))
-         case = settings%case
-         mark = index(text, ':')
-         if (mark > 0) case = text(:mark - 1)
-         text = text(mark + 1:)
-         place = usual
-         mark = index(text, '@')
-         if (mark > 0) then
-            place = text(mark + 1:)
-            text = trim(text(:mark - 1))
-         end if
-         call get_bounded(trim(adjustl(place)), at, is_number)
-         if (.not. is_number) then
-            call mistakes%add(trim(merge('--for', '--at ', mark > 0))//': expected a swept value, found '//quoted(place)// &
-               size_hint(place))
-            cycle
-         end if
-         c = case_number(case, workspace)
-         if (c == 0) then
-            call mistakes%add(unknown_case(case, settings%file, workspace))
-            cycle
-         end if
-         call find_wanted(workspace, c, text, at, wanted(k), fault)
-         if (allocated(fault)) call mistakes%add('--for '//fault%message)
-         if (allocated(fault)) cycle
-         do j = 1, k - 1
-            if (.not. allocated(wanted(j)%name)) cycle
-            if (wanted(j)%name == text .and. wanted(j)%case == wanted(k)%case .and. abs(wanted(j)%at - at) <= 0.0_wp) &
-               call mistakes%add('--for: '//quoted(text)//' is given twice')
-         end do
-      end do
-      if (mistakes%count() > 0) call fail(error, exit_usage, mistakes%text())
-   end subroutine read_conditions
-
-   !> Message about a case that the deck does not have.
-   function unknown_case(name, file, workspace) result(text)
-      character(*), intent(in) :: name, file
-      type(workspace_t), intent(in) :: workspace
-      character(:), allocatable :: text
-      character(name_length) :: names(size(workspace%cases))
-      integer :: j
-
-      do j = 1, size(names)
-         names(j) = workspace%cases(j)%case%name
-      end do
-      text = 'no case '//quoted(name)//' in '//file//', and no standard test of this name'//suggestion(name, names)
-      if (size(names) == 0) text = file//': no &case group and no wheel, so there is no case to solve'
-   end function unknown_case
-
-   !> Writes the solution as a file of settings, and prints the findings.
-   subroutine write_results(settings, session, unknowns, wanted, targets, found, error)
+   !> Writes the solution as a file of settings, the compromise of two conditions that exclude each other as a table, and prints the
+   !> findings.
+   subroutine write_results(settings, session, unknowns, search, found, compromise, error)
       type(deck_settings_t), intent(in) :: settings
       type(session_t), intent(in) :: session
       type(unknown_t), intent(in) :: unknowns(:)
-      type(wanted_number_t), intent(in) :: wanted(:)
-      real(wp), intent(in) :: targets(:)
+      type(search_t), intent(in) :: search
       type(findings_t), intent(in) :: found
+      type(compromise_t), intent(in) :: compromise
       type(error_t), allocatable, intent(out) :: error
       type(error_t), allocatable :: unprinted
       type(choice_t), allocatable :: changed(:)
@@ -217,10 +146,13 @@ contains
       integer :: j
 
       allocate (changed(0))
-      call add_findings(session%workspace, unknowns, wanted, targets, found, text)
+      call add_findings(session%workspace, unknowns, search, found, text)
       call file%line('# elastokin '//version//' solve: numbers of '//session%workspace%raw%name//' for --set-file')
-      do j = 1, size(targets)
-         call file%line('# '//wanted(j)%name//' = '//str(found%after(j), 9)//', wanted '//str(targets(j), 9))
+      do j = 1, settings%set_files%count()
+         call file%line('# found with --set-file '//visible(settings%set_files%line(j))//'; give this file after it')
+      end do
+      do j = 1, size(found%after)
+         call file%line('# '//search%values%wanted(j)%name//' = '//str(found%after(j), 9)//', wanted '//str(search%targets(j), 9))
       end do
       do j = 1, size(unknowns)
          call file%line(unknowns(j)%direction%path//' = '//decimal(found%x(j)))
@@ -228,13 +160,53 @@ contains
       end do
       call text%line('as records of the deck:')
       call text%line(records_with(session%workspace%design, session%workspace%x, changed))
-      path = join_path(settings%out, session%workspace%raw%name//'_solve.set')
+      path = free_path(join_path(settings%out, session%workspace%raw%name//'_solve'), settings%set_files)
       call make_folder(settings%out, error)
       if (.not. allocated(error)) call write_whole(path, file%text(), error)
       if (allocated(error)) return
       call print_path(path, unprinted)
+      path = join_path(settings%out, session%workspace%raw%name//'_compromise.csv')
+      if (size(compromise%x, 2) > 0) then
+         call write_whole(path, compromise_csv(session%workspace, unknowns, search, compromise), error)
+         if (allocated(error)) return
+         if (.not. allocated(unprinted)) call print_path(path, unprinted)
+      else if (file_exists(path)) then
+         call remove_file(path)                             ! of an earlier step
+      end if
       if (allocated(unprinted)) call move_alloc(unprinted, error)
       if (.not. allocated(error)) call print_text(text%text(), error)
    end subroutine write_results
+
+   !> The path of the file of settings: STEM.set, or STEM_2.set, … if --set-file gives a file of this path: it is not overwritten.
+   function free_path(stem, given) result(path)
+      character(*), intent(in) :: stem
+      type(message_list_t), intent(in) :: given              !! files of --set-file
+      character(:), allocatable :: path
+      integer :: k
+
+      path = stem//'.set'
+      k = 1
+      do while (is_given(path, given))
+         k = k + 1
+         path = stem//'_'//str(k)//'.set'
+      end do
+   end function free_path
+
+   !> Whether a path leads to one of the given files.
+   logical function is_given(path, given)
+      character(*), intent(in) :: path
+      type(message_list_t), intent(in) :: given
+      type(facts_t) :: this, other
+      integer :: k
+
+      is_given = .false.
+      this = facts_of(path, follow=.true.)
+      do k = 1, given%count()
+         if (given%line(k) == path) is_given = .true.
+         if (this%inode == 0) cycle
+         other = facts_of(given%line(k), follow=.true.)
+         if (other%inode == this%inode .and. other%device == this%device) is_given = .true.
+      end do
+   end function is_given
 
 end module ek_solve_command

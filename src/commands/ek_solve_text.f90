@@ -1,35 +1,42 @@
 !> The findings of elastokin solve as printed: values that were reached, values that were missed, and the reasons.
 module ek_solve_text
    use ek_kinds, only: wp
-   use ek_text, only: str, quoted, plural
+   use ek_text, only: str, plural
+   use ek_decimal, only: decimal
    use ek_buffer, only: buffer_t
    use ek_workspace, only: workspace_t
    use ek_wanted_number, only: wanted_number_t
-   use ek_condition_solver, only: unknown_t, findings_t
+   use ek_condition_search, only: unknown_t, search_t
+   use ek_condition_solver, only: findings_t
+   use ek_compromise, only: compromise_t
    implicit none(type, external)
    private
-   public :: add_findings
+   public :: add_findings, compromise_csv
 
-   real(wp), parameter :: no_effect = 1.0e-9_wp  !! limit, as a share of the largest effect: a smaller effect counts as no effect
    real(wp), parameter :: share_of_conflict = 0.1_wp !! limit: a condition with a smaller component is no part of a conflict
    real(wp), parameter :: aligned = 0.9999_wp        !! smallest cosine between the effects on two conditions that change as one
 
 contains
 
    !> Adds all findings of `solve` to the printed output.
-   subroutine add_findings(workspace, unknowns, wanted, targets, found, text)
+   subroutine add_findings(workspace, unknowns, search, found, text)
       type(workspace_t), intent(in) :: workspace
       type(unknown_t), intent(in) :: unknowns(:)
-      type(wanted_number_t), intent(in) :: wanted(:)
-      real(wp), intent(in) :: targets(:)
+      type(search_t), intent(in) :: search
       type(findings_t), intent(in) :: found
       type(buffer_t), intent(inout) :: text
       integer :: j
 
-      do j = 1, size(targets)
-         call text%line(trim(merge('reached:    ', 'not reached:', found%is_reached(j)))//' '//label_of(workspace, wanted(j))// &
-            ' = '//quantity(found%after(j), wanted(j)%unit)//trim(wanted_text(j))//' (before '//quantity(found%before(j), '')//')')
-      end do
+      associate (wanted => search%values%wanted)
+         do j = 1, size(wanted)
+            call text%line(trim(merge('reached:    ', 'not reached:', found%is_reached(j)))//' '//label_of(workspace, wanted(j))// &
+               ' = '//quantity(found%after(j), wanted(j)%unit)//trim(wanted_text(j))//' (before '// &
+               quantity(found%before(j), '')//'; weight: '//trim(quantity(search%weights(j), wanted(j)%unit))//')')
+         end do
+      end associate
+      if (.not. all(found%is_reached)) call text%line('  sum of squares of the deviations, each divided by its weight: '// &
+         str(found%sum_before, 6)//' -> '//str(found%sum_after, 6))
+      if (found%begins_at_bound) call text%line('  a number of the deck is outside its bounds; the search began at the bound')
       do j = 1, size(unknowns)
          associate (number => unknowns(j)%direction)
             call text%line('  '//number%path//' = '//quantity(found%x(j), number%unit)//' (before '//str(number%value, 9)// &
@@ -40,8 +47,12 @@ contains
       if (all(found%is_reached)) then
          call add_freedom(unknowns, found, text)
       else
-         call add_reasons(unknowns, wanted, targets, found, text)
+         call add_reasons(unknowns, search%values%wanted, found, text)
       end if
+      do j = 1, size(found%is_fixed)
+         if (found%is_fixed(j) .and. found%is_reached(j)) call text%line('  '//search%values%wanted(j)%name// &
+            ' was met before, and no number that varies changes it')
+      end do
 
    contains
 
@@ -49,7 +60,7 @@ contains
          integer, intent(in) :: j
          character(:), allocatable :: words
          words = ''
-         if (.not. found%is_reached(j)) words = ', wanted '//str(targets(j), 9)
+         if (.not. found%is_reached(j)) words = ', wanted '//str(search%targets(j), 9)
       end function wanted_text
 
    end subroutine add_findings
@@ -89,14 +100,14 @@ contains
       end do
       if (found%rank > 0 .and. found%rank < size(unknowns)) call text%line('  other solutions exist: '// &
          plural(size(unknowns), 'number varies', 'numbers vary')//' for '// &
-         plural(found%rank, 'independent condition', 'independent conditions')//'; this is the smallest change')
+         plural(found%rank, 'independent condition', 'independent conditions')// &
+         '; this is the smallest change found from this start')
    end subroutine add_freedom
 
    !> Adds the reasons why conditions are not met.
-   subroutine add_reasons(unknowns, wanted, targets, found, text)
+   subroutine add_reasons(unknowns, wanted, found, text)
       type(unknown_t), intent(in) :: unknowns(:)
       type(wanted_number_t), intent(in) :: wanted(:)
-      real(wp), intent(in) :: targets(:)
       type(findings_t), intent(in) :: found
       type(buffer_t), intent(inout) :: text
       character(:), allocatable :: names
@@ -111,26 +122,25 @@ contains
       do j = 1, size(unknowns)
          if (has_no_effect(found, j)) call text%line('  '//unknowns(j)%direction%path//' has no effect on the conditions')
       end do
-      do i = 1, size(targets)
-         if (found%is_reached(i)) cycle
-         if (maxval(abs(found%effect(i, :))) <= no_effect*max(abs(found%after(i)), abs(targets(i)))) &
+      do i = 1, size(wanted)
+         if (found%is_fixed(i) .and. .not. found%is_reached(i)) &
             call text%line('  nothing that varies has an effect on '//wanted(i)%name)
       end do
-      do i = 1, size(targets)
-         do k = i + 1, size(targets)
+      do i = 1, size(wanted)
+         do k = i + 1, size(wanted)
             if (abs(cosine(found, i, k)) >= aligned) call text%line('  '//wanted(i)%name//' and '//wanted(k)%name// &
                ' change in a fixed proportion, '//str(ratio(found, i, k), 4)//', whichever number varies: both cannot be met')
          end do
       end do
       do k = 1, size(found%conflict, 2)
-         if (found%rank == 0 .or. size(targets) < 3 .or. size(targets) > size(unknowns)) exit
+         if (found%rank == 0 .or. size(wanted) < 3 .or. size(wanted) > size(unknowns)) exit
          names = ''
-         do i = 1, size(targets)
+         do i = 1, size(wanted)
             if (abs(found%conflict(i, k)) > share_of_conflict) names = names//' '//wanted(i)%name
          end do
          call text%line('  the numbers that vary cannot change these independently:'//names)
       end do
-      if (size(targets) > size(unknowns)) call text%line('  '//plural(size(targets), 'condition', 'conditions')//' for '// &
+      if (size(wanted) > size(unknowns)) call text%line('  '//plural(size(wanted), 'condition', 'conditions')//' for '// &
          plural(size(unknowns), 'number', 'numbers')//' that may vary: let more numbers vary')
       if (text%length() == lines) call text%line('  the conditions come no closer near these numbers: '// &
          'a maximum or minimum of the quantity lies between the bounds. Try another start with --set')
@@ -144,9 +154,48 @@ contains
 
       has_no_effect = .true.
       do i = 1, size(found%effect, 1)
-         if (abs(found%effect(i, j)) > no_effect*maxval(abs(found%effect(i, :)))) has_no_effect = .false.
+         if (abs(found%effect(i, j)) > 0.0_wp) has_no_effect = .false.
       end do
    end function has_no_effect
+
+   !> The compromise of two conditions as CSV, one row per design.
+   function compromise_csv(workspace, unknowns, search, compromise) result(text)
+      type(workspace_t), intent(in) :: workspace
+      type(unknown_t), intent(in) :: unknowns(:)
+      type(search_t), intent(in) :: search
+      type(compromise_t), intent(in) :: compromise
+      character(:), allocatable :: text
+      type(buffer_t) :: csv
+      integer :: i, j, k
+
+      call csv%line('# compromise of two conditions: in each row, neither condition can be satisfied better without the other one')
+      do i = 1, 2
+         associate (wanted => search%values%wanted(i))
+            call csv%line('# condition '//str(i)//': '//label_of(workspace, wanted)//' = '// &
+               quantity(search%targets(i), wanted%unit)//', weight '//quantity(search%weights(i), wanted%unit)//'; deviation_'// &
+               str(i)//': deviation divided by the weight')
+         end associate
+      end do
+      call csv%add('design')
+      do j = 1, size(unknowns)
+         call csv%add(','//unknowns(j)%direction%path)
+      end do
+      call csv%line(',value_1,value_2,deviation_1,deviation_2,sum_of_squares')
+      do k = 1, size(compromise%x, 2)
+         call csv%add(str(k))
+         do j = 1, size(unknowns)
+            call csv%add(','//decimal(compromise%x(j, k)))
+         end do
+         do i = 1, 2
+            call csv%add(','//decimal(compromise%values(i, k)))
+         end do
+         do i = 1, 2
+            call csv%add(','//decimal(compromise%deviations(i, k)))
+         end do
+         call csv%line(','//decimal(sum(compromise%deviations(:, k)**2)))
+      end do
+      text = csv%text()
+   end function compromise_csv
 
    !> The cosine between the effects of the unknowns on two conditions; 0 if there are no effects.
    pure real(wp) function cosine(found, i, k)

@@ -166,6 +166,7 @@ contains
          record%file = path
          record%source = source
          record%line = line
+         record%origin = '&hardpoints'
          call put_word(record, 'name', name)
          call put_numbers(record, 'at', at)
          call add_record(records, used, record)

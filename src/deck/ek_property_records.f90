@@ -132,6 +132,7 @@ contains
          record%file = path
          record%source = source
          record%line = law%line
+         record%origin = 'property_file'
          call put_word(record, 'name', name)
          kind = text_of(records(k), 'property_kind')
          if (kind == '') kind = 'akima'

@@ -69,6 +69,8 @@ module ek_record
       integer :: source = 1               !! index of the file, in the order of reading
       integer :: line = 0
       integer :: side = single            !! side of a record duplicated by &mirror
+      character(:), allocatable :: origin !! key or group of the deck that names `file`, if the record was created from another
+                                          !! file: '&hardpoints', 'property_file'
       integer :: used = 0
       type(entry_t), allocatable :: entries(:)
    end type record_t
@@ -149,6 +151,7 @@ contains
 
       call move_alloc(from%group, to%group)
       call move_alloc(from%file, to%file)
+      call move_alloc(from%origin, to%origin)
       call move_alloc(from%entries, to%entries)
       to%source = from%source
       to%line = from%line

@@ -208,7 +208,7 @@ contains
       integer :: iquery(1), m, n, j, rank, info
 
       z = 0.0_wp
-      places = pack([(j, j=1, size(z))], is_free)
+      places = pack([(j, j=1, size(z))], is_free .and. any(abs(jacobian) > 0.0_wp, dim=1))     ! others have no effect
       n = size(places)
       if (n == 0) return
       m = size(r) + merge(n, 0, mu > 0.0_wp)

@@ -4,7 +4,7 @@ module ek_wanted_number
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
    use ek_error, only: error_t, fail, exit_usage
-   use ek_text, only: quoted, suggestion
+   use ek_text, only: lower, quoted, suggestion
    use ek_quantity, only: unit_of, unit_text
    use ek_table, only: table_t, name_length, column_index
    use ek_case, only: case_t
@@ -23,6 +23,8 @@ module ek_wanted_number
    type :: wanted_number_t
       character(:), allocatable :: name          !! name, as the user gave it
       character(:), allocatable :: unit          !! unit, for instance 'deg'; '' if there is no unit
+      character(name_length) :: heading = ''     !! a column heading with this unit, for the noise of the number (ek_noise)
+      logical :: is_change = .false.             !! the number is the change of the column against its value at design
       integer :: case = 0 !! index of its case in the workspace; key number: case of the first source with a value
       character(name_length) :: column = ''      !! name of the column; '': a key number
       character(name_length) :: over = 'factor'  !! column to which `at` refers
@@ -79,6 +81,7 @@ contains
       wanted%name = name
       wanted%unit = unit_text(unit_of(name))
       if (wanted%unit == '–') wanted%unit = ''
+      wanted%heading = name
       if (.not. any(heads == name) .or. any(no_quantities == name) .or. .not. any(heads == over)) return
       wanted%case = k
       wanted%column = name
@@ -114,6 +117,7 @@ contains
       wanted%name = name
       wanted%key = listed(number)
       wanted%unit = listed(number)%unit
+      wanted%heading = heading_with(wanted%unit)
       associate (sources => wanted%key%sources)
          allocate (wanted%cases(size(sources)), wanted%reach(size(sources)))
          do k = 1, size(sources)
@@ -139,8 +143,31 @@ contains
          value = both(wanted%wheel)
       else
          value = value_at(table, column_index(table, trim(wanted%over)), column_index(table, trim(wanted%column)), wanted%at)
+         if (wanted%is_change) value = value - value_at(table, column_index(table, 'factor'), &
+            column_index(table, trim(wanted%column)), 0.0_wp)
       end if
    end subroutine read_number
+
+   !> A column heading that ends in a unit given as a label: 'x_nm_per_deg' for 'N m/deg'.
+   pure function heading_with(unit) result(heading)
+      character(*), intent(in) :: unit
+      character(:), allocatable :: heading
+      integer :: k
+
+      heading = 'x_'
+      do k = 1, len(unit)
+         select case (unit(k:k))
+         case ('/')
+            heading = heading//'_per_'
+         case ('%')
+            heading = heading//'percent'
+         case (' ')
+            continue
+         case default
+            heading = heading//lower(unit(k:k))
+         end select
+      end do
+   end function heading_with
 
    !> Value of column y at which column x has a given value. At a state with this value, the result is the value of the state.
    !> Otherwise the result is interpolated by the cubic curve through two states on either side (next to an end, by a straight

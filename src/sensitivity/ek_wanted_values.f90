@@ -15,6 +15,7 @@ module ek_wanted_values
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t, fail, exit_model, exit_convergence
    use ek_text, only: quoted, str
+   use ek_noise, only: is_flat
    use ek_table, only: name_length, column_index
    use ek_case_result, only: add_remarks, failure_of
    use ek_key_number, only: nothing, largest_of_all
@@ -294,12 +295,12 @@ contains
    end subroutine read_values
 
    !> Computes the Jacobian: all numbers are read from the tables moved along each direction. A number of the deck that cannot be
-   !> varied has the derivative 0.
+   !> varied has the derivative 0, as has a derivative that is only rounding noise: such a number cannot move the requested number.
    !> Equation (E.3) of docs/theory/derivatives.md.
    subroutine differentiate_values(self)
       type(wanted_values_t), intent(inout) :: self
       real(wp) :: y(size(self%wanted), 4), errors(size(self%wanted)), h
-      integer :: j, k, p
+      integer :: j, k, n, p
 
       do p = 1, size(self%directions)
          h = self%directions(p)%step
@@ -310,6 +311,9 @@ contains
             call read_values(self, .true., y(:, k))
          end do
          call differentiate(stencils(1), h, self%values, y, self%jacobian(:, p), errors)
+         do n = 1, size(self%wanted)
+            if (is_flat(self%jacobian(n, p), h, self%wanted(n)%heading, self%values(n))) self%jacobian(n, p) = 0.0_wp
+         end do
       end do
    end subroutine differentiate_values
 
