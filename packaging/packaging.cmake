@@ -154,3 +154,5 @@ if(lib IN_LIST CPACK_COMPONENTS_ALL)
   set(CPACK_DEBIAN_LIB_PACKAGE_CONTROL_EXTRA ${PROJECT_BINARY_DIR}/triggers)
 endif()
 include(CPack)
+
+include(${CMAKE_CURRENT_LIST_DIR}/wasm/wasm.cmake)

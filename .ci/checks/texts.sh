@@ -2,7 +2,7 @@
 # Checks of the text of sources, scripts and documents.
 
 scripts_are_sound() {
-  shellcheck tools/*.sh packaging/*.sh studies/*/*.sh studies/*/*.sbatch tests/support/*.sh docs/pictures/*.sh tests/support/selftest/*.sh tests/attacks/*.sh \
+  shellcheck tools/*.sh packaging/*.sh packaging/wasm/*.sh studies/*/*.sh studies/*/*.sbatch tests/support/*.sh docs/pictures/*.sh tests/support/selftest/*.sh tests/attacks/*.sh \
     examples/drivers/dakota/*.sh .ci/run .ci/deep .ci/*.sh .ci/checks/*.sh
 }
 

@@ -1,0 +1,51 @@
+# shellcheck shell=bash disable=SC2154
+# The check of the program for WebAssembly.
+
+# What compiler and runtime for WebAssembly must agree on, by two programs: features of Fortran as flang gives them for this machine, and
+# laws of LAPACK. A type with a procedure pointer is rejected
+wasm_toolchain() {
+  local work=$logs/wasm_toolchain compiler=$top/packaging/wasm/fortran.py status
+  export EK_WASM_RUNTIME=$top/build/wasm/support
+  rm -rf "$work"
+  mkdir -p "$work/native" "$work/wasm" || return 1
+  (cd "$work/native" && flang-22 -O1 -o language "$top/tests/wasm/language.f90" && EK_TEST=abcd ./language one >../native.txt; [ $? -eq 3 ]) ||
+    { echo "the native test program did not end with status 3"; return 1; }
+  (cd "$work" && "$compiler" -O2 -o language.wasm "$top/tests/wasm/language.f90" &&
+    "$compiler" -O2 -o linear_algebra.wasm "$top/tests/wasm/linear_algebra.f90" "$EK_WASM_RUNTIME/liblapack.a") || return 1
+  EK_TEST=abcd node packaging/wasm/run.mjs "$work/language.wasm" "$work/wasm" one >"$work/wasm.txt"
+  status=$?
+  diff "$work/native.txt" "$work/wasm.txt" || return 1
+  [ $status -eq 3 ] || { echo "the test program ended with status $status, not 3"; return 1; }
+  node packaging/wasm/run.mjs "$work/linear_algebra.wasm" "$work/wasm" || return 1
+  printf '%s\n' 'module m' 'implicit none' 'type :: t' 'procedure(), pointer, nopass :: p => null()' 'end type' 'end module' >"$work/pointer.f90"
+  (cd "$work" && "$compiler" -c pointer.f90 2>&1) | grep 'has a procedure pointer' || { echo "accepted: a procedure pointer"; return 1; }
+}
+
+# elastokin.wasm and elastokin.html by tools/wasm.sh; both against the native program, in node and in Chromium
+wasm() {
+  local tools=$logs/venv_browser wrong=0
+  # shellcheck source=packaging/wasm/versions.sh
+  . packaging/wasm/versions.sh
+  tools/setup.sh "${packages[@]}" || { skip "not all of ${packages[*]} could be installed"; return; }
+  command -v node >/dev/null || tools/setup.sh nodejs || { skip "node could not be installed"; return; }
+  tools/wasm.sh | tee "$logs/wasm_sizes.txt"
+  [ "${PIPESTATUS[0]}" -eq 0 ] || return 1
+  wasm_toolchain || return 1
+  python3 tests/wasm/compare_programs.py build/release/bin/elastokin build/wasm/elastokin.wasm "$logs/wasm_node" | tee "$logs/wasm_node.txt"
+  [ "${PIPESTATUS[0]}" -eq 0 ] || wrong=1
+  echo "remark: $(tail -n 1 "$logs/wasm_node.txt")"
+  if ! command -v chromium >/dev/null && ! tools/setup.sh chromium; then
+    echo "remark: the page was not opened, chromium could not be installed"
+    return $wrong
+  fi
+  python_with venv_browser playwright || { echo "remark: the page was not opened, playwright could not be installed"; return $wrong; }
+  tools/check_page.sh build/wasm/elastokin.html || wrong=1
+  "$tools/bin/python" tests/wasm/page_in_a_browser.py build/wasm/elastokin.html "$logs/wasm_page" | tee "$logs/wasm_page.txt"
+  [ "${PIPESTATUS[0]}" -eq 0 ] || wrong=1
+  echo "remark: $(tail -n 1 "$logs/wasm_page.txt")"
+  "$tools/bin/python" tests/wasm/compare_programs.py build/release/bin/elastokin build/wasm/elastokin.html "$logs/wasm_browser" |
+    tee "$logs/wasm_browser.txt"
+  [ "${PIPESTATUS[0]}" -eq 0 ] || wrong=1
+  echo "remark: $(tail -n 1 "$logs/wasm_browser.txt")"
+  return $wrong
+}

@@ -1,0 +1,23 @@
+/* Functions that the Fortran runtime calls and wasi-libc does not have; system/missing.c defines them. Included before every file
+   of the runtime. */
+#ifndef EK_MISSING_H
+#define EK_MISSING_H
+#include <stddef.h>
+#ifdef __cplusplus
+extern "C" {
+#endif
+int fork(void);
+int setsid(void);
+int execl(const char *path, const char *word, ...);
+int system(const char *command);
+int mkstemp(char *template_);
+int gethostname(char *letters, size_t size);
+int getlogin_r(char *letters, size_t size);
+unsigned getuid(void);
+unsigned getgid(void);
+void _exit(int status) __attribute__((noreturn));
+#ifdef __cplusplus
+}
+namespace std { using ::system; }
+#endif
+#endif

@@ -1,0 +1,137 @@
+"""Uses the controls of elastokin.html in headless Chromium, from file:// and without a network.
+
+    page_in_a_browser.py PAGE FOLDER [--shots DIR]
+
+A deck of the library is opened, checked, run and reported; a mistake is typed, located and undone; files are dropped; a deck that
+does not parse, an empty file, a mechanism and a wrong command are reported in the page; a run is stopped; the page is closed and
+opened again. FOLDER receives downloads. Requires playwright (PyPI) and a Chromium in the path. Exit status 1 with a line per failure.
+"""
+import shutil
+import sys
+import time
+from pathlib import Path
+
+from playwright.sync_api import expect, sync_playwright
+
+page_file, folder = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
+shots = Path(sys.argv[4]) if sys.argv[3:4] == ["--shots"] else None
+folder.mkdir(parents=True, exist_ok=True)
+failures, messages, requests = [], [], []
+patient = 120000     # ms: the machine may be busy
+
+
+def require(is_good, text):
+    if not is_good:
+        failures.append(text)
+
+
+with sync_playwright() as tool:
+    program = next((p for p in map(shutil.which, ("chromium", "chromium-browser", "google-chrome")) if p), None)
+    browser = tool.chromium.launch(executable_path=program, args=["--no-sandbox"])
+    context = browser.new_context(viewport={"width": 1280, "height": 900}, accept_downloads=True)
+    page = context.new_page()
+    page.on("console", lambda m: messages.append(m.text))
+    page.on("pageerror", lambda e: messages.append(str(e)))
+    page.on("request", lambda r: requests.append(r.url) if not r.url.startswith(("file:", "blob:", "data:", "about:")) else None)
+    page.on("dialog", lambda d: d.accept())
+    status = page.locator("#status")
+
+    def shot(name):
+        if shots:
+            shots.mkdir(parents=True, exist_ok=True)
+            page.screenshot(path=shots / f"{name}.png")
+
+    def said(text):
+        expect(status).to_contain_text(text, timeout=patient)
+
+    def drop(files):
+        """Drops files on the page, name -> text."""
+        data = page.evaluate_handle("""(files) => {
+          const data = new DataTransfer();
+          for (const [name, text] of Object.entries(files)) data.items.add(new File([text], name));
+          return data;
+        }""", files)
+        page.dispatch_event("body", "drop", {"dataTransfer": data})
+
+    start = time.monotonic()
+    page.goto(page_file.as_uri())
+    said("Ready")
+    print(f"ready after {time.monotonic() - start:.2f} s")
+    require(page.locator("#library option").count() > 14, "the library is not in the page")
+    page.select_option("#library", "mcpherson_axle")
+    said("check: done")
+    expect(page.locator("#messages")).to_contain_text("OK")
+    shot("check")
+
+    page.click("[data-command=run]")
+    said("run: done")
+    require(page.locator("#written option").count() >= 12, "a run of the axle wrote fewer than 12 tables")
+    require(page.locator("#table tr").count() > 50, "the table has no rows")
+    with page.expect_download() as loaded:
+        page.click("#download")
+    loaded.value.save_as(folder / "table.csv")
+    require((folder / "table.csv").read_text().count("\n") > 50, "the downloaded table is short")
+    shot("table")
+
+    page.click("[data-command=report]")
+    said("report: done")
+    said("Figures by gnuplot are left out")
+    frame = page.frame_locator("#page iframe")
+    expect(frame.locator("h1")).to_contain_text("McPherson", timeout=patient)
+    require(frame.locator("svg").count() > 20, "the report has no charts")
+    shot("report")
+
+    text = page.input_value("#text")
+    page.click("[data-tab=messages]")
+    page.fill("#text", text.replace("&joint", "&jiont", 1))
+    said("check: error in the deck")
+    expect(page.locator("#messages")).to_contain_text("there is no group &jiont", timeout=patient)
+    page.click("#messages button")
+    selected = page.locator("#text").evaluate("(t) => t.value.slice(t.selectionStart, t.selectionEnd)")
+    require(selected.startswith("&jiont"), f"the message leads to '{selected[:40]}'")
+    require(page.locator("#numbers b").count() == 1, "the line with the mistake is not marked")
+    shot("mistake")
+    page.fill("#text", text)
+    said("check: done")
+
+    page.fill("#command", "run mcpherson_axle.nml --case steering --increments 20 --out 'my tables'")
+    page.click("#line button")
+    said("run: done")
+    written = page.locator("#written option").all_inner_texts()
+    require(written == ["my tables/mcpherson_axle_steering.csv"], f"the command line was not used, it wrote {written[:3]}")
+    page.fill("#command", "study nowhere.nml --unknown")
+    page.click("#line button")
+    said("study: wrong use")
+
+    page.fill("#command", "run mcpherson_axle.nml --increments 5000 --out out")
+    page.click("#line button")
+    said("run …")
+    page.click("#stop")
+    said("Stopped")
+    require(page.input_value("#text") == text, "the document was lost when a command was stopped")
+    page.click("[data-command=check]")
+    said("check: done")
+
+    drop({"broken.nml": "&model name = 'broken' /\n&point name = 'a' at = 1, 2 /\n", "notes.csv": "a,b\n1,2\n"})
+    said("check: error in the deck")
+    names = page.locator("#file option").all_inner_texts()
+    require(names == ["broken.nml", "notes.csv"], f"after two files were dropped, the document has {names[:3]}")
+    drop({"mechanism.nml": "&model name = 'mechanism' /\n&point name = 'a', at = 0, 0, 0 /\n&body name = 'b' /\n"
+          "&wheel name = 'w', body = 'b', centre = 'a', contact = 'a', side = 'left' /\n"})
+    expect(page.locator("#deck")).to_have_value("mechanism.nml")
+    expect(status).to_have_class("bad", timeout=patient)
+    drop({"empty.nml": ""})
+    expect(page.locator("#file")).to_have_value("empty.nml")
+    require("mechanism.nml" in page.locator("#file option").all_inner_texts(), "an empty file replaced the document")
+
+    other = context.new_page()
+    page.close()
+    other.goto(page_file.as_uri())
+    expect(other.locator("#file")).to_have_value("mechanism.nml", timeout=patient)
+    browser.close()
+require(not messages, f"the page wrote to the console: {messages[:3]}")
+require(not requests, f"the page requested {requests[:3]}")
+for text in failures:
+    print(f"FAILED: {text}")
+print(f"the page: {page_file.stat().st_size} bytes, {len(failures)} failures")
+sys.exit(bool(failures))
