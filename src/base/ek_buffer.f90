@@ -1,7 +1,9 @@
 !> A string that grows piece by piece, used to build pages, scripts and tables.
 !>
-!> The capacity doubles when it is exhausted, so that appending n characters costs O(n) for pieces of any size.
+!> The capacity doubles when it is exhausted, so that appending n characters costs O(n) for pieces of any size. A string has at most
+!> 2 GB, as characters are counted in default integers; larger tables are written piece by piece (ek_writer).
 module ek_buffer
+   use ek_kinds, only: i8
    implicit none(type, external)
    private
    public :: buffer_t
@@ -26,8 +28,9 @@ contains
       character(:), allocatable :: grown
 
       if (.not. allocated(self%letters)) allocate (character(max(first_room, len(text))) :: self%letters)
+      if (len(text) > huge(1) - self%used) error stop 'a string of more than 2 GB'
       if (self%used + len(text) > len(self%letters)) then
-         allocate (character(2*(self%used + len(text))) :: grown)
+         allocate (character(int(min(2_i8*(self%used + len(text)), int(huge(1), i8)))) :: grown)
          grown(:self%used) = self%letters(:self%used)
          call move_alloc(grown, self%letters)
       end if

@@ -5,6 +5,7 @@ module ek_file
    use ek_kinds, only: i8
    use ek_buffer, only: buffer_t
    use ek_error, only: error_t, fail, exit_file
+   use ek_text, only: str
    use ek_posix, only: c_mkdir, c_remove, c_access, c_isatty
    use ek_system, only: facts_t, facts_of, device_file, other_file, error_number, system_reason, broken_pipe, &
       folder_exists, write_bytes
@@ -12,10 +13,11 @@ module ek_file
    use ek_writer, only: writer_t, begin_file, remove_stale
    implicit none(type, external)
    private
-   public :: write_whole, write_standard_output, write_standard_error, read_whole, make_folder, remove_file
+   public :: most_of_input, write_whole, write_standard_output, write_standard_error, read_whole, make_folder, remove_file
    public :: file_exists, folder_exists, program_exists, is_terminal
    public :: join_path, folder_name, base_name
 
+   integer, parameter :: most_of_input = 50000000   !! limit of the bytes of a deck and of the files that it names
    integer(c_int), parameter :: may_exist = 0    !! F_OK of access(2)
    integer(c_int), parameter :: may_execute = 1  !! X_OK of access(2)
    integer(c_int), parameter :: all_may = 511    !! mode 0777 of a new folder, reduced by the umask
@@ -64,11 +66,12 @@ contains
    !>
    !> A pipe is read only with `may_stream`, which callers set for paths given by the user; /dev/null is then an empty file. Any
    !> other device is rejected, because a device may be endless.
-   subroutine read_whole(path, text, error, may_stream)
+   subroutine read_whole(path, text, error, may_stream, most)
       character(*), intent(in) :: path
       character(:), allocatable, intent(out) :: text         !! '' when the file is empty or unreadable
       type(error_t), allocatable, intent(out) :: error       !! exit_file, with path and reason
       logical, intent(in), optional :: may_stream            !! if absent or .false., the path must be a regular file
+      integer, intent(in), optional :: most                  !! limit of the bytes; default 1 GB
       type(facts_t) :: facts
       character(:), allocatable :: reason
       logical :: streams
@@ -91,22 +94,34 @@ contains
       else if (facts%kind == other_file) then
          call read_stream(path, text, reason)
       else
-         call read_regular(path, text, reason)
+         call read_regular(path, text, reason, most)
+      end if
+      if (reason == '' .and. present(most)) then
+         if (len(text) > most) reason = too_large(int(len(text), i8), most)
       end if
       if (reason == '') return
       text = ''
       call fail(error, exit_file, "cannot read '"//path//"': "//reason)
    end subroutine read_whole
 
-   !> Reads a regular file. Files of /proc have the size 0 but are not empty.
-   subroutine read_regular(path, text, reason)
+   !> Message that a file is larger than the limit.
+   function too_large(bytes, most) result(text)
+      integer(i8), intent(in) :: bytes
+      integer, intent(in) :: most                            !! bytes
+      character(:), allocatable :: text
+      text = 'it has '//str(int((bytes + 999999)/1000000))//' MB, expected at most '//str(most/1000000)//' MB'
+   end function too_large
+
+   !> Reads a regular file of at most 1 GB: what is made of its characters must fit, too. Files of /proc have the size 0 but are not empty.
+   subroutine read_regular(path, text, reason, most)
       character(*), intent(in) :: path
       character(:), allocatable, intent(out) :: text
       character(:), allocatable, intent(out) :: reason       !! reason why the file cannot be read; '' if it was read
+      integer, intent(in), optional :: most                  !! limit of the bytes; default 1 GB
       type(buffer_t) :: bytes
       character(200) :: words
       character(1) :: byte
-      integer(i8) :: size
+      integer(i8) :: size, largest
       integer :: unit, status, ignored
 
       text = ''
@@ -114,9 +129,12 @@ contains
       open (newunit=unit, file=path, access='stream', form='unformatted', action='read', status='old', iostat=status, iomsg=words)
       if (status == 0) then
          inquire (unit=unit, size=size)
-         if (size > huge(1)) then         ! its characters are counted in default integers
+         largest = 1000000000
+         if (present(most)) largest = most
+         if (size > largest) then
             status = 1
-            words = 'it is larger than 2 GB'
+            words = 'it is larger than 1 GB'
+            if (present(most)) words = too_large(size, most)
          else if (size > 0) then
             deallocate (text)
             allocate (character(size) :: text, stat=status)

@@ -1,7 +1,7 @@
 !> The contents of files, each read once: a second read of a file returns the stored bytes, even if the file has changed.
 module ek_kept_files
    use ek_error, only: error_t
-   use ek_file, only: read_whole
+   use ek_file, only: read_whole, most_of_input
    implicit none(type, external)
    private
    public :: kept_files_t, add_file, keep_file, read_kept
@@ -79,7 +79,7 @@ contains
       character(:), allocatable :: text
 
       if (place(files, path) > 0) return
-      call read_whole(path, text, error)
+      call read_whole(path, text, error, most=most_of_input)
       if (.not. allocated(error)) call add_file(files, path, text)
    end subroutine keep_file
 
@@ -95,7 +95,7 @@ contains
       if (k > 0) then
          text = files%list(k)%text
       else
-         call read_whole(path, text, error)
+         call read_whole(path, text, error, most=most_of_input)
       end if
    end subroutine read_kept
 

@@ -1,12 +1,14 @@
 !> elastokin derivatives: derivatives of the columns of a case with respect to the numbers of the deck.
 module ek_derivatives_command
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
-   use ek_kinds, only: wp
+   use ek_kinds, only: wp, i8
    use ek_error, only: error_t, message_list_t, fail, exit_usage, exit_model
    use ek_text, only: str, quoted, plural, suggestion
    use ek_buffer, only: buffer_t
    use ek_decimal, only: decimal, get_bounded, size_hint
-   use ek_file, only: make_folder, join_path, write_whole, write_standard_output
+   use ek_file, only: make_folder, join_path, write_standard_output
+   use ek_writer, only: writer_t, begin_file
+   use ek_system, only: ask_memory
    use ek_case, only: case_t
    use ek_case_result, only: solve_options_t, add_remarks, failure_of
    use ek_path_states, only: nearest_state
@@ -54,6 +56,10 @@ contains
          if (.not. allocated(error)) call solve(settings, k, workspace, unreached, error)
          if (.not. allocated(error)) call choose_states(line, workspace, k, states, error)
          if (allocated(error)) return
+         call ask_memory(bytes_of(size(columns), size(directions), size(states)), 'the derivatives of '//plural(size(columns), &
+            'column', 'columns')//' at '//plural(size(states), 'state', 'states')//' with respect to '// &
+            plural(size(directions), 'number', 'numbers'), error)
+         if (allocated(error)) return
          call begin_derivatives(workspace, k, columns, directions, derivatives)
          call find_derivatives(workspace, states, derivatives)
          call write_results(line, settings, workspace, derivatives, error)
@@ -61,6 +67,12 @@ contains
       end associate
       if (.not. allocated(error)) call move_alloc(unreached, error)
    end subroutine derive
+
+   !> Bytes of the derivatives and of their errors.
+   pure integer(i8) function bytes_of(columns, numbers, states)
+      integer, intent(in) :: columns, numbers, states
+      bytes_of = 8_i8*columns*states*(2_i8*numbers + 1)
+   end function bytes_of
 
    !> Chooses the case of --case; without --case, the first case. An unknown case, or a case without derivatives, is an error.
    subroutine choose_case(settings, workspace, k, error)
@@ -226,19 +238,18 @@ contains
       type(derivatives_t), intent(in) :: found
       type(error_t), allocatable, intent(out) :: error
       type(error_t), allocatable :: unprinted
-      type(buffer_t) :: csv, list
+      type(buffer_t) :: list
       character(:), allocatable :: path
       integer :: c, s
 
-      call add_csv(found, csv)
       if (settings%out == '-') then
-         call write_standard_output(csv%text(), error)
+         call write_csv(found, '-', error)
          return
       end if
       associate (result => workspace%cases(found%case)%result)
          path = join_path(settings%out, result%suspension%name//'_'//result%case%name//'_derivatives.csv')
          call make_folder(settings%out, error)
-         if (.not. allocated(error)) call write_whole(path, csv%text(), error)
+         if (.not. allocated(error)) call write_csv(found, path, error)
          if (allocated(error)) return
          call print_path(path, unprinted)
          if (allocated(unprinted)) call move_alloc(unprinted, error)
@@ -252,12 +263,18 @@ contains
       call print_text(list%text(), error)
    end subroutine write_results
 
-   !> Adds the heading of the table and one row per state, column and number.
-   subroutine add_csv(found, csv)
+   !> Writes the heading of the table and one row per state, column and number. The table may be larger than the memory.
+   subroutine write_csv(found, path, error)
       type(derivatives_t), intent(in) :: found
-      type(buffer_t), intent(inout) :: csv
+      character(*), intent(in) :: path                       !! '-': standard output
+      type(error_t), allocatable, intent(out) :: error       !! exit_file
+      integer, parameter :: held = 50000                     ! characters that are held before they are written
+      type(writer_t) :: writer
+      type(buffer_t) :: csv
       integer :: c, p, s
 
+      if (path /= '-') call begin_file(writer, path, error)
+      if (allocated(error)) return
       call csv%line('state,factor,column,value,number,unit,at,derivative,error')
       do s = 1, size(found%states)
          do c = 1, size(found%columns)
@@ -280,10 +297,24 @@ contains
                call csv%add(',')
                call csv%add(decimal(found%errors(c, p, s)))
                call csv%add(nl)
+               if (csv%length() > held) call pass()
+               if (allocated(error)) return
             end do
          end do
       end do
-   end subroutine add_csv
+      call pass()
+      if (path /= '-') call writer%finish(error)
+
+   contains
+
+      !> Writes the rows that are held.
+      subroutine pass()
+         if (path == '-') call write_standard_output(csv%text(), error)
+         if (path /= '-') call writer%add(csv%text())
+         call csv%clear()
+      end subroutine pass
+
+   end subroutine write_csv
 
    !> Adds the value of a column and its derivatives with respect to the ten numbers with the largest effects. The effects are for
    !> changes of 1 mm, of 0.06 deg, or of 1 % of a rate or a force (steps of ek_direction).

@@ -14,7 +14,7 @@ module ek_set_file
    use ek_text, only: str, quoted, replace, lower, plural
    use ek_letters, only: with_line_ends, visible
    use ek_decimal, only: get_decimal
-   use ek_file, only: read_whole
+   use ek_file, only: read_whole, most_of_input
    use ek_deck, only: deck_t, set_value
    implicit none(type, external)
    private
@@ -34,6 +34,7 @@ module ek_set_file
       type(message_list_t) :: mistakes             !! lines that are not settings
    end type set_file_t
 
+   integer, parameter :: most_mistakes = 1000      !! largest number of reported mistakes
    character(*), parameter :: line_end = new_line('a'), blanks = ' '//achar(9)
    character(*), parameter :: of_dakota(4) = [character(7) :: 'dakota_', 'asv_', 'dvv_', 'ac_']
 
@@ -49,14 +50,15 @@ contains
       integer :: first, last, line, left
 
       allocate (file%lines(16))
-      call read_whole(path, text, error, may_stream=.true.)
+      call read_whole(path, text, error, may_stream=.true., most=most_of_input)
       if (allocated(error)) return
       text = with_line_ends(text)
       line = 0
       left = -1                                  ! lines of Dakota's variables still to come; −1: not its file
       first = 1
-      do while (first <= len(text) .and. left /= 0)
-         last = index(text(first:)//line_end, line_end) + first - 2
+      do while (first <= len(text) .and. left /= 0 .and. file%mistakes%count() < most_mistakes)
+         last = index(text(first:), line_end) + first - 2     ! no copy of the rest
+         if (last == first - 2) last = len(text)
          line = line + 1
          content = bare(text(first:last))
          first = last + 2
@@ -168,6 +170,7 @@ contains
          call show_set_file(file, mistake%message)
          call mistakes%add(mistake%message)
          if (deck%deck_errors%count() > 0) exit            ! the message contains those of the deck
+         if (mistakes%count() >= most_mistakes) exit
       end do
       if (mistakes%count() > 0) call fail(error, exit_deck, visible(mistakes%text()))
    end subroutine apply_set_file

@@ -5,7 +5,7 @@ module ek_foreign_deck
    use ek_error, only: error_t, fail, exit_deck
    use ek_text, only: lower
    use ek_letters, only: with_line_ends
-   use ek_file, only: read_whole, join_path, folder_name, base_name, file_exists
+   use ek_file, only: read_whole, most_of_input, join_path, folder_name, base_name, file_exists
    use ek_flaws, only: flaws_t, new_flaws, shown
    use ek_fields, only: legal_name
    use ek_law_points, only: add_point
@@ -60,7 +60,7 @@ contains
       type(flaws_t) :: flaws
 
       kind = 0
-      call read_whole(path, content, error, may_stream=.true.)
+      call read_whole(path, content, error, may_stream=.true., most=most_of_input)
       if (allocated(error)) return
       flaws = new_flaws(path)
       call import_text(content, path, text, kind, flaws)
@@ -249,7 +249,7 @@ contains
       found = join_path(folder_name(path), slashed)
       if (.not. file_exists(found)) found = join_path(folder_name(path), name)
       if (file_exists(found)) then
-         call read_whole(found, content, error)
+         call read_whole(found, content, error, most=most_of_input)
          if (allocated(error)) then
             call flaws%add(line, error%message)
             return

@@ -3,7 +3,7 @@
 module ek_hardpoint_sheet
    use ek_kinds, only: wp
    use ek_error, only: error_t
-   use ek_file, only: read_whole
+   use ek_file, only: read_whole, most_of_input
    use ek_flaws, only: flaws_t, new_flaws
    use ek_fields, only: lines_t, split_lines
    use ek_teimorbit, only: teimorbit_t, parse_teimorbit, is_teimorbit
@@ -27,7 +27,7 @@ contains
       character(:), allocatable :: text
 
       flaws = new_flaws(path)
-      call read_whole(path, text, error, may_stream)
+      call read_whole(path, text, error, may_stream, most_of_input)
       if (.not. allocated(error)) call parse_hardpoints(text, length, sheet, flaws)
    end subroutine read_hardpoints
 

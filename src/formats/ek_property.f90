@@ -7,7 +7,7 @@ module ek_property
    use ek_kinds, only: wp
    use ek_error, only: error_t
    use ek_text, only: str, lower
-   use ek_file, only: read_whole
+   use ek_file, only: read_whole, most_of_input
    use ek_flaws, only: flaws_t, new_flaws, shown
    use ek_fields, only: lines_t, split_lines, take_number
    use ek_unit_word, only: length_unit, force_unit, angle_unit
@@ -53,7 +53,7 @@ contains
       character(:), allocatable :: text
 
       flaws = new_flaws(path)
-      call read_whole(path, text, error, may_stream)
+      call read_whole(path, text, error, may_stream, most_of_input)
       if (.not. allocated(error)) call parse_property(text, property, flaws)
    end subroutine read_property
 

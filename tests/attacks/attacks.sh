@@ -184,6 +184,25 @@ endless_include() {
   mkfifo pipe && echo "&include file = 'pipe' /" >pipe.nml
   run 2 "$program" check pipe.nml && says 'not a regular file'
 }
+files_that_are_too_large() { # 60 MB of what each reader reads in lines; tables beyond the memory end with a message
+  local name
+  for name in x.sub x.bus x.kin x.gum x.lcf x.csv; do
+    yes '[MDI' | head -c 60000000 >"$name"
+    run 5 "$program" import "$name" && says 'it has 60 MB, expected at most 50 MB' || return 1
+  done
+  yes 'spring.coil.rate = 30' | head -c 60000000 >x.set
+  run 5 "$program" check "$tiny" --set-file x.set && says 'it has 60 MB, expected at most 50 MB' || return 1
+  head -c 1000000000 /dev/zero | tr '\0' x >line.set
+  run 5 "$program" check "$tiny" --set-file line.set && says 'expected at most 50 MB' || return 1
+  head -c 45000000 line.set >short.set
+  run 2 timeout 60 "$program" check "$tiny" --set-file short.set || return 1
+  yes 1,2,3 | head -c 60000000 >x.csv
+  run 5 bash -c "ulimit -v 250000; exec '$program' compare x.csv x.csv --out out" && says 'error: not enough memory'
+}
+derivatives_of_everything() { # a table of 1.1 GB
+  run 0 "$program" derivatives "$top/input/mcpherson_axle/mcpherson_axle.nml" --at all --out out &&
+    [ "$(stat -c %s out/mcpherson_axle_parallel_travel_derivatives.csv)" -gt 1000000000 ] && clean out
+}
 endless_files() { # a device, a pipe into which nobody writes or that never ends, and endless standard input
   local command
   for command in check run report 'export --to csv' bench study plot merge import 'run '"$tiny"' --set-file'; do
@@ -490,7 +509,7 @@ all=(line_end_in_a_title line_end_in_a_test line_end_in_a_file test_that_leaves_
   file_with_a_whole_path column_that_leaves_the_folder column_with_a_quote pipe_in_a_report endless_table_in_a_report
   link_under_a_temporary_name link_under_the_name_of_a_result link_that_looks_stale pipe_under_the_name_of_a_result
   cdpath_leads_elsewhere control_characters_of_a_deck settings_of_a_user words_for_a_shell_in_a_path commands_in_a_title
-  bomb_of_includes endless_include endless_files gnuplot_that_hangs page_is_there_while_gnuplot_hangs gnuplot_that_draws_nothing
+  bomb_of_includes endless_include endless_files files_that_are_too_large derivatives_of_everything gnuplot_that_hangs page_is_there_while_gnuplot_hangs gnuplot_that_draws_nothing
   gnuplot_that_draws_half gnuplot_that_fails limit_of_a_file_size shared_memory_is_no_device pictures_beyond_a_file_size
   full_disk no_more_files folder_that_cannot_be_written two_containers_with_one_pid two_runs_in_one_folder
   reader_that_goes_away streams_that_are_closed leavings_of_dead_runs study_that_is_killed
