@@ -5,6 +5,7 @@ module ek_model_remark
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t
    use ek_balance, only: balance_remarks
+   use ek_load_state, only: load_state_remarks
    use ek_plausibility, only: doubt
    use ek_remark, only: patch_remarks, spring_remarks, preload_remarks
    implicit none(type, external)
@@ -26,16 +27,21 @@ module ek_model_remark
 contains
 
    !> Finds the messages on a model, except the failures. Only one thread at a time may call this procedure.
-   subroutine find_model_remarks(suspension, cases, chosen, is_balanced, remarks)
+   subroutine find_model_remarks(suspension, cases, chosen, is_balanced, remarks, tests)
       type(suspension_t), intent(in) :: suspension      !! with trimmed preloads if possible; on no rig
       type(case_t), intent(in) :: cases(:), chosen(:)   !! all cases of the deck; cases to be run
       logical, intent(in) :: is_balanced                !! .false.: no messages on the preload trim
       type(model_remarks_t), intent(out) :: remarks
+      type(case_t), intent(in), optional :: tests(:)    !! cases whose load states are compared; absent: `chosen`
 
       if (is_balanced) call preload_remarks(suspension, remarks%notes)
       call patch_remarks(suspension, remarks%warnings)
       call spring_remarks(suspension, chosen, remarks%warnings)
-      if (is_balanced) call balance_remarks(suspension, remarks%warnings)
+      if (is_balanced) then
+         call balance_remarks(suspension, remarks%warnings)
+         if (present(tests)) call load_state_remarks(suspension, tests, remarks%warnings)
+         if (.not. present(tests)) call load_state_remarks(suspension, chosen, remarks%warnings)
+      end if
       call doubt(suspension, cases, remarks%doubts)
    end subroutine find_model_remarks
 

@@ -15,6 +15,7 @@ module ek_check
    use ek_state, only: design_state
    use ek_kkt, only: kkt_t, new_kkt
    use ek_workspace, only: workspace_t, balance_or_explain
+   use ek_standard_tests, only: standard_tests
    use ek_diagnosis, only: diagnosis_t, diagnose
    use ek_model_remark, only: model_remarks_t, find_model_remarks
    use ek_check_messages, only: check_messages_t, check_json, last_line
@@ -138,6 +139,7 @@ contains
       type(check_messages_t), intent(inout) :: messages
       type(error_t), allocatable, intent(out) :: error    !! failure of the preload trim
       type(model_remarks_t) :: remarks
+      type(case_t), allocatable :: tests(:)
       real(wp) :: tolerance
       integer :: k
 
@@ -146,7 +148,8 @@ contains
          if (size(cases) > 0) tolerance = cases(1)%tolerance
          if (is_solvable) call balance_or_explain(tolerance, workspace, error)
          if (is_solvable .and. .not. allocated(error)) then
-            call find_model_remarks(workspace%suspension, cases, chosen, .true., remarks)
+            call standard_tests(workspace%suspension, cases, tests)
+            call find_model_remarks(workspace%suspension, cases, chosen, .true., remarks, tests)
          else
             call find_model_remarks(workspace%raw, cases, chosen, .false., remarks)
          end if

@@ -8,6 +8,9 @@ module ek_verdict
    use ek_key_number, only: key_number_t, has_value
    use ek_number_words, only: steer_effect, target_verdict, short_name, is_equal, is_opposite, sides_text
    use ek_plausible_range, only: usual_range
+   use ek_load_state, only: differ, stand_text
+   use ek_table, only: column_index
+   use ek_test_result, only: test_result_t, design_row
    use ek_page, only: page_number
    use ek_report_content, only: report_t
    implicit none(type, external)
@@ -38,6 +41,12 @@ module ek_verdict
       domain_t('anti-features', 2, [character(36) :: 'anti_dive_percent', 'anti_lift_brake_percent', 'anti_squat_percent', &
       'anti_lift_drive_percent'])]
 
+   !> Tests whose design states have the same heights of the wheels, with the loads of the first of these tests.
+   type :: stand_t
+      integer :: tests = 0, wheels = 0
+      real(wp) :: heights(2) = 0.0_wp, loads(2) = 0.0_wp      !! wheel travel [mm], vertical force [N]
+   end type stand_t
+
    !> Key numbers with a usual range, and the quantities of these ranges.
    character(*), parameter :: numbers_with_range(*) = [character(36) :: 'wheel_rate', 'ride_frequency_hz', 'bump_toe', &
       'bump_camber']
@@ -45,7 +54,7 @@ module ek_verdict
 
 contains
 
-   !> Lists the lines: incomplete tests, load at design, one line per domain, largest load. A line is omitted if the report
+   !> Lists the lines: incomplete tests, load at design, heights of the tests if they differ, one line per domain, largest load. A line is omitted if the report
    !> does not have the numbers of this line.
    subroutine verdict_lines(report, lines)
       type(report_t), intent(in) :: report
@@ -59,6 +68,9 @@ contains
       call append(lines, line)
       line%domain = 'load state'
       line%text = load_state(report%numbers)
+      if (line%text /= '') call append(lines, line)
+      line%domain = 'heights'
+      line%text = heights_text(report%tests)
       if (line%text /= '') call append(lines, line)
       do d = 1, size(domains)
          call judge(report, domains(d), line)
@@ -105,6 +117,53 @@ contains
          return
       end do
    end function load_state
+
+   !> The heights and loads in the design states of the tests, if the tests do not stand at one height: '2 tests at 0 mm under
+   !> 1786 N, 9 tests at −83.93 mm under 0 N per wheel: numbers of two load states'; '' if the heights are equal or not known.
+   function heights_text(tests) result(text)
+      type(test_result_t), intent(in) :: tests(:)
+      character(:), allocatable :: text
+      integer, parameter :: most = 4         ! groups of tests that are listed
+      character(*), parameter :: travel = 'wheel_travel_mm', force = 'vertical_force_n'
+      type(stand_t) :: groups(most)
+      real(wp) :: heights(2)
+      integer :: t, w, g, row, wheels, used, at(2, 2)
+
+      text = ''
+      used = 0
+      do t = 1, size(tests)
+         row = design_row(tests(t)%table)
+         wheels = size(tests(t)%prefixes)
+         if (row == 0 .or. wheels < 1 .or. wheels > 2) cycle
+         do w = 1, wheels
+            at(1, w) = column_index(tests(t)%table, trim(tests(t)%prefixes(w))//travel)
+            at(2, w) = column_index(tests(t)%table, trim(tests(t)%prefixes(w))//force)
+         end do
+         if (any(at(:, :wheels) == 0)) cycle
+         heights(:wheels) = tests(t)%table%values(at(1, :wheels), row)
+         if (.not. all(ieee_is_finite(heights(:wheels)))) cycle
+         do g = 1, used
+            if (.not. any(differ(groups(g)%heights(:wheels), heights(:wheels)))) exit
+         end do
+         if (g > most) cycle
+         if (g > used) then
+            used = g
+            groups(g)%heights(:wheels) = heights(:wheels)
+            groups(g)%loads(:wheels) = tests(t)%table%values(at(2, :wheels), row)
+         end if
+         groups(g)%tests = groups(g)%tests + 1
+         groups(g)%wheels = wheels
+      end do
+      if (used < 2) return
+      do g = 1, used
+         if (g > 1) text = text//', '
+         associate (of => groups(g))
+            text = text//plural(of%tests, 'test', 'tests')//' at '//stand_text(of%heights(:of%wheels), 'mm')//' under '// &
+               stand_text(of%loads(:of%wheels), 'N')
+         end associate
+      end do
+      text = text//' per wheel: numbers of '//str(used)//' load states'
+   end function heights_text
 
    !> Creates the line of a domain. The string of the line is '' if the report has no key number of this domain.
    subroutine judge(report, domain, line)
