@@ -2,13 +2,16 @@
 !> ran as separate jobs.
 module ek_study_command
    use ek_error, only: error_t, fail, exit_usage, exit_file, exit_stopped, message_list_t
-   use ek_text, only: str, plural
+   use ek_text, only: str, plural, quoted
+   use ek_checksum, only: digits_of
+   use ek_system, only: working_folder
+   use ek_deck, only: deck_checksum
    use ek_file, only: make_folder, join_path, file_exists
    use ek_interrupt, only: watch_for_stop
    use ek_writer, only: scratch_t, end_scratch
    use ek_study, only: step_size_kind
    use ek_factor_remark, only: factor_remarks, sample_remark
-   use ek_ranks, only: ranks_t, start_ranks, end_ranks, agree
+   use ek_ranks, only: ranks_t, start_ranks, end_ranks, agree, compare
    use ek_study_run, only: run_options_t, run_state_t, open_parts, run_chunks, count_parts, parts_folder, &
       check_parts
    use ek_store, only: choose_store
@@ -63,7 +66,11 @@ contains
       asks_status = has_designs .and. line%has('--status')
       if (has_designs .and. .not. asks_status .and. .not. allocated(error)) &
          call choose_store(this%study, this%plan, this%has_store, error)
-      if (.not. asks_status .and. .not. allocated(error)) call make_folder(this%out, error)
+      call agree(ranks, error)
+      if (allocated(error)) return
+      call compare(ranks, label_of_run(this, has_designs, asks_status), 'study', error)
+      if (allocated(error)) return
+      if (.not. asks_status) call make_folder(this%out, error)
       if (has_designs .and. .not. asks_status .and. ranks%is_first .and. options%shards == 1 .and. .not. allocated(error)) &
          call expand_study(this, error)
       if (has_designs .and. .not. asks_status .and. ranks%is_first .and. .not. allocated(error)) call print_doubts(this)
@@ -78,6 +85,19 @@ contains
       end if
       call show_results(line, this, tables, error)
    end subroutine run_as_rank
+
+   !> Label of a run, which must be the same on all ranks: study, deck with its settings, task, and folder.
+   function label_of_run(this, has_designs, asks_status) result(label)
+      type(opened_study_t), intent(in) :: this
+      logical, intent(in) :: has_designs, asks_status
+      character(:), allocatable :: label
+
+      label = digits_of(this%study%sum)
+      if (has_designs) label = this%plan%identity
+      label = quoted(this%study%name)//' ('//label//', deck checksum '//deck_checksum(this%deck)//') with results in '// &
+         join_path(working_folder(), this%out)
+      if (asks_status) label = label//' (--status)'
+   end function label_of_run
 
    !> Prints the warnings on the factors, and the warnings and remarks on the deck's own design.
    subroutine print_doubts(this)

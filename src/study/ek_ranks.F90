@@ -23,7 +23,7 @@ module ek_ranks
 #endif
    implicit none(type, external)
    private
-   public :: ranks_t, start_ranks, end_ranks, count_up, share, agree, help_others
+   public :: ranks_t, start_ranks, end_ranks, count_up, share, agree, compare, help_others
    public :: ticket_counter, done_counter, failed_counter, stopped_counter
 
 #ifndef EK_MPI
@@ -187,6 +187,24 @@ contains
       if (allocated(error)) deallocate (error)
       call fail(error, numbers(1), 'rank '//str(lowest)//': '//text(:numbers(2)))
    end subroutine agree
+
+   !> Fails on all ranks if a rank has another label than rank 0. All ranks must call this procedure.
+   subroutine compare(ranks, label, what, error)
+      type(ranks_t), intent(in) :: ranks
+      character(*), intent(in) :: label                    !! compared without trailing blanks, up to 4096 characters
+      character(*), intent(in) :: what                     !! name of the labelled item, for the message
+      type(error_t), allocatable, intent(out) :: error     !! exit_usage
+      character(4096) :: first
+
+      first = label
+#ifdef EK_MPI
+      if (ranks%is_started) call MPI_Bcast(first, len(first), MPI_CHARACTER, 0, MPI_COMM_WORLD)
+#endif
+      if (first /= label) call fail(error, exit_usage, 'the processes of one launcher must run the same study, but the '//what// &
+         ' is '//trim(label)//', and of rank 0 '//trim(first)//'; to run separate studies under one launcher, give each '// &
+         '--shard 1/1')
+      call agree(ranks, error)
+   end subroutine compare
 
    !> Ends MPI on all ranks. Each process then continues alone; a second call has no effect.
    subroutine end_ranks(ranks)
