@@ -9,8 +9,9 @@ module ek_fit_command
    use ek_fit, only: fit_t
    use ek_fit_reader, only: read_fit
    use ek_fit_problem, only: fit_problem_t, make_problem
-   use ek_fit_solver, only: fit_result_t, solve_fit
-   use ek_fit_statistics, only: fit_statistics_t, find_statistics
+   use ek_fit_solver, only: fit_result_t
+   use ek_fit_statistics, only: fit_statistics_t
+   use ek_fit_factors, only: fit_factors
    use ek_fit_text, only: add_fit_findings
    use ek_fit_files, only: write_fit_files
    use ek_command_line, only: command_line_t
@@ -47,9 +48,8 @@ contains
       if (.not. allocated(error)) call open_deck(deck, session, error)
       if (.not. allocated(error)) call make_problem(fit, join_path(home, ''), deck, session%workspace, problem, error)
       if (.not. allocated(error)) call make_folder(out, error)
-      if (.not. allocated(error)) call solve_fit(problem, fit%iterations, session%workspace, found, error)
+      if (.not. allocated(error)) call fit_factors(fit, problem, session%workspace, found, statistics, error)
       if (allocated(error)) return
-      call find_statistics(problem, found, statistics)
       call write_fit_files(fit, session%workspace, problem, found, statistics, out, .not. line%has('--no-plots'), message, error)
       if (allocated(error)) return
       if (message /= '') call print_note(line%has('--quiet'), message)

@@ -21,9 +21,10 @@ module ek_fit_files
    use ek_console, only: print_path
    implicit none(type, external)
    private
-   public :: write_fit_files, changed_numbers
+   public :: write_fit_files, changed_numbers, note_of
 
    integer, parameter :: most_panels = 12
+   character(6), parameter :: of_words(0:2) = [character(6) :: 'value', 'slope', 'change']
    character(*), parameter :: held_words(-1:1) = [character(5) :: 'lower', '', 'upper']
 
 contains
@@ -77,7 +78,8 @@ contains
       type(buffer_t) :: csv
       integer :: f
 
-      call csv%line('factor,unit,start,result,lower,upper,bound,half_of_95_percent,low_95,high_95,half_by_targets_alone,learned')
+      call csv%line('factor,unit,start,result,lower,upper,bound,half_of_95_percent,low_95,high_95,half_by_targets_alone,'// &
+         'learned,note')
       do f = 1, size(problem%variables)
          associate (this => problem%variables(f))
             call csv%add(this%name//','//this%direction%unit)
@@ -87,14 +89,35 @@ contains
             call add_number(this%upper, csv)
             call csv%add(','//trim(held_words(found%held(f))))
             call add_number(statistics%half(f), csv)
-            call add_number(found%x(f) - statistics%half(f), csv)
-            call add_number(found%x(f) + statistics%half(f), csv)
+            call add_number(statistics%low(f), csv)
+            call add_number(statistics%high(f), csv)
             call add_number(statistics%half_alone(f), csv)
-            call csv%line(','//trim(merge('1', '0', statistics%is_learned(f))))
+            call csv%line(','//trim(merge('1', '0', statistics%is_learned(f)))//','//note_of(found, statistics, f))
          end associate
       end do
       text = csv%text()
    end function factors_csv
+
+   !> A note on the value or the interval of a factor; '' if there is nothing to note.
+   function note_of(found, statistics, f) result(note)
+      type(fit_result_t), intent(in) :: found
+      type(fit_statistics_t), intent(in) :: statistics
+      integer, intent(in) :: f
+      character(:), allocatable :: note
+
+      note = ''
+      if (.not. statistics%has_effect(f)) then
+         note = 'no effect on the targets: keeps its value'
+      else if (found%is_kept(f)) then
+         note = 'not determined: keeps its value'
+      else if (statistics%is_held_by_bound(f)) then
+         note = 'the '//trim(held_words(found%held(f)))//' bound holds it'
+      else if (.not. statistics%knows_sigma) then
+         note = 'interval unknown: not more numbers than factors'
+      else if (found%held(f) /= 0) then
+         note = 'interval cut at the '//trim(held_words(found%held(f)))//' bound'
+      end if
+   end function note_of
 
    !> Adds a cell with a number; nan for a bound that is not given and for an unknown value.
    subroutine add_number(value, csv)
@@ -122,7 +145,7 @@ contains
       type(buffer_t) :: csv
       integer :: k
 
-      call csv%line('target,case,quantity,over,at,wanted,low,high,start,result,deviation,difference')
+      call csv%line('target,case,quantity,over,at,wanted,low,high,start,result,deviation,difference,of')
       do k = 1, size(problem%points)
          associate (point => problem%points(k), wanted => problem%wanted(k), target => fit%targets(problem%points(k)%target))
             call csv%add(target%name//',')
@@ -136,7 +159,7 @@ contains
             call add_number(found%after(k), csv)
             call add_number(point%deviation, csv)
             call add_number(difference_of(point, found%after(k)), csv)
-            call csv%line('')
+            call csv%line(','//trim(of_words(merge(1, merge(2, 0, target%is_change), target%is_slope))))
          end associate
       end do
       text = csv%text()

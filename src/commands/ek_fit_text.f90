@@ -10,7 +10,7 @@ module ek_fit_text
    use ek_deck_fragment, only: records_with
    use ek_study, only: is_given, by_value
    use ek_fit, only: fit_t
-   use ek_fit_files, only: changed_numbers
+   use ek_fit_files, only: changed_numbers, note_of
    use ek_fit_problem, only: fit_problem_t
    use ek_fit_solver, only: fit_result_t, difference_of
    use ek_fit_statistics, only: fit_statistics_t
@@ -65,11 +65,19 @@ contains
       call text%line('sum of squares: '//str(found%sum_before, 6)//' -> '//str(found%sum_after, 6))
       if (problem%knows_deviation .and. statistics%freedom > 0) call text%line('per degree of freedom ('// &
          str(statistics%freedom)//'): '//str(found%sum_after/statistics%freedom, 4)//'; 1 if the deviations are right')
-      if (.not. problem%knows_deviation) call text%line('standard deviation of one number, by what is left: '// &
-         str(statistics%sigma, 4)//' (no target gives its deviation)')
-      call text%line('rank '//str(statistics%rank)//' of '//plural(count(found%held == 0), 'factor', 'factors')// &
-         ' between their bounds; singular values '// &
-         str(maxval([0.0_wp, statistics%singular]), 4)//' to '//str(minval([huge(1.0_wp), statistics%singular]), 4))
+      if (.not. statistics%knows_sigma) then
+         call text%line('standard deviation of one number: unknown, as there are not more numbers than factors and no target '// &
+            'gives its deviation')
+      else if (.not. problem%knows_deviation) then
+         call text%line('standard deviation of one number, by what is left: '// &
+            str(statistics%sigma, 4)//' (no target gives its deviation)')
+      end if
+      if (.not. any(statistics%has_effect)) then
+         call text%line('no factor has an effect on the targets')
+      else
+         call text%line('rank '//str(statistics%rank)//' of '//plural(size(found%x), 'factor', 'factors')//'; singular values '// &
+            str(maxval(statistics%singular), 4)//' to '//str(minval(statistics%singular), 4))
+      end if
    end subroutine add_ending
 
    !> Adds for each target the root mean square of the differences at the start and of the result, and the number of points at which
@@ -120,15 +128,17 @@ contains
       call text%line('factor'//repeat(' ', name_width - 6)//'       start        result   95 % confidence')
       do f = 1, size(problem%variables)
          associate (this => problem%variables(f))
+            confidence = note_of(found, statistics, f)
             if (found%held(f) /= 0) then
-               confidence = 'at its '//trim(merge('lower', 'upper', found%held(f) < 0))//' bound'
-            else if (.not. ieee_is_finite(statistics%half(f))) then
+               confidence = 'at its '//trim(merge('lower', 'upper', found%held(f) < 0))//' bound; '//confidence
+               if (statistics%low(f) < statistics%high(f) .and. ieee_is_finite(statistics%half(f))) confidence = confidence// &
+                  ', '//str(statistics%low(f), 6)//' to '//str(statistics%high(f), 6)//' '//this%direction%unit
+            else if (confidence == '' .and. .not. ieee_is_finite(statistics%half(f))) then
                confidence = 'unknown'
-            else
-               confidence = '+- '//str(statistics%half(f), 4)
+            else if (confidence == '') then
+               confidence = '+- '//str(statistics%half(f), 4)//' '//this%direction%unit
             end if
-            call text%line(padded(this%name)//right(str(this%start, 7), 12)//right(str(found%x(f), 9), 14)//'   '// &
-               confidence//' '//this%direction%unit)
+            call text%line(padded(this%name)//right(str(this%start, 7), 12)//right(str(found%x(f), 9), 14)//'   '//trim(confidence))
          end associate
       end do
    end subroutine add_factors
@@ -143,7 +153,7 @@ contains
       integer :: f, g, k, pairs
 
       do f = 1, size(problem%variables)
-         if (statistics%is_learned(f) .or. found%held(f) /= 0) cycle
+         if (statistics%is_learned(f)) cycle
          call text%line(problem%variables(f)%name//' cannot be learned from these tests'//remains(problem, statistics, f))
       end do
       do k = 1, size(statistics%unseen, 2)

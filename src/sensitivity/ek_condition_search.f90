@@ -5,13 +5,14 @@
 module ek_condition_search
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
-   use ek_error, only: error_t
+   use ek_error, only: error_t, message_list_t, fail, exit_usage, exit_model
    use ek_noise, only: is_noise, solved
    use ek_noticeable, only: noticeable_change
    use ek_bounded_search, only: bounded_search_t, begin_search, advance_search, bounded_step, gain_is_small
    use ek_workspace, only: workspace_t
    use ek_direction, only: direction_t
    use ek_wanted_number, only: wanted_number_t
+   use ek_swept_range, only: range_fault
    use ek_wanted_values, only: wanted_values_t, begin_values, find_values
    implicit none(type, external)
    private
@@ -53,6 +54,8 @@ contains
       type(search_t), intent(out) :: self
       type(error_t), allocatable, intent(out) :: error     !! a wanted number has no value at the start
       type(direction_t), allocatable :: directions(:)
+      type(message_list_t) :: mistakes
+      character(:), allocatable :: text
       integer :: j
 
       allocate (directions(size(unknowns)), self%start(size(unknowns)))
@@ -69,6 +72,12 @@ contains
       self%origin = min(max(self%start, self%lower), self%upper)
       self%x = self%start
       call begin_values(wanted, directions, workspace, self%values, error)
+      if (.not. allocated(error)) return
+      do j = 1, size(wanted)
+         text = range_fault(self%values%wanted(j), workspace)
+         if (text /= '') call mistakes%add('--for '//wanted(j)%name//': '//text)
+      end do
+      if (error%code == exit_model .and. mistakes%count() > 0) call fail(error, exit_usage, mistakes%text())
    end subroutine open_search
 
    !> Replaces targets that are NaN by the values at the design that was evaluated last, and weights that are NaN by the noticeable

@@ -17,6 +17,7 @@ module ek_fit
       character(:), allocatable :: name
       character(:), allocatable :: quantity       !! column, entry of the compliance matrix, or key number
       character(:), allocatable :: case           !! name of the case; '': the case of the fit
+      logical :: is_change = .false.              !! the target is the change of the column against its value at design
       logical :: is_slope = .false.               !! the target is the slope of the column over `over`, within `window` of design
       character(name_length) :: over = 'factor'   !! column to which `at` and the abscissa of the file refer
       real(wp) :: at = 0.0_wp, window = 0.0_wp

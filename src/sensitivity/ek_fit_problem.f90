@@ -250,6 +250,13 @@ contains
                return
             end if
          end if
+         if (this%is_change) then
+            if (allocated(wanted%key)) then
+               call mistakes%add(head//'of = ''change'' needs a column, which has a value at design; a key number has none')
+               return
+            end if
+            wanted%is_change = .true.
+         end if
          point%target = k
          point%deviation = 1.0_wp
          if (is_given(this%deviation)) point%deviation = this%deviation

@@ -58,7 +58,11 @@ contains
       end do
       if (all(reading%cards%group /= fit_group)) call complain_of_all(reading, 'there is no &fit')
       if (size(fit%factors) == 0) call complain_of_all(reading, 'there is no &factor: nothing may change')
-      if (size(fit%targets) == 0) call complain_of_all(reading, 'there is no &target: nothing to fit')
+      if (size(fit%targets) == 0) then
+         call complain_of_all(reading, 'there is no &target: nothing to fit')
+      else if (all(fit%targets%weight <= 0.0_wp)) then
+         call complain_of_all(reading, 'all targets have weight 0: nothing to fit; give at least one target a weight above 0')
+      end if
       if (reading%deck_errors%count() > 0) call fail(error, exit_deck, reading%deck_errors%text())
    end subroutine read_fit
 
@@ -146,8 +150,9 @@ contains
       this%name = text_of(reading, 'name')
       this%quantity = text_of(reading, 'quantity')
       this%case = text_of(reading, 'case')
-      call choice(reading, 'of', [character(5) :: 'value', 'slope'], of, default=1)
+      call choice(reading, 'of', [character(6) :: 'value', 'slope', 'change'], of, default=1)
       this%is_slope = of == 2
+      this%is_change = of == 3
       this%over = text_of(reading, 'over', 'factor')
       this%at = number_of(reading, 'at', 0.0_wp)
       this%window = number_of(reading, 'window', 0.0_wp)

@@ -5,7 +5,7 @@
 module ek_fit_solver
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
-   use ek_error, only: error_t, fail, exit_convergence
+   use ek_error, only: error_t
    use ek_bounded_search, only: bounded_search_t, begin_search, advance_search
    use ek_workspace, only: workspace_t
    use ek_direction, only: direction_t
@@ -14,11 +14,12 @@ module ek_fit_solver
    use ek_fit_problem, only: fit_problem_t, fit_point_t
    implicit none(type, external)
    private
-   public :: fit_result_t, solve_fit, difference_of, is_at_work
+   public :: fit_result_t, begin_fit, search_fit, difference_of, is_at_work
 
    type :: fit_result_t
       real(wp), allocatable :: x(:)                  !! values of the factors, in their units
       integer, allocatable :: held(:)                !! −1, +1: a factor is at its lower or upper bound; 0: between the bounds
+      logical, allocatable :: is_kept(:)             !! whether each factor keeps its value, because the targets do not determine it
       real(wp), allocatable :: before(:), after(:)   !! values of the points, at the start and at the end
       real(wp), allocatable :: jacobian(:, :)        !! (point, factor): derivatives of the points, in their units
       real(wp) :: sum_before = 0.0_wp, sum_after = 0.0_wp     !! sum that is minimised, at the start and at the end
@@ -28,30 +29,41 @@ module ek_fit_solver
 
 contains
 
-   !> Solves a fit. The workspace then contains the design found. Creates strings.
-   subroutine solve_fit(problem, iterations, workspace, found, error)
+   !> Prepares the values of a fit; solves the required cases at the start. Creates strings.
+   subroutine begin_fit(problem, workspace, values, error)
       type(fit_problem_t), intent(in) :: problem
-      integer, intent(in) :: iterations                    !! limit of the number of iterations
       type(workspace_t), intent(inout) :: workspace
-      type(fit_result_t), intent(out) :: found
+      class(wanted_values_t), allocatable, intent(out) :: values
       type(error_t), allocatable, intent(out) :: error
-      class(wanted_values_t), allocatable :: values
-      type(bounded_search_t) :: search
       type(direction_t), allocatable :: directions(:)
-      real(wp), allocatable :: r(:), jacobian(:, :), tried(:)
-      logical :: is_valid
       integer :: f
 
+      allocate (directions(size(problem%variables)))
+      do f = 1, size(directions)
+         directions(f) = problem%variables(f)%direction
+      end do
+      call begin_values(problem%wanted, directions, workspace, values, error)
+   end subroutine begin_fit
+
+   !> Searches the smallest sum of squares from given factors. The workspace then contains the design found. A fixed factor keeps
+   !> its value. found%after is not allocated if a target has no value or no derivative where the search begins.
+   subroutine search_fit(problem, begin, is_fixed, iterations, values, workspace, found)
+      type(fit_problem_t), intent(in) :: problem
+      real(wp), intent(in) :: begin(:)                     !! factors where the search begins, in their units
+      logical, intent(in) :: is_fixed(:)
+      integer, intent(in) :: iterations                    !! limit of the number of iterations
+      class(wanted_values_t), intent(inout) :: values
+      type(workspace_t), intent(inout) :: workspace
+      type(fit_result_t), intent(out) :: found
+      type(bounded_search_t) :: search
+      real(wp), allocatable :: r(:), jacobian(:, :), tried(:), x(:)
+      logical :: is_valid
+
       associate (variables => problem%variables)
-         allocate (directions(size(variables)))
-         do f = 1, size(variables)
-            directions(f) = variables(f)%direction
-         end do
-         call begin_values(problem%wanted, directions, workspace, values, error)
-         if (allocated(error)) return
          allocate (r(size(problem%points) + size(variables)))
          allocate (jacobian(size(r), size(variables)))
-         call begin_search(variables%start, variables%lower, variables%upper, variables%scale, search)
+         x = min(max(begin, variables%lower), variables%upper)
+         call begin_search(x, merge(x, variables%lower, is_fixed), merge(x, variables%upper, is_fixed), variables%scale, search)
          do
             tried = search%x
             call find_values(tried - variables%start, workspace, values, is_valid)
@@ -68,20 +80,19 @@ contains
             end if
             if (search%is_finished .or. search%steps >= iterations) exit
          end do
-         if (.not. allocated(search%residuals)) then
-            call fail(error, exit_convergence, 'the targets have no value or no derivative where the search begins')
-            return
-         end if
+         found%sweeps = values%sweeps
+         if (.not. allocated(search%residuals)) return
          if (any(abs(search%best - tried) > 0.0_wp)) call find_values(search%best - variables%start, workspace, values, is_valid)
          found%x = search%best
          found%held = search%held
-         where (found%x > variables%lower .and. found%x < variables%upper) found%held = 0
+         where (is_fixed .or. (found%x > variables%lower .and. found%x < variables%upper)) found%held = 0
+         found%is_kept = is_fixed
       end associate
       found%sum_after = sum(search%residuals**2)
       found%steps = search%steps
       found%sweeps = values%sweeps
       found%ended = search%ended
-   end subroutine solve_fit
+   end subroutine search_fit
 
    !> Computes all differences and their derivatives. The differences of priors are after the differences of the points; the
    !> difference of a factor without a prior is zero.
