@@ -15,6 +15,11 @@ paper_study() {
   ! grep '^paper:' "$logs/paper_study_again.txt"
 }
 
+# 120 random studies: no share, index or interval for what cannot move, equal shares of equal factors, limits that are touched
+study_laws() {
+  python3 tests/support/study_laws.py build/release/bin/elastokin 120
+}
+
 # Every study from its own folder, at a small size
 studies_at_small_size() {
   local folder wrong=0 program=$top/build/release/bin/elastokin options
