@@ -18,7 +18,7 @@ module ek_noise
    use ek_quantity, only: all_quantities, name_length
    implicit none(type, external)
    private
-   public :: noise_of, is_noise, is_constant, is_flat, noise_of_slope, widen, is_within
+   public :: noise_of, is_noise, is_constant, is_flat, noise_of_slope, is_lost, widen, is_within
 
    real(wp), parameter, public :: solved = 1.0e-10_wp      !! usual tolerance of a solution [m], the default of a case
    real(wp), parameter, public :: derived = 1.0e-11_wp     !! tolerance that corresponds to the errors of derivatives [m];
@@ -120,6 +120,13 @@ contains
 
       noise = noise_of(column, size, derived)/step
    end function noise_of_slope
+
+   !> Whether a term is too small to change the last digit of a sum: it is the rounding error of a term that is zero.
+   elemental logical function is_lost(term, whole)
+      real(wp), intent(in) :: term
+      real(wp), intent(in) :: whole             !! sum of the magnitudes of all terms, in the same unit
+      is_lost = abs(term) <= epsilon(whole)*whole
+   end function is_lost
 
    !> Extends the limits of a result by noise, so that a value which touches a limit is inside. Limits that are not given
    !> (-huge, huge) are unchanged.

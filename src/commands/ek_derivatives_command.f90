@@ -3,6 +3,7 @@ module ek_derivatives_command
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use ek_kinds, only: wp, i8
    use ek_error, only: error_t, message_list_t, fail, exit_usage, exit_model
+   use ek_noise, only: is_flat
    use ek_text, only: str, quoted, plural, suggestion
    use ek_buffer, only: buffer_t
    use ek_decimal, only: decimal, get_bounded, size_hint
@@ -317,7 +318,8 @@ contains
    end subroutine write_csv
 
    !> Adds the value of a column and its derivatives with respect to the ten numbers with the largest effects. The effects are for
-   !> changes of 1 mm, of 0.06 deg, or of 1 % of a rate or a force (steps of ek_direction).
+   !> changes of 1 mm, of 0.06 deg, or of 1 % of a rate or a force (steps of ek_direction). Derivatives that are only rounding noise
+   !> are not listed.
    subroutine add_list(found, c, s, case, list)
       type(derivatives_t), intent(in) :: found
       integer, intent(in) :: c, s
@@ -329,6 +331,7 @@ contains
 
       do p = 1, size(effect)
          effect(p) = -1.0_wp
+         if (is_flat(found%slopes(c, p, s), found%directions(p)%step, trim(found%columns(c)), found%values(c, s))) cycle
          if (.not. ieee_is_nan(found%slopes(c, p, s))) effect(p) = abs(found%slopes(c, p, s))*found%directions(p)%step
       end do
       call list%line(trim(found%columns(c))//' = '//str(found%values(c, s), 7)//' at '//case%place_name//' = '// &

@@ -3,6 +3,7 @@
 module ek_contribution_table
    use ek_kinds, only: wp
    use ek_text, only: is_like
+   use ek_noise, only: noise_of, is_lost, derived
    use ek_element, only: element_kinds, bushing_element
    use ek_suspension, only: suspension_t
    use ek_state, only: state_t, inputs_t, design_state, unpack_state
@@ -113,7 +114,7 @@ contains
    end subroutine name_share
 
    !> Finds the contributions at one reached state of a path. If the matrix of the state is singular, only is_known and the values
-   !> are set.
+   !> are set. A compliance that is only rounding noise, such as that of a wheel held by joints, is 0 and has no contributions.
    !> Equation (C.15) of docs/theory/compliance.md.
    subroutine find_contributions(suspension, schedule, path, k, kkt, self)
       type(suspension_t), intent(in) :: suspension          !! on the rig
@@ -140,6 +141,7 @@ contains
          do e = 1, size(self%row)
             call fill_linear_columns(suspension, self%shares%matrix(:, :, e), self%columns, self%parts(:, e))
          end do
+         call remove_noise(self)
          do w = 1, compliance%wheels
             associate (wheel => suspension%wheels(compliance%order(w)))
                arm(:, w) = rotated(state%poses(wheel%body + 1)%a, wheel%contact - wheel%centre)
@@ -150,6 +152,23 @@ contains
          self%arm = arm
       end associate
    end subroutine find_contributions
+
+   !> Sets a column to 0 that is only noise, with its contributions, and single contributions that are only noise. A sum of
+   !> contributions that cancel but for noise is 0.
+   subroutine remove_noise(self)
+      type(contribution_table_t), intent(inout) :: self
+      real(wp) :: whole
+      integer :: c
+
+      do c = 1, size(self%values)
+         whole = sum(abs(self%parts(c, :)))
+         associate (column => self%columns%names(self%columns%asked(c)))
+            if (max(whole, abs(self%values(c))) <= noise_of(trim(column), 0.0_wp, derived)) self%parts(c, :) = 0.0_wp
+            where (is_lost(self%parts(c, :), whole)) self%parts(c, :) = 0.0_wp
+            if (abs(self%values(c)) <= noise_of(trim(column), whole, derived)) self%values(c) = 0.0_wp
+         end associate
+      end do
+   end subroutine remove_noise
 
    !> Finds the shares of the strain energy under unit forces at the contact points, from the diagonal of C. A share is NaN if a
    !> joint holds the contact point against the force.

@@ -17,7 +17,6 @@ module ek_live_rates
    public :: live_rate_t, live_rates_t, choose_rates, find_laws
 
    real(wp), parameter :: same = 1.0e-9_wp      !! relative difference up to which rates are equal
-   real(wp), parameter :: noise = 1.0e-9_wp     !! limit, as a share of a column, below which a contribution is rounding
 
    !> A rate that can be changed.
    type :: live_rate_t
@@ -71,7 +70,7 @@ contains
    end subroutine choose_rates
 
    !> Lists all rates and, as a score, the largest contribution of each rate to a requested column [-]: its share of the sum of the
-   !> magnitudes of all contributions. 0 for a contribution that is only rounding.
+   !> magnitudes of all contributions.
    subroutine list_rates(suspension, table, all, score)
       type(suspension_t), intent(in) :: suspension
       type(contribution_table_t), intent(in) :: table       !! at the state
@@ -89,7 +88,6 @@ contains
                if (.not. sum(abs(table%parts(c, :))) > 0.0_wp) cycle
                share = max(share, abs(table%parts(c, table%shares%law(l)))/sum(abs(table%parts(c, :))))
             end do
-            if (share < noise) share = 0.0_wp
             new%group = name%kind
             new%element = [character(share_length) :: name%row, '']
             new%part = name%part
