@@ -27,8 +27,9 @@ module ek_model_remark
 contains
 
    !> Finds the messages on a model, except the failures. Only one thread at a time may call this procedure.
-   subroutine find_model_remarks(suspension, cases, chosen, is_balanced, remarks, tests)
+   subroutine find_model_remarks(suspension, raw, cases, chosen, is_balanced, remarks, tests)
       type(suspension_t), intent(in) :: suspension      !! with trimmed preloads if possible; on no rig
+      type(suspension_t), intent(in) :: raw             !! before the trim
       type(case_t), intent(in) :: cases(:), chosen(:)   !! all cases of the deck; cases to be run
       logical, intent(in) :: is_balanced                !! .false.: no messages on the preload trim
       type(model_remarks_t), intent(out) :: remarks
@@ -42,7 +43,7 @@ contains
          if (present(tests)) call load_state_remarks(suspension, tests, remarks%warnings)
          if (.not. present(tests)) call load_state_remarks(suspension, chosen, remarks%warnings)
       end if
-      call doubt(suspension, cases, remarks%doubts)
+      call doubt(suspension, cases, remarks%doubts, raw)
    end subroutine find_model_remarks
 
    pure integer function count_remarks(self)

@@ -50,9 +50,9 @@ contains
       if (.not. is_done) return
       call report_cases(workspace, cases)
       if (is_balanced) then
-         call find_model_remarks(workspace%suspension, workspace%design%cases, cases, .true., remarks)
+         call find_model_remarks(workspace%suspension, workspace%raw, workspace%design%cases, cases, .true., remarks)
       else
-         call find_model_remarks(workspace%raw, workspace%design%cases, cases, .false., remarks)
+         call find_model_remarks(workspace%raw, workspace%raw, workspace%design%cases, cases, .false., remarks)
       end if
       if (allocated(fault)) call remarks%faults%add(fault%message)
    end subroutine find_of

@@ -149,9 +149,9 @@ contains
          if (is_solvable) call balance_or_explain(tolerance, workspace, error)
          if (is_solvable .and. .not. allocated(error)) then
             call standard_tests(workspace%suspension, cases, tests)
-            call find_model_remarks(workspace%suspension, cases, chosen, .true., remarks, tests)
+            call find_model_remarks(workspace%suspension, workspace%raw, cases, chosen, .true., remarks, tests)
          else
-            call find_model_remarks(workspace%raw, cases, chosen, .false., remarks)
+            call find_model_remarks(workspace%raw, workspace%raw, cases, chosen, .false., remarks)
          end if
       end associate
       if (remarks%warnings%count() > 0) call findings%line(remarks%warnings%text())

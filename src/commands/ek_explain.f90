@@ -59,7 +59,7 @@ contains
       if (.not. allocated(error)) call make_folder(settings%out, error)
       if (.not. allocated(error)) call balance_or_explain(chosen(1)%tolerance, workspace, error)
       if (allocated(error)) return
-      call find_model_remarks(workspace%suspension, workspace%design%cases, chosen, .true., remarks)
+      call find_model_remarks(workspace%suspension, workspace%raw, workspace%design%cases, chosen, .true., remarks)
       call print_model_remarks(settings%is_quiet, remarks)
       files%has_json = settings%has_json
       if (files%has_json) call begin_explain_json(workspace%suspension%name, checksum, files%json)

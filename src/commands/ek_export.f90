@@ -100,7 +100,7 @@ contains
       if (.not. allocated(error)) call balance_or_explain(default_tolerance, workspace, error)
       if (allocated(error)) return
       axle%suspension = workspace%suspension
-      call find_model_remarks(axle%suspension, workspace%design%cases, workspace%design%cases, .true., remarks)
+      call find_model_remarks(axle%suspension, workspace%raw, workspace%design%cases, workspace%design%cases, .true., remarks)
       call print_model_remarks(settings%is_quiet, remarks)
       call solve_map(axle%suspension, axle%request, axle%map, error)
    end subroutine solve_axle

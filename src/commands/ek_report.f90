@@ -100,7 +100,7 @@ contains
       if (allocated(error)) return
       call planned_tests(workspace%suspension, chosen, page%tests)
       call name_files(page%tests)
-      call find_model_remarks(workspace%suspension, workspace%design%cases, chosen, .true., remarks)
+      call find_model_remarks(workspace%suspension, workspace%raw, workspace%design%cases, chosen, .true., remarks)
       call print_model_remarks(settings%is_quiet, remarks, page%warnings)
       call remove_file(join_path(page%folder, page_file))     ! a page of an earlier report must not be mistaken for this one
       call remove_file(join_path(page%folder, contents_file))

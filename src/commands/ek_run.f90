@@ -78,7 +78,7 @@ contains
       if (.not. allocated(error) .and. settings%out /= '-') call make_folder(settings%out, error)
       if (.not. allocated(error)) call balance_or_explain(chosen(1)%tolerance, workspace, error)
       if (allocated(error)) return
-      call find_model_remarks(workspace%suspension, cases, chosen, .true., remarks)
+      call find_model_remarks(workspace%suspension, workspace%raw, cases, chosen, .true., remarks)
       call print_model_remarks(settings%is_quiet, remarks)
 
       failed = 0

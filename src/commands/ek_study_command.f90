@@ -109,7 +109,7 @@ contains
       associate (workspace => this%designer%workspace)
          if (sample_remark(this%study) /= '') call words%add(sample_remark(this%study))
          call factor_remarks(this%study, workspace%design, this%designer%paths, words)
-         call find_model_remarks(workspace%suspension, workspace%design%cases, workspace%cases%case, .true., remarks)
+         call find_model_remarks(workspace%suspension, workspace%raw, workspace%design%cases, workspace%cases%case, .true., remarks)
       end associate
       do k = 1, words%count()
          call print_warning(words%line(k))

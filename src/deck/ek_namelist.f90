@@ -21,6 +21,7 @@ module ek_namelist
    integer, parameter :: largest_exponent = 30      !! numbers from 1e30 are errors and could overflow later
    integer, parameter :: smallest_exponent = -100   !! nonzero numbers below 1e-100 are errors too; some would be read as 0
    character(*), parameter :: digits = '0123456789'
+   character(*), parameter :: no_break_space = char(194)//char(160)
    character(*), parameter :: types(heading) = [character(18) :: 'a string in quotes', 'a string in quotes', 'a number', &
       'an integer', '.true. or .false.', 'a string in quotes']
 
@@ -137,7 +138,8 @@ contains
       if (key%least == key%most) words = 'needs '//plural(key%least, 'value', 'values')
    end function needs
 
-   !> Hint about surplus values: a decimal comma, or a missing = after a word that may be a key; otherwise ''.
+   !> Hint about surplus values: a comment that begins with #, a repeated value, decimal commas, a blank between thousands, a
+   !> no-break space, or a missing = after a word that may be a key; otherwise ''.
    function surplus(key, entry) result(words)
       type(key_t), intent(in) :: key
       type(entry_t), intent(in) :: entry
@@ -145,6 +147,15 @@ contains
       integer :: j
 
       words = ''
+      do j = 1, entry%used
+         associate (value => entry%values(j))
+            if (value%is_string .or. value%is_empty) cycle
+            if (value%text(:1) == '#') words = ' (a comment begins with !, not #)'
+            if (index(value%text, no_break_space) > 0) words = ' ('//quoted(visible(value%text))// &
+               ' contains a no-break space; type blanks)'
+         end associate
+         if (words /= '') return
+      end do
       do j = 2, entry%used
          associate (value => entry%values(j), before => entry%values(j - 1)%text)
             if (value%is_string .or. value%is_empty) cycle
@@ -156,10 +167,37 @@ contains
             end if
             if (key%type /= number .or. verify(value%text, digits) > 0) cycle
             if (before == '' .or. verify(before, '+-'//digits) > 0) cycle
-            words = ' (a decimal comma? Write '//before//'.'//value%text//', not '//before//','//value%text//')'
-            return
+            if (is_decimal_comma(j)) then
+               words = ' (a decimal comma? Write '//before//'.'//value%text//', not '//before//','//value%text//')'
+               return
+            end if
          end associate
       end do
+      if (count(entry%values(:entry%used)%before == '*') > 0) words = ' (n*value stands for n values)'
+      if (entry%used /= 2 .or. key%most /= 1 .or. key%type /= number) return
+      associate (first => entry%values(1)%text, last => entry%values(2))
+         if (last%before == ' ' .and. len(last%text) == 3 .and. verify(last%text, digits) == 0 .and. is_signed(first)) &
+            words = ' (write '//first//last%text//' without a blank or comma)'
+      end associate
+
+   contains
+
+      !> Whether the comma before value j may be decimal: without blanks around it, where other values are separated in another way
+      !> or every second comma is decimal.
+      pure logical function is_decimal_comma(j)
+         integer, intent(in) :: j
+         integer :: i, tight
+
+         tight = count(entry%values(2:entry%used)%before == ',')
+         is_decimal_comma = entry%values(j)%before == ','
+         if (tight == entry%used - 1 .and. entry%used > 2) then
+            is_decimal_comma = is_decimal_comma .and. entry%used == 2*key%most .and. modulo(j, 2) == 0 .and. &
+               all([(verify(entry%values(i)%text, digits), i=2, entry%used, 2)] == 0)
+         else
+            is_decimal_comma = is_decimal_comma .and. tight >= entry%used - key%most
+         end if
+      end function is_decimal_comma
+
    end function surplus
 
    !> The index of an element as written, '(2)'; '' for a key with one element.
@@ -227,7 +265,7 @@ contains
       if (any([(index(text, trim(quotes(k))) == 1, k=1, size(quotes))])) words = " (write straight quotes: ' or "")"
    end function quote_hint
 
-   !> A hint about a typographic minus sign or a semicolon in a number; otherwise ''.
+   !> A hint about a typographic minus sign, a semicolon or a no-break space in a number; otherwise ''.
    pure function number_hint(text) result(words)
       character(*), intent(in) :: text
       character(:), allocatable :: words
@@ -237,6 +275,8 @@ contains
          words = ' (write the minus sign as -)'
       else if (index(text, ';') > 0) then
          words = ' (separate values by commas or blanks)'
+      else if (index(text, no_break_space) > 0) then
+         words = ' (contains a no-break space; type blanks)'
       end if
    end function number_hint
 

@@ -129,6 +129,7 @@ contains
             'the contact point must lie below the wheel centre, found it '//str(-height/reading%units%length)//' above')
       end if
       call find_spin(reading, plan, this)
+      this%gives_spin = plan%spin > 0
       this%has_steer_axis = has_key(reading, 'steer_axis')
       call find_points(reading, 'steer_axis', plan%steer_axis, is_there)
       if (is_there) call check_apart(reading, 'steer_axis', plan%steer_axis, '', is_there)

@@ -49,6 +49,7 @@ module ek_record
       character(:), allocatable :: text
       logical :: is_string = .false.
       logical :: is_empty = .false.       !! .true.: there is nothing between two commas
+      character :: before = ' '           !! ',': after a comma without blanks around it; '*': further value of n*value; ' ': other
    end type value_t
 
    !> `key = values`, or `key(first) = values`.

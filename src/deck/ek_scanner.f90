@@ -246,7 +246,7 @@ contains
       type(deck_errors_t), intent(inout) :: deck_errors
       character(:), allocatable :: word
       logical :: is_string
-      integer :: repeats, star, k
+      integer :: repeats, star, k, first
 
       if (text(cursor%at:cursor%at) == ',') then
          if (after_comma) call add_value(entry, '', .false.)
@@ -254,6 +254,7 @@ contains
          cursor%at = cursor%at + 1
          return
       end if
+      first = cursor%at
       after_comma = .false.
       repeats = 1
       is_string = scan(text(cursor%at:cursor%at), quotes) > 0
@@ -277,9 +278,18 @@ contains
       end if
       do k = 1, repeats
          call add_value(entry, word, is_string)
+         if (k > 1) entry%values(entry%used)%before = '*'
       end do
+      if (is_tight(first) .and. repeats == 1) entry%values(entry%used)%before = ','
 
    contains
+
+      !> Whether a value follows a comma, and the comma a value, both without blanks.
+      pure logical function is_tight(at)
+         integer, intent(in) :: at             !! start of the value
+         is_tight = .false.
+         if (at > 2) is_tight = text(at - 1:at - 1) == ',' .and. scan(text(at - 2:at - 2), ' ,='//tab//newline//return) == 0
+      end function is_tight
 
       !> Reads a string from its opening to its closing quote, which must be on the same line. A doubled quote is one quote. If the
       !> closing quote is missing, an error is reported, and the content is only the first word.

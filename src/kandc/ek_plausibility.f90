@@ -19,6 +19,7 @@ module ek_plausibility
    use ek_plausible_bushing, only: doubt_bushings
    use ek_plausible_ends, only: doubt_rod_ends
    use ek_plausible_names, only: doubt_names
+   use ek_plausible_springs, only: doubt_springs, doubt_replaced_preloads
    use ek_plausible_steering, only: doubt_steering
    use ek_plausible_response, only: doubt_response, find_shortening
    use ek_plausible_shape, only: doubt_wheels, doubt_points, point_of
@@ -31,10 +32,11 @@ contains
    !> Lists one remark per implausible item, `file:line: item: finding`.
    !>
    !> In a model without a wheel, which is not a suspension, connections, points and response are not checked.
-   subroutine doubt(suspension, cases, remarks)
+   subroutine doubt(suspension, cases, remarks, raw)
       type(suspension_t), intent(in) :: suspension       !! after the preload trim (`balance`) if possible; not on a rig
       type(case_t), intent(in) :: cases(:)               !! of the deck
       type(message_list_t), intent(out) :: remarks
+      type(suspension_t), intent(in), optional :: raw    !! before the trim; without it, replaced preloads are not examined
       type(doubts_t) :: doubts
       type(diagnosis_t) :: diagnosis
       type(kkt_t) :: kkt
@@ -57,6 +59,8 @@ contains
       call doubt_steering(suspension, doubts)
       if (carries .and. diagnosis%is_solvable()) call doubt_response(suspension, kkt, doubts)
       call doubt_elements(suspension, doubts)
+      call doubt_springs(suspension, doubts)
+      if (present(raw)) call doubt_replaced_preloads(suspension, raw, doubts)
       call doubt_vehicle(suspension, doubts)
       call doubt_loads(suspension, doubts)
       call doubt_cases(suspension, cases, doubts)

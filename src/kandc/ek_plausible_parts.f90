@@ -45,8 +45,10 @@ contains
             case (torsion_spring)
                if (element%law%has_curve) then
                   call doubt_curve(element%law%curve, element, .true., doubts)
-               else if (min(element%measure%body_i, element%measure%body_j) > 0) then
+               else if (is_across(suspension, element)) then
                   call doubts%judge('torsion bar rate', element%law%rate)
+               else if (min(element%measure%body_i, element%measure%body_j) > 0) then
+                  call doubts%judge('torsion element rate', element%law%rate)
                else
                   call doubts%judge('torsion spring rate', element%law%rate)
                end if
@@ -64,6 +66,17 @@ contains
          end associate
       end do
    end subroutine doubt_elements
+
+   !> Whether a torsion spring is an anti-roll bar: between a body on the left and a body on the right.
+   pure logical function is_across(suspension, element)
+      type(suspension_t), intent(in) :: suspension
+      type(element_t), intent(in) :: element
+
+      associate (i => element%measure%body_i, j => element%measure%body_j)
+         is_across = min(i, j) > 0
+         if (is_across) is_across = suspension%bodies(i)%origin(2)*suspension%bodies(j)%origin(2) < 0.0_wp
+      end associate
+   end function is_across
 
    !> Examines a spring: rate, length, static compression, and force at design.
    subroutine doubt_spring(spring, doubts)

@@ -1,8 +1,8 @@
 !> Usual values of road vehicles: one table of ranges, from Formula Student to heavy trucks, with the likely cause of a value
 !> outside its range.
 !>
-!> A value outside its range is converted with the other units of its dimension. If one of these units brings the value into the
-!> range, the remark names this unit. Otherwise the remark gives the cause in the table row. No finding is an error.
+!> A value outside its range is converted with the other units of its dimension. The remark names all units that bring the value
+!> well into the range, or else into the range. Without such a unit, the remark gives the cause in the table row. No finding is an error.
 module ek_plausible_range
    use ek_kinds, only: wp, units_t, degree
    use ek_error, only: message_list_t
@@ -14,7 +14,8 @@ module ek_plausible_range
    ! dimensions
    integer, parameter :: length = 1, rate = 2, rotation_rate = 3, force = 4, moment = 5, angle = 6, mass = 7, share = 8, &
       acceleration = 9, derived = 10, &         ! a length computed from other values
-      frequency = 11, slope = 12, derived_rate = 13
+      frequency = 11, slope = 12, derived_rate = 13, &
+      wheel_angle = 14, computed_angle = 15     ! toe and camber, which are also measured in minutes; an angle between points
 
    !> A unit that may have been used by error.
    type :: unit_t
@@ -35,7 +36,8 @@ module ek_plausible_range
       unit_t(rotation_rate, 'N mm/rad', 1.0e-3_wp), unit_t(rotation_rate, 'N mm/deg', 1.0e-3_wp/degree), &
       unit_t(force, 'kN', 1.0e3_wp), unit_t(force, 'N', 1.0_wp), unit_t(force, 'kgf', 9.80665_wp), &
       unit_t(moment, 'N mm', 1.0e-3_wp), unit_t(moment, 'kN m', 1.0e3_wp), unit_t(moment, 'N m', 1.0_wp), &
-      unit_t(angle, 'minutes', degree/60.0_wp), unit_t(angle, 'rad', 1.0_wp), unit_t(angle, 'deg', degree), &
+      unit_t(angle, 'rad', 1.0_wp), unit_t(angle, 'deg', degree), &
+      unit_t(wheel_angle, 'minutes', degree/60.0_wp), unit_t(wheel_angle, 'rad', 1.0_wp), unit_t(wheel_angle, 'deg', degree), &
       unit_t(mass, 'g', 1.0e-3_wp), unit_t(mass, 't', 1.0e3_wp), unit_t(share, 'per cent', 0.01_wp), &
       unit_t(acceleration, 'mm/s²', 1.0e-3_wp), unit_t(acceleration, 'g', 9.80665_wp)]
 
@@ -54,9 +56,9 @@ module ek_plausible_range
       range_t('half track', length, 400.0_wp, 1400.0_wp, .false., 'check that y is lateral and 0 in the middle of the car'), &
       range_t('wheel radius', length, 180.0_wp, 750.0_wp, .false., 'is it the diameter?'), &
       range_t('height of centre', length, 150.0_wp, 750.0_wp, .false., 'check that z has the same origin for all points'), &
-      range_t('contact offset', length, 0.0_wp, 80.0_wp, .true., 'the contact point lies below the centre; check x and y'), &
-      range_t('static toe', angle, -3.0_wp, 3.0_wp, .true., 'toe is given in degrees'), &
-      range_t('static camber', angle, -8.0_wp, 5.0_wp, .true., 'camber is given in degrees; negative: top inward'), &
+      range_t('contact offset', derived, 0.0_wp, 80.0_wp, .true., 'the contact point lies below the centre; check x and y'), &
+      range_t('static toe', wheel_angle, -1.5_wp, 1.5_wp, .true., 'toe is given in degrees'), &
+      range_t('static camber', wheel_angle, -8.0_wp, 5.0_wp, .true., 'camber is given in degrees; negative: top inward'), &
       range_t('tyre rate', rate, 50.0_wp, 2500.0_wp, .false., 'give the vertical stiffness of one tyre'), &
       range_t('wheelbase', length, 1200.0_wp, 8000.0_wp, .false., 'is it the track?'), &
       range_t('cg height', length, 150.0_wp, 2500.0_wp, .false., 'give the height of the car''s centre of gravity over the road'), &
@@ -65,7 +67,7 @@ module ek_plausible_range
       range_t('rack travel', length, 10.0_wp, 250.0_wp, .false., 'give the travel to each side'), &
       range_t('spring rate', rate, 3.0_wp, 3000.0_wp, .false., 'give the rate of one spring along its axis'), &
       range_t('rod rate', rate, 3000.0_wp, 1.0e6_wp, .false., 'give the stiffness of the rod along its axis'), &
-      range_t('length at design', length, 30.0_wp, 1500.0_wp, .false., 'check its two points'), &
+      range_t('length at design', derived, 30.0_wp, 1500.0_wp, .false., 'check its two points'), &
       range_t('static compression', length, 0.0_wp, 500.0_wp, .true., 'preload and rate do not fit together'), &
       range_t('gas force', force, 5.0_wp, 5000.0_wp, .true., 'give the gas force at design'), &
       range_t('gas rate', rate, 0.01_wp, 100.0_wp, .true., 'give the increase of the gas force per compression'), &
@@ -77,6 +79,7 @@ module ek_plausible_range
       'not in the range of rubber; for a rigid link use a joint'), &
       range_t('bushing gap', length, 0.0_wp, 20.0_wp, .true., 'its two points are apart; check their names'), &
       range_t('torsion bar rate', rotation_rate, 1500.0_wp, 1.0e6_wp, .false., 'give the rate between the halves of the bar'), &
+      range_t('torsion element rate', rotation_rate, 20.0_wp, 5.0e7_wp, .false., 'give the moment per angle'), &
       range_t('torsion spring rate', rotation_rate, 500.0_wp, 5.0e7_wp, .false., 'give the moment per angle'), &
       range_t('driver stiffness', rate, 20.0_wp, 1.0e6_wp, .false., 'give the stiffness at the rack'), &
       range_t('span of the curve', length, 0.5_wp, 600.0_wp, .false., 'its x is a deflection in the deck''s unit'), &
@@ -93,12 +96,14 @@ module ek_plausible_range
       range_t('test force', force, 30.0_wp, 150000.0_wp, .false., 'give the force on one wheel'), &
       range_t('test moment', moment, 1.0_wp, 5000.0_wp, .false., 'the moment is in N m, regardless of the deck''s units'), &
       range_t('offset of the force', length, 0.0_wp, 200.0_wp, .true., 'give a pneumatic trail'), &
-      range_t('caster of a front axle', angle, -3.0_wp, 20.0_wp, .true., 'usually the top is rearward; check axes and sign of x'), &
-      range_t('caster', angle, -25.0_wp, 25.0_wp, .true., 'check the points of the steering axis'), &
-      range_t('kingpin inclination', angle, -6.0_wp, 30.0_wp, .true., 'is the upper point outboard of the lower one?'), &
-      range_t('scrub radius', length, -150.0_wp, 250.0_wp, .true., 'check the points of the steering axis'), &
-      range_t('caster trail', length, -100.0_wp, 200.0_wp, .true., 'check the points of the steering axis'), &
-      range_t('link length', length, 20.0_wp, 2500.0_wp, .false., 'check its two points'), &
+      range_t('caster of a front axle', computed_angle, -3.0_wp, 20.0_wp, .true., &
+      'usually the top is rearward; check axes and sign of x'), &
+      range_t('caster', computed_angle, -25.0_wp, 25.0_wp, .true., 'check the points of the steering axis'), &
+      range_t('kingpin inclination', computed_angle, -6.0_wp, 30.0_wp, .true., &
+      'is the upper point outboard of the lower one?'), &
+      range_t('scrub radius', derived, -150.0_wp, 250.0_wp, .true., 'check the points of the steering axis'), &
+      range_t('caster trail', derived, -100.0_wp, 200.0_wp, .true., 'check the points of the steering axis'), &
+      range_t('link length', derived, 20.0_wp, 2500.0_wp, .false., 'check its two points'), &
       ! response at design; sources below the table
       range_t('wheel rate', derived_rate, 2.0_wp, 3000.0_wp, .false., 'check the rods and levers between wheel and spring'), &
       range_t('ride frequency', frequency, 0.4_wp, 10.0_wp, .false., &
@@ -114,8 +119,8 @@ module ek_plausible_range
    ! Springs & Dampers, part 1; Milliken & Milliken, Race Car Vehicle Dynamics, chapter 16), widened by a factor of two. Motion
    ! ratio: 0.5 to 1 (from these sources), widened by two. Wheel rate: from the spring rates above with these motion ratios. Bump
    ! camber: the inverse of the length of the front-view swing arm, no shorter than 0.3 m, three quarters of the narrowest half
-   ! track of the table. Bump toe: 30 mm of travel, about the least that a Formula Student car must have, would use the range of
-   ! the static toe. Compliances have no range: no source covers both trucks and race cars.
+   ! track of the table. Bump toe: 30 mm of travel, about the least that a Formula Student car must have, would change toe
+   ! by 3 deg. Compliances have no range: no source covers both trucks and race cars.
 
    !> The remarks without repetition. Both sides of a mirrored deck have the same line and give one remark.
    type :: doubts_t
@@ -166,15 +171,18 @@ contains
    end subroutine add
 
    !> Compares a value with the usual range of its quantity, and adds a remark if the value is outside this range.
-   pure subroutine judge(self, quantity, value, detail)
+   pure subroutine judge(self, quantity, value, detail, rim, is_computed)
       class(doubts_t), intent(inout) :: self
       character(*), intent(in) :: quantity     !! quantity of a row of `ranges`
       real(wp), intent(in) :: value            !! SI
       character(*), intent(in), optional :: detail   !! follows the likely cause of the table
+      real(wp), intent(in), optional :: rim    !! diameter [m] over which the angle may be given in mm
+      logical, intent(in), optional :: is_computed   !! the deck does not give the value: no unit is suggested
       type(range_t) :: row
-      real(wp) :: meant, x, unit, usual
-      character(:), allocatable :: text
-      integer :: k, u
+      real(wp) :: x, unit, usual
+      character(:), allocatable :: text, names, meanings
+      logical :: tries_units
+      integer :: k
 
       k = findloc(ranges%quantity, quantity, dim=1)
       if (k == 0) then      ! a programming error: found by the tests, which expect no remark on a sound deck
@@ -188,19 +196,51 @@ contains
       if (row%low >= 0.0_wp) x = abs(value)        ! the sign does not matter
       if (row%may_be_zero .and. abs(x) <= 0.0_wp) return
       if (is_within(row, x)) return
+      names = ''
+      meanings = ''
+      tries_units = .true.
+      if (present(is_computed)) tries_units = .not. is_computed
+      if (tries_units) call try_units(2.0_wp, names, meanings)
+      if (tries_units .and. names == '') call try_units(1.0_wp, names, meanings)
       text = trim(row%suspect)
       if (present(detail)) text = text//detail
-      do u = 1, size(units_tried)
-         if (units_tried(u)%dimension /= row%dimension) cycle
-         if (units_tried(u)%name == deck_name(row%dimension, self%units)) cycle
-         meant = x/unit*units_tried(u)%size
-         if (.not. is_within(row, meant)) cycle
-         text = 'looks like '//trim(units_tried(u)%name)//': '//short(x/unit)//' '//trim(units_tried(u)%name)//' would be '// &
-            self%speak(row%dimension, meant)
-         exit
-      end do
+      if (names /= '') text = 'looks like '//names//': '//meanings
       call self%add(quantity, trim(quantity)//' '//self%speak(row%dimension, x)//' (usual range: '// &
          short(row%low*usual/unit)//' to '//self%speak(row%dimension, row%high*usual)//'); '//text)
+
+   contains
+
+      !> Lists the units with which the value is in the range, and by a factor of `inside` from both limits.
+      pure subroutine try_units(inside, names, meanings)
+         real(wp), intent(in) :: inside
+         character(:), allocatable, intent(inout) :: names, meanings
+         integer :: u
+
+         do u = 1, size(units_tried)
+            if (units_tried(u)%dimension == row%dimension .and. units_tried(u)%name /= deck_name(row%dimension, self%units)) &
+               call try(trim(units_tried(u)%name), x/unit*units_tried(u)%size, inside, names, meanings)
+         end do
+         if (present(rim) .and. self%units%length < 0.5_wp) &
+            call try('mm at the rim', atan(x/unit*1.0e-3_wp/rim), inside, names, meanings)
+      end subroutine try_units
+
+      !> Lists a unit, if the value is in the range with it.
+      pure subroutine try(name, meant, inside, names, meanings)
+         character(*), intent(in) :: name
+         real(wp), intent(in) :: meant            ! SI
+         real(wp), intent(in) :: inside
+         character(:), allocatable, intent(inout) :: names, meanings
+
+         if (.not. is_within(row, meant) .or. .not. is_within(row, meant*inside)) return
+         if (row%low > 0.0_wp .and. .not. is_within(row, meant/inside)) return
+         if (names /= '') then
+            names = names//' or '
+            meanings = meanings//', '
+         end if
+         names = names//name
+         meanings = meanings//short(x/unit)//' '//name//' would be '//self%speak(row%dimension, meant)
+      end subroutine try
+
    end subroutine judge
 
    !> Whether a value is in the range of its quantity.
@@ -265,11 +305,11 @@ contains
    pure real(wp) function deck_unit(dimension, units) result(unit)
       integer, intent(in) :: dimension
       type(units_t), intent(in) :: units
-      real(wp) :: sizes(13)
+      real(wp) :: sizes(15)
 
       sizes = [units%length, units%force/units%length, units%force*units%length/units%angle, units%force, 1.0_wp, units%angle, &
          1.0_wp, 1.0_wp, 1.0_wp, units%length, 1.0_wp, degree, &
-         units%force/units%length]
+         units%force/units%length, units%angle, units%angle]
       unit = sizes(dimension)
    end function deck_unit
 
@@ -278,14 +318,14 @@ contains
       integer, intent(in) :: dimension
       type(units_t), intent(in) :: units
       character(:), allocatable :: name, force_name, length_name, angle_name
-      character(12) :: names(13)
+      character(12) :: names(15)
 
       force_name = trim(merge('kN', 'N ', units%force > 1.0_wp))
       length_name = trim(merge('m ', 'mm', units%length > 0.5_wp))
       angle_name = merge('rad', 'deg', units%angle > 0.5_wp)
       names = [character(12) :: length_name, force_name//'/'//length_name, force_name//' '//length_name//'/'//angle_name, &
          force_name, 'N m', angle_name, 'kg', '1', 'm/s²', length_name, 'Hz', &
-         'deg/m', force_name//'/'//length_name]
+         'deg/m', force_name//'/'//length_name, angle_name, angle_name]
       name = trim(names(dimension))
    end function deck_name
 

@@ -7,17 +7,21 @@ module ek_plausible_response
    use ek_kinds, only: wp, pi, degree
    use ek_text, only: str, quoted
    use ek_measure, only: distance
-   use ek_element, only: element_kinds, axial_spring, torsion_spring
+   use ek_element, only: element_kinds, axial_spring, torsion_spring, stop_spring
    use ek_element_label, only: element_label, is_between_bodies
    use ek_element_force, only: spring_tension
    use ek_suspension, only: suspension_t
    use ek_state, only: design_state, inputs_t
    use ek_kkt, only: kkt_t
    use ek_wheel_side, only: prefix_of
+   use ek_compliance, only: compliance_t, move_of
+   use ek_characteristics, only: motion_ratio
    use ek_kandc_list, only: kandc_t, list_kandc, choose_kandc
    use ek_kandc_columns, only: observe_kandc
    use ek_geometry_columns, only: length_ratio
-   use ek_plausible_range, only: doubts_t, force, is_usual
+   use ek_plausible_range, only: doubts_t, force, length, rotation_rate, is_usual
+   use ek_plausible_springs, only: doubt_stop_names
+   use ek_plausible_steering, only: find_opposite_rod
    implicit none(type, external)
    private
    public :: doubt_response, find_shortening
@@ -43,9 +47,11 @@ contains
       do k = 1, size(suspension%elements)
          if (suspension%elements(k)%kind == axial_spring) call doubt_motion(suspension, k, kandc, doubts)
       end do
+      call doubt_stops(suspension, kandc%compliance, doubts)
       do k = 1, size(suspension%wheels)
          call doubt_wheel(suspension, k, kandc, doubts)
       end do
+      if (has_coil(suspension)) call doubt_torsion(suspension, kandc%compliance, doubts)
       call doubt_load(suspension, doubts)
       call doubt_bar(suspension, kandc, kkt, doubts)
    end subroutine doubt_response
@@ -101,6 +107,25 @@ contains
       if (k > 0) value = kandc%values(k)
    end function value_of
 
+   !> Examines the names of stops. Springs that get longer in bump show another error, in the levers.
+   subroutine doubt_stops(suspension, compliance, doubts)
+      type(suspension_t), intent(in) :: suspension
+      type(compliance_t), intent(in) :: compliance
+      type(doubts_t), intent(inout) :: doubts
+      real(wp) :: ratios(suspension%scalars)
+      integer :: k
+
+      ratios = 0.0_wp
+      do k = 1, suspension%scalars
+         if (suspension%elements(k)%measure%kind == distance) &
+            ratios(k) = length_ratio(suspension, compliance, design_state(suspension), k)
+      end do
+      if (any(suspension%elements(:suspension%scalars)%kind == axial_spring .and. ratios > 0.05_wp)) return
+      do k = 1, suspension%scalars
+         if (suspension%elements(k)%kind == stop_spring) call doubt_stop_names(suspension, k, ratios(k), doubts)
+      end do
+   end subroutine doubt_stops
+
    !> Examines the motion ratio of a spring: its magnitude, and whether a spring in tension gets longer in bump.
    subroutine doubt_motion(suspension, k, kandc, doubts)
       type(suspension_t), intent(in) :: suspension
@@ -116,7 +141,7 @@ contains
          rate = value_of(kandc, prefix_of(suspension, 1)//wanted(1))
          if (.not. (ieee_is_finite(ratio) .and. ieee_is_finite(rate))) return
          call doubts%examine(spring%where, element_label(spring))
-         call doubts%judge('motion ratio', ratio, ' (with it, the wheel rate is '//str(rate, 4)//' N/mm)')
+         call doubts%judge('motion ratio', ratio, ' (with it, the wheel rate is '//str(rate, 4)//' N/mm)', is_computed=.true.)
          call spring_tension(spring, spring%design_length, tension, slope)
          if (ratio > 0.0_wp .and. tension > felt) call doubts%add('tension', 'in tension at design, '// &
             doubts%speak(force, tension)//', and it gets longer in bump (motion ratio '//str(ratio, 3)// &
@@ -145,11 +170,100 @@ contains
                call doubts%judge('ride frequency', sqrt(value*standard_gravity/load)/(2.0_wp*pi))
          end if
          value = value_of(kandc, prefix//wanted(2))*degree
-         if (ieee_is_finite(value)) call doubts%judge('bump toe', value)
+         if (ieee_is_finite(value)) call doubt_bump_toe(suspension, w, value, doubts)
          value = value_of(kandc, prefix//wanted(3))*degree
          if (ieee_is_finite(value)) call doubts%judge('bump camber', value)
       end associate
    end subroutine doubt_wheel
+
+   !> Examines bump toe. A value far from that of an axle is a remark, too, if the ends of a rod are at opposite heights.
+   subroutine doubt_bump_toe(suspension, w, value, doubts)
+      type(suspension_t), intent(in) :: suspension
+      integer, intent(in) :: w
+      real(wp), intent(in) :: value                 !! rad/m
+      type(doubts_t), intent(inout) :: doubts
+      real(wp), parameter :: large = 30.0_wp        ! deg/m
+      character(:), allocatable :: name
+      real(wp) :: z(2)
+
+      if (abs(value) > large*degree) then
+         call find_opposite_rod(suspension, suspension%wheels(w)%body, name, z)
+         if (name /= '') then
+            call doubts%add('bump toe', 'bump toe '//str(value/degree, 4)//' deg/m; the ends of '//name//' are at z = '// &
+               doubts%speak(length, z(1))//' and '//doubts%speak(length, z(2))//': check the signs of z')
+            return
+         end if
+      end if
+      call doubts%judge('bump toe', value)
+   end subroutine doubt_bump_toe
+
+   !> Examines whether the rotation of bushings carries much of the load in travel of all wheels. The remark is on the bushing with
+   !> the largest share.
+   subroutine doubt_torsion(suspension, compliance, doubts)
+      type(suspension_t), intent(in) :: suspension
+      type(compliance_t), intent(in) :: compliance
+      type(doubts_t), intent(inout) :: doubts
+      real(wp), parameter :: most = 0.3_wp              ! share of the wheel rate
+      real(wp) :: shares(size(suspension%elements)), vertical
+      integer :: k, axis, worst
+
+      shares = 0.0_wp
+      vertical = vertical_rate(compliance)
+      if (.not. vertical > 0.0_wp) return
+      do k = suspension%scalars + 1, size(suspension%elements)
+         associate (bushing => suspension%elements(k)%bushing)
+            do axis = 1, 3
+               if (bushing%kr(axis) > 0.0_wp) shares(k) = shares(k) + bushing%kr(axis)* &
+                  turn_ratio(suspension, compliance, k, bushing%axes(:, axis))**2/vertical
+            end do
+         end associate
+      end do
+      if (.not. sum(shares) > most) return
+      worst = findloc(shares > 0.999_wp*maxval(shares), .true., dim=1)      ! the first of both sides
+      call doubts%examine(suspension%elements(worst)%where, element_label(suspension%elements(worst)))
+      call doubts%add('torsion', 'the rotation of bushings gives '//str(nint(100.0_wp*sum(shares)))//' % of the wheel rate, '// &
+         'most of it in this bushing (kr up to '//doubts%speak(rotation_rate, maxval(suspension%elements(worst)%bushing%kr))// &
+         '; usually below 30 %); check the unit of kr')
+   end subroutine doubt_torsion
+
+   !> Sum of the vertical forces on all wheels per equal travel of all wheels [N/m]; 0 if the wheels cannot move alone.
+   pure real(wp) function vertical_rate(compliance) result(rate)
+      type(compliance_t), intent(in) :: compliance
+      real(wp) :: determinant
+
+      rate = 0.0_wp
+      associate (c => compliance%response)
+         if (compliance%wheels == 1) then
+            if (c(3, 3) > 0.0_wp) rate = 1.0_wp/c(3, 3)
+         else
+            determinant = c(3, 3)*c(9, 9) - c(3, 9)*c(9, 3)
+            if (determinant > 0.0_wp) rate = (c(3, 3) + c(9, 9) - c(3, 9) - c(9, 3))/determinant
+         end if
+      end associate
+   end function vertical_rate
+
+   !> Relative rotation of the bodies of an element about an axis per equal travel of all wheels [rad/m].
+   pure real(wp) function turn_ratio(suspension, compliance, k, axis) result(ratio)
+      type(suspension_t), intent(in) :: suspension
+      type(compliance_t), intent(in) :: compliance
+      integer, intent(in) :: k                      !! index of the element
+      real(wp), intent(in) :: axis(3)
+      real(wp) :: gradient(12), turns(2)
+      integer :: n, w
+
+      gradient = 0.0_wp
+      gradient(4:6) = -axis
+      gradient(10:12) = axis
+      turns = 0.0_wp
+      associate (m => suspension%elements(k)%measure)
+         do w = 1, min(compliance%wheels, 2)
+            turns(w) = move_of(compliance, 6*w - 3, gradient, m%body_i, m%body_j)
+         end do
+      end associate
+      n = 6*compliance%wheels
+      ratio = motion_ratio(compliance%response(:n, :n), turns)
+      if (.not. ieee_is_finite(ratio)) ratio = 0.0_wp
+   end function turn_ratio
 
    pure logical function has_coil(suspension)
       type(suspension_t), intent(in) :: suspension

@@ -35,8 +35,8 @@ contains
                doubts%speak(length, wheel%radius)//', but its centre is '//doubts%speak(length, height)// &
                ' above its contact point'//trim(hint))
             call doubts%judge('contact offset', norm2(wheel%contact(1:2) - wheel%centre(1:2)))
-            call doubts%judge('static toe', wheel%toe)
-            call doubts%judge('static camber', wheel%camber)
+            call doubts%judge('static toe', wheel%toe, rim=2.0_wp*wheel%radius, is_computed=wheel%gives_spin)
+            call doubts%judge('static camber', wheel%camber, is_computed=wheel%gives_spin)
             if (wheel%tyre_rate > 0.0_wp) call doubts%judge('tyre rate', wheel%tyre_rate)
             if (wheel%has_steer_axis) call doubt_steer_axis(suspension, wheel, doubts)
             call doubt_carrier(suspension, w, doubts)

@@ -9,7 +9,7 @@ module ek_plausible_steering
    use ek_plausible_shape, only: point_of
    implicit none(type, external)
    private
-   public :: doubt_steering, opposite_rod
+   public :: doubt_steering, find_opposite_rod
 
 contains
 
@@ -200,26 +200,74 @@ contains
       end associate
    end subroutine find_motion
 
-   !> Index of a rod between a wheel carrier and the rack, a subframe or the chassis whose ends are at nearly opposite heights z and
-   !> −z, more than 60 mm apart: one of its signs may be wrong. 0 if there is none.
-   pure integer function opposite_rod(suspension, wheel_body) result(rod)
+   !> Finds a rod of a wheel carrier whose ends are at nearly opposite heights z and −z, more than 60 mm apart: one of its signs may
+   !> be wrong. A rod is a distance joint, or a body with one joint to the carrier and one other joint or bushing.
+   subroutine find_opposite_rod(suspension, carrier, name, z)
       type(suspension_t), intent(in) :: suspension
-      integer, intent(in) :: wheel_body
-      real(wp), parameter :: apart = 60.0_wp*millimetre
-      real(wp) :: z(2), end_i(3), end_j(3)
-      integer :: k
+      integer, intent(in) :: carrier
+      character(:), allocatable, intent(out) :: name       !! "joint 'tie_rod'", "body 'toe_link'"; '' if there is none
+      real(wp), intent(out) :: z(2)                        !! heights of the ends [m]
+      integer :: k, link
 
-      rod = 0
+      name = ''
       do k = 1, size(suspension%joints)
-         if (suspension%joints(k)%kind /= 'distance') cycle
-         associate (m => suspension%terms(suspension%rows(suspension%joints(k)%first_row)%first)%measure)
-            if (all([m%body_i, m%body_j] /= wheel_body)) cycle
-            end_i = point_of(suspension, m%body_i, m%arm_i)
-            end_j = point_of(suspension, m%body_j, m%arm_j)
-            z = [end_i(3), end_j(3)]
-            if (abs(z(2) - z(1)) > apart .and. abs(z(1) + z(2)) < 0.35_wp*abs(z(2) - z(1))) rod = k
+         if (suspension%joints(k)%is_of_measures) cycle
+         associate (joint => suspension%joints(k), &
+               m => suspension%terms(suspension%rows(suspension%joints(k)%first_row)%first)%measure)
+            if (all([joint%body_i, joint%body_j] /= carrier)) cycle
+            if (joint%kind == 'distance') then
+               z = [height(m%body_i, m%arm_i), height(m%body_j, m%arm_j)]
+               if (is_opposite(z)) name = 'joint '//quoted(joint%name)
+            else
+               link = joint%body_i + joint%body_j - carrier
+               if (link == 0) cycle
+               z(1) = height(joint%body_j, joint%arm_j)
+               if (.not. has_other_end(link, k, z(2))) cycle
+               if (is_opposite(z)) name = 'body '//quoted(body_name(suspension, link))
+            end if
+            if (name /= '') return
          end associate
       end do
-   end function opposite_rod
+
+   contains
+
+      pure logical function is_opposite(z)
+         real(wp), intent(in) :: z(2)
+         real(wp), parameter :: apart = 60.0_wp*millimetre
+         is_opposite = abs(z(2) - z(1)) > apart .and. abs(z(1) + z(2)) < 0.2_wp*abs(z(2) - z(1))
+      end function is_opposite
+
+      pure real(wp) function height(body, arm)
+         integer, intent(in) :: body
+         real(wp), intent(in) :: arm(3)
+         real(wp) :: at(3)
+         at = point_of(suspension, body, arm)
+         height = at(3)
+      end function height
+
+      !> Whether one other joint or bushing holds a link, and the height of this end.
+      logical function has_other_end(body, joint, end_height)
+         integer, intent(in) :: body, joint
+         real(wp), intent(out) :: end_height
+         integer :: j, ends
+
+         ends = 0
+         end_height = 0.0_wp
+         do j = 1, size(suspension%joints)
+            if (j == joint .or. all([suspension%joints(j)%body_i, suspension%joints(j)%body_j] /= body)) cycle
+            ends = ends + 1
+            end_height = height(suspension%joints(j)%body_j, suspension%joints(j)%arm_j)
+         end do
+         do j = 1, size(suspension%elements)
+            associate (m => suspension%elements(j)%measure)
+               if (all([m%body_i, m%body_j] /= body)) cycle
+               ends = ends + 1
+               end_height = height(m%body_j, m%arm_j)
+            end associate
+         end do
+         has_other_end = ends == 1
+      end function has_other_end
+
+   end subroutine find_opposite_rod
 
 end module ek_plausible_steering

@@ -47,6 +47,7 @@ module ek_suspension
       real(wp) :: tyre_rate = 0.0_wp      !! vertical stiffness of the tyre [N/m]; 0: not given
       real(wp) :: tyre_width = 0.0_wp     !! width of the tread [m]; 0: not given
       real(wp) :: sprung_mass = 0.0_wp    !! sprung mass carried by this wheel [kg]; 0: not given
+      logical :: gives_spin = .false.     !! the deck gives the spin axis instead of toe and camber
       logical :: has_steer_axis = .false.
       real(wp) :: steer_axis(3, 2) = 0.0_wp             !! two points on the carrier, arms [m]
    end type wheel_t

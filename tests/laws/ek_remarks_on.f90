@@ -46,7 +46,7 @@ contains
       raw = suspension
       call balance(suspension, 1.0e-10_wp, error)
       if (allocated(error)) suspension = raw
-      call doubt(suspension, cases, remarks)
+      call doubt(suspension, cases, remarks, raw)
       words = remarks%text()
    end subroutine find_remarks_on
 
