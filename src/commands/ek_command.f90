@@ -94,10 +94,10 @@ module ek_command
       command_t('derivatives', 'derivatives DECK [options]', 'derivatives DECK', &
       'differentiate columns with respect to numbers of a deck', &
       'Solves one case and writes DIR/<model>_<case>_derivatives.csv: the derivative of every column with respect to every'//nl// &
-      'number of the deck, in the unit of the column per unit of the number, and an estimate of the error. Derivatives are'//nl// &
-      'exact except for rounding. No solution is repeated. Derivatives account for the change of the state,'//nl// &
-      'of the static equilibrium and of the trimmed preloads (balance). A number of a mirrored half deck acts on both'//nl// &
-      'sides; the name point.left_lca_front.z selects one side.'//nl// &
+      'number of the deck, in the unit of the column per unit of the number, and an estimate of the error. The error is'//nl// &
+      'at most about 1e-7 of the largest derivative of the column, and large where a column has a corner. No solution is'//nl// &
+      'repeated. Derivatives account for the change of the state, of the static equilibrium and of the trimmed preloads'//nl// &
+      '(balance). A number of a mirrored half deck acts on both sides; the name point.left_lca_front.z selects one side.'//nl// &
       'With --of, the ten numbers with the largest effects on each column are printed. An effect is the change of a column'//nl// &
       'caused by 1 mm, 0.06 deg, or 1 % of a rate or force.', &
       exit_status_text), &

@@ -10,7 +10,7 @@ module ek_member_loads
    use ek_buffer, only: buffer_t
    use ek_block, only: rotated
    use ek_rotation, only: cross
-   use ek_measure, only: measure_t
+   use ek_measure, only: measure_t, axis_axis, rotation
    use ek_element, only: bushing_element
    use ek_element_force, only: element_evaluation_t, evaluate_element
    use ek_suspension, only: suspension_t, body_name
@@ -72,7 +72,7 @@ contains
       n = 0
       allocate (ends(2*(size(suspension%elements) + size(suspension%terms))))
       do k = 1, size(suspension%elements)
-         call add_pair(suspension%elements(k)%name, suspension%elements(k)%measure)
+         call add_pair(suspension%elements(k)%name, suspension%elements(k)%measure, .true.)
          ends(n - 1:n)%element = k
       end do
       do k = 1, size(suspension%joints)
@@ -81,13 +81,13 @@ contains
             associate (first => suspension%rows(joint%first_row), final => suspension%rows(joint%first_row + joint%rows - 1))
                if (joint%is_of_measures) then      ! each of its measures has bodies of its own
                   do t = first%first, first%first + first%terms - 1
-                     call add_pair(joint%name, suspension%terms(t)%measure)
+                     call add_pair(joint%name, suspension%terms(t)%measure, suspension%terms(t)%measure%kind /= axis_axis)
                      ends(n - 1:n)%first_term = t
                      ends(n - 1:n)%last_term = t
                   end do
                else
                   r = first%first
-                  call add_pair(joint%name, suspension%terms(r)%measure)
+                  call add_pair(joint%name, suspension%terms(r)%measure, joint%kind /= 'parallel')
                   ends(n - 1:n)%first_term = r
                   ends(n - 1:n)%last_term = final%first + final%terms - 1
                end if
@@ -99,19 +99,21 @@ contains
    contains
 
       !> Adds both ends of a member to the list.
-      subroutine add_pair(name, measure)
+      subroutine add_pair(name, measure, has_points)
          character(*), intent(in) :: name
          type(measure_t), intent(in) :: measure
+         logical, intent(in) :: has_points         !! the member acts at points, unless its measure is a rotation
 
-         call add_end(name, 1, measure%body_i, measure%arm_i)
-         call add_end(name, 2, measure%body_j, measure%arm_j)
+         call add_end(name, 1, measure%body_i, measure%arm_i, has_points .and. measure%kind /= rotation)
+         call add_end(name, 2, measure%body_j, measure%arm_j, has_points .and. measure%kind /= rotation)
       end subroutine add_pair
 
-      !> Adds the end of a member on one body to the list.
-      subroutine add_end(name, side, number, arm)
+      !> Adds the end of a member on one body to the list, with the first hardpoint of the deck at its point.
+      subroutine add_end(name, side, number, arm, has_point)
          character(*), intent(in) :: name
          integer, intent(in) :: side, number
          real(wp), intent(in) :: arm(3)
+         logical, intent(in) :: has_point
          real(wp) :: at(3)
          integer :: p
 
@@ -125,7 +127,7 @@ contains
          at = arm
          if (number > 0) at = at + suspension%bodies(number)%origin
          do p = size(suspension%points), 1, -1
-            if (norm2(suspension%points(p)%at - at) < at_point .and. norm2(arm) > 0.0_wp) ends(n)%point = suspension%points(p)%name
+            if (norm2(suspension%points(p)%at - at) < at_point .and. has_point) ends(n)%point = suspension%points(p)%name
          end do
       end subroutine add_end
 

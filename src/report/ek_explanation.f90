@@ -17,7 +17,7 @@ module ek_explanation
    use ek_page, only: page_t, begin_section, add_text, begin_table, add_cell, add_group, add_bar, end_table, page_number
    implicit none(type, external)
    private
-   public :: explanation_t, find_explanations, add_explanations, parts_of
+   public :: explanation_t, find_explanations, add_explanations, parts_of, percent_text
 
    integer, parameter :: shown = 10      !! largest number of contributions of a column
 
@@ -203,11 +203,27 @@ contains
       if (reads_zero(this%value)) then
          call add_cell(page, '–', 'n')            ! parts that cancel
       else
-         call add_cell(page, page_number(anint(1000.0_wp*part/this%value)/10.0_wp), 'n')
+         call add_cell(page, percent_text(part/this%value), 'n')
       end if
       call add_bar(page, part/most)
       call add_cell(page, this%unit, 's')
    end subroutine add_row
+
+   !> A share in percent, rounded to 0.1 and printed with the digits that this rounding leaves: '44.1', '−0.5', '0'. A share of
+   !> 1e6 % or more, of a value that nearly cancels, has four digits.
+   pure function percent_text(share) result(text)
+      real(wp), intent(in) :: share
+      character(:), allocatable :: text
+      character(16) :: buffer
+
+      text = page_number(100.0_wp*share)
+      if (abs(share) >= 1.0e4_wp) return
+      write (buffer, '(f0.1)') 100.0_wp*abs(share)
+      text = trim(buffer)
+      if (text(1:1) == '.') text = '0'//text
+      if (text == '0.0') text = '0'
+      if (share < 0.0_wp .and. text /= '0') text = '−'//text
+   end function percent_text
 
    !> Whether a number is printed as zero on the page. A row with such a number would show rounding only.
    pure logical function reads_zero(number)

@@ -233,6 +233,7 @@ def summary(rows):
             parts.append(f"{short(worst)} {unit}")
         anchor = heading.lower().replace(" ", "-").replace("/", "")
         lines.append(f"| [{heading}](#{anchor}) | `{test}` | {len(mine)} | {'; '.join(parts)} |")
+    lines.append(f"| all | | {sum(len([row for row in rows if row['program'] == name]) for name, *_ in sources)} | |")
     return lines
 
 
