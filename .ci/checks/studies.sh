@@ -138,6 +138,11 @@ fit_intervals_cover() {
   tests/support/fit_coverage.py build/release/bin/elastokin 200
 }
 
+# Random solves and fits of the library: a sum of squares that does not grow, numbers that are not needed do not move, …
+solve_and_fit_laws() {
+  tests/support/solve_and_fit_laws.py build/release/bin/elastokin 300
+}
+
 # Time of an increment of a whole axle, in units of LAPACK's solution alone; reported without a limit, as the machine may be busy
 bench_of_an_axle() {
   build/release/bin/elastokin bench input/mcpherson_axle/mcpherson_axle.nml --case parallel_travel --quiet \
