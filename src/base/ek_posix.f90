@@ -13,6 +13,7 @@ module ek_posix
    public :: c_access, c_isatty, c_opendir, c_readdir, c_dirfd, c_closedir, c_symlink, c_flock, c_dup, c_dup2, &
       c_close
    public :: c_fork, c_execvp, c_exit_now, c_chdir, c_setpgid, c_alarm, c_kill, c_waitpid, c_poll, c_getcwd_raw, c_readlink
+   public :: c_raise
    public :: c_signal, c_gethostname, c_errno, c_strerror, c_strlen, c_dlsym, c_dladdr, c_time, c_gmtime, c_localtime, c_strftime
 
    ! Only procedures without `value` arguments: gfortran 12 passes these by reference from the second call on
@@ -166,6 +167,10 @@ module ek_posix
          integer(c_long), value :: count
          integer(c_int), value :: milliseconds
       end function c_poll
+      integer(c_int) function c_raise(number) bind(c, name='raise')
+         import :: c_int
+         integer(c_int), value :: number
+      end function c_raise
       type(c_funptr) function c_signal(number, action) bind(c, name='signal')
          import :: c_funptr, c_int
          integer(c_int), value :: number

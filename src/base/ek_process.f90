@@ -1,4 +1,5 @@
-!> Runs another program without a shell, in a given folder and with a time limit.
+!> Runs another program without a shell, in a given folder and with a time limit. A signal that stops this process also stops the
+!> other program.
 module ek_process
    use, intrinsic :: iso_c_binding, only: c_char, c_int, c_loc, c_long, c_null_char, c_null_ptr, c_ptr, c_associated
    use ek_kinds, only: wp
@@ -7,6 +8,7 @@ module ek_process
    use ek_text, only: str
    use ek_posix, only: c_fopen, c_fileno, c_fclose, c_dup2, c_fork, c_execvp, c_exit_now, c_chdir, c_setpgid, c_alarm, &
       c_kill, c_waitpid, c_poll
+   use ek_interrupt, only: begin_wait, stop_signal, end_wait
    use ek_system, only: set_signal, system_reason, error_number, interrupted, sigpipe
    implicit none(type, external)
    private
@@ -19,14 +21,15 @@ contains
    !> Runs a program, which is found in PATH, in `folder`. The output of the program goes to the file `log`; its standard input is
    !> empty.
    !>
-   !> The program and its children form a process group, which is killed at the time limit. If this process itself is killed first,
+   !> The program and its children form a process group, which is killed at the time limit, and when a signal asks this process to
+   !> stop. The caller then removes its temporary files and calls obey_stop (ek_interrupt). If this process itself is killed first,
    !> an alarm ends the program soon after the limit.
    subroutine run_program(words, folder, log, limit, status, trouble)
       type(message_list_t), intent(in) :: words               !! the program and its arguments
       character(*), intent(in) :: folder, log                 !! log: path relative to the current folder
       integer, intent(in) :: limit                            !! s
       integer, intent(out) :: status                          !! exit status; 128 + number of a signal; 127: not started
-      character(:), allocatable, intent(out) :: trouble       !! failure to start the program, or the time limit; '' otherwise
+      character(:), allocatable, intent(out) :: trouble       !! failure to start the program, the time limit or a signal; ''
       character(kind=c_char), allocatable, target :: letters(:)
       type(c_ptr), allocatable :: pointers(:)
       type(c_ptr) :: said, nothing
@@ -44,6 +47,7 @@ contains
       if (.not. (c_associated(said) .and. c_associated(nothing))) then
          trouble = 'cannot write '''//log//''': '//system_reason()
       else
+         call begin_wait()
          process = c_fork()
          if (process == 0) then                                ! from here to execvp only system calls are allowed
             ignored = c_setpgid(0_c_int, 0_c_int)
@@ -62,6 +66,7 @@ contains
             ignored = c_setpgid(process, process)              ! parent and child both set it: whichever runs first
             call wait_for(process, limit, status, trouble)
          end if
+         call end_wait()
       end if
       if (c_associated(said)) ignored = c_fclose(said)
       if (c_associated(nothing)) ignored = c_fclose(nothing)
@@ -110,7 +115,7 @@ contains
             if (error_number() == interrupted) cycle
             return
          end if
-         if (seconds() > deadline) then
+         if (seconds() > deadline .or. stop_signal() /= 0) then
             ignored = c_kill(-process, int(sigkill, c_int))
             do
                found = c_waitpid(process, word, until_then)
@@ -118,6 +123,7 @@ contains
                if (error_number() /= interrupted) exit
             end do
             trouble = 'it did not finish within '//str(limit)//' s and was stopped'
+            if (stop_signal() /= 0) trouble = 'signal '//str(stop_signal())//' has stopped it'
             exit
          end if
          ignored = c_poll(c_null_ptr, 0_c_long, int(nap, c_int))

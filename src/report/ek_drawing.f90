@@ -1,6 +1,6 @@
 !> Runs gnuplot on scripts in a temporary folder, for a limited time. A picture is moved to its folder when all pictures are
 !> complete. If gnuplot fails, hangs or draws nothing, earlier pictures are not replaced and an error is returned. gnuplot
-!> runs with -d: no settings of the user or of the machine affect a picture.
+!> runs with -d and without the environment variables of gnuplot: no settings of the user or of the machine affect a picture.
 module ek_drawing
    use, intrinsic :: iso_c_binding, only: c_null_char
    use ek_error, only: error_t, message_list_t, fail, exit_file
@@ -9,6 +9,7 @@ module ek_drawing
    use ek_system, only: facts_of, regular_file, unknown_file, facts_t, folder_names, working_folder, system_reason
    use ek_writer, only: scratch_t, begin_scratch, end_scratch, move_file
    use ek_process, only: run_program
+   use ek_interrupt, only: obey_stop
    use ek_file, only: read_whole, join_path, program_exists, file_exists
    use ek_gnuplot_text, only: gnuplot_text
    implicit none(type, external)
@@ -109,6 +110,7 @@ contains
          if (allocated(error)) trouble = error%message
       end do
       call end_scratch(scratch)
+      call obey_stop()
    end subroutine take_pictures
 
    !> Runs gnuplot on scripts in a scratch folder, in the locale C.UTF-8: gnuplot rejects the degree sign in the locale C, and other
@@ -119,7 +121,10 @@ contains
       type(message_list_t), intent(in) :: scripts         !! paths relative to the folder
       character(*), intent(in) :: folder
       character(:), allocatable, intent(out) :: trouble   !! '' if gnuplot succeeded
-      character(14), parameter :: first(5) = [character(14) :: 'env', 'LC_ALL=C.UTF-8', 'gnuplot', '-d', '-e']
+      ! GNUTERM is a command of gnuplot that fails where the terminal is missing
+      character(24), parameter :: first(*) = [character(24) :: 'env', '-u', 'GNUTERM', '-u', 'FIT_LOG', '-u', 'FIT_SCRIPT', &
+         '-u', 'GNUPLOT_LIB', '-u', 'GNUPLOT_DEFAULT_GDFONT', '-u', 'GNUPLOT_FONTPATH', '-u', 'GNUPLOT_DRIVER_DIR', &
+         'LC_ALL=C.UTF-8', 'gnuplot', '-d', '-e']
       type(message_list_t) :: command
       type(error_t), allocatable :: unread
       character(:), allocatable :: log

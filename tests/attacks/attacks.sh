@@ -221,6 +221,38 @@ gnuplot_that_hangs() {
   EK_GNUPLOT_SECONDS=2 PATH=$PWD/bin:$PATH run 5 "$program" report "$tiny" --out out && says 'did not finish within 2 s' &&
     grep -q 'did not finish within 2 s' out/report.html && clean out && ! pgrep -f "$PWD/bin/gnuplot" >/dev/null
 }
+signals_while_gnuplot_hangs() { # report and run end by the signal, a study in order; none leaves gnuplot or a temporary file
+  fake_gnuplot 'trap "" TERM INT HUP; sleep 300 & wait; sleep 300'
+  cat >study.nml <<END
+&study name = 's', kind = 'grid', levels = 3, deck = '$tiny', case = 'sweep', plot = 'none.gp' /
+&factor name = 'rate', path = 'spring.coil.rate', lower = 20, upper = 40 /
+&response name = 'travel', column = 'wheel_travel_mm', at = 100 /
+END
+  local command signal k began status
+  for command in "report $tiny" "run $tiny --plot" 'study study.nml'; do
+    for signal in TERM INT HUP QUIT USR1 XCPU; do
+      rm -rf out
+      # shellcheck disable=SC2086
+      PATH=$PWD/bin:$PATH setsid python3 -c 'import os, signal, sys
+for number in range(1, 32):
+    if number not in (9, 19): signal.signal(number, signal.SIG_DFL)
+os.execv(sys.argv[1], sys.argv[1:])' "$program" $command --out out >out.txt 2>said.txt &
+      for k in $(seq 100); do pgrep -f "$PWD/bin/gnuplot" >/dev/null && break; sleep 0.1; done
+      began=$(date +%s)
+      kill -"$signal" $!
+      wait $! 2>/dev/null
+      status=$?
+      [ $(($(date +%s) - began)) -le 3 ] || { echo "$command: $signal was not heard"; return 1; }
+      if [ "$command" = 'study study.nml' ]; then
+        [ $status -eq 5 ] && says 'has stopped it' && [ -s out/s_responses.csv ] || { echo "$command: status $status"; cat said.txt; return 1; }
+      else
+        [ $status -eq $((128 + $(kill -l $signal))) ] || { echo "$command: status $status after $signal"; return 1; }
+      fi
+      pgrep -f "$PWD/bin/gnuplot" >/dev/null && { echo "$command: gnuplot is left running"; return 1; }
+      clean out || return 1
+    done
+  done
+}
 page_is_there_while_gnuplot_hangs() {
   fake_gnuplot 'sleep 20'
   PATH=$PWD/bin:$PATH "$program" report "$tiny" --out out >out.txt 2>said.txt &
@@ -509,7 +541,7 @@ all=(line_end_in_a_title line_end_in_a_test line_end_in_a_file test_that_leaves_
   file_with_a_whole_path column_that_leaves_the_folder column_with_a_quote pipe_in_a_report endless_table_in_a_report
   link_under_a_temporary_name link_under_the_name_of_a_result link_that_looks_stale pipe_under_the_name_of_a_result
   cdpath_leads_elsewhere control_characters_of_a_deck settings_of_a_user words_for_a_shell_in_a_path commands_in_a_title
-  bomb_of_includes endless_include endless_files files_that_are_too_large derivatives_of_everything gnuplot_that_hangs page_is_there_while_gnuplot_hangs gnuplot_that_draws_nothing
+  bomb_of_includes endless_include endless_files files_that_are_too_large derivatives_of_everything gnuplot_that_hangs signals_while_gnuplot_hangs page_is_there_while_gnuplot_hangs gnuplot_that_draws_nothing
   gnuplot_that_draws_half gnuplot_that_fails limit_of_a_file_size shared_memory_is_no_device pictures_beyond_a_file_size
   full_disk no_more_files folder_that_cannot_be_written two_containers_with_one_pid two_runs_in_one_folder
   reader_that_goes_away streams_that_are_closed leavings_of_dead_runs study_that_is_killed
