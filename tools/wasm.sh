@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # wasm.sh [sources | runtime | program]: compiles elastokin to WebAssembly: build/wasm/elastokin.wasm, one file that runs in any browser
-# and in every WASI program, and build/wasm/elastokin.html, a page with all of it that opens without a server and without a network.
+# and in every WASI program, build/wasm/elastokin.html, a page with all of it that opens without a server and without a network, and a
+# Python wheel with the command line for every system.
 #
 # Uses the compilers of Debian (packaging/wasm/versions.sh), and the sources of the Fortran runtime and of LAPACK. These are downloaded
 # from the archive that apt uses, examined by their SHA-256, and unpacked in a cache: EK_WASM_CACHE, by default
@@ -173,3 +174,5 @@ said "$folder/elastokin.wasm: $(stat -c %s "$folder/elastokin.wasm") bytes, comp
 [ "$last" != program ] || exit 0
 EK_LLVM=$cache/llvm-${llvm_sum:0:12} EK_LAPACK=$cache/lapack-${lapack_sum:0:12} "$kit/make_page.py" "$folder"
 said "$folder/elastokin.html: $(stat -c %s "$folder/elastokin.html") bytes"
+"$kit/make_wheel.py" "$folder" >"$folder/wheel.txt"
+said "$(cat "$folder/wheel.txt"): $(stat -c %s "$(cat "$folder/wheel.txt")") bytes"

@@ -8,7 +8,7 @@ wasm_toolchain() {
   export EK_WASM_RUNTIME=$top/build/wasm/support
   rm -rf "$work"
   mkdir -p "$work/native" "$work/wasm" || return 1
-  (cd "$work/native" && flang-22 -O1 -o language "$top/tests/wasm/language.f90" && EK_TEST=abcd ./language one >../native.txt; [ $? -eq 3 ]) ||
+  (cd "$work/native" && flang-22 -O1 -o language "$top/tests/wasm/language.f90" && ulimit -s unlimited && EK_TEST=abcd ./language one >../native.txt; [ $? -eq 3 ]) ||
     { echo "the native test program did not end with status 3"; return 1; }
   (cd "$work" && "$compiler" -O2 -o language.wasm "$top/tests/wasm/language.f90" &&
     "$compiler" -O2 -o linear_algebra.wasm "$top/tests/wasm/linear_algebra.f90" "$EK_WASM_RUNTIME/liblapack.a") || return 1
@@ -17,8 +17,29 @@ wasm_toolchain() {
   diff "$work/native.txt" "$work/wasm.txt" || return 1
   [ $status -eq 3 ] || { echo "the test program ended with status $status, not 3"; return 1; }
   node packaging/wasm/run.mjs "$work/linear_algebra.wasm" "$work/wasm" || return 1
-  printf '%s\n' 'module m' 'implicit none' 'type :: t' 'procedure(), pointer, nopass :: p => null()' 'end type' 'end module' >"$work/pointer.f90"
-  (cd "$work" && "$compiler" -c pointer.f90 2>&1) | grep 'has a procedure pointer' || { echo "accepted: a procedure pointer"; return 1; }
+  printf '%s\n' 'module m' 'implicit none' 'type :: t' 'procedure(), pointer, nopass :: p => null()' 'end type' 'type(t) :: x' 'end module' >"$work/pointer.f90"
+  (cd "$work" && ! "$compiler" -c pointer.f90 2>pointer.txt && grep 'has a procedure pointer' pointer.txt) ||
+    { echo "accepted: a procedure pointer"; return 1; }
+}
+
+# The wheel in an empty Python environment: installed, compared with the native program, without a cache that can be written, and
+# wasmtime for other systems
+wasm_wheel() {
+  local folder=$logs/venv_wasm wheel
+  wheel=$(ls build/wasm/elastokin_wasm-*-py3-none-any.whl) || return 1
+  rm -rf "$folder" "$logs/wasm_wheel"
+  if ! python3 -m venv "$folder" || ! "$folder/bin/pip" install --quiet --disable-pip-version-check "$wheel"; then
+    echo "remark: the wheel was not tried, wasmtime could not be installed from PyPI"
+    return
+  fi
+  python3 tests/wasm/compare_programs.py build/release/bin/elastokin "$folder/bin/elastokin" "$logs/wasm_wheel" | tee "$logs/wasm_wheel.txt"
+  [ "${PIPESTATUS[0]}" -eq 0 ] || return 1
+  echo "remark: $(tail -n 1 "$logs/wasm_wheel.txt")"
+  EK_CACHE=/dev/null/nowhere "$folder/bin/elastokin" --version 2>&1 | grep 'cannot be stored' || return 1
+  # Ctrl-C ends it while it computes
+  EK_CACHE=$logs/wasm_wheel/cache timeout --kill-after=10 --signal=INT 5 "$folder/bin/elastokin" run input/mcpherson_axle/mcpherson_axle.nml \
+    --increments 100000 --out "$logs/wasm_wheel/long" --quiet
+  [ $? -eq 124 ] || { echo "an interrupt did not end the program of the wheel"; return 1; }
 }
 
 # elastokin.wasm and elastokin.html by tools/wasm.sh; both against the native program, in node and in Chromium
@@ -34,6 +55,7 @@ wasm() {
   python3 tests/wasm/compare_programs.py build/release/bin/elastokin build/wasm/elastokin.wasm "$logs/wasm_node" | tee "$logs/wasm_node.txt"
   [ "${PIPESTATUS[0]}" -eq 0 ] || wrong=1
   echo "remark: $(tail -n 1 "$logs/wasm_node.txt")"
+  wasm_wheel || wrong=1
   if ! command -v chromium >/dev/null && ! tools/setup.sh chromium; then
     echo "remark: the page was not opened, chromium could not be installed"
     return $wrong

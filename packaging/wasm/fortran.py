@@ -63,12 +63,13 @@ def compile_file(arguments, source, target, signatures):
     run(*flang, arguments.level, *arguments.for_flang, "-S", "-emit-llvm", source, "-o", str(x86))
     try:
         wasm.write_text(retarget(x86.read_text(), signatures))
+        run(*clang, arguments.level, *arguments.for_clang, "-c", "-x", "ir", str(wasm), "-o", target)
     except Unsupported as reason:
         sys.exit(f"{source}: cannot be compiled for WebAssembly: {reason}")
-    run(*clang, arguments.level, *arguments.for_clang, "-c", "-x", "ir", str(wasm), "-o", target)
-    if not os.environ.get("EK_WASM_KEEP"):
-        x86.unlink()
-        wasm.unlink()
+    finally:
+        if not os.environ.get("EK_WASM_KEEP"):
+            x86.unlink()
+            wasm.unlink(missing_ok=True)
 
 
 def main(words):

@@ -228,6 +228,10 @@ contains
          joined = joined//trim(list(k))//','
       end do
       write (*, '(a,1x,i0)') joined, len(joined)
+      do k = 1, 6000     ! in all 18 MB, if the room for a string inside `if` were not used again
+         if (k > 0) joined = joined//'x'
+      end do
+      write (*, '(a,1x,i0)') 'grown', len(joined)
       write (*, '(a,*(1x,i0))') 'found', index('hello', 'l', .true.), scan('abc', 'c'), verify('aab', 'a'), len(repeat('x', 3))
       call get_command_argument(1, line)
       write (*, '(a,i0,1x,a)') 'arguments ', command_argument_count(), trim(line)

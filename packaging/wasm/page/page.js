@@ -138,7 +138,12 @@ async function readFiles(list) {
 
 // [path, File] of all that was dropped, with the files of folders
 async function dropped(items) {
-  const found = [], entries = [...items].map((item) => item.webkitGetAsEntry?.()).filter(Boolean);
+  const found = [], entries = [];
+  for (const item of items) {     // both are asked for at once: the list is emptied when this procedure waits
+    const entry = item.webkitGetAsEntry?.(), file = item.getAsFile?.();
+    if (entry) entries.push(entry);
+    else if (file) found.push([file.name, file]);
+  }
   const visit = async (entry, path) => {
     if (entry.isFile) found.push([path, await new Promise((resolve, reject) => { entry.file(resolve, reject); })]);
     else {

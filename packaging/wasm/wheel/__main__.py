@@ -1,0 +1,4 @@
+"""python -m elastokin_wasm: the command line."""
+from elastokin_wasm import main
+
+main()
