@@ -92,14 +92,15 @@ contains
             call add_number(statistics%low(f), csv)
             call add_number(statistics%high(f), csv)
             call add_number(statistics%half_alone(f), csv)
-            call csv%line(','//trim(merge('1', '0', statistics%is_learned(f)))//','//note_of(found, statistics, f))
+            call csv%line(','//trim(merge('1', '0', statistics%is_learned(f)))//','//note_of(problem, found, statistics, f))
          end associate
       end do
       text = csv%text()
    end function factors_csv
 
    !> A note on the value or the interval of a factor; '' if there is nothing to note.
-   function note_of(found, statistics, f) result(note)
+   function note_of(problem, found, statistics, f) result(note)
+      type(fit_problem_t), intent(in) :: problem
       type(fit_result_t), intent(in) :: found
       type(fit_statistics_t), intent(in) :: statistics
       integer, intent(in) :: f
@@ -108,6 +109,7 @@ contains
       note = ''
       if (.not. statistics%has_effect(f)) then
          note = 'no effect on the targets: keeps its value'
+         if (is_given(problem%variables(f)%deviation)) note = 'no effect on the targets: has the value of its prior'
       else if (found%is_kept(f)) then
          note = 'not determined: keeps its value'
       else if (statistics%is_held_by_bound(f)) then

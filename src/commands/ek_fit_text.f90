@@ -3,6 +3,7 @@ module ek_fit_text
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
    use ek_text, only: str, plural
+   use ek_noise, only: is_noise, solved
    use ek_buffer, only: buffer_t
    use ek_bounded_search, only: gain_is_small, step_is_small
    use ek_parameter, only: choice_t
@@ -74,6 +75,8 @@ contains
       end if
       if (.not. any(statistics%has_effect)) then
          call text%line('no factor has an effect on the targets')
+      else if (size(statistics%singular) == 0) then
+         call text%line('rank 0 of '//plural(size(found%x), 'factor', 'factors')//': all limits are satisfied')
       else
          call text%line('rank '//str(statistics%rank)//' of '//plural(size(found%x), 'factor', 'factors')//'; singular values '// &
             str(maxval(statistics%singular), 4)//' to '//str(minval(statistics%singular), 4))
@@ -102,7 +105,8 @@ contains
                before = before + (difference_of(point, found%before(k))*point%deviation)**2
                after = after + (difference_of(point, found%after(k))*point%deviation)**2
                many = many + 1
-               if (.not. is_given(point%value) .and. abs(difference_of(point, found%after(k))) > 0.0_wp) beyond = beyond + 1
+               if (.not. is_given(point%value) .and. .not. is_noise(difference_of(point, found%after(k))*point%deviation, &
+                  problem%wanted(k)%heading, found%after(k), solved)) beyond = beyond + 1
             end associate
          end do
          if (many == 0) then
@@ -128,7 +132,7 @@ contains
       call text%line('factor'//repeat(' ', name_width - 6)//'       start        result   95 % confidence')
       do f = 1, size(problem%variables)
          associate (this => problem%variables(f))
-            confidence = note_of(found, statistics, f)
+            confidence = note_of(problem, found, statistics, f)
             if (found%held(f) /= 0) then
                confidence = 'at its '//trim(merge('lower', 'upper', found%held(f) < 0))//' bound; '//confidence
                if (statistics%low(f) < statistics%high(f) .and. ieee_is_finite(statistics%half(f))) confidence = confidence// &

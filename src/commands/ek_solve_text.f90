@@ -60,7 +60,8 @@ contains
          integer, intent(in) :: j
          character(:), allocatable :: words
          words = ''
-         if (.not. found%is_reached(j)) words = ', wanted '//str(search%targets(j), 9)
+         if (.not. found%is_reached(j) .or. (found%is_fixed(j) .and. str(search%targets(j), 9) /= str(found%after(j), 9))) &
+            words = ', wanted '//str(search%targets(j), 9)
       end function wanted_text
 
    end subroutine add_findings

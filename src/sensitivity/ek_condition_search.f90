@@ -40,7 +40,8 @@ module ek_condition_search
 
    real(wp), parameter :: close = 1.0e-7_wp         !! deviation that counts as satisfied, as a share of `reach`
    real(wp), parameter :: closest = 1.0e-9_wp       !! deviation at which a search ends, as a share of `reach`
-   real(wp), parameter :: unnoticed = 0.1_wp        !! `slack`, as a share of the noticeable change and of the weight
+   real(wp), parameter :: unnoticed = 0.5_wp        !! `slack`, as a share of the noticeable change and of the weight: a value that
+                                                    !! was rounded to the noticeable change is met
    real(wp), parameter :: stiff = 1.0e5_wp          !! weight of the conditions against the length of a change
 
 contains

@@ -22,8 +22,8 @@ module ek_fit_factors
 
    real(wp), parameter :: rounding = 1.0e-9_wp       !! difference of sums of squares that is no difference, as a share of the sum
                                                      !! at the start
-   real(wp), parameter :: small = 0.05_wp            !! limit of the same difference, as a share of the smallest sum, if no target gives
-                                                     !! its deviation: the scatter of few numbers is hardly known
+   real(wp), parameter :: small = 0.05_wp            !! limit of the same difference, as a share of the smallest sum, if no target
+                                                     !! gives its deviation: the scatter of few numbers is hardly known
 
 contains
 
@@ -86,7 +86,7 @@ contains
       found%sweeps = values%sweeps
    end subroutine fit_factors
 
-   !> Replaces the error of a target without a value by messages on swept values outside the ranges of the cases, one for each target.
+   !> Replaces the error of a target without a value by messages on swept values outside the ranges of the cases, one per target.
    subroutine check_ranges(fit, problem, values, workspace, error)
       type(fit_t), intent(in) :: fit
       type(fit_problem_t), intent(in) :: problem

@@ -48,14 +48,15 @@ contains
       type(singular_values_t) :: parts
       integer, allocatable :: rows(:), seen(:)
       real(wp), allocatable :: a(:, :), covariance(:, :), step(:)
-      logical, allocatable :: is_fitted(:), is_unseen(:)
+      logical, allocatable :: is_fitted(:)
       integer :: f, k, n
 
       associate (variables => problem%variables, points => problem%points)
          n = size(variables)
          rows = pack([(k, k=1, size(points))], [(is_at_work(points(k), found%after(k)), k=1, size(points))])
-         statistics%has_effect = [(any(abs(found%jacobian(rows, f)) > 0.0_wp), f=1, n)]
-         seen = pack([(f, f=1, n)], statistics%has_effect)
+         statistics%has_effect = [(any(abs(found%jacobian(:, f)) > 0.0_wp), f=1, n)]
+         ! a satisfied limit says nothing
+         seen = pack([(f, f=1, n)], [(any(abs(found%jacobian(rows, f)) > 0.0_wp) .or. is_given(variables(f)%deviation), f=1, n)])
          allocate (statistics%half(n), statistics%half_alone(n), source=ieee_value(1.0_wp, ieee_positive_inf))
          allocate (statistics%is_learned(n), statistics%is_held_by_bound(n), source=.false.)
          allocate (statistics%correlation(n, n), source=0.0_wp)
@@ -75,30 +76,10 @@ contains
                statistics%quantile = student_quantile(0.975_wp, statistics%freedom)
             end if
          end if
+         call find_alone(problem, found, rows, statistics)
          allocate (a(size(rows) + size(seen), size(seen)), source=0.0_wp)
          do f = 1, size(seen)
             a(:size(rows), f) = found%jacobian(rows, seen(f))/points(rows)%deviation*statistics%width(seen(f))
-         end do
-         call decompose(a(:size(rows), :), rank_share, parts, wants_null_space=.true., wants_left=.false.)
-         statistics%singular = parts%values
-         statistics%rank = parts%rank
-         call covariance_of(parts, covariance)
-         do f = 1, size(seen)
-            associate (alone => statistics%half_alone(seen(f)))
-               alone = half(covariance(f, f), statistics%width(seen(f)))
-               statistics%is_learned(seen(f)) = ieee_is_finite(covariance(f, f))
-               if (ieee_is_finite(alone)) statistics%is_learned(seen(f)) = alone <= statistics%width(seen(f))
-            end associate
-         end do
-         ! a direction is unseen if its interval is wider than what was possible before
-         is_unseen = [(k > parts%rank, k=1, size(seen))]
-         do k = 1, parts%rank
-            is_unseen(k) = statistics%quantile*statistics%sigma > parts%values(k)
-         end do
-         allocate (statistics%unseen(n, count(is_unseen)), source=0.0_wp)
-         statistics%unseen(seen, :) = spread(statistics%width(seen), 2, count(is_unseen))* &
-            parts%right(:, pack([(k, k=1, size(seen))], is_unseen))
-         do f = 1, size(seen)
             if (is_given(variables(seen(f))%deviation)) a(size(rows) + f, f) = &
                statistics%width(seen(f))/variables(seen(f))%deviation
             ! a factor that is not determined is somewhere within its width
@@ -107,7 +88,7 @@ contains
          call decompose(a, rank_share, parts, wants_null_space=.true., wants_left=.false.)
          call covariance_of(parts, covariance)
          do f = 1, size(seen)
-            statistics%half(seen(f)) = half(covariance(f, f), statistics%width(seen(f)))
+            statistics%half(seen(f)) = half_of(statistics, covariance(f, f), statistics%width(seen(f)))
             if (found%is_kept(seen(f))) statistics%half(seen(f)) = statistics%half_alone(seen(f))
             do k = 1, size(seen)
                if (ieee_is_finite(covariance(f, f)) .and. ieee_is_finite(covariance(k, k))) statistics%correlation(seen(f), &
@@ -117,18 +98,54 @@ contains
          call free_step(problem, found, rows, seen, a, parts, step)
          call find_intervals(problem, found, seen, step, statistics)
       end associate
-
-   contains
-
-      !> Half width of the 95 % interval of a factor, in the unit of the factor.
-      pure real(wp) function half(variance, width)
-         real(wp), intent(in) :: variance, width
-         half = variance
-         if (ieee_is_finite(variance)) half = statistics%quantile*statistics%sigma*sqrt(variance)*width
-         if (.not. statistics%knows_sigma) half = ieee_value(1.0_wp, ieee_positive_inf)
-      end function half
-
    end subroutine find_statistics
+
+   !> Computes what the targets alone determine: rank, intervals, and unseen combinations of the factors with an effect.
+   subroutine find_alone(problem, found, rows, statistics)
+      type(fit_problem_t), intent(in) :: problem
+      type(fit_result_t), intent(in) :: found
+      integer, intent(in) :: rows(:)                       !! points that have a target value or exceed a limit
+      type(fit_statistics_t), intent(inout) :: statistics
+      type(singular_values_t) :: parts
+      real(wp), allocatable :: a(:, :), covariance(:, :)
+      logical, allocatable :: is_unseen(:)
+      integer, allocatable :: seen(:)
+      integer :: f, k
+
+      seen = pack([(f, f=1, size(found%x))], [(any(abs(found%jacobian(rows, f)) > 0.0_wp), f=1, size(found%x))])
+      allocate (a(size(rows), size(seen)))
+      do f = 1, size(seen)
+         a(:, f) = found%jacobian(rows, seen(f))/problem%points(rows)%deviation*statistics%width(seen(f))
+      end do
+      call decompose(a, rank_share, parts, wants_null_space=.true., wants_left=.false.)
+      statistics%singular = parts%values
+      statistics%rank = parts%rank
+      call covariance_of(parts, covariance)
+      do f = 1, size(seen)
+         associate (alone => statistics%half_alone(seen(f)))
+            alone = half_of(statistics, covariance(f, f), statistics%width(seen(f)))
+            statistics%is_learned(seen(f)) = ieee_is_finite(covariance(f, f))
+            if (ieee_is_finite(alone)) statistics%is_learned(seen(f)) = alone <= statistics%width(seen(f))
+         end associate
+      end do
+      ! a direction is unseen if its interval is wider than what was possible before
+      is_unseen = [(k > parts%rank, k=1, size(seen))]
+      do k = 1, parts%rank
+         is_unseen(k) = statistics%quantile*statistics%sigma > parts%values(k)
+      end do
+      allocate (statistics%unseen(size(found%x), count(is_unseen)), source=0.0_wp)
+      statistics%unseen(seen, :) = spread(statistics%width(seen), 2, count(is_unseen))* &
+         parts%right(:, pack([(k, k=1, size(seen))], is_unseen))
+   end subroutine find_alone
+
+   !> Half width of the 95 % interval of a factor, in the unit of the factor; infinite if it is unknown.
+   pure real(wp) function half_of(statistics, variance, width) result(half)
+      type(fit_statistics_t), intent(in) :: statistics
+      real(wp), intent(in) :: variance, width
+      half = variance
+      if (ieee_is_finite(variance)) half = statistics%quantile*statistics%sigma*sqrt(variance)*width
+      if (.not. statistics%knows_sigma) half = ieee_value(1.0_wp, ieee_positive_inf)
+   end function half_of
 
    !> Computes half the width of the range of each factor before the fit.
    pure subroutine find_widths(problem, found, statistics)
