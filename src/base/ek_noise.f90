@@ -128,7 +128,7 @@ contains
       is_lost = abs(term) <= epsilon(whole)*whole
    end function is_lost
 
-   !> Extends the limits of a result by noise, so that a value which touches a limit is inside. Limits that are not given
+   !> Moves the limits of a result outward by noise, so that a value which touches a limit is inside. Limits that are not given
    !> (-huge, huge) are unchanged.
    pure subroutine widen(column, tolerance, lower, upper)
       character(*), intent(in) :: column        !! column heading of the result

@@ -6,6 +6,7 @@ module ek_compare_targets
    use ek_error, only: message_list_t
    use ek_decimal, only: get_decimal
    use ek_deck_file, only: deck_record_t
+   use ek_number_words, only: is_in_band
    use ek_report_files, only: results_t
    use ek_page, only: page_t, add_text, begin_table, add_cell, end_table, page_number
    implicit none(type, external)
@@ -87,7 +88,7 @@ contains
             if (value /= number) value = value//' / '//number
             if (.not. any(is_given)) cycle
             if (verdict == '') verdict = 'inside'
-            if (row%value < limits(1) .or. row%value > limits(2)) verdict = 'outside'
+            if (.not. is_in_band(row%value, limits, trim(row%unit))) verdict = 'outside'
          end associate
       end do
       if (value == '') value = '–'

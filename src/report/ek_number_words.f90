@@ -2,11 +2,13 @@
 module ek_number_words
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
+   use ek_noise, only: is_within, solved
+   use ek_quantity, only: all_quantities, unit_of, unit_text
    use ek_key_number, only: key_number_t, anti_phase
    use ek_page, only: page_number
    implicit none(type, external)
    private
-   public :: steer_effect, target_verdict, mean_value, short_name, is_equal, is_opposite, sides_text
+   public :: steer_effect, target_verdict, is_in_band, mean_value, short_name, is_equal, is_opposite, sides_text
 
    character(*), parameter :: fitted = ' (fitted)'
 
@@ -56,6 +58,7 @@ contains
    pure function target_verdict(number) result(verdict)
       type(key_number_t), intent(in) :: number
       character(7) :: verdict
+      character(:), allocatable :: unit
       real(wp) :: values(2)
       integer :: k
 
@@ -63,12 +66,30 @@ contains
       values = [number%left, number%right]
       if (number%is_of_axle) values(2) = values(1)
       if (.not. number%has_target .or. .not. any(ieee_is_finite(values))) return
+      unit = ''
+      if (allocated(number%unit)) unit = number%unit
       verdict = 'inside'
       do k = 1, 2
          if (.not. ieee_is_finite(values(k))) cycle
-         if (values(k) < number%target(1) .or. values(k) > number%target(2)) verdict = 'outside'
+         if (.not. is_in_band(values(k), number%target, unit)) verdict = 'outside'
       end do
    end function target_verdict
+
+   !> Whether a value satisfies the limits of a band. A value that touches a limit but for rounding noise (ek_noise) is inside.
+   pure logical function is_in_band(value, limits, unit)
+      real(wp), intent(in) :: value
+      real(wp), intent(in) :: limits(2)             !! lower and upper limit, ∓huge if not given
+      character(*), intent(in) :: unit              !! unit of value and limits as a label: 'deg/m'
+      character(:), allocatable :: column
+      integer :: k
+
+      column = 'unknown'
+      do k = 1, size(all_quantities)                ! a column in this unit
+         if (unit_text(unit_of(trim(all_quantities(k)%name))) == unit) column = trim(all_quantities(k)%name)
+         if (column /= 'unknown') exit
+      end do
+      is_in_band = is_within(value, limits(1), limits(2), column, solved)
+   end function is_in_band
 
    !> The quantity of a key number, with an initial capital, and without ' (fitted)', the suffix of a fitted slope.
    function short_name(number) result(name)
