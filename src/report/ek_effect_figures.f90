@@ -4,7 +4,7 @@ module ek_effect_figures
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
    use ek_text, only: str
-   use ek_study_data, only: study_data_t, effects_t, basis_text, range_of_values, is_geometric, tic_step
+   use ek_study_data, only: study_data_t, effects_t, basis_text, range_of_values, is_geometric, tic_step, looks_flat
    use ek_study_sheet, only: sheet_t, new_sheet, begin_data, add_numbers, end_data, begin_panels, begin_panel, end_panels, blues, &
       add_point_names, names_plot
    implicit none(type, external)
@@ -95,14 +95,14 @@ contains
       text = end_panels(sheet)
    end function line_script
 
-   !> The range of some values as a gnuplot range: '[low:high]'. A range without a span is extended upward.
+   !> The range of some values as a gnuplot range: '[low:high]'. A range without a visible span is extended upward.
    pure function bounds(values) result(text)
       real(wp), intent(in) :: values(:)
       character(:), allocatable :: text
       real(wp) :: range(2)
 
       range = range_of_values(values)
-      if (.not. range(2) > range(1)) range(2) = range(1) + max(1.0e-6_wp, abs(range(1)))
+      if (looks_flat(range)) range(2) = range(1) + max(1.0e-6_wp, abs(range(1)))
       text = '['//str(range(1), 7)//':'//str(range(2), 7)//']'
    end function bounds
 

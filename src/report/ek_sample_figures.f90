@@ -4,7 +4,7 @@ module ek_sample_figures
    use ek_kinds, only: wp
    use ek_text, only: str
    use ek_gnuplot_text, only: gnuplot_text
-   use ek_study_data, only: study_data_t, range_of_values, is_geometric, tic_step, has_expected
+   use ek_study_data, only: study_data_t, summary_t, range_of_values, is_geometric, tic_step, has_expected, looks_flat
    use ek_study_sheet, only: sheet_t, new_sheet, begin_data, add_numbers, end_data, begin_panels, begin_panel, end_panels, &
       full_height, blues
    implicit none(type, external)
@@ -140,7 +140,6 @@ contains
       type(sheet_t) :: sheet
       character(:), allocatable :: line
       real(wp) :: width, room, ends(2)
-      logical :: has_scatter
       integer :: p, r, k
 
       sheet = new_sheet(name, 'Distribution of the responses', subtitle// &
@@ -153,6 +152,7 @@ contains
             call begin_data(sheet, 'bins'//str(r))
             if (summary%used == 0) call add_numbers(sheet, [0.0_wp, 0.0_wp, 1.0_wp])
             width = (summary%highest - summary%lowest)/size(summary%counts)
+            if (.not. has_scatter(summary)) width = 0.0_wp
             if (summary%used > 0 .and. .not. width > 0.0_wp) call add_numbers(sheet, [summary%lowest, real(summary%used, wp), &
                0.02_wp*room_of_constant(summary%lowest)])
             do k = 1, merge(size(summary%counts), 0, summary%used > 0 .and. width > 0.0_wp)
@@ -168,8 +168,7 @@ contains
          associate (summary => study%summaries(r), response => study%responses(r))
             call begin_panel(sheet, p, '', response%label, 'designs')
             call sheet%text%line('unset arrow; unset label 3; unset label 4; unset label 5')
-            has_scatter = summary%highest > summary%lowest
-            do k = merge(1, 2, has_scatter), merge(3, 2, has_scatter)
+            do k = merge(1, 2, has_scatter(summary)), merge(3, 2, has_scatter(summary))
                call add_mark(sheet, k, summary%percentiles(2*k - 1), '')
                line = merge(' 5 %', '50 %', k == 1)
                if (k == 3) line = '95 %'
@@ -183,7 +182,7 @@ contains
             ! room for the limits, unless they are far away
             ends = [summary%lowest, summary%highest]
             room = ends(2) - ends(1)
-            if (.not. has_scatter) room = room_of_constant(ends(1))
+            if (.not. has_scatter(summary)) room = room_of_constant(ends(1))
             if (response%lower < ends(1) .and. response%lower > ends(1) - room) ends(1) = response%lower
             if (response%upper > ends(2) .and. response%upper < ends(2) + room) ends(2) = response%upper
             call sheet%text%line('set xrange ['//str(ends(1) - 0.06_wp*room, 9)//':'//str(ends(2) + 0.06_wp*room, 9)// &
@@ -196,6 +195,12 @@ contains
       text = end_panels(sheet)
    end function histogram_script
 
+   !> Whether a histogram can show the scatter of a response.
+   pure logical function has_scatter(summary)
+      type(summary_t), intent(in) :: summary
+      has_scatter = .not. looks_flat([summary%lowest, summary%highest])
+   end function has_scatter
+
    !> The height of the highest bar of a histogram, or of the density drawn over it if that is higher; 1 without designs.
    pure real(wp) function highest(study, r)
       type(study_data_t), intent(in) :: study
@@ -205,7 +210,7 @@ contains
       integer :: k
 
       associate (summary => study%summaries(r))
-         highest = max(1, merge(maxval(summary%counts), summary%used, summary%highest > summary%lowest))
+         highest = max(1, merge(maxval(summary%counts), summary%used, has_scatter(summary)))
          if (.not. has_density(study, r)) return
          do k = -60, 60
             z = step*k
@@ -222,7 +227,7 @@ contains
 
       has_density = allocated(study%moments)
       if (has_density) has_density = study%moments(2, r)%deviation > 0.0_wp .and. &
-         study%summaries(r)%highest > study%summaries(r)%lowest
+         has_scatter(study%summaries(r))
    end function has_density
 
    !> The height of the normal density at its mean, in designs per bar of the histogram.

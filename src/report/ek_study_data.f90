@@ -8,7 +8,7 @@ module ek_study_data
    implicit none(type, external)
    private
    public :: study_data_t, study_axis_t, summary_t, effects_t, extreme_t, moment_row_t, percents, methods, basis_text
-   public :: range_of_values, is_geometric, tic_step, has_indices, has_expected, yield_interval
+   public :: range_of_values, is_geometric, tic_step, has_indices, has_expected, yield_interval, looks_flat
 
    integer, parameter :: percents(5) = [5, 25, 50, 75, 95]      !! percentiles of a summary and of a band
 
@@ -172,6 +172,14 @@ contains
          maxval(values, mask=ieee_is_finite(values))]
    end function range_of_values
 
+   !> Whether two ends of a range are equal, or so close that the seven digits of a figure do not show their difference. gnuplot
+   !> refuses an axis with such a range.
+   pure logical function looks_flat(range)
+      real(wp), intent(in) :: range(2)                 !! smallest and largest value
+      real(wp), parameter :: shown = 1.0e-6_wp         ! share of the value: the seventh digit differs
+      looks_flat = range(2) - range(1) <= shown*max(abs(range(1)), abs(range(2)))
+   end function looks_flat
+
    !> Whether positive values span a factor of 4 or more and are spaced by equal ratios rather than equal steps, judged by their
    !> median.
    pure logical function is_geometric(values)
@@ -187,7 +195,8 @@ contains
       is_geometric = 2*count(values < 0.42_wp*(low + high)) >= size(values)
    end function is_geometric
 
-   !> A step between tics, as a string, that puts about four tics on an axis; 'autofreq' if all values are equal.
+   !> A step between tics, as a string, that puts about four tics on an axis; 'autofreq' if all values are equal
+   !> in a figure.
    pure function tic_step(values) result(text)
       real(wp), intent(in) :: values(:)
       character(:), allocatable :: text
@@ -195,7 +204,7 @@ contains
 
       range = range_of_values(values)
       text = 'autofreq'
-      if (.not. range(2) > range(1)) return
+      if (looks_flat(range)) return
       step = (range(2) - range(1))/3
       decade = 10.0_wp**floor(log10(step))
             step = step/decade
