@@ -6,6 +6,7 @@ program elastokin
    use ek_build_facts, only: build
    use ek_version_text, only: program_name, version_text, build_text
    use ek_threads, only: use_one_thread
+   use ek_clock, only: check_set_date
    use ek_system, only: prepare_surroundings
    use ek_console, only: print_error, print_text
    use ek_help_files, only: write_help_files
@@ -26,6 +27,7 @@ program elastokin
          call print_text(help_text(line%command)//new_line('a'), error)
       else
          call begin_log(line, error)
+         if (.not. allocated(error)) call check_set_date(error)
          if (.not. allocated(error)) call use_one_thread(error)
          line%build = build_text(build)
          if (.not. allocated(error)) call obey(line, error)

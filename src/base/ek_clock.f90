@@ -2,10 +2,11 @@
 module ek_clock
    use, intrinsic :: iso_c_binding, only: c_char, c_long, c_null_char, c_null_ptr, c_ptr, c_size_t
    use ek_kinds, only: wp, i8
+   use ek_error, only: error_t, fail, exit_usage
    use ek_posix, only: c_time, c_gmtime, c_localtime, c_strftime
    implicit none(type, external)
    private
-   public :: seconds, processor_seconds, seconds_since_1970, date_text, universal_time
+   public :: seconds, processor_seconds, seconds_since_1970, date_text, universal_time, check_set_date
 
 contains
 
@@ -29,15 +30,16 @@ contains
       seconds_since_1970 = c_time(c_null_ptr)
    end function seconds_since_1970
 
-   !> The local time now as '2026-01-31 17:05'. If the environment variable SOURCE_DATE_EPOCH gives a time, the result is this time
-   !> in UTC, so that equal input gives equal bytes (https://reproducible-builds.org/specs/source-date-epoch/).
+   !> The local time now with its distance from UTC: '2026-01-31 17:05 +0100'. If the environment variable SOURCE_DATE_EPOCH gives a
+   !> time, the result is this time in UTC ('2026-01-31 16:05 UTC'), so that equal input gives equal bytes (https://reproducible-builds.org/specs/source-date-epoch/).
    function date_text() result(words)
-      character(16) :: words
-      character(kind=c_char) :: letters(17)
+      character(:), allocatable :: words
+      character(kind=c_char) :: letters(32)
       integer(c_long) :: fields(16)             ! room for a struct tm, which has 56 bytes
       integer(i8) :: epoch
       type(c_ptr) :: ignored
       integer(c_size_t) :: length
+      integer :: k
       logical :: is_set
 
       call read_set_date(epoch, is_set)
@@ -46,8 +48,12 @@ contains
       else
          ignored = c_localtime(c_time(c_null_ptr), fields)
       end if
-      length = c_strftime(letters, size(letters, kind=c_size_t), '%Y-%m-%d %H:%M'//c_null_char, fields)
-      words = transfer(letters(:length), words)
+      length = c_strftime(letters, size(letters, kind=c_size_t), '%Y-%m-%d %H:%M %z'//c_null_char, fields)
+      words = ''
+      do k = 1, int(length)
+         words = words//letters(k)
+      end do
+      if (is_set) words = words(:16)//' UTC'
    end function date_text
 
    !> The time now in UTC as '2026-01-31T16:05:09Z' (ISO 8601), to compare records of several machines.
@@ -62,6 +68,21 @@ contains
       length = c_strftime(letters, size(letters, kind=c_size_t), '%Y-%m-%dT%H:%M:%SZ'//c_null_char, fields)
       words = transfer(letters(:length), words)
    end function universal_time
+
+   !> Fails if SOURCE_DATE_EPOCH is set and is not a date: files would contain the current date without a message.
+   subroutine check_set_date(error)
+      type(error_t), allocatable, intent(out) :: error     !! exit_usage
+      character(64) :: text
+      integer(i8) :: epoch
+      integer :: status
+      logical :: is_set
+
+      call get_environment_variable('SOURCE_DATE_EPOCH', value=text, status=status)
+      if ((status /= 0 .and. status /= -1) .or. text == '') return         ! not set; −1: longer than 64 characters
+      call read_set_date(epoch, is_set)
+      if (.not. is_set) call fail(error, exit_usage, 'SOURCE_DATE_EPOCH: expected an integer number of seconds since 1970, '// &
+         'at most 253402300799, found '''//trim(text)//'''')
+   end subroutine check_set_date
 
    !> Reads SOURCE_DATE_EPOCH. `is_set` is .true. only if the value is an integer number of seconds within the years 1970 to 9999.
    subroutine read_set_date(epoch, is_set)

@@ -78,7 +78,7 @@ contains
    subroutine begin_page(page, name, summary)
       type(buffer_t), intent(inout) :: page
       character(*), intent(in) :: name, summary
-      character(16) :: date
+      character(:), allocatable :: date
 
       date = date_text()
       call page%line('.TH '//upper(name)//' 1 '//date(:10)//' "elastokin '//version//'" "elastokin manual"')

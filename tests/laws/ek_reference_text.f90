@@ -38,7 +38,7 @@ contains
       plain = rounded(undated(plain))
    end function normalised
 
-   !> Every '2026-01-31 23:59' as DATE.
+   !> Every '2026-01-31 23:59 +0100' as DATE.
    function undated(text) result(plain)
       character(*), intent(in) :: text
       character(:), allocatable :: plain
@@ -55,7 +55,10 @@ contains
                exit
             end if
          end do
-         if (k > len(form)) plain = plain(:at - 1)//'DATE'//plain(at + len(form):)
+         if (k > len(form)) then
+            plain = plain(:at - 1)//'DATE'//plain(at + len(form):)
+            if (scan(plain(min(at + 5, len(plain)):min(at + 5, len(plain))), '+-') == 1) plain = plain(:at + 3)//plain(at + 10:)
+         end if
          at = at + 1
       end do
    end function undated
