@@ -195,7 +195,8 @@ def check_fit(laws, source, deck):
             laws.law(factor['learned'] == '0', f'{path} keeps its value and is learned')
             laws.law(not inside or same(start, result, 14), f'{path} keeps its value, {start}, and is {result}')
         if 'no effect' in factor['note']:
-            laws.law(factor['half_of_95_percent'] == 'nan', f'{path} has an interval without an effect')
+            laws.law(factor['half_by_targets_alone'] == 'nan', f'{path} has an interval without an effect')
+            laws.law(factor['half_of_95_percent'] == 'nan' or 'prior' in factor['note'], f'{path}: interval without effect and prior')
         if factor['learned'] == '1':
             laws.law(factor['half_of_95_percent'] != 'nan' or 'unknown' in factor['note'], f'{path} is learned without an interval')
         if factor['bound']:
