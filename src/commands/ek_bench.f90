@@ -128,7 +128,7 @@ contains
       character(:), allocatable :: checksum
 
       call load_deck(settings, workspace, checksum, error)
-      if (.not. allocated(error)) call chosen_cases(settings, workspace%design%cases, chosen, error)
+      if (.not. allocated(error)) call chosen_cases(settings, workspace%raw, workspace%design%cases, chosen, error)
       if (.not. allocated(error)) call examine_chosen(settings%file, workspace%raw, chosen(1:1), found, error)
       if (.not. allocated(error)) call balance_or_explain(chosen(1)%tolerance, workspace, error)
       if (allocated(error)) return

@@ -44,11 +44,28 @@ contains
       if (line%has('--json')) then
          call print_text(check_json(messages, settings%file, model, checksum, status_of(error)), unprinted)
       else
-         if (findings%length() > 0) call findings%line(last_line(messages))
+         if (findings%length() > 0) then
+            if (settings%is_quiet) call keep_messages(messages, findings)
+            call findings%line(last_line(messages))
+         end if
          call print_text(findings%text(), unprinted)
       end if
       if (allocated(unprinted) .and. .not. allocated(error)) call move_alloc(unprinted, error)
    end subroutine check
+
+   !> Replaces the findings by the warnings and remarks among them, for --quiet.
+   subroutine keep_messages(messages, findings)
+      type(check_messages_t), intent(in) :: messages
+      type(buffer_t), intent(out) :: findings
+      integer :: k
+
+      do k = 1, messages%warnings%count()
+         call add(findings, 'warning', messages%warnings%line(k))
+      end do
+      do k = 1, messages%remarks%count()
+         call add(findings, 'remark', messages%remarks%line(k))
+      end do
+   end subroutine keep_messages
 
    !> The exit status of an error; 0 without an error.
    pure integer function status_of(error)
@@ -83,7 +100,8 @@ contains
       allocate (chosen(0))
       if (.not. allocated(error)) then
          model = workspace%raw%name
-         if (size(workspace%design%cases) > 0) call chosen_cases(settings, workspace%design%cases, chosen, error)
+         if (size(workspace%design%cases) > 0 .or. settings%case /= '') &
+            call chosen_cases(settings, workspace%raw, workspace%design%cases, chosen, error)
       end if
       if (allocated(error)) then
          call add_lines(error%message, messages%errors)

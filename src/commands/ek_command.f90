@@ -148,17 +148,19 @@ module ek_command
       option_t('run', '--loads', 'also write loads.csv (loads of every member at every state) and peak-loads.csv, for all cases'), &
       option_t('run', '--plot', 'also write gnuplot scripts, and PNG and SVG figures if gnuplot is installed'), &
       option_t('run', '--quiet', quiet_help), &
-      option_t('check', '--case NAME', ''), option_t('check', '--set path=value', ''), &
-      option_t('check', '--set-file FILE', ''), &
+      option_t('check', '--case NAME', 'check only this case or standard test'), &
+      option_t('check', '--set path=value', 'as for run'), &
+      option_t('check', '--set-file FILE', 'as for run'), &
       option_t('check', '--json', 'print the messages as one JSON object: severity, file, line, group, key, text'), &
       option_t('check', '--write-deck FILE', &
       'write to FILE the deck as it was used, with the contents of included, property and'// &
       indent//'hardpoint files, both sides and all settings; load tables are copied to the folder of FILE'), &
+      option_t('check', '--quiet', 'print only warnings, remarks and the last line'), &
       option_t('report', '--out DIR', 'output folder (default: out)'), &
       option_t('report', '--animate', 'also write animation.gif: the suspension moving through its travel and steering'), &
       option_t('report', '--window what=half', 'half width of a gradient window; may be repeated; the defaults are:'//indent// &
       'travel=15 (mm) roll=1 (deg) force=1000 (N) torque=100 (N m) rack=10 (mm) wheel=20 (deg)'), &
-      option_t('report', '--case NAME', 'run only this test'), &
+      option_t('report', '--case NAME', 'run only this case or standard test'), &
       option_t('report', '--method M', 'as for run'), option_t('report', '--solver S', 'as for run'), &
       option_t('report', '--increments N', 'as for run'), &
       option_t('report', '--set path=value', 'as for run'), option_t('report', '--set-file FILE', 'as for run'), &
@@ -172,7 +174,7 @@ module ek_command
       indent//'the sliders change numbers and curves that are linear in the compliance matrix; not with --static'), &
       option_t('report', '--quiet', quiet_help), &
       option_t('explain', '--out DIR', 'output folder (default: out)'), &
-      option_t('explain', '--case NAME', 'explain only this case'), &
+      option_t('explain', '--case NAME', 'explain only this case or standard test'), &
       option_t('explain', '--of a,b,c', &
       'explain only these columns: responses to loads (lateral_in_load_held_steer_deg_per_kn), or'// &
       indent//'matrix entries (patch_z_by_fz_mm_per_kn); * stands for any letters; default: key columns'), &
@@ -191,7 +193,7 @@ module ek_command
       indent//'case and swept value: --for "roll:left_camber_deg@2=-1.5"; =keep: the present value; may be repeated'), &
       option_t('solve', '--weight name=size', 'deviation that counts as 1 if not all conditions can be met'//indent// &
       '(default: its noticeable change, as printed); may be repeated'), &
-      option_t('solve', '--case NAME', 'case of the columns (default: the first case of the deck)'), &
+      option_t('solve', '--case NAME', 'case or standard test of the columns (default: the first case of the deck)'), &
       option_t('solve', '--at VALUE', 'swept value at which columns are read (default: design)'), &
       option_t('solve', '--out DIR', 'output folder (default: out)'), &
       option_t('solve', '--set path=value', 'as for run'), option_t('solve', '--set-file FILE', 'as for run'), &
@@ -202,7 +204,8 @@ module ek_command
       option_t('compare', '--out DIR', 'output folder (default: out)'), &
       option_t('compare', '--window what=half', 'as for report, if gradients are computed from CSV files'), &
       option_t('compare', '--threshold P%', &
-      'smallest listed change, in percent of the value in A or of the least span of a chart (default: 1%)'), &
+      'smallest listed change, in percent of the value in A or of the least span of a chart (default: 1%;'//indent// &
+      'without the option, standard output also lists the gradients that changed less)'), &
       option_t('compare', '--no-plots', no_plots_help), &
       option_t('compare', '--static', 'as for report'), &
       option_t('compare', '--quiet', quiet_help), &

@@ -251,9 +251,10 @@ contains
       if (last > 1) then
          if (text(last:) == '%') last = len_trim(text(:last - 1))
       end if
-      is_number = verify(text(:last), '0123456789.') == 0
+      is_number = verify(text(:last), '0123456789.eE+-') == 0
       if (is_number) call get_decimal(text(:last), value, is_number)
-      if (is_number) then
+      if (.not. is_number) value = -1.0_wp
+      if (value >= 0.0_wp) then
          threshold = value/100
       else
          call fail(error, exit_usage, '--threshold: expected a change in percent, as in 1% or 0.2%, found '//quoted(text))

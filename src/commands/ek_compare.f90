@@ -78,7 +78,7 @@ contains
       this%shown = results_shown(this%numbers, this%rows)
       call compare_charts(this%results, this%threshold, this%charts, this%changes, this%curves)
       call find_missing(this%results, this%rows, this%missing)
-      call print_text(text_of(this), unprinted)     ! the files are written even if it is closed
+      call print_text(text_of(this, line%has('--threshold')), unprinted)     ! the files are written even if it is closed
       do k = 1, this%missing%count()
          call print_note(is_quiet, this%missing%line(k))
       end do
@@ -203,8 +203,9 @@ contains
 
    !> The string for standard output: the paths of the results, the changes of the deck, the counts of changes, the values and
    !> verdicts of the targets, and the table of gradients.
-   function text_of(this) result(text)
+   function text_of(this, is_short) result(text)
       type(comparison_t), intent(in) :: this
+      logical, intent(in) :: is_short              !! only gradients that changed, or are in some of the results only, are listed
       character(:), allocatable :: text
       type(message_list_t) :: lines
       type(buffer_t) :: out
@@ -226,7 +227,7 @@ contains
       if (size(this%rows) == 0) then
          call out%line('no gradients to compare')
       else
-         call add_gradients(out, this)
+         call add_gradients(out, this, is_short)
       end if
       text = out%text()
    end function text_of
@@ -279,16 +280,23 @@ contains
    end subroutine add_changes
 
    !> Adds the table of gradients.
-   subroutine add_gradients(out, this)
+   subroutine add_gradients(out, this, is_short)
       type(buffer_t), intent(inout) :: out
       type(comparison_t), intent(in) :: this
+      logical, intent(in) :: is_short              !! without gradients that are the same or have no value
       character(:), allocatable :: test
-      real(wp) :: change
+      character(16) :: verdicts(size(this%results))
       integer :: k, r
 
       test = ''
       do k = 1, size(this%rows)
          associate (row => this%rows(k))
+            verdicts(1) = 'same'
+            do r = 2, size(this%results)
+               verdicts(r) = verdict_of(change_of(row%values(1), row%values(r), row%least), this%threshold, row%is_there(1), &
+                  row%is_there(r), r)
+            end do
+            if (is_short .and. all(verdicts == 'same' .or. verdicts == 'not a number')) cycle
             if (row%test /= test) then
                test = row%test
                call out%line('')
@@ -305,8 +313,7 @@ contains
             end do
             call out%add('  '//padded(row%unit, -12))
             do r = 2, size(this%results)
-               change = change_of(row%values(1), row%values(r), row%least)
-               call out%add(' '//trim(verdict_of(change, this%threshold, row%is_there(1), row%is_there(r), r)))
+               call out%add(' '//trim(verdicts(r)))
             end do
             call out%line('')
          end associate

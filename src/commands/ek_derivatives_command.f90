@@ -148,6 +148,8 @@ contains
       character(*), parameter :: no_quantities(*) = [character(16) :: 'state', 'factor', 'converged', 'stable', 'near_singular', &
          'iterations', 'constraint_error']
       character(name_length), allocatable :: entries(:)
+      logical, allocatable :: is_quantity(:)
+      type(message_list_t) :: given
       type(case_t) :: case(1)
       integer :: c
 
@@ -157,12 +159,17 @@ contains
          return
       end if
       call compliance_columns(workspace%raw, entries)
-      call choose_columns(line%value('--of'), workspace%raw, case, columns, error, '--of', entries)
-      if (allocated(error)) return
-      do c = 1, size(columns)
-         if (any(no_quantities == columns(c)) .and. .not. allocated(error)) call fail(error, exit_usage, '--of: '// &
-            quoted(trim(columns(c)))//' describes the solution and has no derivative; only quantities of the suspension have one')
+      call split(line%value('--of'), given)
+      do c = 1, given%count()
+         if (any(no_quantities == given%line(c)) .and. .not. allocated(error)) call fail(error, exit_usage, '--of: '// &
+            quoted(given%line(c))//' describes the solution and has no derivative; only quantities of the suspension have one')
       end do
+      if (.not. allocated(error)) call choose_columns(line%value('--of'), workspace%raw, case, columns, error, '--of', entries)
+      if (allocated(error)) return
+      is_quantity = [(all(no_quantities /= columns(c)), c=1, size(columns))]
+      if (.not. any(is_quantity)) call fail(error, exit_usage, '--of: '//quoted(line%value('--of'))// &
+         ' matches only columns that describe the solution; only quantities of the suspension have derivatives')
+      columns = pack(columns, is_quantity)
    end subroutine choose_quantities
 
    !> Solves the case. States that did not converge are reported; the derivatives of the converged states are still computed.

@@ -54,7 +54,7 @@ contains
 
       call read_settings(line, settings, error)
       if (.not. allocated(error)) call load_deck(settings, workspace, checksum, error)
-      if (.not. allocated(error)) call chosen_cases(settings, workspace%design%cases, chosen, error)
+      if (.not. allocated(error)) call chosen_cases(settings, workspace%raw, workspace%design%cases, chosen, error)
       if (.not. allocated(error)) call examine_chosen(settings%file, workspace%raw, chosen, found, error)
       if (.not. allocated(error)) call make_folder(settings%out, error)
       if (.not. allocated(error)) call balance_or_explain(chosen(1)%tolerance, workspace, error)

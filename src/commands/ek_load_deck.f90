@@ -17,8 +17,7 @@ module ek_load_deck
    use ek_setting_log, only: applied_t, add_applied, overridden_settings
    implicit none(type, external)
    private
-   public :: deck_settings_t, read_deck_settings, load_deck, load_session, read_changed, add_asked_test, chosen_cases, &
-      examine_chosen
+   public :: deck_settings_t, read_deck_settings, load_deck, load_session, read_changed, chosen_cases, examine_chosen
 
    !> Options of a command with a deck. A command extends the type by its own settings. An option that the command does not accept
    !> has the value of an option that is not given.
@@ -179,50 +178,41 @@ contains
       end do
    end subroutine log_settings
 
-   !> Adds the standard test named by --case if the deck has no case of this name.
-   subroutine add_asked_test(settings, suspension, cases)
+   !> Lists the cases to run, with --case, --method, --solver and --increments applied. --case may also name a standard test that the
+   !> deck does not define.
+   subroutine chosen_cases(settings, suspension, cases, chosen, error)
       class(deck_settings_t), intent(in) :: settings
       type(suspension_t), intent(in) :: suspension
-      type(case_t), allocatable, intent(inout) :: cases(:)
-      type(case_t), allocatable :: tests(:)
-      integer :: k
-
-      if (len(settings%case) == 0 .or. size(suspension%wheels) == 0) return
-      do k = 1, size(cases)
-         if (cases(k)%name == settings%case) return
-      end do
-      call standard_tests(suspension, cases, tests, settings%case)
-      do k = 1, size(tests)
-         if (tests(k)%name /= settings%case) cycle
-         cases = [cases, tests(k)]
-         return
-      end do
-   end subroutine add_asked_test
-
-   !> Lists the cases to run, with --case, --method, --solver and --increments applied.
-   subroutine chosen_cases(settings, cases, chosen, error)
-      class(deck_settings_t), intent(in) :: settings
       type(case_t), intent(in) :: cases(:)
       type(case_t), allocatable, intent(out) :: chosen(:)
       type(error_t), allocatable, intent(out) :: error
-      character(64) :: names(size(cases))
+      type(case_t), allocatable :: tests(:)
+      character(64), allocatable :: names(:), known(:)
       character(:), allocatable :: hint
       integer :: k
 
-      if (size(cases) == 0) then
-         call fail(error, exit_usage, settings%file//': no &case group, so there is no case to run (check works without one)')
-         return
-      end if
-      allocate (chosen(0))
+      allocate (chosen(0), names(0), known(0))
       do k = 1, size(cases)
-         names(k) = cases(k)%name
+         names = [character(64) :: names, cases(k)%name]
          if (len(settings%case) == 0 .or. settings%case == cases(k)%name) chosen = [chosen, cases(k)]
       end do
-      if (size(chosen) == 0) then
-         hint = suggestion(settings%case, names)//'; it has'
+      known = names
+      if (size(chosen) == 0 .and. len(settings%case) > 0 .and. size(suspension%wheels) > 0) then
+         call standard_tests(suspension, cases, tests, settings%case)
+         do k = 1, size(tests)
+            known = [character(64) :: known, tests(k)%name]
+            if (tests(k)%name == settings%case) chosen = [chosen, tests(k)]
+         end do
+      end if
+      if (size(known) == 0) then
+         call fail(error, exit_usage, settings%file//': no &case group, so there is no case to run (check works without one)')
+      else if (size(chosen) == 0) then
+         hint = suggestion(settings%case, known)//'; it has'
          do k = 1, size(names)
             hint = hint//' '//quoted(names(k))
          end do
+         if (size(names) == 0) hint = hint//' no case'
+         if (size(known) > size(names)) hint = hint//', and the standard tests'
          call fail(error, exit_usage, '--case: no case '//quoted(settings%case)//' in '//settings%file//hint)
       else if (settings%method /= '' .and. .not. any(method_names == settings%method)) then
          call fail(error, exit_usage, '--method: expected recursive, corrected or equilibrium, found '//quoted(settings%method))

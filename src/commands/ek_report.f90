@@ -88,7 +88,7 @@ contains
       if (allocated(error)) return
       cases = workspace%design%cases                        ! of a model without a wheel
       if (size(workspace%raw%wheels) > 0) call standard_tests(workspace%raw, workspace%design%cases, cases, settings%case)
-      call chosen_cases(settings, cases, chosen, error)
+      call chosen_cases(settings, workspace%raw, cases, chosen, error)
       if (.not. allocated(error)) call examine_chosen(settings%file, workspace%raw, chosen, found, error)
       if (allocated(error)) return
       page%folder = settings%out

@@ -18,7 +18,7 @@ module ek_run
    use ek_gnuplot, only: figure_t, run_figures, draw_figures
    use ek_model_remark, only: model_remarks_t, find_model_remarks
    use ek_command_line, only: command_line_t
-   use ek_load_deck, only: deck_settings_t, read_deck_settings, load_deck, add_asked_test, chosen_cases, examine_chosen
+   use ek_load_deck, only: deck_settings_t, read_deck_settings, load_deck, chosen_cases, examine_chosen
    use ek_run_numbers, only: run_numbers
    use ek_run_columns, only: choose_columns
    use ek_run_json, only: begin_run_json, add_run_json, write_run_json
@@ -46,7 +46,7 @@ contains
       type(error_t), allocatable, intent(out) :: error
       type(settings_t) :: settings
       class(workspace_t), allocatable :: workspace
-      type(case_t), allocatable :: cases(:), chosen(:)
+      type(case_t), allocatable :: chosen(:)
       type(error_t), allocatable :: trouble, unprinted
       type(examination_t) :: found
       type(model_remarks_t) :: remarks
@@ -62,9 +62,7 @@ contains
       end if
       if (.not. allocated(error)) call load_deck(settings, workspace, checksum, error)
       if (allocated(error)) return
-      cases = workspace%design%cases
-      call add_asked_test(settings, workspace%raw, cases)
-      call chosen_cases(settings, cases, chosen, error)
+      call chosen_cases(settings, workspace%raw, workspace%design%cases, chosen, error)
       if (.not. allocated(error) .and. line%has('--columns')) &
          call choose_columns(line%value('--columns'), workspace%raw, chosen, settings%columns, error)
       if (allocated(error)) return
@@ -78,7 +76,7 @@ contains
       if (.not. allocated(error) .and. settings%out /= '-') call make_folder(settings%out, error)
       if (.not. allocated(error)) call balance_or_explain(chosen(1)%tolerance, workspace, error)
       if (allocated(error)) return
-      call find_model_remarks(workspace%suspension, workspace%raw, cases, chosen, .true., remarks)
+      call find_model_remarks(workspace%suspension, workspace%raw, workspace%design%cases, chosen, .true., remarks)
       call print_model_remarks(settings%is_quiet, remarks)
 
       failed = 0
@@ -153,7 +151,9 @@ contains
       end if
       do k = size(others), 1, -1
          if (line%has(trim(others(k)))) call fail(error, exit_usage, &
-            '--responses writes key numbers only, and cannot be used with '//trim(others(k)))
+            '--responses writes key numbers only, and cannot be used with '//trim(others(k))// &
+            trim(merge('; name a file for the numbers with --results FILE', &
+            '                                                 ', others(k) == '--out')))
       end do
    end subroutine refuse_with_responses
 

@@ -89,7 +89,7 @@ contains
       if (allocated(error)) return
       call report_cases(session%workspace, cases)
       if (size(cases) > 0) then
-         call chosen_cases(settings, cases, chosen, error)
+         call chosen_cases(settings, session%workspace%raw, cases, chosen, error)
          if (allocated(error)) return
          call restrict_cases(chosen, session%workspace)
       end if

@@ -341,15 +341,18 @@ contains
       do k = 0, depth
          if (plain_path(files%open(k)%path) /= plain_path(path)) cycle
          call deck%deck_errors%add(place, 'include: '//quoted(path)//' includes itself')
+         call deck%deck_errors%lose(0)
          return
       end do
       if (depth == max_nested) then
          call deck%deck_errors%add(place, 'include: files are nested more than '//str(max_nested)//' deep')
+         call deck%deck_errors%lose(0)
          return
       end if
       call read_kept(deck%kept, path, text, error)
       if (allocated(error)) then
          call deck%deck_errors%add(place, 'include: '//error%message)
+         call deck%deck_errors%lose(0)
          return
       end if
       files%letters = files%letters + min(len(text), max_letters)
@@ -358,6 +361,7 @@ contains
          call deck%deck_errors%add(place_in(deck%file, 0, 0), 'more than '//str(max_files)//' files or '// &
             str(max_letters/1000000)//' MB are included in total; the last one by '//place%words)
          call deck%deck_errors%cut()
+         call deck%deck_errors%lose(0)
          files%sources = max_files + 2                       ! reported once; the rest is not read
          return
       end if

@@ -4,7 +4,7 @@
 !> `k` is the index of the record that is being read. Messages have the form `file:line: group 'name': error`. A rejected value is
 !> treated as not given and replaced by a legal default, so that one error gives one message.
 module ek_deck_reading
-   use ek_kinds, only: wp, units_t
+   use ek_kinds, only: wp, i8, units_t
    use ek_text, only: str, lower, quoted
    use ek_decimal, only: checked_number
    use ek_record, only: deck_errors_t, place_in, record_t, entry_index, is_given, place_of, line_text
@@ -15,7 +15,7 @@ module ek_deck_reading
    implicit none(type, external)
    private
    public :: deck_reading_t, card_t, complain, complain_of_all, where_of, line_of, has_key
-   public :: text_of, texts_of, number_of, numbers_of, whole_of, switch_of, value_count, choice, choose
+   public :: text_of, texts_of, number_of, numbers_of, whole_of, long_of, switch_of, value_count, choice, choose
    public :: refuse, is_second, slot, raw
 
    !> The information about one record.
@@ -198,6 +198,18 @@ contains
       text = raw(reading, key, at)
       if (text /= '') read (text, *) value
    end function whole_of
+
+   !> The integer of up to 18 digits of a key; `default` if the key is not given or was rejected.
+   integer(i8) function long_of(reading, key, default) result(value)
+      type(deck_reading_t), intent(in) :: reading
+      character(*), intent(in) :: key
+      integer(i8), intent(in) :: default
+      character(:), allocatable :: text
+
+      value = default
+      text = raw(reading, key)
+      if (text /= '') read (text, *) value
+   end function long_of
 
    !> The logical value of a key; `default` if the key is not given or was rejected.
    logical function switch_of(reading, key, default) result(value)

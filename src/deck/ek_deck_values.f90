@@ -55,6 +55,8 @@ contains
       do e = 1, record%used
          if (record%entries(e)%key == quantity .and. record%entries(e)%used > 0) name = record%entries(e)%values(1)%text
       end do
+      if (index(name, 'left_') == 1) name = name(6:)           ! a band holds for both wheels
+      if (index(name, 'right_') == 1) name = name(7:)
    end function quantity_of
 
 end module ek_deck_values

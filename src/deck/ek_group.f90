@@ -34,10 +34,11 @@ module ek_group
    integer, parameter, public :: whole = 4     !! integer
    integer, parameter, public :: switch = 5    !! .true. or .false.
    integer, parameter, public :: heading = 6   !! quoted string of at most name_length characters: columns of the results
+   integer, parameter, public :: long_whole = 7       !! integer of up to 18 digits: seeds
 
    integer, parameter, public :: word_length = 63      !! longest name
    integer, parameter, public :: note_length = 2000    !! longest title, note or path
-   integer, parameter, public :: longest(heading) = [word_length, note_length, 0, 0, 0, name_length]   !! by type; 0: not a string
+   integer, parameter, public :: longest(long_whole) = [word_length, note_length, 0, 0, 0, name_length, 0]   !! 0: not a string
    integer, parameter, public :: max_measures = 8     !! measures per coupler
    integer, parameter, public :: max_values = 200   !! values per factor, increments of a study, points of a curve, names in shared
    integer, parameter, public :: max_paths = 50       !! paths of the numbers that one factor changes
@@ -175,6 +176,7 @@ module ek_group
       key_t(axle_group, 'brake_share', number, 1, 1, .true., share), &
       key_t(axle_group, 'drive_share', number, 1, 1, .false., share), &
       key_t(axle_group, 'drive_reaction', word, 1, 1, .false.), &
+      key_t(axle_group, 'brake_reaction', word, 1, 1, .false.), &
       key_t(axle_group, 'front_overhang', number, 1, 1, .false., positive), &
       key_t(axle_group, 'front_width', number, 1, 1, .false., positive), &
       key_t(steering_group, 'name', word, 1, 1, .false.), &
@@ -218,7 +220,7 @@ module ek_group
       key_t(study_group, 'columns', heading, 1, 20, .false.), &
       key_t(study_group, 'samples', whole, 1, 1, .false.), &
       key_t(study_group, 'levels', whole, 1, 1, .false.), &
-      key_t(study_group, 'seed', whole, 1, 1, .false.), &
+      key_t(study_group, 'seed', long_whole, 1, 1, .false.), &
       key_t(study_group, 'scrambled', switch, 1, 1, .false.), &
       key_t(study_group, 'list', prose, 1, 1, .false.), &
       key_t(study_group, 'chunk', whole, 1, 1, .false.), &

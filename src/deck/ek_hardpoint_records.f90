@@ -4,6 +4,7 @@ module ek_hardpoint_records
    use ek_error, only: error_t, message_list_t
    use ek_text, only: lower, quoted, str
    use ek_kept_files, only: kept_files_t, keep_file, read_kept
+   use ek_group, only: point_group
    use ek_record, only: deck_errors_t, place_in, record_t, add_record, is_given
    use ek_unit_word, only: unit_of, length_unit
    use ek_flaws, only: flaws_t, new_flaws
@@ -31,9 +32,10 @@ contains
       character(:), allocatable :: path, side, content
       real(wp) :: length
       logical :: is_iso, is_file_iso, has_mirror
-      integer :: k, own, source, before
+      integer :: k, own, source, before, first
 
       own = used
+      first = deck_errors%count()
       if (.not. any([(records(k)%group == 'hardpoints', k=1, own)])) return
       call units_in_deck(records(:own), units, is_iso)
       has_mirror = any([(records(k)%group == 'mirror', k=1, own)])
@@ -90,6 +92,7 @@ contains
          if (deck_errors%count() == before) call add_points(sheet, side, merge(-1.0_wp, 1.0_wp, is_file_iso .neqv. is_iso), &
             units%length, path, source, records, used)
       end do
+      if (deck_errors%count() > first) call deck_errors%lose(point_group)
    end subroutine attach_hardpoints
 
    !> Checks that, in a deck with &mirror, each right hardpoint is the image of the left hardpoint with the same name.

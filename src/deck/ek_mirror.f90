@@ -13,7 +13,7 @@ module ek_mirror
    use ek_text, only: str, lower, quoted, did_you_mean
    use ek_record, only: deck_errors_t, has_side, left_side, right_side, side_prefix, record_t, entry_t, add_record, &
       add_value, element, entry_index, place_of, line_text, role_of, sign_of_image, turns
-   use ek_group, only: group_names, group_number, word_length, record_head, is_element, can_be_doubled, &
+   use ek_group, only: group_names, group_number, point_group, word_length, record_head, is_element, can_be_doubled, &
       number, point_group, body_group, measure_group, wheel_group, load_group, polar, axial, curves, wheel_side
    use ek_namelist, only: value_fault
    implicit none(type, external)
@@ -136,7 +136,8 @@ contains
                is_it = half%names == lower(value%text)
                half%is_shared = half%is_shared .or. (is_it .and. is_candidate)
                if (any(is_it) .or. (mirror%entries(e)%used == 1 .and. lower(value%text) == 'none')) cycle
-               call complain(deck_errors, mirror, 'shared', 'shared: there is no body, point or element '// &
+               if (.not. deck_errors%lacks(point_group)) &
+                  call complain(deck_errors, mirror, 'shared', 'shared: there is no body, point or element '// &
                   quoted(value%text)//did_you_mean(value%text, pack(half%names, is_candidate)))
             end associate
          end do

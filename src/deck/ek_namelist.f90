@@ -13,7 +13,7 @@ module ek_namelist
    use ek_record, only: deck_errors_t, record_t, entry_t, value_t, entry_index, is_given, place_of
    use ek_number_range, only: is_inside, range_text, any_number, acute
    use ek_group, only: key_t, keys, find_key, unknown_key, longest, number, &
-      whole, heading
+      whole, long_whole
    implicit none(type, external)
    private
    public :: check_record, value_fault, surplus, name_fault, is_legal_name
@@ -22,8 +22,8 @@ module ek_namelist
    integer, parameter :: smallest_exponent = -100   !! nonzero numbers below 1e-100 are errors too; some would be read as 0
    character(*), parameter :: digits = '0123456789'
    character(*), parameter :: no_break_space = char(194)//char(160)
-   character(*), parameter :: types(heading) = [character(18) :: 'a string in quotes', 'a string in quotes', 'a number', &
-      'an integer', '.true. or .false.', 'a string in quotes']
+   character(*), parameter :: types(long_whole) = [character(18) :: 'a string in quotes', 'a string in quotes', 'a number', &
+      'an integer', '.true. or .false.', 'a string in quotes', 'an integer']
 
 contains
 
@@ -235,15 +235,16 @@ contains
          select case (type)
          case (number)
             is_fit = is_number(value%text)
-         case (whole)
-            is_fit = is_signed(value%text) .and. len(value%text) - scan(value%text(:1), '+-') <= 9
+         case (whole, long_whole)
+            is_fit = is_signed(value%text) .and. len(value%text) - scan(value%text(:1), '+-') <= merge(9, 18, type == whole)
          case default
             is_fit = any(lower(value%text) == [character(7) :: '.true.', '.false.', 'true', 'false', '.t.', '.f.', 't', 'f'])
          end select
          if (.not. is_fit) then
             fault = trim(types(type))//', found '//value%text
             if (type == number) fault = fault//number_hint(value%text)
-            if (type == whole .and. is_signed(value%text)) fault = 'an integer of at most 9 digits, found '//value%text
+            if (any(type == [whole, long_whole]) .and. is_signed(value%text)) fault = 'an integer of at most '// &
+               trim(merge('9 ', '18', type == whole))//' digits, found '//value%text
          else if (type == number) then
             if (size_exponent(value%text) >= largest_exponent) then
                fault = 'a number below 1e'//str(largest_exponent)//', found '//value%text

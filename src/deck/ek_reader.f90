@@ -140,7 +140,8 @@ contains
          if (reading%cards(k)%group == case_group .or. reading%records(k)%group == 'target_band') &
             in_cases = in_cases + reading%deck_errors%count() - before
       end do
-      if (.not. any(reading%cards%group == model_group) .and. all(reading%cards%group > 0)) &
+      if (.not. any(reading%cards%group == model_group) .and. all(reading%cards%group > 0) .and. &
+         .not. reading%deck_errors%lacks(model_group)) &
          call complain_of_all(reading, 'there is no &model (it gives name, units and axes)')
       do j = 1, size(reading_order)
          do k = 1, size(reading%records)
@@ -149,11 +150,13 @@ contains
             call read_record(reading)
          end do
       end do
-      if (.not. any(reading%cards%group == body_group) .and. all(reading%cards%group > 0)) &
+      if (.not. any(reading%cards%group == body_group) .and. all(reading%cards%group > 0) .and. &
+         .not. reading%deck_errors%lacks(body_group)) &
          call complain_of_all(reading, 'there is no &body, so nothing can move')
       do k = 1, size(reading%records)      ! a body is attached to nothing, unless the element attached to it was rejected
          if (reading%cards(k)%group == body_group .and. .not. reading%cards(k)%is_used .and. reading%cards(k)%name /= '' .and. &
-            all(reading%cards%group > 0)) call complain(reading, '', 'no joint, bushing or spring is attached to it', at=k)
+            all(reading%cards%group > 0) .and. .not. reading%deck_errors%lacks(body_group)) &
+            call complain(reading, '', 'no joint, bushing or spring is attached to it', at=k)
       end do
       is_whole = reading%deck_errors%count() == in_cases
       do k = 1, size(reading%records)

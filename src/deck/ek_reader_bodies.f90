@@ -173,7 +173,7 @@ contains
    end subroutine find_spin
 
    !> Reads &axle: its position (front or rear), the share of the front axle in the braking force, the share of this axle in the
-   !> driving force, the point at which the driving force acts, and the vehicle data.
+   !> driving force, the points at which the driving and the braking force act, and the vehicle data.
    subroutine read_axle(reading)
       type(deck_reading_t), intent(inout) :: reading
       integer :: c, number(7)
@@ -197,6 +197,8 @@ contains
             "front_overhang belongs to the front axle, found position = 'rear'")
          call choice(reading, 'drive_reaction', [character(12) :: 'wheel_centre', 'patch'], c, default=1)
          this%drives_at_patch = c == 2
+         call choice(reading, 'brake_reaction', [character(7) :: 'carrier', 'body'], c, default=1)
+         this%brakes_at_centre = c == 2
          this%has_axle = .true.
          this%where = where_of(reading)
       end associate

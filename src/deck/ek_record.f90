@@ -5,7 +5,7 @@ module ek_record
    use ek_kinds, only: wp
    use ek_text, only: str, lower
    use ek_letters, only: visible
-   use ek_group, only: group_number, key_t, find_key, polar, axial
+   use ek_group, only: group_names, group_number, key_t, find_key, polar, axial
    implicit none(type, external)
    private
    public :: place_t, deck_errors_t, place_in, single, left_side, right_side, side_prefix, has_side
@@ -39,9 +39,11 @@ module ek_record
       private
       integer :: used = 0
       logical :: is_cut = .false.         !! a file was not read to its end and may have more errors
+      logical :: lost(0:size(group_names)) = .false.      !! groups of which a file was not read; 0: any group
       type(deck_error_t), allocatable :: list(:)
    contains
-      procedure :: add => complaints_add, cut => complaints_cut, count => complaints_count, text => complaints_text
+      procedure :: add => complaints_add, cut => complaints_cut, lose => complaints_lose, lacks => complaints_lacks, &
+         count => complaints_count, text => complaints_text
    end type deck_errors_t
 
    !> One value as written; a string without its quotes.
@@ -56,6 +58,7 @@ module ek_record
    type :: entry_t
       character(:), allocatable :: key    !! key in lower case
       integer :: first = 1                !! subscript of the first value
+      integer :: last = 0                 !! while the entry is scanned: last subscript of `key(first:last) = values`; 0: not given
       integer :: line = 0
       character(:), allocatable :: setting   !! 'path=value' if --set has set a value of the entry
       logical :: is_bad = .false.         !! the entry was rejected by check_record
@@ -313,6 +316,21 @@ contains
       class(deck_errors_t), intent(inout) :: self
       self%is_cut = .true.
    end subroutine complaints_cut
+
+   !> Records that a file with records of a group, or of any group, was not read: a reference to an unknown record of the group is
+   !> then no error of its own.
+   pure subroutine complaints_lose(self, group)
+      class(deck_errors_t), intent(inout) :: self
+      integer, intent(in) :: group                 !! 0: any group
+      self%lost(group) = .true.
+   end subroutine complaints_lose
+
+   !> Whether records of a group may be missing because their file was not read.
+   pure logical function complaints_lacks(self, group) result(lacks)
+      class(deck_errors_t), intent(in) :: self
+      integer, intent(in) :: group
+      lacks = self%lost(0) .or. self%lost(group)
+   end function complaints_lacks
 
    !> The number of recorded errors.
    pure integer function complaints_count(self)

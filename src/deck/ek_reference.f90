@@ -66,7 +66,7 @@ contains
       found = find_card(reading, group, name)
       if (found > 0) return
       reading%cards(reading%k)%is_good = .false.
-      if (may_be_meant(reading, group, name)) return
+      if (may_be_meant(reading, group, name) .or. reading%deck_errors%lacks(group)) return
       call complain(reading, key, key//': there is no '//trim(group_names(group))//' '//quoted(name)// &
          mirror_or(did_you_mean(name, names_of(reading, group, name))))
 
@@ -306,7 +306,8 @@ contains
 
       found = find_card(reading, joint_group, name)
       if (found == 0) then
-         call complain(reading, 'drive', 'drive: there is no driver joint '//quoted(name)//did_you_mean(name, &
+         if (.not. reading%deck_errors%lacks(joint_group)) &
+            call complain(reading, 'drive', 'drive: there is no driver joint '//quoted(name)//did_you_mean(name, &
             [character(word_length) :: pack(reading%cards%name, [(is_driver(reading, j), j=1, size(reading%cards))]), others]))
          return
       end if

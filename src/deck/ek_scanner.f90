@@ -8,7 +8,7 @@
 !>
 !> Values are separated by commas, blanks or line ends; strings are enclosed in ' or ", doubled inside a string.
 module ek_scanner
-   use ek_text, only: str, lower, quoted
+   use ek_text, only: str, lower, quoted, plural
    use ek_letters, only: is_wide, with_line_ends, save_as_utf8
    use ek_cursor, only: cursor_t, skip_blanks, next_character, key_follows, lacks_equals, take_subscript, take_word, &
       take_anything, take_line, drop_unit, unit_message, is_word_begin, quotes, tab, newline, return
@@ -179,7 +179,8 @@ contains
       if (is_open) call close_entry(entry, record, deck_errors)
    end subroutine scan_record
 
-   !> Reads a key, its subscript and the = sign. A missing = sign, or a colon instead, is reported as an error.
+   !> Reads a key, its subscript (one index, or a range such as 1:3) and the = sign. A missing = sign, or a colon instead, is reported
+   !> as an error.
    subroutine open_entry(text, cursor, record, entry, deck_errors)
       character(*), intent(in) :: text
       type(cursor_t), intent(inout) :: cursor
@@ -187,7 +188,8 @@ contains
       type(entry_t), intent(out) :: entry
       type(deck_errors_t), intent(inout) :: deck_errors
       character(:), allocatable :: subscript, word
-      integer :: status
+      logical :: is_good
+      integer :: colon
 
       entry%line = cursor%line
       call take_word(text, cursor, word)
@@ -195,13 +197,19 @@ contains
       call skip_blanks(text, cursor)
       if (next_character(text, cursor) == '(') then
          call take_subscript(text, cursor, subscript)
-         status = 1
-         if (verify(subscript, '0123456789') == 0 .and. len(subscript) > 0 .and. len(subscript) < 7) &
-            read (subscript, *, iostat=status) entry%first
-         if (status /= 0 .or. entry%first < 1) then
+         colon = index(subscript//':', ':')
+         is_good = is_subscript(subscript(:colon - 1))
+         if (is_good) read (subscript(:colon - 1), *) entry%first
+         if (colon <= len(subscript)) then
+            is_good = is_good .and. is_subscript(subscript(colon + 1:))
+            if (is_good) read (subscript(colon + 1:), *) entry%last
+            is_good = is_good .and. entry%last >= entry%first
+         end if
+         if (.not. is_good .or. entry%first < 1) then
             call complain_of(deck_errors, record, entry%line, 'the subscript of '//quoted(entry%key)// &
-               ' must be one positive integer, found ('//subscript//')')
+               ' must be a positive integer or a range such as 1:3, found ('//subscript//')')
             entry%first = 1
+            entry%last = 0
          end if
          call skip_blanks(text, cursor)
       end if
@@ -213,6 +221,14 @@ contains
       end if
       if (next_character(text, cursor) == '=') cursor%at = cursor%at + 1
 
+   contains
+
+      !> Whether a string is an integer of at most six digits.
+      pure logical function is_subscript(text)
+         character(*), intent(in) :: text
+         is_subscript = len(text) > 0 .and. len(text) < 7 .and. verify(text, '0123456789') == 0
+      end function is_subscript
+
    end subroutine open_entry
 
    !> Adds a complete entry to its record, unless one of its elements was given before; this is an error. An entry without values is
@@ -223,7 +239,12 @@ contains
       type(deck_errors_t), intent(inout) :: deck_errors
       integer :: k, before
 
-      if (entry%used == 0) call complain_of(deck_errors, record, entry%line, quoted(entry%key)//' has no value')
+      if (entry%used == 0) then
+         call complain_of(deck_errors, record, entry%line, quoted(entry%key)//' has no value')
+      else if (entry%last > 0 .and. entry%used /= entry%last - entry%first + 1) then
+         call complain_of(deck_errors, record, entry%line, entry%key//'('//str(entry%first)//':'//str(entry%last)//') needs '// &
+            plural(entry%last - entry%first + 1, 'value', 'values')//', found '//str(entry%used))
+      end if
       before = 0
       do k = 1, max(entry%used, 1)
          if (before == 0) before = entry_index(record, entry%key, entry%first + k - 1)

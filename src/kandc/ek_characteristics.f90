@@ -183,7 +183,9 @@ contains
          call respond(reader, moment, is%aligning(k, held))
       end do
       twist = phase(wheels, m, place, 1, 1.0_wp)
+      if (axle%brakes_at_centre) twist = phase(wheels, c, place, 1, 1.0_wp)
       call respond(reader, twist, is%braking(held))
+      twist = phase(wheels, m, place, 1, 1.0_wp)
       if (.not. axle%drives_at_patch) twist = phase(wheels, c, place, 1, 1.0_wp)
       twist = -twist
       call respond(reader, twist, is%traction(held))
@@ -277,16 +279,17 @@ contains
    !> Computes the ratio −Zf/Zw of braking and of driving, and the wheel travel per g. Zf and Zw are the upward displacements of a
    !> wheel centre under the longitudinal force and under the load transfer, per unit of the whole force on the vehicle.
    !>
-   !> Braking is a force of 1 rearward. Each wheel of this axle carries half the share of the axle, at the contact point, and the
-   !> load transfer h/2L, added (front) or removed (rear). Driving is a force of 1 forward, at the wheel centre or the contact
-   !> point; all signs are opposite. The travel per g is Zf + Zw times the weight of the car.
+   !> Braking is a force of 1 rearward. Each wheel of this axle carries half the share of the axle, and the load transfer h/2L, added
+   !> (front) or removed (rear). The force acts at the contact point, or at the wheel centre if the body takes the brake torque.
+   !> Driving is a force of 1 forward, at the wheel centre or the contact point; all signs are opposite. The travel per g is Zf + Zw
+   !> times the weight of the car.
    !> Equations (S.11), (S.12), (S.13) of docs/theory/suspension.md.
    pure subroutine anti_features(loaded, place, axle, is)
       type(loaded_t), intent(in) :: loaded
       integer, intent(in) :: place
       type(axle_t), intent(in) :: axle
       type(wheel_characteristics_t), intent(inout) :: is
-      real(wp) :: rearward(6), upward(6), at_centre(6), share, transfer, lever, least
+      real(wp) :: rearward(6), upward(6), at_centre(6), share, transfer, lever, brake, least
 
       if (.not. axle%has_axle) return
       rearward = phase(loaded%wheels, loaded%m, place, 1, 1.0_wp)
@@ -299,9 +302,11 @@ contains
       if (.not. axle%is_front) transfer = -transfer
       lever = at_centre(3)
       if (axle%drives_at_patch) lever = rearward(3)
-      is%anti_brake = quotient(-0.5_wp*share*rearward(3), transfer*upward(3), least)
+      brake = rearward(3)
+      if (axle%brakes_at_centre) brake = at_centre(3)
+      is%anti_brake = quotient(-0.5_wp*share*brake, transfer*upward(3), least)
       is%anti_drive = quotient(0.5_wp*axle%drive_share*lever, -transfer*upward(3), least)
-      is%brake_travel = axle%mass*gravity*(transfer*upward(3) + 0.5_wp*share*rearward(3))
+      is%brake_travel = axle%mass*gravity*(transfer*upward(3) + 0.5_wp*share*brake)
       is%drive_travel = axle%mass*gravity*(-transfer*upward(3) - 0.5_wp*axle%drive_share*lever)
    end subroutine anti_features
 

@@ -18,7 +18,7 @@ module ek_rig
    use ek_contract, only: are_checked, require
    use ek_rig_numbers, only: rig_t, height_t, acting_t, set_rig_numbers, copy_rig_numbers, up
    use ek_rig_test, only: rig_test_t, rig_test, of_one_wheel, swept_unit, moves_heights, rolls, steers, loads_wheels, takes_table, &
-      covers_grid
+      covers_grid, of_braking
    use ek_wheel_side, only: side_name, left_and_right
    use ek_joint, only: joint_t, row_t, term_t, joint_kinds
    use ek_suspension, only: suspension_t, load_t, driver_unit, copy_numbers
@@ -290,6 +290,10 @@ contains
 
       is_at_patch = .not. test%is_at_centre .or. suspension%axle%drives_at_patch
       if (test%is_at_centre .and. is_at_patch) rig%place_name = 'driving force at each contact point'
+      if (test%charts == of_braking .and. suspension%axle%brakes_at_centre) then
+         is_at_patch = .false.
+         rig%place_name = 'braking force at each wheel centre'
+      end if
       do side = 1, 2
          if (wheels(side) > 0) call add_load(rig, suspension, case, trim(side_name(side)), &
             acting_t(wheels(side), is_at_patch, test%force, test%moment, test%has_trail), &

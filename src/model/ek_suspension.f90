@@ -73,6 +73,8 @@ module ek_suspension
       real(wp) :: front_width = 0.0_wp    !! width of the car at its front corners [m]; given together with front_overhang
       logical :: drives_at_patch = .false.   !! the axle carries the drive torque (solid axle): driving force acts at contact point;
                                              !! otherwise (independent suspension) at the wheel centre
+      logical :: brakes_at_centre = .false.  !! the body takes the brake torque (inboard brakes): braking force acts at wheel centre;
+                                             !! otherwise (brake on the carrier) at the contact point
    end type axle_t
 
    !> The transmission from the steering wheel to the driver that moves the rack.

@@ -56,18 +56,25 @@ contains
       where (index(names, 'right_') == 1) stems = stems(:) (7:)
    end function stems_of
 
-   !> Finds a name among the key numbers. `number` is 0 if the name is unknown.
+   !> Finds a name among the key numbers. Of a number of both wheels, a name without left_ or right_ means the left wheel. `number`
+   !> is 0 if the name is unknown.
    pure subroutine find_number(name, heads, number, wheel)
       character(*), intent(in) :: name
       character(*), intent(in) :: heads(:, :)           !! (wheel, number)
       integer, intent(out) :: number, wheel
+      integer :: k
 
+      number = 0
       wheel = 0
-      do number = size(heads, 2), 1, -1
+      if (name == '') return
+      do k = size(heads, 2), 1, -1
          do wheel = 1, 2
-            if (heads(wheel, number) == name .and. name /= '') return
+            number = k
+            if (heads(wheel, k) == name) return
          end do
       end do
+      wheel = 1
+      number = findloc(heads(1, :) == 'left_'//name, .true., dim=1, back=.true.)
    end subroutine find_number
 
    !> Lists the names of all key numbers, with units and definitions, in the order of the report. No case is solved, so that a

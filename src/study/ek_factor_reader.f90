@@ -52,7 +52,7 @@ contains
       study%factors = [study%factors, this]
    end subroutine take_factor
 
-   !> Reads from, to, count and spacing, which define values in equal steps, or in equal ratios (spacing = 'log').
+   !> Reads from, to, count and spacing, which define values in equal steps, or in equal ratios (spacing = 'log'). One value is `from`.
    subroutine take_steps(reading, this)
       type(deck_reading_t), intent(inout) :: reading
       type(study_factor_t), intent(inout) :: this
@@ -65,10 +65,12 @@ contains
       to = number_of(reading, 'to', 1.0_wp)
       if (.not. (has_key(reading, 'count') .and. has_key(reading, 'from') .and. has_key(reading, 'to'))) then
          if (.not. is_lost(reading, '')) call complain(reading, '', 'needs values, or from, to and count')
-      else if (count < 2 .or. count > max_values) then
-         call complain(reading, 'count', 'count must be 2 to '//str(max_values))
+      else if (count < 1 .or. count > max_values) then
+         call complain(reading, 'count', 'count must be 1 to '//str(max_values))
       else if (spacing == 2 .and. .not. (from > 0.0_wp .and. to > 0.0_wp)) then
          call complain(reading, 'spacing', 'spacing = ''log'' needs from and to above 0')
+      else if (count == 1) then
+         this%values = [from]
       else if (spacing == 2) then
          this%values = [(from*(to/from)**(real(j, wp)/(count - 1)), j=0, count - 1)]
       else

@@ -8,7 +8,7 @@ module ek_sampler_settings
    use ek_sampler_kind, only: sampler_kind_t, sampler_kinds, grid_kind, list_kind, sobol_kind, saltelli_kind, morris_kind
    implicit none(type, external)
    private
-   public :: factor_t, sampler_settings_t, check_settings
+   public :: factor_t, sampler_settings_t, check_settings, seed_text
 
    ! what one seed is used for (ek_philox)
    integer, parameter, public :: design_stream = 0, permutation_stream = 1, scramble_stream = 2, trajectory_stream = 3
@@ -33,6 +33,16 @@ module ek_sampler_settings
    end type sampler_settings_t
 
 contains
+
+   !> The seed of a sampler as a string.
+   pure function seed_text(settings) result(text)
+      type(sampler_settings_t), intent(in) :: settings
+      character(:), allocatable :: text
+      character(20) :: buffer
+
+      write (buffer, '(i0)') settings%seed
+      text = trim(buffer)
+   end function seed_text
 
    !> Checks the settings of a sampler and its lists of values. Settings that the kind does not allow are errors.
    pure subroutine check_settings(settings, factors, error)

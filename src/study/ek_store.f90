@@ -14,6 +14,7 @@ module ek_store
    use ek_quantity, only: quantity_t, quantity_named, unit_of, unit_text
    use ek_study, only: study_t, study_factor_t, response_t, kind_names, change_names, by_delta, by_scale
    use ek_sampler_kind, only: sampler_kinds
+   use ek_sampler_settings, only: seed_text
    use ek_study_plan, only: study_plan_t
    use ek_study_run, only: parts_folder
    use ek_study_tables, only: study_counts_t, has_limits, kernels_text
@@ -205,7 +206,7 @@ contains
          call list%add('study', study%name)
          call list%add('kind', trim(kind_names(study%kind)))
          if (sampler_kinds(study%kind)%has_size) call list%add('samples', str(int(study%settings%size)), whole_kind)
-         if (sampler_kinds(study%kind)%has_seed) call list%add('seed', str(int(study%settings%seed)), whole_kind)
+         if (sampler_kinds(study%kind)%has_seed) call list%add('seed', seed_text(study%settings), whole_kind)
          call list%add('identity', plan%identity)
          call list%add('deck_checksum', plan%deck_sum)
          if (kernels_text(counts) /= '') call list%add('blas_kernels', kernels_text(counts))

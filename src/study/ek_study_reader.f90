@@ -3,7 +3,7 @@
 !> `&study` defines the study, `&factor` a number of the deck that is varied, `&correlation` the correlation of two factors, and
 !> `&response` a value read from the results.
 module ek_study_reader
-   use ek_kinds, only: wp
+   use ek_kinds, only: wp, i8
    use ek_error, only: error_t, fail, exit_deck
    use ek_text, only: str, lower, quoted, did_you_mean
    use ek_case, only: method_names, max_increments
@@ -13,7 +13,7 @@ module ek_study_reader
    use ek_namelist, only: check_record, is_legal_name
    use ek_deck, only: deck_t, read_deck, include_records
    use ek_deck_reading, only: deck_reading_t, complain, complain_of_all, refuse, choice, choose, has_key, where_of, line_of, &
-      text_of, texts_of, number_of, whole_of, switch_of, value_count, raw
+      text_of, texts_of, number_of, whole_of, long_of, switch_of, value_count, raw
    use ek_sampler_kind, only: sampler_kinds, grid_kind, list_kind
    use ek_study, only: study_t, response_t, of_names, step_size_kind, kind_names
    use ek_factor_reader, only: take_factor, is_lost
@@ -180,7 +180,7 @@ contains
 
       study%settings%size = whole_of(reading, 'samples', 0)
       study%settings%levels = whole_of(reading, 'levels', study%settings%levels)
-      study%settings%seed = whole_of(reading, 'seed', 1)
+      study%settings%seed = long_of(reading, 'seed', 1_i8)
       study%settings%is_scrambled = switch_of(reading, 'scrambled', .true.)
       if (study%kind == 0) return
       why = 'kind = '//quoted(trim(kind_names(study%kind)))//' does not use it'

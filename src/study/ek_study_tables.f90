@@ -12,6 +12,7 @@ module ek_study_tables
    use ek_noise, only: widen
    use ek_study, only: study_t, kind_names
    use ek_sampler_kind, only: sampler_kinds, grid_kind
+   use ek_sampler_settings, only: seed_text
    use ek_factor_paths, only: label_of
    use ek_study_plan, only: study_plan_t, first_of, designs_in
    use ek_study_run, only: parts_folder
@@ -230,7 +231,7 @@ contains
       character(:), allocatable :: text
 
       text = ''
-      if (sampler_kinds(study%kind)%has_seed) text = ', seed '//str(int(study%settings%seed))
+      if (sampler_kinds(study%kind)%has_seed) text = ', seed '//seed_text(study%settings)
    end function seed_of
 
    !> Appends the rows of a chunk to the table of designs.
