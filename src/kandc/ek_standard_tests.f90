@@ -6,11 +6,18 @@ module ek_standard_tests
    use ek_case, only: case_t
    use ek_grid, only: is_grid
    use ek_suspension, only: suspension_t
+   use ek_kkt, only: kkt_t, new_kkt
+   use ek_path, only: path_t, sweep
+   use ek_rig, only: mount
    use ek_characteristics, only: trail
    use ek_wheel_side, only: left_and_right
    implicit none(type, external)
    private
    public :: standard_tests, cover_rack_travel, test_title, held_text
+
+   character(*), parameter :: of_standard = 'the standard tests'
+   real(wp), parameter :: inside = 0.95_wp          !! share of the travel to a lock that a standard test covers
+   real(wp), parameter :: too_short = 0.05_wp       !! share of the range: a model that locks earlier is left to the test
 
 contains
 
@@ -18,7 +25,8 @@ contains
    !>
    !> A test that the deck contains (with this kind, phase and offset, and the vertical control of the test) is taken from the deck
    !> with its range. The other cases of the deck follow. A test whose name the deck uses for another case gets the suffix '_test'.
-   !> Steering covers the travel of the rack given in &steering; a grid also covers the range of the parallel travel. A grid costs
+   !> Travel and roll end at 95 % of a lock of the axle inside their range. Steering covers the travel of the rack given in &steering;
+   !> a grid also covers the range of the parallel travel. A grid costs
    !> as much as several other tests, so a grid is listed only if it is requested.
    subroutine standard_tests(suspension, own, tests, asked)
       type(suspension_t), intent(in) :: suspension
@@ -72,7 +80,7 @@ contains
          do while (any([(lower(own(k)%name) == this%name, k=1, size(own))]))      ! names become file names
             this%name = this%name//'_test'
          end do
-         this%where = 'the standard tests'
+         this%where = of_standard
          this%load = ''
          this%drive = ''
          this%to = test%reach*swept_unit(merge('mm ', test%unit, test%action == covers_grid))
@@ -92,6 +100,7 @@ contains
          this%offset = offset
          this%file = ''
          this%target = ''
+         if (any(test%action == [moves_heights, rolls])) call stay_inside_locks(suspension, this)
          this%has_all = .true.
          call append(this)
       end subroutine include
@@ -102,6 +111,34 @@ contains
       end subroutine append
 
    end subroutine standard_tests
+
+   !> Shortens the range of a standard test whose axle locks inside it: to 95 % of the travel or roll that the axle reaches on this
+   !> side of design. The numbers are those of the deck, without its preload trim: the wheels are held by height, so that preloads
+   !> hardly change what the axle reaches. Of a model that cannot be solved at design, the range is unchanged.
+   subroutine stay_inside_locks(suspension, this)
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(inout) :: this
+      type(suspension_t) :: on_rig
+      type(case_t) :: trial
+      type(path_t) :: path
+      type(kkt_t) :: kkt
+      real(wp) :: reached
+      integer :: side
+
+      call mount(suspension, this, on_rig, trial)
+      trial%increments = 8                           ! steps are divided where they must be
+      kkt = new_kkt(on_rig)
+      call sweep(on_rig, trial, path, kkt)
+      if (path%start == 0) return
+      if (.not. path%is_reached(path%start)) return
+      do side = 1, 2
+         if (path%failure(side)%state == 0) cycle
+         reached = path%failure(side)%reached
+         if (abs(reached) < too_short*abs(this%to)) cycle
+         if (reached > 0.0_wp) this%to = inside*reached
+         if (reached < 0.0_wp) this%from = inside*reached
+      end do
+   end subroutine stay_inside_locks
 
    !> Sets the range of a standard test of steering, or of a grid, to the whole rack travel. The range of other tests is unchanged.
    pure subroutine cover_rack_travel(suspension, this)
@@ -136,7 +173,22 @@ contains
       if (this%vertical == 'centre') title = title//', wheel centres held'
       if (this%vertical == 'force') title = title//', by vertical force'
       if (this%vertical == 'road') title = title//', on the road'
+      if (is_shortened(this, test)) title = title//', '//str(this%from/swept_unit(test%unit), 3)//' to '// &
+         str(this%to/swept_unit(test%unit), 3)//' '//trim(test%unit)//' (95 % of the way to the lock)'
    end function test_title
+
+   !> Whether the range of a standard test ends before a lock of the axle.
+   pure logical function is_shortened(this, test)
+      type(case_t), intent(in) :: this
+      type(rig_test_t), intent(in) :: test
+      real(wp) :: reach
+
+      reach = 0.999_wp*test%reach*swept_unit(test%unit)
+      is_shortened = .false.
+      if (allocated(this%where)) is_shortened = this%where == of_standard
+      if (.not. any(test%action == [moves_heights, rolls])) is_shortened = .false.
+      if (is_shortened) is_shortened = this%to < reach .or. this%from > -reach
+   end function is_shortened
 
    !> The condition of the wheels in a test: 'vertical force held'; '' for a case that is not a test.
    pure function held_text(this) result(held)
