@@ -62,6 +62,7 @@ contains
             is_closer(l) = is_asked(l) .and. places(l)%is_symmetric .and. places(l)%knows_factors .and. .not. rest(l) <= smooth
          end do
          if (self%history%count == 1 .or. .not. any(is_closer)) return
+         self%tangents_again = self%tangents_again + 1
          call unpack_poses(pack%bodies, pack%rows, pack%packed(:, newest), pack%poses_before, pack%reaction_before)
          call find_tangents(self, members, places, is_common, self%history%abscissa(newest), value, pack%poses_before, &
             pack%factors_before, pack%tangent_a)

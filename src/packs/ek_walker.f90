@@ -48,6 +48,7 @@ module ek_walker
       type(place_t), allocatable :: places(:)    !! position of each design; reused as work space
       real(wp) :: tolerance = 0.0_wp             !! tolerance of the present designs [m]
       integer :: steps_alone = 0, steps = 0      !! numbers of steps of all designs so far: alone, and in total
+      integer :: tangents_again = 0              !! number of steps that needed the tangents at both ends
    end type walker_t
 
 contains
