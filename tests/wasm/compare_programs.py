@@ -75,7 +75,7 @@ def commands():
     found += [["check", f"tests/decks/{p.name}"] for p in sorted((top / "tests/decks").glob("*.nml"))]
     corner, axle = "input/mcpherson/mcpherson.nml", "input/mcpherson_axle/mcpherson_axle.nml"
     for study in ("hardpoint_tolerance", "what_matters"):
-        found.append(["study", f"studies/{study}/study.nml", "--samples", "16", "--no-plots", "--out", f"out/{study}/study"])
+        found.append(["study", f"studies/{study}/study.nml", "--samples", "16", "--out", f"out/{study}/study"])
     for name in ("run_tie_rod", "snap_truss", "coarse_travel", "leaves_its_stop", "split"):     # lost and unstable states
         found.append(["run", f"tests/decks/{name}.nml", "--json", "--out", f"out/{name}/run"])
     vary = ["--vary", "point.tie_rod_inner.z=-80:-50"]

@@ -136,6 +136,7 @@ int ekw_fork(void) { return not_here(); }
 int ekw_execvp(const char *file, void *words) { UNUSED(file); UNUSED(words); return not_here(); }
 int ekw_setpgid(int process, int group) { UNUSED(process); UNUSED(group); return not_here(); }
 int ekw_kill(int process, int number) { UNUSED(process); UNUSED(number); return not_here(); }
+int ekw_raise(int number) { UNUSED(number); return not_here(); }
 int ekw_alarm(int seconds) { UNUSED(seconds); return 0; }
 void *ekw_signal(int number, void *action) { UNUSED(number); UNUSED(action); return NULL; }
 int ekw_dup(int file) { UNUSED(file); return 1000000; }     /* whether a standard stream is open: it is. The copy is only closed */
