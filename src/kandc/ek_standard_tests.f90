@@ -112,7 +112,7 @@ contains
 
    end subroutine standard_tests
 
-   !> Shortens the range of a standard test whose axle locks inside it: to 95 % of the travel or roll that the axle reaches on this
+   !> Restricts the range of a standard test whose axle locks inside it: to 95 % of the travel or roll that the axle reaches on this
    !> side of design. The numbers are those of the deck, without its preload trim: the wheels are held by height, so that preloads
    !> hardly change what the axle reaches. Of a model that cannot be solved at design, the range is unchanged.
    subroutine stay_inside_locks(suspension, this)
