@@ -36,6 +36,10 @@ wasm_wheel() {
   [ "${PIPESTATUS[0]}" -eq 0 ] || return 1
   echo "remark: $(tail -n 1 "$logs/wasm_wheel.txt")"
   EK_CACHE=/dev/null/nowhere "$folder/bin/elastokin" --version 2>&1 | grep 'cannot be stored' || return 1
+  # a damaged cache is written again
+  truncate --size=1000 "$logs"/wasm_wheel/cache/*.compiled
+  EK_CACHE=$logs/wasm_wheel/cache "$folder/bin/elastokin" --version 2>&1 | grep 'compiling the program' || return 1
+  ! EK_CACHE=$logs/wasm_wheel/cache "$folder/bin/elastokin" --version 2>&1 | grep 'compiling the program' || return 1
   # Ctrl-C ends it while it computes
   EK_CACHE=$logs/wasm_wheel/cache timeout --kill-after=10 --signal=INT 5 "$folder/bin/elastokin" run input/mcpherson_axle/mcpherson_axle.nml \
     --increments 100000 --out "$logs/wasm_wheel/long" --quiet

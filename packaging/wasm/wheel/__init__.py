@@ -36,12 +36,15 @@ def compiled(engine: wasmtime.Engine) -> wasmtime.Module:
     """The program for this processor, from the cache or compiled. The name of the file changes with program, wasmtime and machine."""
     content = program.read_bytes()
     facts = f"{hashlib.sha256(content).hexdigest()} {metadata.version('wasmtime')} {platform.platform()} {platform.processor()}"
+    stored = None
     try:
         stored = cache_folder() / f"program-{hashlib.sha256(facts.encode()).hexdigest()[:16]}.compiled"
         if stored.exists():
             return wasmtime.Module.deserialize(engine, stored.read_bytes())
-    except (OSError, RuntimeError, wasmtime.WasmtimeError):
-        stored = None
+    except wasmtime.WasmtimeError:
+        pass                                                 # damaged: it is written again
+    except (OSError, RuntimeError):
+        stored = None                                        # no folder of the user, or one that cannot be read
     print("elastokin: compiling the program for this processor (once, some seconds)", file=sys.stderr, flush=True)
     module = wasmtime.Module(engine, content)
     if stored:
