@@ -52,20 +52,34 @@ has_sum() { [ -f "$1" ] && [ "$(sha256sum <"$1" | cut -d ' ' -f 1)" = "$2" ]; }
 
 # download ARCHIVE POOL SUM: into the cache, from the archives of Debian that this machine uses. No index is asked: indexes of other
 # releases than the installed one may be absent or name files that are gone. The file is the same for every release
-# shellcheck disable=SC2016     # apt-get replaces $(REPO_URI)
 download() {
-  local archive=$1 pool=$2 sum=$3 address folder
+  local archive=$1 pool=$2 sum=$3 address part
   command -v apt-get >/dev/null || return 1
   while read -r address; do
-    for folder in pool pool/updates; do
-      /usr/lib/apt/apt-helper -o APT::Sandbox::User=root download-file "${address%/}/$folder/$pool/$archive" "$cache/$archive.part" \
+    for part in pool pool/updates; do
+      /usr/lib/apt/apt-helper -o APT::Sandbox::User=root download-file "${address%/}/$part/$pool/$archive" "$cache/$archive.part" \
         "SHA256:$sum" >>"$log" 2>&1 || continue
       has_sum "$cache/$archive.part" "$sum" || continue
       mv "$cache/$archive.part" "$cache/$archive"
       return
     done
-  done < <({ apt-get indextargets --format '$(REPO_URI)' 'Created-By: Packages' || true; } 2>>"$log" | sort -u)
+  done < <(addresses)
   return 1
+}
+
+# addresses: the archives of this machine. apt-get names only those of which it has lists; without any it makes lists here
+# shellcheck disable=SC2016     # apt-get replaces $(REPO_URI)
+addresses() {
+  local lists=$folder/apt_lists found
+  named() { { apt-get "$@" indextargets --format '$(REPO_URI)' 'Created-By: Packages' || true; } 2>>"$log" | sort -u; }
+  found=$(named)
+  if [ -z "$found" ]; then
+    mkdir -p "$lists/partial"
+    apt-get -o Dir::State::Lists="$lists" -o APT::Sandbox::User=root update >>"$log" 2>&1 || true
+    found=$(named -o Dir::State::Lists="$lists")
+    rm -rf "$lists"
+  fi
+  echo "$found"
 }
 
 # unpack NAME ARCHIVE POOL SUM PARTS_SUM PART...: the parts of a source archive, in $cache/NAME-<sum>
