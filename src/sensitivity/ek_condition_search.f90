@@ -117,6 +117,7 @@ contains
 
       deviation = self%values%values - self%targets
       do i = 1, size(deviation)
+         if (.not. ieee_is_finite(deviation(i))) cycle
          if (is_noise(deviation(i), self%values%wanted(i)%heading, self%targets(i), solved)) deviation(i) = 0.0_wp
          if (.not. self%reach(i) > 0.0_wp .and. abs(deviation(i)) <= self%slack(i)) deviation(i) = 0.0_wp
       end do
