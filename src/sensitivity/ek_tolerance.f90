@@ -90,11 +90,11 @@ contains
          call find_beside(step, high)
          if (allocated(error)) return
          do k = 1, size(slopes%values)
-            ! twice the noise of a slope, because it is a difference of two
+            ! of a factor without a slope; twice the noise of a slope, because it is a difference of two
             noise = 2.0_wp*slopes%noise(k, :)*[(slope_at(tolerance%factors(j), 0.0_wp), j=1, size(here))]
-            associate (b => tolerance%expansions(k)%curvatures(:, f))
+            associate (b => tolerance%expansions(k)%curvatures(:, f), a => tolerance%expansions(k)%slopes)
                b = (high(k, :) - low(k, :))/(2.0_wp*step)
-               where (abs(high(k, :) - low(k, :)) <= noise) b = 0.0_wp
+               where (min(abs(a), abs(a(f))) <= 0.0_wp .and. abs(high(k, :) - low(k, :)) <= noise) b = 0.0_wp
             end associate
          end do
       end do
