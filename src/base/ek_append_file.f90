@@ -6,8 +6,8 @@
 module ek_append_file
    use, intrinsic :: iso_c_binding, only: c_associated, c_int, c_long, c_null_char, c_null_ptr, c_ptr
    use ek_error, only: error_t, fail, exit_file
-   use ek_posix, only: c_fopen, c_fclose, c_fileno, c_poll
-   use ek_system, only: facts_t, facts_of, regular_file, folder_exists, try_lock, write_bytes, system_reason
+   use ek_posix, only: c_open, c_close, c_fopen, c_fclose, c_fileno, c_poll
+   use ek_system, only: facts_t, facts_of, regular_file, other_file, folder_exists, try_lock, write_bytes, system_reason
    implicit none(type, external)
    private
    public :: append_file_t, open_append_file
@@ -33,8 +33,11 @@ contains
       type(error_t), allocatable, intent(out) :: error       !! exit_file
       type(facts_t) :: facts
       character(1) :: byte
+      integer(c_int), parameter :: write_at_once = 2049      ! O_WRONLY and O_NONBLOCK of open(2)
+      integer(c_int) :: descriptor
       integer :: unit, status, ignored
 
+      descriptor = -1
       facts = facts_of(path, follow=.true.)
       if (facts%kind == regular_file) then
          byte = first
@@ -52,9 +55,17 @@ contains
          call fail(error, exit_file, "cannot append to '"//path//"': it is a folder")
          return
       end if
+      if (facts%kind == other_file) then                     ! fopen would wait for a reader
+         descriptor = c_open(path//c_null_char, write_at_once)
+         if (descriptor < 0) then
+            call fail(error, exit_file, "cannot append to '"//path//"': it is a pipe from which no program reads")
+            return
+         end if
+      end if
       file%stream = c_fopen(path//c_null_char, 'a'//c_null_char)
       if (.not. c_associated(file%stream)) call fail(error, exit_file, "cannot append to '"//path//"': "//system_reason())
       file%path = path
+      if (descriptor >= 0) ignored = c_close(descriptor)
    end subroutine open_append_file
 
    logical function is_open(self)

@@ -6,7 +6,7 @@ module ek_text
    implicit none(type, external)
    private
    public :: str, lower, quoted, nearest_name, suggestion, suggestion_by_part, did_you_mean, is_like, vector_text, plural, &
-      printable, spaced, replace
+      printable, is_printable, spaced, replace
 
    !> A number as a string for messages and names: an integer (`str_integer`) or a real (`str_real`).
    interface str
@@ -262,6 +262,17 @@ contains
          if (fits) return
       end do
    end function is_like
+
+   !> Whether a text has printable letters and line ends only.
+   pure logical function is_printable(text)
+      character(*), intent(in) :: text
+      integer :: k
+
+      is_printable = .true.
+      do k = 1, len(text)
+         is_printable = is_printable .and. (text(k:k) == new_line('a') .or. (text(k:k) >= ' ' .and. iachar(text(k:k)) < 127))
+      end do
+   end function is_printable
 
    !> The Levenshtein distance of two strings: the least number of inserted, deleted and replaced characters.
    pure integer function edit_distance(a, b) result(distance)

@@ -1,11 +1,12 @@
 !> The output of a study: its tables or its store, the message about designs that failed, and its figures.
 module ek_study_outcome
-   use ek_error, only: error_t, fail, exit_convergence, message_list_t
+   use ek_error, only: error_t, fail, exit_convergence, exit_file, message_list_t
    use ek_text, only: str, plural
    use ek_file, only: join_path, file_exists, program_exists
    use ek_deck, only: deck_t
    use ek_writer, only: writer_t, begin_file, remove_stale, scratch_t
    use ek_drawing, only: run_plot_script
+   use ek_system, only: facts_t, facts_of, device_file, other_file
    use ek_study, only: study_t, step_size_kind, kind_names
    use ek_study_data, only: yield_interval
    use ek_study_run, only: remove_parts, parts_folder, this_machine, other_machine
@@ -145,6 +146,13 @@ contains
       type(message_list_t), intent(in) :: tables
       type(error_t), allocatable, intent(out) :: error
 
+      type(facts_t) :: facts
+
+      facts = facts_of(script, follow=.true.)
+      if (facts%kind == device_file .or. facts%kind == other_file) then
+         call fail(error, exit_file, 'plot: '//script//' is a pipe or a device, not a gnuplot script')
+         return
+      end if
       if (.not. file_exists(script)) return
       if (.not. program_exists('gnuplot')) then
          call print_note(is_quiet, 'gnuplot is not installed: no figures (later: gnuplot '//script//')')

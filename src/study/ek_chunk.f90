@@ -9,10 +9,12 @@ module ek_chunk
    use ek_error, only: error_t
    use ek_text, only: str
    use ek_checksum, only: checksum_t, include, digits_of
-   use ek_file, only: read_whole
+   use ek_file, only: read_whole, remove_file
+   use ek_system, only: facts_t, facts_of, regular_file, link_file, device_file, other_file, unknown_file
    use ek_writer, only: writer_t, begin_file
    implicit none(type, external)
    private
+   public :: remove_foreign
    public :: chunk_t, new_chunk, add_reason, put_error, reason_of, write_chunk, read_chunk, kernel_of, chunk_name, design_solved, &
       design_incomplete, design_unsolvable, design_invalid, status_names
 
@@ -249,9 +251,12 @@ contains
       character(*), intent(in) :: path
       character(:), allocatable :: kernel
       character(80) :: lines(3)
+      type(facts_t) :: facts
       integer :: unit, status, ignored, k
 
       kernel = ''
+      facts = facts_of(path, follow=.true.)
+      if (.not. (facts%kind == regular_file .or. facts%kind == unknown_file)) return      ! a device may be endless
       open (newunit=unit, file=path, action='read', status='old', iostat=status)
       if (status /= 0) return
       do k = 1, size(lines)
@@ -260,6 +265,15 @@ contains
       close (unit, iostat=ignored)
       if (status == 0) kernel = trim(lines(3))
    end function kernel_of
+
+   !> Removes what is not a file, such as a link or a pipe, from the path of a chunk: a chunk would be written through a link.
+   subroutine remove_foreign(path)
+      character(*), intent(in) :: path
+      type(facts_t) :: facts
+
+      facts = facts_of(path, follow=.false.)
+      if (any(facts%kind == [link_file, device_file, other_file])) call remove_file(path)
+   end subroutine remove_foreign
 
    !> The bytes of real numbers as a string.
    pure function bytes_of(numbers) result(text)

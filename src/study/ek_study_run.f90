@@ -9,7 +9,7 @@
 module ek_study_run
    use ek_kinds, only: wp, i8
    use ek_error, only: error_t, fail, exit_file
-   use ek_text, only: str
+   use ek_text, only: str, is_printable
    use ek_clock, only: seconds
    use ek_interrupt, only: is_stop_asked
    use ek_threads, only: threads_in_memory
@@ -23,7 +23,7 @@ module ek_study_run
    use ek_design_cause, only: causes_t
    use ek_ranks, only: ranks_t, count_up, share, agree, help_others, ticket_counter, done_counter, failed_counter, stopped_counter
    use ek_study_plan, only: study_plan_t, begin_chunk, first_of, designs_in
-   use ek_chunk, only: chunk_t, write_chunk, read_chunk, chunk_name
+   use ek_chunk, only: chunk_t, write_chunk, read_chunk, chunk_name, remove_foreign
    implicit none(type, external)
    private
    public :: run_options_t, run_state_t, report_procedure, open_parts, run_chunks, parts_folder, count_parts, &
@@ -129,9 +129,10 @@ contains
       call read_whole(join_path(folder, identity_name), text, error)
       if (allocated(error)) return
       if (text == content_of(study, plan)) return
-      at = index(text, line_end//build_word)
-      if (at == 0) at = len(text) + 1
-      if (text(at:) == line_end//build_word//plan%build//line_end) then
+      at = index(text//line_end//build_word, line_end//build_word)
+      if (.not. is_printable(text)) then
+         call fail(error, exit_file, join_path(folder, identity_name)//' is damaged'//remedy)
+      else if (text(at:) == line_end//build_word//plan%build//line_end) then
          call fail(error, exit_file, folder//' holds designs of another study or deck'//remedy)
       else
          text = text(min(at + 1, len(text) + 1):)
@@ -272,10 +273,9 @@ contains
       do k = options%shard, plan%chunks, options%shards
          designs = designs_in(plan, k)
          shared%state%wanted = shared%state%wanted + designs
-         is_good = file_exists(join_path(shared%folder, chunk_name(k)))
-         if (is_good) call read_chunk(join_path(shared%folder, chunk_name(k)), plan%identity, first_of(plan, k), &
-            designs_in(plan, k), chunk, is_good)
+         call read_chunk(join_path(shared%folder, chunk_name(k)), plan%identity, first_of(plan, k), designs, chunk, is_good)
          is_pending(k) = .not. is_good
+         if (.not. is_good) call remove_foreign(join_path(shared%folder, chunk_name(k)))
          if (is_good) shared%state%before = shared%state%before + designs
       end do
       shared%pending = pack([(k, k=1, plan%chunks)], is_pending)

@@ -203,6 +203,21 @@ derivatives_of_everything() { # a table of 1.1 GB
   run 0 "$program" derivatives "$top/input/mcpherson_axle/mcpherson_axle.nml" --at all --out out &&
     [ "$(stat -c %s out/mcpherson_axle_parallel_travel_derivatives.csv)" -gt 1000000000 ] && clean out
 }
+endless_files_of_a_study() { # a log into a pipe without a reader, a device as a plot script and as a chunk, a damaged study.txt
+  mkfifo silent
+  run 5 timeout 20 "$program" check "$tiny" --log silent && says 'a pipe from which no program reads' || return 1
+  cat >study.nml <<END
+&study name = 's', kind = 'grid', levels = 3, deck = '$tiny', case = 'sweep', plot = '/dev/zero' /
+&factor name = 'rate', path = 'spring.coil.rate', lower = 20, upper = 40 /
+&response name = 'travel', column = 'wheel_travel_mm', at = 100 /
+END
+  run 5 timeout 60 "$program" study study.nml --out out && says 'is a pipe or a device, not a gnuplot script' || return 1
+  rm -rf out
+  mkdir -p out/s.parts && ln -s /dev/zero out/s.parts/chunk_000001.bin
+  run 0 timeout 60 "$program" study study.nml --out out --no-plots && [ -s out/s_responses.csv ] && [ -c /dev/zero ] && clean out || return 1
+  mkdir -p out/s.parts && head -c 300 /dev/urandom >out/s.parts/study.txt
+  run 5 "$program" study study.nml --out out --no-plots && says 'study.txt is damaged' && ! LC_ALL=C grep -q '[^[:print:][:space:]]' said.txt
+}
 endless_files() { # a device, a pipe into which nobody writes or that never ends, and endless standard input
   local command
   for command in check run report 'export --to csv' bench study plot merge import 'run '"$tiny"' --set-file'; do
@@ -541,7 +556,7 @@ all=(line_end_in_a_title line_end_in_a_test line_end_in_a_file test_that_leaves_
   file_with_a_whole_path column_that_leaves_the_folder column_with_a_quote pipe_in_a_report endless_table_in_a_report
   link_under_a_temporary_name link_under_the_name_of_a_result link_that_looks_stale pipe_under_the_name_of_a_result
   cdpath_leads_elsewhere control_characters_of_a_deck settings_of_a_user words_for_a_shell_in_a_path commands_in_a_title
-  bomb_of_includes endless_include endless_files files_that_are_too_large derivatives_of_everything gnuplot_that_hangs signals_while_gnuplot_hangs page_is_there_while_gnuplot_hangs gnuplot_that_draws_nothing
+  bomb_of_includes endless_include endless_files endless_files_of_a_study files_that_are_too_large derivatives_of_everything gnuplot_that_hangs signals_while_gnuplot_hangs page_is_there_while_gnuplot_hangs gnuplot_that_draws_nothing
   gnuplot_that_draws_half gnuplot_that_fails limit_of_a_file_size shared_memory_is_no_device pictures_beyond_a_file_size
   full_disk no_more_files folder_that_cannot_be_written two_containers_with_one_pid two_runs_in_one_folder
   reader_that_goes_away streams_that_are_closed leavings_of_dead_runs study_that_is_killed
