@@ -77,6 +77,12 @@ contains
       call find_targets(this%results, this%targets)
       this%shown = results_shown(this%numbers, this%rows)
       call compare_charts(this%results, this%threshold, this%charts, this%changes, this%curves)
+      if (.not. (any(this%changes%is_known) .or. any([(count(this%rows(k)%is_there) > 1, k=1, size(this%rows))]) .or. &
+         any([(count(this%numbers(k)%is_there) > 1, k=1, size(this%numbers))]))) then
+         call fail(error, exit_usage, this%results(1)%path//' has no column and no number in common with the other results: '// &
+            'there is nothing to compare')
+         return
+      end if
       call find_missing(this%results, this%rows, this%missing)
       call print_text(text_of(this, line%has('--threshold')), unprinted)     ! the files are written even if it is closed
       do k = 1, this%missing%count()
@@ -135,6 +141,7 @@ contains
                name = results(a)%tests(t)%name
                if (test_number(results(b), name) == 0 .and. is_first(a, b, t)) &
                   call missing%add(results(b)%label//' has no test '//quoted(name))
+               if (a == 1 .and. test_number(results(b), name) > 0) call compare_states(results(1), results(b), t, missing)
             end do
             lacking = columns_lacking(results(a), results(b))
             if (lacking%count() > 0) call missing%add(results(b)%label//' has no column '//some_of(lacking))
@@ -163,6 +170,19 @@ contains
       end function is_first
 
    end subroutine find_missing
+
+   !> Notes a test that has different numbers of states in two results. Slopes over a window then use different states.
+   subroutine compare_states(one, other, t, missing)
+      type(results_t), intent(in) :: one, other
+      integer, intent(in) :: t                         !! index of the test in `one`
+      type(message_list_t), intent(inout) :: missing
+      integer :: states(2)
+
+      states = [size(one%tests(t)%table%values, 2), &
+         size(other%tests(test_number(other, one%tests(t)%name))%table%values, 2)]
+      if (states(1) /= states(2)) call missing%add('test '//quoted(one%tests(t)%name)//' has '//str(states(1))//' states in '// &
+         one%label//' and '//str(states(2))//' in '//other%label//': fitted slopes use different states')
+   end subroutine compare_states
 
    !> The columns of `one` that the same test of `other` lacks. A column missing in several tests is listed once.
    function columns_lacking(one, other) result(lacking)

@@ -7,7 +7,7 @@ module ek_change
    use ek_noise, only: widths
    implicit none(type, external)
    private
-   public :: least_of, change_of, verdict_of, letter_of, has_changed
+   public :: least_of, change_of, verdict_of, letter_of, has_changed, relative_change
    public :: changed, same, unknown, only_in
 
    character(*), parameter :: changed = 'changed', same = 'same', unknown = 'not a number', only_in = 'only in '
@@ -54,6 +54,28 @@ contains
       if (abs(b - a) <= rounding*scale) return
       change_of = (b - a)/scale
    end function change_of
+
+   !> The change of magnitude from a to b in percent of a, whatever the least span: −55.4 for −2 → −0.892. NaN where a percentage has
+   !> no meaning, and `reason` is then 'from 0' or 'opposite sign'; '' if a or b is missing. Both 0: 0.
+   pure subroutine relative_change(a, b, percent, reason)
+      real(wp), intent(in) :: a, b
+      real(wp), intent(out) :: percent
+      character(:), allocatable, intent(out) :: reason
+      real(wp), parameter :: nothing = 1.0e-9_wp     ! in the unit of any number: rounding of a zero
+
+      reason = ''
+      percent = ieee_value(1.0_wp, ieee_quiet_nan)
+      if (.not. (ieee_is_finite(a) .and. ieee_is_finite(b))) return
+      if (max(abs(a), abs(b)) <= nothing) then
+         percent = 0.0_wp
+      else if (abs(a) <= nothing) then
+         reason = 'from 0'
+      else if (abs(b) > nothing .and. a*b < 0.0_wp) then
+         reason = 'opposite sign'
+      else if (abs(b - a) < huge(1.0_wp)*min(1.0_wp, abs(a))/100) then
+         percent = 100*((abs(b) - abs(a))/abs(a))
+      end if
+   end subroutine relative_change
 
    !> Whether the magnitude of a change exceeds the threshold.
    elemental logical function has_changed(change, threshold)

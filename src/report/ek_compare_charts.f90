@@ -314,11 +314,13 @@ contains
    pure type(chart_change_t) function distance(a, b, chart) result(change)
       type(trace_t), intent(in) :: a, b
       type(chart_t), intent(in) :: chart           !! chart of curve a
-      real(wp) :: cut, scale, y, one
+      real(wp) :: cut, scale, y, one, most, beyond
       integer :: k
       logical :: is_paired
 
       change = missing_change()
+      most = 0.0_wp
+      beyond = 0.0_wp
       cut = cut_of(chart)
       if (.not. cut > 0.0_wp) cut = huge(1.0_wp)
       if (.not. any(ieee_is_finite(a%y))) return
@@ -333,15 +335,20 @@ contains
             y = value_at(a, b%x(k))
          end if
          if (.not. ieee_is_finite(y)) cycle
+         ! beyond the cut, towards a pole, a difference counts only by its part within the cut; it is given in full
          one = max(-cut, min(cut, b%y(k))) - max(-cut, min(cut, y))
          if (change%is_known) then
-            if (abs(one) <= abs(change%largest)) cycle
+            if (abs(one) < most .or. abs(one) <= most .and. abs(b%y(k) - y) <= abs(change%largest)) cycle
          end if
          change%is_known = .true.
-         change%largest = one
+         most = abs(one)
+         change%largest = b%y(k) - y
          change%at = b%x(k)
+         change%change = change_of(scale, scale + one, scale)
+         beyond = max(abs(y), scale)
       end do
-      if (change%is_known) change%change = change_of(scale, scale + change%largest, scale)
+      ! every difference is beyond the cut
+      if (change%is_known .and. .not. most > 0.0_wp) change%change = change_of(beyond, beyond + change%largest, beyond)
    end function distance
 
    !> The value of a curve at x, interpolated between two adjacent states; NaN if no two adjacent states with values enclose

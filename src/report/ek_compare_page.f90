@@ -10,7 +10,7 @@ module ek_compare_page
    use ek_svg, only: escape_html
    use ek_page, only: page_t, begin_page, begin_section, add_warnings, add_facts, begin_table, add_cell, end_table, add_text, &
       add_legend, add_markup, begin_charts, end_charts, set_data, page_text, page_number
-   use ek_change, only: change_of, verdict_of, has_changed, letter_of
+   use ek_change, only: change_of, verdict_of, has_changed, letter_of, relative_change
    use ek_compare_targets, only: add_targets
    use ek_comparison, only: comparison_t, difference_t, difference, largest_change, descending, counted
    use ek_deck_difference, only: deck_difference_t, step_text
@@ -198,8 +198,8 @@ contains
       do k = 1, lines%count()
          call add_markup(page, '<p class="verdict"><b>'//escape_html(lines%line(k))//'</b></p>')
       end do
-      call add_text(page, 'p', 'A change is in percent of A, or of the least span of a chart where A is smaller: '// &
-         'noise is no change.')
+      call add_text(page, 'p', 'A change of a number is that of its magnitude in percent of A. Whether it counts, and '// &
+         'the order, follow from its share of A, or of the least span of a chart where A is smaller: noise is no change.')
       call add_targets(page, this%targets, [(letter_of(k), k=1, size(this%results))])
       if (size(this%targets) > 0) call add_text(page, 'h3', 'Key numbers and gradients')
       if (size(this%shown) > 0) call add_numbers(page, this)
@@ -277,7 +277,7 @@ contains
       type(comparison_t), intent(in) :: this
       type(difference_t), intent(in) :: row
       character(:), allocatable :: verdict
-      real(wp) :: change
+      real(wp) :: change, percent
       integer :: r
 
       call add_cell(page, trim(row%quantity//' '//row%side))
@@ -287,7 +287,10 @@ contains
          verdict = trim(verdict_of(change, this%threshold, row%is_there(1), row%is_there(r), r))
          call add_cell(page, page_number(row%values(r)), 'n')
          call add_cell(page, page_number(difference(row%values(1), row%values(r))), 'n')
-         if (verdict == 'changed' .or. verdict == 'same') verdict = page_number(100*change)
+         if (verdict == 'changed' .or. verdict == 'same') then
+            call relative_change(row%values(1), row%values(r), percent, verdict)
+            if (ieee_is_finite(percent)) verdict = page_number(percent)
+         end if
          call add_cell(page, verdict, 'n')
       end do
       call add_cell(page, row%unit)

@@ -8,7 +8,7 @@ module ek_comparison
    use ek_report_files, only: results_t
    use ek_chart, only: chart_t, both_sides, rounded
    use ek_page, only: page_number
-   use ek_change, only: least_of, change_of, has_changed
+   use ek_change, only: least_of, change_of, has_changed, relative_change
    use ek_compare_charts, only: chart_change_t, curve_difference_t
    use ek_deck_difference, only: deck_difference_t
    use ek_compare_targets, only: target_t
@@ -216,15 +216,16 @@ contains
       is_one_side = side == 'left' .or. side == 'right'
    end function is_one_side
 
-   !> The largest changes above the threshold, one per line, in at most `most` lines: 'bump toe left: -2.47 → 2.59 deg/m (+205
-   !> %), parallel_travel'.
+   !> The largest changes above the threshold, one per line, in at most `most` lines: 'bump toe left: -2.47 → -0.968 deg/m (-60.8
+   !> %), parallel_travel'. The percentage is that of the magnitude; the order is by the change against the least span.
    function largest_lines(shown, threshold, most) result(lines)
       type(difference_t), intent(in) :: shown(:)       !! sorted by change
       real(wp), intent(in) :: threshold
       integer, intent(in) :: most
       type(message_list_t) :: lines
       character(:), allocatable :: line
-      real(wp) :: change
+      character(:), allocatable :: reason
+      real(wp) :: change, percent_of_a
       integer :: k, r
 
       do k = 1, size(shown)
@@ -234,9 +235,13 @@ contains
          do r = 2, size(shown(k)%values)
             line = line//' → '//str(shown(k)%values(r), 4)
          end do
-         line = line//' '//shown(k)%unit//' ('
-         if (change > 0.0_wp) line = line//'+'
-         call lines%add(line//str(100*change, 3)//' %), '//shown(k)%test)
+         do r = 2, size(shown(k)%values) - 1      ! the result of the largest change
+            if (abs(change_of(shown(k)%values(1), shown(k)%values(r), shown(k)%least) - change) <= 0.0_wp) exit
+         end do
+         call relative_change(shown(k)%values(1), shown(k)%values(r), percent_of_a, reason)
+         if (ieee_is_finite(percent_of_a)) reason = str(percent_of_a, 3)//' %'
+         if (percent_of_a > 0.0_wp) reason = '+'//reason
+         call lines%add(line//' '//shown(k)%unit//' ('//reason//'), '//shown(k)%test)
       end do
    end function largest_lines
 

@@ -12,6 +12,10 @@ module ek_deck_difference
    character(*), parameter :: left(2) = [character(12) :: '.left_', 'wheel.left.'], &
       right(2) = [character(12) :: '.right_', 'wheel.right.'], both(2) = [character(12) :: '.', 'wheel.']
 
+   !> Keys that decks often give although the value is the default.
+   character(*), parameter :: defaults(2, 6) = reshape([character(16) :: 'model.length', 'mm', 'model.force', 'N', &
+      'model.angle', 'deg', 'model.axes', 'x-rear', 'model.balance', 'none', 'model.gravity', '0'], [2, 6])
+
    type :: deck_difference_t
       character(:), allocatable :: path           !! path of a value: 'point.left_tie_rod_outer.z'; or fact: 'Deck checksum'
       character(:), allocatable :: sides          !! 'both sides', 'both sides, mirrored; left shown', or ''
@@ -45,8 +49,21 @@ contains
          texts(r) = records(r)%texts
       end do
       call differing(names, texts, values)
+      values = pack(values, [(.not. is_default(values(k)), k=1, size(values))])
       call join_sides(values)
    end subroutine find_differences
+
+   !> Whether a row differs only in a default that one deck gives and the other omits: model.length = 'mm'.
+   logical function is_default(row)
+      type(deck_difference_t), intent(in) :: row
+      integer :: d, r
+
+      is_default = .false.
+      do d = 1, size(defaults, 2)
+         if (defaults(1, d) /= row%path) cycle
+         is_default = all([(row%texts%line(r) == '' .or. row%texts%line(r) == defaults(2, d), r=1, row%texts%count())])
+      end do
+   end function is_default
 
    !> Whether every result gives a string for a row.
    logical function is_in_all(row)
