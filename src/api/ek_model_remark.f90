@@ -7,7 +7,7 @@ module ek_model_remark
    use ek_balance, only: balance_remarks
    use ek_load_state, only: load_state_remarks
    use ek_plausibility, only: doubt
-   use ek_remark, only: patch_remarks, spring_remarks, preload_remarks
+   use ek_remark, only: patch_remarks, spring_remarks, half_turn_remarks, preload_remarks
    implicit none(type, external)
    private
    public :: model_remarks_t, find_model_remarks, read_model_remark, doubt_mark
@@ -38,6 +38,7 @@ contains
       if (is_balanced) call preload_remarks(suspension, remarks%notes)
       call patch_remarks(suspension, remarks%warnings)
       call spring_remarks(suspension, chosen, remarks%warnings)
+      call half_turn_remarks(suspension, chosen, remarks%warnings)
       if (is_balanced) then
          call balance_remarks(suspension, remarks%warnings)
          if (present(tests)) call load_state_remarks(suspension, tests, remarks%warnings)

@@ -23,7 +23,8 @@ module ek_diagnosis
    use ek_suspension, only: suspension_t
    use ek_state, only: state_t, inputs_t
    use ek_kkt, only: kkt_t, assemble, condition, whole_matrix, whole_tangent, material_only
-   use ek_motion_text, only: motion_text, body_parts, place
+   use ek_motion_text, only: motion_text, moving_text, body_parts, place
+   use ek_dead_point, only: recognise_dead_point
    use ek_singular_values, only: singular_values_t, decompose
    use ek_lapack, only: dsyev
    implicit none(type, external)
@@ -109,6 +110,8 @@ contains
       if (parts%rank < size(rows)) call name_redundancies(suspension, parts%left(:, parts%rank + 1:), rows, diagnosis)
       if (diagnosis%freedoms > 0) call name_mechanisms(suspension, state, tangent, parts%right(:, parts%rank + 1:), kkt, &
          diagnosis)
+      if (parts%rank < size(rows) .and. diagnosis%mechanisms%count() > 0) call recognise_dead_point(suspension, state, rows, &
+         parts%left(:, parts%rank + 1:), parts%right(:, parts%rank + 1:), kkt, diagnosis%mechanisms, diagnosis%redundancies)
       if (diagnosis%freedoms == 0 .or. .not. present(wants_preload_held)) return
       if (.not. wants_preload_held) return
       call assemble(suspension, state, inputs_t(), material_only, kkt)
@@ -224,7 +227,7 @@ contains
       real(wp) :: motions(size(basis, 1), size(basis, 2)), eigenvalue(size(basis, 2)), noise(size(basis, 2))
       real(wp), allocatable :: free(:, :)
       character(:), allocatable :: text
-      logical :: is_free(size(basis, 2)), is_found
+      logical :: is_free(size(basis, 2)), is_found, has_steering
       integer :: k, others
 
       call modes(tangent, basis, softest_rate(suspension, kkt), motions, eigenvalue, noise, is_found)
@@ -232,20 +235,22 @@ contains
       if (.not. is_found) return
       diagnosis%softest = eigenvalue(1)
       is_free = abs(eigenvalue) <= noise
+      has_steering = .false.
       allocate (free, source=pick(motions, is_free))
       call make_sparse(free)
       do k = 1, size(free, 2)
-         call diagnosis%mechanisms%add('mechanism: '//motion_text(suspension, state, kkt, free(:, k)))
+         call diagnosis%mechanisms%add('mechanism: '//moving_text(suspension, state, kkt, free(:, k), has_steering))
       end do
       do k = 1, size(eigenvalue)
          if (eigenvalue(k) < -noise(k)) call diagnosis%warnings%add('unstable at design (negative stiffness): '// &
-            motion_text(suspension, state, kkt, motions(:, k)))
+            moving_text(suspension, state, kkt, motions(:, k), has_steering))
       end do
       k = findloc(eigenvalue > noise, .true., dim=1)       ! the softest motion with a stiffness
       others = count(eigenvalue > noise .and. eigenvalue < soft_stiffness) - 1
       if (others < 0) return
       text = 'very soft ('//str(eigenvalue(k), 2)//' of the characteristic stiffness'// &
-         softer_than(suspension, eigenvalue(k)*kkt%stiffness)//'): '//motion_text(suspension, state, kkt, motions(:, k))
+         softer_than(suspension, eigenvalue(k)*kkt%stiffness)//'): '// &
+         moving_text(suspension, state, kkt, motions(:, k), has_steering)
       if (others > 0) text = text//'; and '//plural(others, 'motion', 'motions')//' more'
       call diagnosis%warnings%add(text)
    end subroutine name_mechanisms

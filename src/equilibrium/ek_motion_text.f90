@@ -9,7 +9,7 @@ module ek_motion_text
    use ek_kkt, only: kkt_t
    implicit none(type, external)
    private
-   public :: motion_text, body_parts, main_body, place
+   public :: motion_text, moving_text, body_parts, main_body, place
 
    real(wp), parameter :: takes_part = 1.0e-3_wp          !! limit, as a share of the largest motion: smaller motions are omitted
 
@@ -75,6 +75,53 @@ contains
       if (others > max_described) text = text//'; with it move '//names(3:)
    end function motion_text
 
+   !> Description of a motion. If a wheel steers, the description begins with the wheel; of a second wheel, it names only the wheel.
+   function moving_text(suspension, state, kkt, motion, has_steering) result(text)
+      type(suspension_t), intent(in) :: suspension
+      type(state_t), intent(in) :: state
+      type(kkt_t), intent(in) :: kkt
+      real(wp), intent(in) :: motion(:)            !! scaled unknowns
+      logical, intent(inout) :: has_steering       !! a wheel that steers was described before
+      character(:), allocatable :: text
+
+      text = steering_text(suspension, kkt, motion)
+      if (text /= '' .and. has_steering) then
+         text = text//', too'
+         return
+      end if
+      has_steering = has_steering .or. text /= ''
+      if (text /= '') text = text//': is a tie rod or toe link missing? '
+      text = text//motion_text(suspension, state, kkt, motion)
+   end function moving_text
+
+   !> Phrase about a motion in which a wheel steers: "wheel 'left' can steer freely"; '' for other motions.
+   !> The carrier, the body that moves most, turns about an axis within 25° of the vertical that passes near the wheel centre.
+   function steering_text(suspension, kkt, motion) result(text)
+      type(suspension_t), intent(in) :: suspension
+      type(kkt_t), intent(in) :: kkt
+      real(wp), intent(in) :: motion(:)            !! scaled unknowns
+      character(:), allocatable :: text
+      real(wp), parameter :: upright = 0.9_wp      ! cosine: 25°
+      real(wp), parameter :: beside = 0.4_wp       ! m: distance of the axis from the wheel centre
+      real(wp) :: v(3), w(3), axis(3)
+      integer :: main, k
+
+      text = ''
+      main = main_body(motion)
+      k = findloc(suspension%wheels%body, main, dim=1)
+      if (k == 0) return
+      if (count(suspension%wheels%body == main) > 1) return
+      v = motion(6*main - 5:6*main - 3)*kkt%scale(6*main - 5)
+      w = motion(6*main - 2:6*main)*kkt%scale(6*main - 2)
+      if (norm2(w)*kkt%length < norm2(v)*takes_part) return
+      axis = w/norm2(w)
+      if (abs(axis(3)) < upright) return
+      ! the wheel centre moves with v + w × arm: across the axis by its distance from the axis
+      v = v + cross(w, suspension%wheels(k)%centre)
+      if (norm2(v - dot_product(v, axis)*axis) > beside*norm2(w) .or. abs(dot_product(v, axis)) > 0.1_wp*norm2(w)) return
+      text = 'wheel '//quoted(suspension%wheels(k)%name)//' can steer freely'
+   end function steering_text
+
    !> Phrase about the motion of a body: 'turns freely about the axis …' or 'slides freely along …'.
    function one_body_text(suspension, r, kkt, motion, body) result(text)
       type(suspension_t), intent(in) :: suspension
@@ -95,7 +142,8 @@ contains
       through = r + cross(axis, v)/norm2(w)
       lead = dot_product(v, axis)/norm2(w)
       text = 'turns freely about the axis '//vector_text(deck_frame(suspension)*tidy(axis), 3)//' through '// &
-         vector_text(deck_frame(suspension)*through/millimetre, 5)//' mm'//points_on(suspension, axis, through)
+         vector_text(deck_frame(suspension)*merge(through, 0.0_wp, abs(through) > 1.0e-12_wp)/millimetre, 5)//' mm'// &
+         points_on(suspension, axis, through)
       if (abs(lead) > takes_part*kkt%length) text = text//', sliding '//str(lead/millimetre, 3)//' mm/rad along it'
    end function one_body_text
 

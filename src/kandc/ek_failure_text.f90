@@ -1,8 +1,8 @@
 !> Messages: why a path ended, and which of its states are unstable.
 module ek_failure_text
-   use ek_kinds, only: wp, millimetre
+   use ek_kinds, only: wp, millimetre, degree, pi
    use ek_text, only: str, quoted, plural
-   use ek_measure, only: measure_value
+   use ek_measure, only: measure_t, measure_value, rotation
    use ek_element, only: element_kinds
    use ek_element_label, only: element_label
    use ek_element_force, only: spring_tension
@@ -121,6 +121,7 @@ contains
          if (failure%row > 0) text = text//'; joint '// &
             quoted(suspension%joints(suspension%rows(failure%row)%joint)%name)//' has the largest constraint residual'
       end select
+      text = text//half_turn_text(suspension, state)
       text = text//stop_text(suspension, state)
       if (size(suspension%wheels) > 0 .and. .not. has_spring(suspension)) text = text//'; the deck has no spring'
       if (found%reason == lock) return
@@ -130,6 +131,42 @@ contains
          text = text//new_line('a')//diagnosis%words()
       end if
    end function reason_text
+
+   !> Phrase about a driver or spring whose rotation is at the limit of a rotation measure; '' without one.
+   function half_turn_text(suspension, state) result(text)
+      type(suspension_t), intent(in) :: suspension
+      type(state_t), intent(in) :: state
+      character(:), allocatable :: text
+      real(wp), parameter :: close = 0.95_wp*pi
+      integer :: k
+
+      text = ''
+      do k = 1, size(suspension%rows)
+         associate (m => suspension%terms(suspension%rows(k)%first)%measure)
+            if (m%kind /= rotation .or. .not. suspension%joints(suspension%rows(k)%joint)%is_of_measures) cycle
+            if (abs(measure_value(m, state%poses(m%body_i + 1), state%poses(m%body_j + 1))) > close) &
+               text = limit_of('joint '//quoted(suspension%joints(suspension%rows(k)%joint)%name), m)
+         end associate
+      end do
+      do k = 1, suspension%scalars
+         associate (m => suspension%elements(k)%measure)
+            if (m%kind /= rotation) cycle
+            if (abs(measure_value(m, state%poses(m%body_i + 1), state%poses(m%body_j + 1))) > close) &
+               text = limit_of(element_label(suspension%elements(k)), m)
+         end associate
+      end do
+
+   contains
+
+      function limit_of(thing, m) result(phrase)
+         character(*), intent(in) :: thing
+         type(measure_t), intent(in) :: m
+         character(:), allocatable :: phrase
+         phrase = '; the rotation of '//thing//' is '//str(measure_value(m, state%poses(m%body_i + 1), &
+            state%poses(m%body_j + 1))/degree, 4)//' deg, and a rotation is limited to less than 180 deg either way'
+      end function limit_of
+
+   end function half_turn_text
 
    !> The names of joints as a phrase: 'a', 'b' and 'c'.
    function joint_list(suspension, is_named) result(text)

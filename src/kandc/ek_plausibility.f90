@@ -57,6 +57,7 @@ contains
       call doubt_rod_ends(suspension, doubts)
       call doubt_bushings(suspension, doubts)
       call doubt_steering(suspension, doubts)
+      carries = carries .and. index(diagnosis%warnings%text(), 'can steer freely') == 0      ! this explains any response, too
       if (carries .and. diagnosis%is_solvable()) call doubt_response(suspension, kkt, doubts)
       call doubt_elements(suspension, doubts)
       call doubt_springs(suspension, doubts)

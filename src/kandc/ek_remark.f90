@@ -1,17 +1,18 @@
 !> Messages on the solution of a case as data: notes, warnings and failures, in the order in which they were found. Also the
 !> messages on a model before a solution: contact points, springs, preloads found by the preload trim (`balance`).
 module ek_remark
-   use ek_kinds, only: wp, millimetre
+   use ek_kinds, only: wp, millimetre, degree, pi
    use ek_text, only: str, quoted
    use ek_case, only: case_t
    use ek_error, only: message_list_t
    use ek_element, only: element_kinds, torsion_spring
    use ek_element_label, only: element_label
-   use ek_suspension, only: suspension_t
+   use ek_suspension, only: suspension_t, driver_unit
    implicit none(type, external)
    private
    public :: remark_t, remark_list_t, swept_text, note, warning, failure, on_case, on_end, on_settling, on_drift, on_travel, &
-      on_stability, on_rack, on_curve, on_closure, patch_remarks, spring_remarks, preload_remarks, has_spring
+      on_stability, on_rack, on_curve, on_closure, patch_remarks, spring_remarks, half_turn_remarks, preload_remarks, &
+      has_spring
 
    ! severities
    integer, parameter :: note = 1        !! the results are sound
@@ -168,6 +169,23 @@ contains
       call words%add('the deck has no spring: the wheels are carried by bushings, anti-roll bars and stops alone, '// &
          'and the reported rates are those of these elements')
    end subroutine spring_remarks
+
+   !> Warns of cases that drive a rotation beyond the limit of a rotation measure.
+   subroutine half_turn_remarks(suspension, cases, words)
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: cases(:)
+      type(message_list_t), intent(inout) :: words
+      real(wp) :: far
+      integer :: k
+
+      do k = 1, size(cases)
+         if (len(cases(k)%drive) == 0) cycle
+         if (driver_unit(suspension, cases(k)%drive) /= 'deg') cycle
+         far = max(abs(cases(k)%from), abs(cases(k)%to))
+         if (far >= pi) call words%add('case '//quoted(cases(k)%name)//': '//cases(k)%drive//' is driven to '// &
+            str(far/degree, 4)//' deg, but a rotation is limited to less than 180 deg either way; use a shorter range')
+      end do
+   end subroutine half_turn_remarks
 
    !> Adds one note per axial spring on the preload found by the preload trim (`balance`).
    subroutine preload_remarks(suspension, words)
