@@ -1,94 +1,334 @@
-!> A table of numbers written by hand or by a spreadsheet; the reader collects all errors in it.
+!> The reader of all tables that a person, a spreadsheet or another program has written: lists of designs, curves, loads,
+!> hardpoints, results to be compared. It collects all errors in a table.
 !>
 !> Lines that begin with # are comments, empty lines (and lines of separators alone) are skipped, and the first other line has the
 !> headings. Columns are separated by commas, or by semicolons or tabs if the line of headings contains one. Also accepted are a
 !> byte order mark, a first line `sep=;`, line ends of Windows and old Macs, headings and numbers in double quotes, empty cells
-!> after the last heading, and decimal commas if commas do not separate columns.
+!> after the last heading, decimal commas if commas do not separate columns, and a row of units below the headings. Only the cells
+!> of requested columns are read (ek_sheet_columns), so that other columns may contain text.
 module ek_sheet
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t
    use ek_text, only: str, quoted, plural
    use ek_letters, only: is_wide, with_line_ends, line_count, save_as_utf8
    use ek_file, only: read_whole
    use ek_kept_files, only: kept_files_t, read_kept
-   use ek_decimal, only: get_decimal
-   use ek_buffer, only: buffer_t
    use ek_quantity, only: name_length
    implicit none(type, external)
    private
-   public :: sheet_t, read_sheet, mistakes_of, head_place, take_record
+   public :: sheet_t, read_sheet, parse_sheet, column_of, cells_t, new_cells, split_row, plain_cell, cell_of
+   public :: complain, mistakes_of, head_place
 
    character(*), parameter :: line_end = new_line('a'), tab = achar(9)
-   real(wp), parameter :: most = 1.0e31_wp      !! numbers of this size are errors, and could overflow later
    integer, parameter :: max_reported = 100        !! most errors reported in the rows of one table
+   integer, parameter :: max_letters = 250000000   !! most characters of a table
 
-   !> The content of a file. Rows with an error are omitted from the values.
+   !> The content of a file, with the positions of its rows. Row 0 is the line of headings.
    type :: sheet_t
       character(:), allocatable :: file
       integer :: head_line = 0                          !! line of the headings; 0: no headings
       character(name_length), allocatable :: heads(:)   !! headings; '' for a column without heading
-      real(wp), allocatable :: values(:, :)             !! numbers (column, row)
+      type(message_list_t) :: header                    !! comments, each without its #
+      integer :: rows = 0                               !! number of rows, with a row of units
+      integer :: unit_row = -1                          !! 1: the first row contains units; −1: not yet known (ek_sheet_columns)
+      integer, allocatable :: lines(:)                  !! line of each row
       type(message_list_t) :: head_mistakes, row_mistakes
       integer :: untold = 0                             !! number of errors beyond the largest number reported
       character :: separator = ','
-      logical :: has_decimal_points = .false.            !! a comma is then not a decimal mark
+      logical :: has_decimal_points = .false.  !! a comma is then not a decimal mark
+      character(:), allocatable :: text
+      integer, allocatable :: first(:), last(:)         !! positions of the rows in `text`
    end type sheet_t
+
+   !> The cells of a row: their positions in the text. The arrays are longer than the number of headings.
+   type :: cells_t
+      integer, allocatable :: first(:), last(:)
+      integer :: used = 0                               !! number of cells, without empty cells after the last heading
+      logical :: is_closed = .true.                     !! .false.: a double quote is not closed
+   end type cells_t
 
 contains
 
    !> Reads a file; errors in its content are stored in the sheet.
-   subroutine read_sheet(path, sheet, error, files)
+   subroutine read_sheet(path, sheet, error, files, may_stream)
       character(*), intent(in) :: path
       type(sheet_t), intent(out) :: sheet
       type(error_t), allocatable, intent(out) :: error      !! exit_file: the file cannot be read
       type(kept_files_t), intent(in), optional :: files     !! files already read, which are not read again
-      character(:), allocatable :: text, content
-      integer :: first, last, line, rows
-      logical, allocatable :: is_unnamed(:)
+      logical, intent(in), optional :: may_stream           !! see read_whole
+      character(:), allocatable :: text
 
-      sheet%file = path
-      allocate (sheet%heads(0), sheet%values(0, 0), is_unnamed(0))
       if (present(files)) then
          call read_kept(files, path, text, error)
       else
-         call read_whole(path, text, error)
+         call read_whole(path, text, error, may_stream)
       end if
-      if (allocated(error)) return
+      if (.not. allocated(error)) call parse_sheet(text, path, sheet)
+      if (allocated(error)) call parse_sheet('', path, sheet)
+   end subroutine read_sheet
+
+   !> Splits the content of a file into headings and rows.
+   subroutine parse_sheet(text, file, sheet)
+      character(*), intent(in) :: text, file                !! file: for messages
+      type(sheet_t), intent(out) :: sheet
+      integer :: first, last, line, length, lines
+
+      sheet%file = file
+      sheet%text = ''
+      allocate (sheet%heads(0))
+      allocate (sheet%lines(0:0), sheet%first(0:0), sheet%last(0:0), source=0)
       if (index(text, 'PK'//achar(3)//achar(4)) == 1) then
-         call sheet%head_mistakes%add(path//': this is a workbook, not text; save the sheet as CSV')
+         call sheet%head_mistakes%add(file//': this is a workbook, not text; save the sheet as CSV')
          return
       else if (is_wide(text)) then
-         call sheet%head_mistakes%add(path//': '//save_as_utf8)
+         call sheet%head_mistakes%add(file//': '//save_as_utf8)
+         return
+      else if (len(text) > max_letters) then
+         call sheet%head_mistakes%add(file//': it has '//str(len(text)/1000000)//' MB, expected at most '// &
+            str(max_letters/1000000)//' MB')
          return
       end if
-      text = with_line_ends(text)
+      sheet%text = with_line_ends(text)
+      lines = line_count(sheet%text)
+      deallocate (sheet%lines, sheet%first, sheet%last)
+      allocate (sheet%lines(0:lines), sheet%first(0:lines), sheet%last(0:lines), source=0)
+      length = len(sheet%text)
       first = 1
       line = 0
-      rows = 0
-      do while (first <= len(text))
-         last = index(text(first:), line_end) + first - 2
-         if (last < first - 1) last = len(text)
+      do while (first <= length)
+         do last = first, length                       ! the library's index takes many times longer
+            if (sheet%text(last:last) == line_end) exit
+         end do
+         last = last - 1
          line = line + 1
-         content = text(first:last)
-         if (is_comment(content, sheet) .or. verify(content, ' ,;"'//tab) == 0) then
-            continue
-         else if (sheet%head_line == 0 .and. index(content, 'sep=') == 1 .and. len_trim(content) == 5) then
-            sheet%separator = content(5:5)               ! a line of Excel; the line of heads decides
-         else if (sheet%head_line == 0) then
-            sheet%head_line = line
-            call take_heads(content, sheet)
-            call find_decimal_marks(text(last + 1:), sheet)
-            deallocate (is_unnamed, sheet%values)
-            allocate (is_unnamed(size(sheet%heads)), source=.false.)
-            allocate (sheet%values(size(sheet%heads), line_count(text(last + 1:))), source=0.0_wp)
-         else
-            call take_row(content, line, sheet, rows, is_unnamed)
-         end if
+         call take_line(sheet, first, last, line)
          first = last + 2
       end do
-      call judge_heads(sheet, rows, is_unnamed)
-   end subroutine read_sheet
+      call judge_heads(sheet)
+   end subroutine parse_sheet
+
+   !> Stores one line as comment, heading or row.
+   subroutine take_line(sheet, first, last, line)
+      type(sheet_t), intent(inout) :: sheet
+      integer, intent(in) :: first, last, line
+      integer :: from, to
+
+      if (verify(sheet%text(first:last), ' ,;"'//tab) == 0) return
+      if (is_comment(sheet%text(first:last), sheet%head_line > 0)) then
+         from = first + index(sheet%text(first:last), '#')
+         if (from <= last) then
+            if (sheet%text(from:from) == ' ') from = from + 1
+         end if
+         to = verify(sheet%text(:last), ' ,;"'//tab, back=.true.)       ! a spreadsheet adds separators to a comment
+         call sheet%header%add(sheet%text(from:to))
+      else if (sheet%head_line == 0 .and. index(sheet%text(first:last), 'sep=') == 1 .and. &
+         len_trim(sheet%text(first:last)) == 5) then
+         sheet%separator = sheet%text(first + 4:first + 4)          ! a line of Excel; the line of heads decides
+      else if (sheet%head_line == 0) then
+         sheet%head_line = line
+         sheet%first(0) = first
+         sheet%last(0) = last
+         sheet%lines(0) = line
+         call take_heads(sheet)
+      else
+         sheet%rows = sheet%rows + 1
+         sheet%first(sheet%rows) = first
+         sheet%last(sheet%rows) = last
+         sheet%lines(sheet%rows) = line
+      end if
+   end subroutine take_line
+
+   !> Whether a line is a comment: it begins with # or "#. After the headings, a line that begins with the error value of a
+   !> spreadsheet, such as #REF!, is not a comment.
+   pure logical function is_comment(content, has_heads)
+      character(*), intent(in) :: content
+      logical, intent(in) :: has_heads
+      character(*), parameter :: cell_errors(8) = [character(7) :: '#REF!', '#DIV/0!', '#NAME?', '#VALUE!', '#N/A', '#NUM!', &
+         '#NULL!', '#SPILL!']
+      integer :: at, k
+
+      at = verify(content, ' '//tab)
+      is_comment = .false.
+      if (at == 0) return
+      if (content(at:at) == '"') at = min(at + 1, len(content))
+      is_comment = content(at:at) == '#'
+      if (.not. is_comment .or. .not. has_heads) return
+      is_comment = .not. any([(index(content(at:), trim(cell_errors(k))) == 1, k=1, size(cell_errors))])
+   end function is_comment
+
+   !> Reads the line of headings, which also defines the separator of the columns.
+   subroutine take_heads(sheet)
+      type(sheet_t), intent(inout) :: sheet
+      type(cells_t) :: cells
+      integer :: k, columns
+
+      associate (content => sheet%text(sheet%first(0):sheet%last(0)))
+         if (index(content, ',') > 0) sheet%separator = ','
+         if (index(content, tab) > 0) sheet%separator = tab
+         if (index(content, ';') > 0) sheet%separator = ';'
+         allocate (cells%first(len(content) + 1), cells%last(len(content) + 1))
+      end associate
+      call split_row(sheet, 0, cells)
+      if (.not. cells%is_closed) call sheet%head_mistakes%add(head_place(sheet)//'a double quote is not closed')
+      columns = cells%used
+      do while (columns > 1)                         ! separators behind the last head; the line has other characters too
+         if (plain_cell(sheet, cells, columns) /= '') exit
+         columns = columns - 1
+      end do
+      deallocate (sheet%heads)
+      allocate (sheet%heads(columns))
+      do k = 1, columns
+         sheet%heads(k) = plain_cell(sheet, cells, k)
+      end do
+   end subroutine take_heads
+
+   !> Checks that no heading is given twice, and that the file has rows.
+   subroutine judge_heads(sheet)
+      type(sheet_t), intent(inout) :: sheet
+      integer :: k, j
+
+      if (sheet%head_line == 0) then
+         call sheet%head_mistakes%add(sheet%file//': the line of column names is missing')
+         return
+      end if
+      do k = 2, size(sheet%heads)
+         if (sheet%heads(k) == '') cycle
+         do j = 1, k - 1
+            if (sheet%heads(j) (:16) /= sheet%heads(k) (:16)) cycle          ! quicker than whole names, mostly blanks
+            if (sheet%heads(j) == sheet%heads(k)) exit
+         end do
+         if (j < k) call sheet%head_mistakes%add(head_place(sheet)//'the column '//quoted(sheet%heads(k))// &
+            ' is given twice, as column '//str(j)//' and column '//str(k)//'; remove or rename one')
+      end do
+      if (sheet%rows == 0) call sheet%row_mistakes%add(sheet%file//': the table has no rows')
+   end subroutine judge_heads
+
+   !> Index of the column with a heading; 0 if there is none. Letter case matters.
+   pure integer function column_of(sheet, heading) result(place)
+      type(sheet_t), intent(in) :: sheet
+      character(*), intent(in) :: heading
+
+      do place = 1, size(sheet%heads)
+         if (heading /= '' .and. sheet%heads(place) == heading) return
+      end do
+      place = 0
+   end function column_of
+
+   !> Room for the cells of a row.
+   pure type(cells_t) function new_cells(sheet) result(cells)
+      type(sheet_t), intent(in) :: sheet
+      allocate (cells%first(size(sheet%heads) + 1), cells%last(size(sheet%heads) + 1))
+   end function new_cells
+
+   !> Finds the positions of the cells of a row, without blanks at both ends. Cells beyond the arrays are counted if they are not
+   !> empty.
+   pure subroutine split_row(sheet, row, cells)
+      type(sheet_t), intent(in) :: sheet
+      integer, intent(in) :: row
+      type(cells_t), intent(inout) :: cells
+      logical :: is_quoted
+      integer :: at, begin, last, used
+
+      is_quoted = .false.
+      begin = sheet%first(row)
+      last = sheet%last(row)
+      used = 0
+      cells%used = 0
+      do at = begin, last + 1
+         if (at <= last) then
+            if (sheet%text(at:at) == '"') is_quoted = .not. is_quoted
+            if (is_quoted .or. sheet%text(at:at) /= sheet%separator) cycle
+         end if
+         used = used + 1
+         call add_cell(begin, at - 1, cells)
+         begin = at + 1
+      end do
+      cells%is_closed = .not. is_quoted
+
+   contains
+
+      !> Adds a cell without the blanks at both ends.
+      pure subroutine add_cell(from, to, cells)
+         integer, intent(in) :: from, to
+         type(cells_t), intent(inout) :: cells
+         integer :: a, b
+
+         a = from
+         b = to
+         do while (a <= b)
+            if (sheet%text(a:a) /= ' ' .and. sheet%text(a:a) /= tab) exit
+            a = a + 1
+         end do
+         do while (b >= a)
+            if (sheet%text(b:b) /= ' ' .and. sheet%text(b:b) /= tab) exit
+            b = b - 1
+         end do
+         if (used <= size(cells%first)) then
+            cells%first(used) = a
+            cells%last(used) = b
+         end if
+         if (used <= size(sheet%heads) .or. sheet%text(a:b) /= '') cells%used = used
+      end subroutine add_cell
+
+   end subroutine split_row
+
+   !> The text of a cell without its quotes.
+   pure function plain_cell(sheet, cells, place) result(text)
+      type(sheet_t), intent(in) :: sheet
+      type(cells_t), intent(in) :: cells
+      integer, intent(in) :: place
+      character(:), allocatable :: text
+      character(:), allocatable :: raw
+      integer :: k
+      logical :: is_quoted
+
+      text = ''
+      if (place < 1 .or. place > min(cells%used, size(cells%first))) return
+      raw = sheet%text(cells%first(place):cells%last(place))
+      text = raw
+      if (index(raw, '"') == 0) return
+      text = ''
+      is_quoted = .false.
+      k = 1
+      do while (k <= len(raw))
+         if (raw(k:k) == '"') then
+            if (is_quoted .and. raw(k:min(k + 1, len(raw))) == '""') then
+               text = text//'"'
+               k = k + 1
+            else
+               is_quoted = .not. is_quoted
+            end if
+         else
+            text = text//raw(k:k)
+         end if
+         k = k + 1
+      end do
+      text = trim(adjustl(text))
+   end function plain_cell
+
+   !> The text of a cell, without quotes; '' if the row is too short. Row 0 is the line of headings.
+   pure function cell_of(sheet, row, place) result(text)
+      type(sheet_t), intent(in) :: sheet
+      integer, intent(in) :: row, place
+      character(:), allocatable :: text
+      type(cells_t) :: cells
+
+      cells = new_cells(sheet)
+      call split_row(sheet, row, cells)
+      text = plain_cell(sheet, cells, place)
+   end function cell_of
+
+   !> Adds an error in a row, with its location. Only the first 100 errors are stored; further errors are counted.
+   subroutine complain(sheet, row, what)
+      type(sheet_t), intent(inout) :: sheet
+      integer, intent(in) :: row
+      character(*), intent(in) :: what
+
+      if (sheet%row_mistakes%count() < max_reported) then
+         call sheet%row_mistakes%add(sheet%file//':'//str(sheet%lines(row))//': '//what)
+      else
+         sheet%untold = sheet%untold + 1
+      end if
+   end subroutine complain
 
    !> Adds all errors of a sheet to a list of messages; errors of the headings come first.
    subroutine mistakes_of(sheet, mistakes)
@@ -111,236 +351,5 @@ contains
       character(:), allocatable :: words
       words = sheet%file//':'//str(sheet%head_line)//': '
    end function head_place
-
-   !> Whether a line is a comment: it begins with # or "#. After the headings, a line that begins with the error value of a
-   !> spreadsheet, such as #REF!, is not a comment.
-   pure logical function is_comment(content, sheet)
-      character(*), intent(in) :: content
-      type(sheet_t), intent(in) :: sheet
-      character(*), parameter :: cell_errors(8) = [character(7) :: '#REF!', '#DIV/0!', '#NAME?', '#VALUE!', '#N/A', '#NUM!', &
-         '#NULL!', '#SPILL!']
-      integer :: k
-
-      is_comment = index(content, '#') == 1 .or. index(content, '"#') == 1
-      if (.not. is_comment .or. sheet%head_line == 0) return
-      is_comment = .not. any([(index(content(:min(9, len(content))), trim(cell_errors(k))) > 0, k=1, size(cell_errors))])
-   end function is_comment
-
-   !> Reads the line of headings, which also defines the separator of the columns.
-   subroutine take_heads(content, sheet)
-      character(*), intent(in) :: content
-      type(sheet_t), intent(inout) :: sheet
-      type(message_list_t) :: cells
-      integer :: at, line, k, columns
-      logical :: is_closed
-
-      if (index(content, ',') > 0) sheet%separator = ','
-      if (index(content, tab) > 0) sheet%separator = tab
-      if (index(content, ';') > 0) sheet%separator = ';'
-      at = 1
-      line = sheet%head_line
-      call take_record(content, sheet%separator, at, line, cells, is_closed)
-      if (.not. is_closed) call sheet%head_mistakes%add(head_place(sheet)//'a double quote is not closed')
-      columns = cells%count()
-      do while (cells%line(columns) == '')         ! separators behind the last head; the line has other characters too
-         columns = columns - 1
-      end do
-      deallocate (sheet%heads)
-      allocate (sheet%heads(columns))
-      do k = 1, columns
-         sheet%heads(k) = adjustl(cells%line(k))
-      end do
-   end subroutine take_heads
-
-   !> Records whether the lines after the headings, other than comments, contain decimal points. If they contain none, commas that
-   !> do not separate columns are decimal commas.
-   pure subroutine find_decimal_marks(text, sheet)
-      character(*), intent(in) :: text
-      type(sheet_t), intent(inout) :: sheet
-      integer :: first, last
-
-      if (sheet%separator == ',') return
-      first = 1
-      do while (first <= len(text))
-         last = index(text(first:), line_end) + first - 2
-         if (last < first - 1) last = len(text)
-         if (text(first:min(first, len(text))) /= '#') then
-            sheet%has_decimal_points = sheet%has_decimal_points .or. index(text(first:last), '.') > 0
-         end if
-         first = last + 2
-      end do
-   end subroutine find_decimal_marks
-
-   !> Reads one line of numbers and adds the line to the rows if it has no error.
-   subroutine take_row(content, line, sheet, rows, is_unnamed)
-      character(*), intent(in) :: content
-      integer, intent(in) :: line
-      type(sheet_t), intent(inout) :: sheet
-      integer, intent(inout) :: rows
-      logical, intent(inout) :: is_unnamed(:)     !! columns without a heading that have values
-      type(message_list_t) :: cells
-      character(:), allocatable :: fault, where, cell
-      real(wp) :: row(size(sheet%heads))
-      integer :: at, next, k, n, columns
-      logical :: is_good
-
-      where = sheet%file//':'//str(line)//': '
-      at = 1
-      next = line
-      call take_record(content, sheet%separator, at, next, cells, is_good)
-      if (.not. is_good) then
-         call complain(sheet, where//'a double quote is not closed')
-         return
-      end if
-      columns = size(sheet%heads)
-      do n = cells%count(), columns + 1, -1        ! empty cells behind the last head are ignored
-         if (cells%line(n) /= '') exit
-      end do
-      if (n /= columns) then
-         fault = where//'expected '//plural(columns, 'value', 'values')//', found '//str(n)
-         if (n > columns .and. sheet%separator == ',' .and. index(content, '.') == 0) fault = fault// &
-            ' (if some of the commas are decimal commas: write decimal points, or separate the columns by semicolons)'
-         call complain(sheet, fault)
-         return
-      end if
-      row = 0.0_wp
-      do k = 1, columns
-         cell = trim(adjustl(cells%line(k)))
-         if (sheet%heads(k) == '') then
-            is_unnamed(k) = is_unnamed(k) .or. cell /= ''
-            cycle
-         end if
-         call read_number(cell, sheet, row(k), fault)
-         if (fault == '') cycle
-         call complain(sheet, where//'column '//quoted(sheet%heads(k))//': '//fault)
-         is_good = .false.
-      end do
-      if (.not. is_good) return
-      rows = rows + 1
-      sheet%values(:, rows) = row
-   end subroutine take_row
-
-   !> Reads the number in a cell, or describes the error in the cell.
-   subroutine read_number(cell, sheet, value, fault)
-      character(*), intent(in) :: cell
-      type(sheet_t), intent(in) :: sheet
-      real(wp), intent(out) :: value
-      character(:), allocatable, intent(out) :: fault
-      character(:), allocatable :: text
-      real(wp) :: ignored
-      logical :: is_number
-      integer :: comma, blank
-
-      value = 0.0_wp
-      fault = ''
-      text = cell
-      comma = index(text, ',')
-      if (comma > 0 .and. comma == index(text, ',', back=.true.) .and. index(text, '.') == 0 .and. &
-         sheet%separator /= ',' .and. .not. sheet%has_decimal_points) text(comma:comma) = '.'
-      call get_decimal(text, value, is_number)
-      if (is_number) then
-         if (.not. ieee_is_finite(value)) then
-            fault = 'expected a finite number, found '//quoted(cell)
-         else if (abs(value) >= most) then
-            fault = 'expected a number below '//str(most)//', found '//quoted(cell)
-         end if
-         return
-      end if
-      if (cell == '') then
-         fault = 'expected a number, found an empty cell'
-      else if (verify(cell, '+-.0123456789eEdD') == 0 .and. scan(cell, '0123456789') > 0 .and. scan(cell, 'eEdD') > 1) then
-         fault = 'expected a number below '//str(most)//', found '//quoted(cell)
-      else
-         fault = 'expected a number, found '//quoted(cell)
-         blank = scan(cell, ' abcdfghijklmnopqrstuvwxyzABCDFGHIJKLMNOPQRSTUVWXYZ%')
-         if (index(cell, ',') > 0 .and. index(cell, '.') > 0) then
-            fault = fault//' (write numbers without thousands separators)'
-         else if (index(cell, ',') > 0) then
-            fault = fault//' (write a decimal point, here and in all numbers of the file)'
-         else if (index(cell, char(226)//char(136)//char(146)) == 1 .or. index(cell, char(226)//char(128)//char(147)) == 1) then
-            fault = fault//' (write the minus sign as -)'
-         else if (blank > 1) then
-            call get_decimal(cell(:blank - 1), ignored, is_number)
-            if (is_number) fault = fault//' (write the number alone; its unit is given in the column name)'
-         end if
-      end if
-   end subroutine read_number
-
-   !> Checks the headings, and that the file has rows.
-   subroutine judge_heads(sheet, rows, is_unnamed)
-      type(sheet_t), intent(inout) :: sheet
-      integer, intent(in) :: rows
-      logical, intent(in) :: is_unnamed(:)
-      integer :: k, j
-
-      if (sheet%head_line == 0) then
-         call sheet%head_mistakes%add(sheet%file//': the line of column names is missing')
-         return
-      end if
-      do k = 1, size(sheet%heads)
-         if (sheet%heads(k) == '') then
-            if (is_unnamed(k)) call sheet%head_mistakes%add(head_place(sheet)//'column '//str(k)//' has no name')
-            cycle
-         end if
-         j = findloc(sheet%heads(:k) == sheet%heads(k), .true., dim=1)
-         if (j < k) call sheet%head_mistakes%add(head_place(sheet)//'the column '//quoted(sheet%heads(k))// &
-            ' is given twice, as column '//str(j)//' and column '//str(k)//'; remove or rename one')
-      end do
-      sheet%values = sheet%values(:, :rows)
-      if (rows == 0 .and. sheet%row_mistakes%count() == 0) &
-         call sheet%row_mistakes%add(sheet%file//': the table has no rows')
-   end subroutine judge_heads
-
-   !> Adds an error in a row. Only the first 100 errors are stored; further errors are counted.
-   subroutine complain(sheet, what)
-      type(sheet_t), intent(inout) :: sheet
-      character(*), intent(in) :: what
-
-      if (sheet%row_mistakes%count() < max_reported) then
-         call sheet%row_mistakes%add(what)
-      else
-         sheet%untold = sheet%untold + 1
-      end if
-   end subroutine complain
-
-   !> Reads the cells of one record, which may span several lines. A quoted cell that is not closed ends with the file.
-   subroutine take_record(text, separator, at, line, fields, is_closed)
-      character(*), intent(in) :: text
-      character, intent(in) :: separator
-      integer, intent(inout) :: at, line          !! position and line where the record begins; on return, of the next record
-      type(message_list_t), intent(out) :: fields
-      logical, intent(out) :: is_closed
-      type(buffer_t) :: cell
-      logical :: is_quoted
-
-      is_quoted = .false.
-      do while (at <= len(text))
-         if (is_quoted) then
-            if (text(at:at) /= '"') then
-               call cell%add(text(at:at))
-               if (text(at:at) == line_end) line = line + 1
-            else if (text(at:min(at + 1, len(text))) == '""') then
-               call cell%add('"')
-               at = at + 1
-            else
-               is_quoted = .false.
-            end if
-         else if (text(at:at) == '"') then
-            is_quoted = .true.
-         else if (text(at:at) == separator) then
-            call fields%add(cell%text())
-            call cell%clear()
-         else if (text(at:at) == line_end) then
-            line = line + 1
-            at = at + 1
-            exit
-         else if (text(at:at) /= achar(13)) then
-            call cell%add(text(at:at))
-         end if
-         at = at + 1
-      end do
-      call fields%add(cell%text())
-      is_closed = .not. is_quoted
-   end subroutine take_record
 
 end module ek_sheet

@@ -19,6 +19,8 @@ module ek_load_table
    use ek_suspension, only: suspension_t, driver_row
    use ek_quantity, only: name_length
    use ek_sheet, only: sheet_t, read_sheet, mistakes_of, head_place
+   use ek_sheet_columns, only: take_columns, has_numbers
+   use ek_unit_row, only: unit_of_heading
    use ek_wheel_side, only: prefix_of, left_and_right
    implicit none(type, external)
    private
@@ -67,8 +69,10 @@ contains
       type(error_t), allocatable :: error
       type(sheet_t) :: sheet
       type(table_column_t), allocatable :: columns(:)
-      real(wp), allocatable :: unit(:)
-      logical, allocatable :: is_kept(:)
+      real(wp), allocatable :: unit(:), values(:, :)
+      character(16), allocatable :: units(:)
+      logical, allocatable :: is_kept(:), is_number(:)
+      integer, allocatable :: places(:)
       integer :: wheels(2), k
 
       call read_sheet(file, sheet, error, files)
@@ -78,21 +82,45 @@ contains
          return
       end if
       allocate (columns(size(sheet%heads)), unit(size(sheet%heads)))
+      is_number = has_numbers(sheet)
       is_kept = [(sheet%heads(k) /= '' .and. .not. any(sheet%heads(k) == passed_over), k=1, size(sheet%heads))]
+      do k = 2, size(sheet%heads)                          ! the first one is the index that other programs write
+         if (sheet%heads(k) == '' .and. is_number(k)) call sheet%head_mistakes%add(head_place(sheet)//'column '//str(k)// &
+            ' has no name')
+      end do
       if (is_whole) then
          call left_and_right(suspension, wheels)
          do k = 1, size(sheet%heads)
             call find_meaning(trim(sheet%heads(k)), suspension, wheels, columns(k), unit(k))
          end do
+         call omit_text(unit > 0.0_wp .or. is_number)
          call judge_columns(sheet, suspension, wheels, is_kept .and. .not. unit > 0.0_wp)
+      else
+         call omit_text(is_number .or. [(unit_of_heading(trim(sheet%heads(k))) /= '', k=1, size(columns))])
       end if
+      places = pack([(k, k=1, size(columns))], is_kept)
+      allocate (units(size(places)))
+      do k = 1, size(places)
+         units(k) = unit_of_heading(trim(sheet%heads(places(k))))
+      end do
+      call take_columns(sheet, places, values, units)
       call mistakes_of(sheet, table%mistakes)
       if (table%mistakes%count() > 0 .or. .not. is_whole) return
-      table%rows = size(sheet%values, 2)
-      do k = 1, size(columns)
-         columns(k)%values = sheet%values(k, :)*unit(k)
+      table%rows = size(values, 2)
+      do k = 1, size(places)
+         columns(places(k))%values = values(k, :)*unit(places(k))
       end do
-      table%columns = columns(pack([(k, k=1, size(columns))], is_kept))
+      table%columns = columns(places)
+
+   contains
+
+      !> Removes columns of text, such as remarks, unless the table has no other columns.
+      subroutine omit_text(may_be_load)
+         logical, intent(in) :: may_be_load(:)
+
+         if (any(is_kept .and. may_be_load)) is_kept = is_kept .and. may_be_load
+      end subroutine omit_text
+
    end subroutine read_table
 
    !> Finds the meaning of a column by its heading, and the SI value of its unit. The unit is 0 if the heading has no meaning in the

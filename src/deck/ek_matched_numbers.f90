@@ -268,8 +268,8 @@ contains
       k = same_number(image, list)
    end function opposite
 
-   !> The paths that change each number of a factor once in the text of the deck: the paths of the factor, unless one number is
-   !> matched by several of them.
+   !> Finds the paths that change each number of a factor once in the text of the deck: the paths of the factor, unless several of
+   !> them match one number.
    subroutine separate_settings(records, matches, paths, settings)
       type(record_t), intent(in) :: records(:)
       type(matches_t), intent(in) :: matches

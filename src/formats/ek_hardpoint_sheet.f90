@@ -48,7 +48,7 @@ contains
          call parse_teimorbit(lines, file, flaws)
          call take_blocks(file, sheet, flaws)
       else
-         call take_table(lines, length, sheet, flaws)
+         call take_table(text, length, sheet, flaws)
       end if
       if (sheet%used == 0 .and. flaws%count() == 0) call flaws%add(0, 'expected hardpoints, found none')
    end subroutine parse_hardpoints

@@ -1,131 +1,167 @@
 !> A table of hardpoints as CSV. The first line has the column headings, in any order and with any further columns: `name`, `x`,
 !> `y`, `z`, with or without their unit (`x_mm`, `Y [m]`, `z (in)`), optionally `symmetry` or `side`. Without headings the columns
-!> are name, x, y, z. Columns are separated by commas, semicolons or tabs. A line that begins with # is a comment. With semicolons
-!> or tabs a decimal comma is accepted.
+!> are name, x, y, z. A row of units may follow the headings. The table is read by ek_sheet.
 module ek_hardpoint_table
    use ek_kinds, only: wp
-   use ek_error, only: message_list_t
    use ek_text, only: str, lower
-   use ek_sheet, only: take_record
+   use ek_sheet, only: sheet_t, parse_sheet, cells_t, new_cells, split_row, plain_cell, cell_of, head_place
+   use ek_sheet_cell, only: get_cell, cell_fault
+   use ek_sheet_columns, only: find_unit_row, find_decimal_marks, is_decimal_comma, row_fault
    use ek_flaws, only: flaws_t, shown
-   use ek_fields, only: lines_t, take_number
    use ek_unit_word, only: unit_of, length_unit
    use ek_hardpoint, only: hardpoints_t, single_point, add_hardpoint, take_symmetry
    implicit none(type, external)
    private
    public :: take_table
 
-   character, parameter :: tab = achar(9)
+   real(wp), parameter :: most = 1.0e25_wp          !! larger numbers are errors; smaller numbers are legal in a deck in any unit
 
 contains
 
    !> Reads a table: headings, then one hardpoint per line.
-   subroutine take_table(lines, length, sheet, flaws)
-      type(lines_t), intent(in) :: lines
+   subroutine take_table(text, length, sheet, flaws)
+      character(*), intent(in) :: text                     !! content of the file
       real(wp), intent(in) :: length
       type(hardpoints_t), intent(inout) :: sheet
       type(flaws_t), intent(inout) :: flaws
-      type(message_list_t) :: cells
-      character(:), allocatable :: text
-      character :: separator
-      integer :: columns(5), k, at, line, j
+      type(sheet_t) :: table
+      type(cells_t) :: cells
+      character(:), allocatable :: fault, name, cell
+      integer :: columns(5), row, j, symmetry
       real(wp) :: units(3), numbers(3)
-      logical :: has_heads, is_closed, is_good(3)
-      integer :: symmetry
+      logical :: has_commas, is_good(3)
 
-      has_heads = .false.
-      separator = ','
-      do k = 1, lines%count
-         text = lines%line(k)
-         if (index(adjustl(text), '#') == 1 .or. verify(text, ' ,;"'//tab) == 0) cycle
-         if (.not. has_heads .and. index(text, 'sep=') == 1 .and. len_trim(text) == 5) cycle      ! a line of Excel
-         if (.not. has_heads) separator = separator_of(text)
-         at = 1
-         line = k
-         call take_record(text, separator, at, line, cells, is_closed)
-         if (.not. is_closed) then
-            call flaws%add(k, 'expected a closing ", found none')
+      call parse_sheet(text, flaws%file, table)
+      if (table%head_line == 0) then
+         call flaws%add(0, 'expected the column headings name, x, y, z, found no line of text')
+         return
+      end if
+      call find_columns(table, length, columns, units, flaws)
+      if (any(columns([1, 3, 4, 5]) == 0)) then
+         if (.not. is_row(table)) then
+            call flaws%add(table%head_line, 'expected the column headings name, x, y, z, found '// &
+               shown(table%text(table%first(0):table%last(0))))
+            return
+         end if
+         columns = [1, 0, 2, 3, 4]
+         units = length
+         row = 0
+      else
+         call add_head_mistakes(table, flaws)
+         call find_unit_row(table, columns(3:))
+         if (table%unit_row > 0) call take_units(table, columns(3:), units, length, flaws)
+         row = 1 + table%unit_row
+      end if
+      call find_decimal_marks(table, columns(3:))
+      has_commas = is_decimal_comma(table)
+      cells = new_cells(table)
+      do row = row, table%rows
+         call split_row(table, row, cells)
+         fault = row_fault(table, row, cells, maxval(columns))
+         if (cells%is_closed .and. cells%used > size(table%heads)) then              ! remarks
+            if (scan(table%text(cells%first(size(table%heads) + 1):table%last(row)), '0123456789') == 0) fault = ''
+         end if
+         if (fault /= '') then
+            call flaws%add(table%lines(row), fault)
             cycle
          end if
-         if (.not. has_heads) then
-            has_heads = .true.
-            call find_columns(cells, length, columns, units)
-            if (any(columns([1, 3, 4, 5]) == 0)) then
-               if (.not. is_row(cells, separator)) then
-                  call flaws%add(k, 'expected the column headings name, x, y, z, found '//shown(text))
-                  return
-               end if
-               columns = [1, 0, 2, 3, 4]
-               units = length
-            else
-               cycle
-            end if
-         end if
-         if (cells%count() < maxval(columns)) then
-            call flaws%add(k, 'expected at least '//str(maxval(columns))//' cells, found '//str(cells%count()))
-            cycle
-         end if
+         name = plain_cell(table, cells, columns(1))
          symmetry = single_point
-         if (columns(2) > 0) call take_symmetry(cells%line(columns(2)), k, symmetry, flaws)
+         if (columns(2) > 0) call take_symmetry(plain_cell(table, cells, columns(2)), table%lines(row), symmetry, flaws)
          do j = 1, 3
-            call take_number(with_point(cells%line(columns(j + 2)), separator), k, 'xyz'(j:j)//' of '// &
-               shown(cells%line(columns(1))), numbers(j), flaws, is_good(j))
+            cell = plain_cell(table, cells, columns(j + 2))
+            call get_cell(cell, has_commas, numbers(j), is_good(j))
+            if (is_good(j)) is_good(j) = abs(numbers(j)) < most
+            if (.not. is_good(j)) call flaws%add(table%lines(row), 'xyz'(j:j)//' of '//shown(name)//': '// &
+               cell_fault(cell, has_commas))
          end do
          if (all(is_good) .and. symmetry >= 0) &
-            call add_hardpoint(sheet, cells%line(columns(1)), numbers*units, symmetry, k, flaws)
+            call add_hardpoint(sheet, name, numbers*units, symmetry, table%lines(row), flaws)
       end do
-      if (.not. has_heads) call flaws%add(0, 'expected the column headings name, x, y, z, found no line of text')
    end subroutine take_table
 
-   pure character function separator_of(text) result(separator)
-      character(*), intent(in) :: text
+   !> Adds the errors of the headings.
+   subroutine add_head_mistakes(table, flaws)
+      type(sheet_t), intent(in) :: table
+      type(flaws_t), intent(inout) :: flaws
+      character(:), allocatable :: words
+      integer :: k
 
-      separator = ','
-      if (index(text, tab) > 0) separator = tab
-      if (index(text, ';') > 0) separator = ';'
-   end function separator_of
+      do k = 1, table%head_mistakes%count()
+         words = table%head_mistakes%line(k)
+         if (index(words, head_place(table)) == 1) words = words(len(head_place(table)) + 1:)
+         call flaws%add(table%head_line, words)
+      end do
+   end subroutine add_head_mistakes
 
-   !> A number with a decimal point instead of a decimal comma, if the separator of the columns is not a comma.
-   pure function with_point(text, separator) result(number)
-      character(*), intent(in) :: text
-      character, intent(in) :: separator
-      character(:), allocatable :: number
-      integer :: comma
+   !> Takes the units of x, y and z from the row of units. A unit that contradicts the heading is an error.
+   subroutine take_units(table, columns, units, length, flaws)
+      type(sheet_t), intent(in) :: table
+      integer, intent(in) :: columns(3)
+      real(wp), intent(inout) :: units(3)                  !! on entry, units by the headings
+      real(wp), intent(in) :: length                       !! unit without any name of a unit
+      type(flaws_t), intent(inout) :: flaws
+      character(:), allocatable :: cell, head
+      real(wp) :: unit
+      integer :: j
 
-      number = trim(adjustl(text))
-      comma = index(number, ',')
-      if (separator /= ',' .and. comma > 0 .and. index(number, '.') == 0) number(comma:comma) = '.'
-   end function with_point
+      do j = 1, 3
+         cell = cell_of(table, 1, columns(j))
+         unit = unit_of(length_unit, cell(max(1, verify(cell, '[( ')):verify(cell, ')] ', back=.true.)))
+         if (cell == '' .or. cell == '-') cycle
+         if (.not. unit > 0.0_wp) then
+            call flaws%add(table%lines(1), 'expected a unit of length for '//'xyz'(j:j)//', found '//shown(cell))
+            cycle
+         end if
+         head = trim(table%heads(columns(j)))
+         if (has_unit(head) .and. abs(unit - units(j)) > 1.0e-9_wp*unit) call flaws%add(table%lines(1), &
+            'expected the unit of column '//shown(head)//', found '//shown(cell))
+         if (.not. has_unit(head)) units(j) = unit
+      end do
 
-   !> Whether a line in a file without headings is already a row: a word, then three numbers.
-   logical function is_row(cells, separator)
-      type(message_list_t), intent(in) :: cells
-      character, intent(in) :: separator
-      type(flaws_t) :: ignored
+   contains
+
+      !> Whether a heading names a unit: two different default units give the same unit.
+      logical function has_unit(head)
+         character(*), intent(in) :: head
+         character(:), allocatable :: ignored
+         real(wp) :: one, other
+
+         call split_head(head, length, ignored, one)
+         call split_head(head, 2.0_wp*length, ignored, other)
+         has_unit = abs(one - other) <= 0.0_wp
+      end function has_unit
+
+   end subroutine take_units
+
+   !> Whether the first line of a file is already a row: a word, then three numbers.
+   logical function is_row(table)
+      type(sheet_t), intent(in) :: table
       real(wp) :: value
       integer :: k
 
-      is_row = cells%count() >= 4
+      is_row = size(table%heads) >= 4
       if (.not. is_row) return
       do k = 2, 4
-         if (is_row) call take_number(with_point(cells%line(k), separator), 1, '', value, ignored, is_row)
+         if (is_row) call get_cell(cell_of(table, 0, k), table%separator /= ',', value, is_row)
       end do
    end function is_row
 
    !> Finds the columns of name, symmetry, x, y, z (0 if a column does not exist), and the SI values of the units of x, y and z.
-   subroutine find_columns(cells, length, columns, units)
-      type(message_list_t), intent(in) :: cells
+   subroutine find_columns(table, length, columns, units, flaws)
+      type(sheet_t), intent(in) :: table
       real(wp), intent(in) :: length
       integer, intent(out) :: columns(5)
       real(wp), intent(out) :: units(3)
+      type(flaws_t), intent(inout) :: flaws
       character(:), allocatable :: head
       real(wp) :: unit
       integer :: k, c
 
       columns = 0
       units = length
-      do k = 1, min(cells%count(), 200)
-         call split_head(cells%line(k), length, head, unit)
+      do k = 1, min(size(table%heads), 200)
+         call split_head(trim(table%heads(k)), length, head, unit)
          select case (head)
          case ('name', 'hardpoint', 'hardpointname', 'point', 'pointname', 'label', 'id', 'marker', 'punkt', 'bezeichnung')
             c = 1
@@ -137,12 +173,17 @@ contains
             c = 0
          end select
          if (c == 0) cycle
+         if (columns(c) > 0 .and. c > 2) then
+            if (table%heads(columns(c)) /= table%heads(k)) call flaws%add(table%head_line, 'the column '//head// &
+               ' is given twice, as column '//str(columns(c))//' '//shown(table%heads(columns(c)))//' and column '//str(k)//' '// &
+               shown(table%heads(k))//'; remove or rename one')
+         end if
          if (columns(c) > 0) cycle        ! the first of two, as of `name` and `label`
          columns(c) = k
          if (c > 2) units(c - 2) = unit
       end do
       if (columns(1) > 0 .or. any(columns(3:) == 0)) return
-      do k = 1, cells%count()             ! the name is the first column that is not one of the others
+      do k = 1, size(table%heads)         ! the name is the first column that is not one of the others
          if (any(columns == k)) cycle
          columns(1) = k
          return

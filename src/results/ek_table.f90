@@ -5,12 +5,14 @@ module ek_table
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan, ieee_is_finite, ieee_is_nan
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t, fail, exit_file
-   use ek_text, only: str, quoted, plural
+   use ek_text, only: quoted
    use ek_buffer, only: buffer_t
-   use ek_letters, only: line_count, with_line_ends
-   use ek_file, only: read_whole, write_standard_output
+   use ek_file, only: write_standard_output
+   use ek_sheet, only: sheet_t, read_sheet, mistakes_of
+   use ek_sheet_columns, only: take_columns, has_numbers, or_nan, or_text
+   use ek_unit_row, only: unit_of_heading
    use ek_writer, only: writer_t, begin_file
-   use ek_decimal, only: put_decimal, get_decimal, longest_decimal
+   use ek_decimal, only: put_decimal, longest_decimal
    use ek_quantity, only: name_length
    implicit none(type, external)
    private
@@ -216,121 +218,46 @@ contains
       call write_standard_output(buffer%text(), error)
    end subroutine print_csv
 
-   !> Reads a table from a CSV file. All lines that begin with # are header lines; empty lines are skipped.
+   !> Reads a table of numbers from a file (ek_sheet). Comments are header lines. A column of text is omitted.
    subroutine read_csv(path, table, error, may_stream, has_text)
       character(*), intent(in) :: path
       type(table_t), intent(out) :: table
-      type(error_t), allocatable, intent(out) :: error   !! exit_file, with path and line
+      type(error_t), allocatable, intent(out) :: error   !! exit_file, with path and line; all errors of the file
       logical, intent(in), optional :: may_stream        !! see read_whole
-      logical, intent(in), optional :: has_text          !! .true.: fields that are empty or in quotes are read as nan
-      character(:), allocatable :: text, content
-      logical :: skips
-      integer :: first, last, line, rows
+      logical, intent(in), optional :: has_text          !! .true.: text, also a column of text, and empty cells are read as nan
+      type(sheet_t) :: sheet
+      type(message_list_t) :: mistakes
+      real(wp), allocatable :: values(:, :)
+      character(16), allocatable :: units(:)
+      integer, allocatable :: places(:)
+      integer :: k, accepts
 
-      skips = .false.
-      if (present(has_text)) skips = has_text
       table = new_table([character(1) ::], 0)
-      call read_whole(path, text, error, may_stream)
+      call read_sheet(path, sheet, error, may_stream=may_stream)
       if (allocated(error)) return
-      text = with_line_ends(text)
-      line = 0
-      rows = -1                                          ! the names come first
-      first = 1
-      do while (first <= len(text))
-         do last = first, len(text)                      ! the library's index takes many times longer
-            if (text(last:last) == line_end) exit
+      accepts = or_nan
+      if (present(has_text)) accepts = merge(or_text, or_nan, has_text)
+      if (sheet%rows > 0) then
+         places = pack([(k, k=1, size(sheet%heads))], has_numbers(sheet, may_be_nan=.true.))
+         if (accepts == or_text) places = [(k, k=1, size(sheet%heads))]
+         allocate (units(size(places)))
+         do k = 1, size(places)
+            units(k) = unit_of_heading(trim(sheet%heads(places(k))))
          end do
-         last = last - 1
-         line = line + 1
-         content = text(first:last)
-         if (index(content(:min(1, len(content))), '#') == 1) then
-            call table%header%add(trim(content(min(3, verify(content(2:)//'x', ' ') + 1):)))
-         else if (len_trim(content) > 0 .and. rows < 0) then
-            call take_names(content, line_count(text(last + 1:)), table)
-            rows = 0
-         else if (len_trim(content) > 0) then
-            rows = rows + 1
-            call take_row(content, path//':'//str(line)//': ', rows, skips, table, error)
-            if (allocated(error)) return
-         end if
-         first = last + 2
-      end do
-      if (rows < 0) then
-         call fail(error, exit_file, path//': the line of column names is missing')
+         call take_columns(sheet, places, values, units, accepts)
+      else if (sheet%head_mistakes%count() == 0) then
+         sheet%row_mistakes = message_list_t()           ! a table without rows
+         places = [(k, k=1, size(sheet%heads))]
+         allocate (values(size(places), 0))
+      end if
+      call mistakes_of(sheet, mistakes)
+      if (mistakes%count() > 0) then
+         call fail(error, exit_file, mistakes%text())
          return
       end if
-      table%values = table%values(:, :rows)
+      table = new_table(sheet%heads(places), 0)
+      table%header = sheet%header
+      call move_alloc(values, table%values)
    end subroutine read_csv
-
-   !> Finds the positions of the commas of a line outside quotes, and adds the positions before and after the line.
-   pure subroutine find_commas(content, at)
-      character(*), intent(in) :: content
-      integer, allocatable, intent(out) :: at(:)
-      logical :: is_inside
-      integer :: k, used
-
-      allocate (at(len(content) + 2))
-      at(1) = 0
-      used = 1
-      is_inside = .false.
-      do k = 1, len(content)
-         if (content(k:k) == '"') is_inside = .not. is_inside
-         if (content(k:k) /= ',' .or. is_inside) cycle
-         used = used + 1
-         at(used) = k
-      end do
-      at(used + 1) = len(content) + 1
-      at = at(:used + 1)
-   end subroutine find_commas
-
-   !> Creates the table from the line of column names, with the header lines that were read before.
-   pure subroutine take_names(content, rows, table)
-      character(*), intent(in) :: content
-      integer, intent(in) :: rows
-      type(table_t), intent(inout) :: table
-      character(name_length), allocatable :: names(:)
-      type(message_list_t) :: header
-      integer, allocatable :: at(:)
-      integer :: k
-
-      call find_commas(content, at)
-      allocate (names(size(at) - 1))
-      do k = 1, size(names)
-         names(k) = adjustl(content(at(k) + 1:at(k + 1) - 1))
-      end do
-      header = table%header
-      table = new_table(names, rows)
-      table%header = header
-   end subroutine take_names
-
-   !> Reads one line of numbers into a row of the table.
-   pure subroutine take_row(content, where, row, skips, table, error)
-      character(*), intent(in) :: content
-      character(*), intent(in) :: where                  !! 'file:line: ' for messages
-      integer, intent(in) :: row
-      logical, intent(in) :: skips                       !! .true.: fields that are empty or in quotes remain nan
-      type(table_t), intent(inout) :: table
-      type(error_t), allocatable, intent(out) :: error
-      integer, allocatable :: at(:)
-      logical :: is_number
-      integer :: k
-
-      call find_commas(content, at)
-      if (size(at) - 1 /= size(table%columns)) then
-         call fail(error, exit_file, where//plural(size(at) - 1, 'value', 'values')//' for '// &
-            plural(size(table%columns), 'column', 'columns'))
-         return
-      end if
-      do k = 1, size(table%columns)
-         if (skips) then
-            if (content(at(k) + 1:at(k + 1) - 1) == '' .or. index(content(at(k) + 1:at(k + 1) - 1), '"') == 1) cycle
-         end if
-         call get_decimal(content(at(k) + 1:at(k + 1) - 1), table%values(k, row), is_number)
-         if (is_number) cycle
-         call fail(error, exit_file, where//'column '//quoted(table%columns(k))//': '// &
-            quoted(content(at(k) + 1:at(k + 1) - 1))//' is not a number')
-         return
-      end do
-   end subroutine take_row
 
 end module ek_table

@@ -7,7 +7,7 @@ module ek_text_table
    use ek_text, only: str, quoted, plural
    use ek_buffer, only: buffer_t
    use ek_file, only: read_whole
-   use ek_sheet, only: take_record
+   use ek_letters, only: with_line_ends
    implicit none(type, external)
    private
    public :: text_table_t, new_text_table, add_row, text_table_csv, read_text_table, cell_of
@@ -111,7 +111,7 @@ contains
       cell = cell//'"'
    end function protected_cell
 
-   !> Reads a table from a CSV file, as written by text_table_csv.
+   !> Reads a table from a CSV file, as written by text_table_csv, also after a spreadsheet has saved it with semicolons or tabs.
    subroutine read_text_table(path, table, error)
       character(*), intent(in) :: path
       type(text_table_t), intent(out) :: table
@@ -119,12 +119,15 @@ contains
       type(message_list_t) :: fields
       character(:), allocatable :: text
       integer :: at, line, first_line, used, k
+      character :: separator
       logical :: has_names, is_closed
 
       table = new_text_table([character(1) ::])
       table%file = path
       call read_whole(path, text, error)
       if (allocated(error)) return
+      text = with_line_ends(text)
+      separator = ','
       has_names = .false.
       at = 1
       line = 1
@@ -135,7 +138,8 @@ contains
             line = line + 1
             cycle
          end if
-         call take_record(text, ',', at, line, fields, is_closed)
+         if (.not. has_names) separator = separator_of(text(at:at + index(text(at:)//line_end, line_end) - 2))
+         call take_record(text, separator, at, line, fields, is_closed)
          used = fields%count()
          if (.not. is_closed) then
             call fail(error, exit_file, path//':'//str(first_line)//': a quoted cell is not closed')
@@ -147,6 +151,11 @@ contains
             allocate (table%columns(used), table%cells(used, 8))
             do k = 1, used
                table%columns(k) = fields%line(k)
+               if (findloc(table%columns(:k) == table%columns(k), .true., dim=1) == k) cycle
+               call fail(error, exit_file, path//':'//str(first_line)//': the column '//quoted(table%columns(k))// &
+                  ' is given twice, as column '//str(findloc(table%columns(:k) == table%columns(k), .true., dim=1))// &
+                  ' and column '//str(k)//'; remove or rename one')
+               return
             end do
             cycle
          end if
@@ -162,5 +171,54 @@ contains
       end do
       if (.not. has_names) call fail(error, exit_file, path//': the line of column names is missing')
    end subroutine read_text_table
+
+   !> The separator of the columns, from the line of column names.
+   pure character function separator_of(names) result(separator)
+      character(*), intent(in) :: names
+
+      separator = ','
+      if (index(names, achar(9)) > 0) separator = achar(9)
+      if (index(names, ';') > 0) separator = ';'
+   end function separator_of
+
+   !> Reads the cells of one record, which may span several lines. A quoted cell that is not closed ends with the file.
+   subroutine take_record(text, separator, at, line, fields, is_closed)
+      character(*), intent(in) :: text
+      character, intent(in) :: separator
+      integer, intent(inout) :: at, line          !! position and line where the record begins; on return, of the next record
+      type(message_list_t), intent(out) :: fields
+      logical, intent(out) :: is_closed
+      type(buffer_t) :: cell
+      logical :: is_quoted
+
+      is_quoted = .false.
+      do while (at <= len(text))
+         if (is_quoted) then
+            if (text(at:at) /= '"') then
+               call cell%add(text(at:at))
+               if (text(at:at) == line_end) line = line + 1
+            else if (text(at:min(at + 1, len(text))) == '""') then
+               call cell%add('"')
+               at = at + 1
+            else
+               is_quoted = .false.
+            end if
+         else if (text(at:at) == '"') then
+            is_quoted = .true.
+         else if (text(at:at) == separator) then
+            call fields%add(cell%text())
+            call cell%clear()
+         else if (text(at:at) == line_end) then
+            line = line + 1
+            at = at + 1
+            exit
+         else if (text(at:at) /= achar(13)) then
+            call cell%add(text(at:at))
+         end if
+         at = at + 1
+      end do
+      call fields%add(cell%text())
+      is_closed = .not. is_quoted
+   end subroutine take_record
 
 end module ek_text_table

@@ -13,8 +13,8 @@ module ek_fit_claims
 
 contains
 
-   !> Claims the numbers of a factor. `message` describes a number that an earlier factor changes, and a number that two paths of
-   !> the factor change in different ways; otherwise it is ''.
+   !> Checks that the numbers of a factor belong to no earlier factor. `message` describes a number that an earlier factor changes,
+   !> and a number that two paths of the factor change in different ways; otherwise it is ''.
    subroutine claim_factor(fit, f, workspace, claims, message)
       type(fit_t), intent(in) :: fit
       integer, intent(in) :: f                             !! index of the factor

@@ -1,11 +1,10 @@
 !> A fit checked against its deck: the factors become directions with bounds and priors. The targets become requested numbers, one
 !> per point.
 module ek_fit_problem
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t, fail, exit_deck
    use ek_text, only: str, quoted
-   use ek_table, only: table_t, read_csv, column_index, name_length
+   use ek_table, only: name_length
    use ek_number_range, only: is_inside
    use ek_deck, only: deck_t
    use ek_study, only: by_value, by_scale, is_given, not_given
@@ -15,6 +14,7 @@ module ek_fit_problem
    use ek_parameter, only: parameter_path
    use ek_matched_numbers, only: claims_t, new_claims
    use ek_fit_claims, only: claim_factor
+   use ek_fit_curve, only: read_curve
    use ek_direction, only: direction_t, find_directions
    use ek_wanted_number, only: wanted_number_t, find_wanted, find_column
    use ek_fit, only: fit_t, fit_factor_t, fit_target_t
@@ -274,77 +274,44 @@ contains
             call mistakes%add(head//'a key number is one value and has no curve; give value')
             return
          end if
-         call add_curve(this, head, home, wanted, point, problem, mistakes)
+         call add_curve(this, head, home, workspace%cases(c)%case%unit_name, wanted, point, problem, mistakes)
       end associate
    end subroutine add_target
 
-   !> Adds the points of a target that is a curve: one point for each row of the file that contains a swept value, and a value or a
-   !> limit.
-   subroutine add_curve(this, head, home, first, model, problem, mistakes)
+   !> Adds the points of a target that is a curve: one point for each row of the file. The swept value and the required value must
+   !> be numbers; a limit may be missing in rows with another number.
+   subroutine add_curve(this, head, home, swept_unit, first, model, problem, mistakes)
       type(fit_target_t), intent(in) :: this
       character(*), intent(in) :: head              !! beginning of messages
       character(*), intent(in) :: home
+      character(*), intent(in) :: swept_unit        !! unit of the swept value of the case
       type(wanted_number_t), intent(in) :: first    !! the quantity, with `at` to be replaced
       type(fit_point_t), intent(in) :: model        !! a point with target and deviation
       type(fit_problem_t), intent(inout) :: problem
       type(message_list_t), intent(inout) :: mistakes
+      real(wp), allocatable :: rows(:, :)           !! abscissa, value, low, high
+      type(message_list_t) :: flaws
       type(wanted_number_t), allocatable :: list(:)
       type(fit_point_t), allocatable :: points(:)
-      type(table_t) :: curve
-      type(error_t), allocatable :: error
-      type(wanted_number_t) :: wanted
-      type(fit_point_t) :: point
-      integer :: row, used, places(4)
+      integer :: k, used
 
-      call read_csv(path_of(this%file), curve, error)
-      if (allocated(error)) then
-         call mistakes%add(head//error%message)
-         return
-      end if
-      places = [column_index(curve, trim(this%over)), column_index(curve, trim(this%column)), column_index(curve, 'low'), &
-         column_index(curve, 'high')]
-      if (places(1) == 0 .or. all(places(2:) == 0)) then
-         call mistakes%add(head//path_of(this%file)//' must have the columns '//trim(this%over)//' and '//trim(this%column)// &
-            ', or low, or high')
-         return
-      end if
-      allocate (points(size(curve%values, 2)))
-      wanted = first
-      point = model
-      allocate (list(size(points)), source=first)
-      used = 0
-      do row = 1, size(curve%values, 2)
-         point%value = cell(places(2))
-         point%low = cell(places(3))
-         point%high = cell(places(4))
-         wanted%at = curve%values(places(1), row)
-         if (.not. ieee_is_finite(wanted%at)) cycle
-         if (.not. (is_given(point%value) .or. is_given(point%low) .or. is_given(point%high))) cycle
-         wanted%reach = merge(0.0_wp, huge(1.0_wp), abs(wanted%at) <= 0.0_wp .and. this%over == 'factor')
-         used = used + 1
-         list(used) = wanted
-         points(used) = point
+      call read_curve(this, home, swept_unit, rows, flaws)
+      do k = 1, flaws%count()
+         call mistakes%add(head//flaws%line(k))
       end do
-      problem%wanted = [problem%wanted, list(:used)]
-      problem%points = [problem%points, points(:used)]
-      if (used == 0) call mistakes%add(head//path_of(this%file)//' has no row with a number')
-
-   contains
-
-      !> The value of a column in the current row of the curve; NaN if the file does not have the column.
-      real(wp) function cell(place)
-         integer, intent(in) :: place
-         cell = not_given()
-         if (place > 0) cell = curve%values(place, row)
-      end function cell
-
-      function path_of(file) result(path)
-         character(*), intent(in) :: file
-         character(:), allocatable :: path
-         path = file
-         if (index(file, '/') /= 1) path = home//file
-      end function path_of
-
+      if (flaws%count() > 0) return
+      used = size(rows, 2)
+      allocate (list(used), source=first)
+      allocate (points(used), source=model)
+      do k = 1, used
+         list(k)%at = rows(1, k)
+         list(k)%reach = merge(0.0_wp, huge(1.0_wp), abs(rows(1, k)) <= 0.0_wp .and. this%over == 'factor')
+         points(k)%value = rows(2, k)
+         points(k)%low = rows(3, k)
+         points(k)%high = rows(4, k)
+      end do
+      problem%wanted = [problem%wanted, list]
+      problem%points = [problem%points, points]
    end subroutine add_curve
 
    !> Turns a requested column into its slope within a window around design. The slope is fitted like a gradient of the report.

@@ -6,11 +6,14 @@
 module ek_response
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
-   use ek_error, only: error_t
+   use ek_error, only: error_t, message_list_t
    use ek_text, only: str, quoted, nearest_name, suggestion, plural
    use ek_rig_test, only: rig_tests
    use ek_quantity, only: slope_unit, unit_of, head_with_unit
-   use ek_table, only: table_t, column_index, name_length, read_csv
+   use ek_table, only: table_t, column_index, name_length
+   use ek_sheet, only: sheet_t, read_sheet, column_of, mistakes_of
+   use ek_sheet_columns, only: take_columns
+   use ek_unit_row, only: unit_of_heading
    use ek_test_result, only: test_result_t
    use ek_gradient_definition, only: definition_t, definitions_of, windows_t, fitted
    use ek_gradient, only: gradient_t, test_gradients, gradient_noise
@@ -111,7 +114,7 @@ contains
          reading%size = reading%size*size_of_slope
          reading%head = head_with_unit(asked%name, unit)
       end if
-      if (reading%of == an_rms) call read_curve(asked, home, reading%curve, message)
+      if (reading%of == an_rms) call read_curve(asked, home, factor_unit, reading%curve, message)
       if (message == '') then
          call read_response(reading, table, value, fault)
          if (fault /= no_fault .and. fault /= is_undefined) message = fault_text(reading, table, fault)
@@ -195,32 +198,38 @@ contains
       if (words /= '') words = '; this gradient belongs to'//words//': give the case of such a test in `case`'
    end function of_other_test
 
-   !> Reads the given curve of a response of kind rms from a CSV file with the columns `factor` and the column of the response.
-   subroutine read_curve(asked, home, curve, message)
+   !> Reads the given curve of a response of kind rms from a table with the columns `factor` and the column of the response.
+   subroutine read_curve(asked, home, factor_unit, curve, message)
       type(response_t), intent(in) :: asked
       character(*), intent(in), optional :: home
+      character(*), intent(in) :: factor_unit              !! unit of the swept value: 'mm', 'deg', 'N', 'N m', '-'
       real(wp), allocatable, intent(out) :: curve(:, :)
       character(:), allocatable, intent(inout) :: message
-      type(table_t) :: table
+      type(sheet_t) :: sheet
+      type(message_list_t) :: mistakes
       type(error_t), allocatable :: error
       character(:), allocatable :: path
-      integer :: x, y
+      character(16) :: units(2)                  ! no array constructor: gfortran cuts the results of functions in it
+      integer :: places(2)
 
       allocate (curve(2, 0))
       path = asked%file
       if (present(home) .and. index(path, '/') /= 1) path = home//path
-      call read_csv(path, table, error)
+      call read_sheet(path, sheet, error)
       if (allocated(error)) then
          message = error%message
          return
       end if
-      x = column_index(table, 'factor')
-      y = column_index(table, asked%column)
-      if (x == 0 .or. y == 0 .or. size(table%values, 2) == 0) then
-         message = path//' must have the columns factor and '//trim(asked%column)//', and a row'
-         return
+      places = [column_of(sheet, 'factor'), column_of(sheet, asked%column)]
+      if (all(places > 0)) then
+         units(1) = factor_unit
+         units(2) = unit_of_heading(trim(asked%column))
+         call take_columns(sheet, places, curve, units)
+      else if (sheet%head_mistakes%count() == 0) then
+         call sheet%head_mistakes%add(path//' must have the columns factor and '//trim(asked%column)//', and a row')
       end if
-      curve = table%values([x, y], :)
+      call mistakes_of(sheet, mistakes)
+      message = mistakes%text()
    end subroutine read_curve
 
    !> The reason why a response cannot be read from a table, for messages.

@@ -1,13 +1,14 @@
 !> The plan of a study: the designs by index, their division into chunks, and the identity of the study.
 module ek_study_plan
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp, i8
-   use ek_error, only: error_t, fail, exit_deck, exit_file
-   use ek_text, only: str, quoted
+   use ek_error, only: error_t, message_list_t, fail, exit_deck, exit_file
+   use ek_text, only: str, quoted, suggestion
    use ek_checksum, only: checksum_t, include, digits_of
    use ek_version, only: version
    use ek_loaded_library, only: text_from_library
-   use ek_table, only: table_t, column_index, name_length, read_csv
+   use ek_table, only: name_length
+   use ek_sheet, only: sheet_t, read_sheet, column_of, mistakes_of, head_place
+   use ek_sheet_columns, only: take_columns
    use ek_deck, only: deck_t, deck_checksum
    use ek_sampler, only: sampler_t, new_sampler, sample, designs_of, factors_of, is_ordered, is_shifted
    use ek_sampler_kind, only: list_kind
@@ -132,43 +133,39 @@ contains
       end if
    end subroutine plan_sampler
 
-  !> Reads the designs of a list from a CSV file with one column per factor. The heading of a column is the name of the factor, with
+   !> Reads the designs of a list from a table with one column per factor. The heading of a column is the name of the factor, with
    !> or without its unit. Other columns are ignored.
    subroutine read_list(study, home, designer, rows, error)
       type(study_t), intent(in) :: study
       character(*), intent(in) :: home
       type(designer_t), intent(in) :: designer
       real(wp), allocatable, intent(out) :: rows(:, :)     !! (factor, design)
-      type(error_t), allocatable, intent(out) :: error
-      type(table_t) :: table
+      type(error_t), allocatable, intent(out) :: error     !! exit_file: all errors of the list
+      type(sheet_t) :: sheet
+      type(message_list_t) :: mistakes, located
       character(:), allocatable :: path
-      integer :: f, at, bad
+      integer :: places(size(study%factors)), f
 
       path = study%list
       if (index(path, '/') /= 1) path = home//path
-      call read_csv(path, table, error, has_text=.true.)
+      call read_sheet(path, sheet, error)
       if (allocated(error)) then
          error%message = study%where//': list: '//error%message
          return
       end if
-      allocate (rows(size(study%factors), size(table%values, 2)))
-      do f = 1, size(study%factors)
-         at = column_index(table, study%factors(f)%name)
-         if (at == 0) at = column_index(table, trim(designer%heads(f)))      ! the results of another study
-         if (at == 0) then
-            call fail(error, exit_file, path//': there is no column '//quoted(study%factors(f)%name)//' for the factor in '// &
-               study%factors(f)%where)
-            return
-         end if
-         rows(f, :) = table%values(at, :)
-         bad = findloc(ieee_is_finite(rows(f, :)), .false., dim=1)
-         if (bad > 0) then
-            call fail(error, exit_file, path//': column '//quoted(table%columns(at))//' has no number in row '//str(bad)// &
-               ' (of the rows with values)')
-            return
-         end if
+      do f = 1, size(places)
+         places(f) = column_of(sheet, study%factors(f)%name)
+         if (places(f) == 0) places(f) = column_of(sheet, trim(designer%heads(f)))      ! the results of another study
+         if (places(f) == 0 .and. sheet%head_line > 0) call sheet%head_mistakes%add(head_place(sheet)//'there is no column '// &
+            quoted(study%factors(f)%name)//' for the factor in '//study%factors(f)%where// &
+            suggestion(study%factors(f)%name, sheet%heads))
       end do
-      if (size(rows, 2) == 0) call fail(error, exit_file, path//': there is no design')
+      if (all(places > 0)) call take_columns(sheet, places, rows, designer%units)
+      call mistakes_of(sheet, mistakes)
+      do f = 1, mistakes%count()
+         call located%add(study%where//': list: '//mistakes%line(f))
+      end do
+      if (mistakes%count() > 0) call fail(error, exit_file, located%text())
    end subroutine read_list
 
    !> Index of the first design of a chunk.
