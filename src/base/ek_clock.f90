@@ -69,7 +69,8 @@ contains
       words = transfer(letters(:length), words)
    end function universal_time
 
-   !> Fails if SOURCE_DATE_EPOCH is set and is not a date: files would contain the current date without a message.
+   !> Checks that SOURCE_DATE_EPOCH is not set or is a date. With another text, files would contain the current date without a
+   !> message.
    subroutine check_set_date(error)
       type(error_t), allocatable, intent(out) :: error     !! exit_usage
       character(64) :: text

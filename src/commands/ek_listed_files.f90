@@ -80,7 +80,7 @@ contains
       end if
    end subroutine remove_unchanged
 
-   !> Fails if a file of a list is missing, or was changed after the list was written.
+   !> Checks that a file of a list is there, and was not changed after the list was written.
    subroutine check_listed(folder, name, sum, error)
       character(*), intent(in) :: folder, name
       character(*), intent(in) :: sum                       !! checksum in the list

@@ -55,7 +55,7 @@ contains
       call renew_file_list(out, study_list_name(study), files, 'study', is_quiet, error, kept)
    end subroutine list_figures
 
-   !> The listed tables, or the other listed files, or all.
+   !> Lists the tables of an existing list, or its other files, or all.
    subroutine list_kept(study, out, with_tables, with_figures, names)
       character(*), intent(in) :: study, out
       logical, intent(in) :: with_tables, with_figures
@@ -84,7 +84,7 @@ contains
       end do
    end function is_table
 
-   !> Fails if a table of a study was changed after it was written, or if the list does not contain the table `needed`. Without a
+   !> Checks that no table of a study was changed after it was written, and that the list contains the table `needed`. Without a
    !> list, as in folders of early versions, a warning is printed.
    subroutine check_tables(study, out, needed, error)
       character(*), intent(in) :: study, out                !! name of the study; folder of the tables

@@ -175,8 +175,9 @@ contains
       end do
    end subroutine doubt_rods
 
-   !> Direction in which the steering driver moves a point of the rack. A rack is guided along its axis; the end of a steering lever
-   !> moves across the axis of its hinge. Without a guide, the direction of the measure; 0 if this is not a displacement.
+   !> Finds the direction in which the steering driver moves a point of the rack. A rack is guided along its axis; the end of a
+   !> steering lever moves across the axis of its hinge. Without a guide, the direction of the measure; 0 if this is not a
+   !> displacement.
    subroutine find_motion(suspension, guide, at, moves)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: guide

@@ -55,8 +55,8 @@ contains
       change_of = (b - a)/scale
    end function change_of
 
-   !> The change of magnitude from a to b in percent of a, whatever the least span: −55.4 for −2 → −0.892. NaN where a percentage has
-   !> no meaning, and `reason` is then 'from 0' or 'opposite sign'; '' if a or b is missing. Both 0: 0.
+   !> Computes the change of magnitude from a to b in percent of a, whatever the least span: −55.4 for −2 → −0.892. NaN where a
+   !> percentage has no meaning, and `reason` is then 'from 0' or 'opposite sign'; '' if a or b is missing. Both 0: 0.
    pure subroutine relative_change(a, b, percent, reason)
       real(wp), intent(in) :: a, b
       real(wp), intent(out) :: percent

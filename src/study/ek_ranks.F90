@@ -188,7 +188,7 @@ contains
       call fail(error, numbers(1), 'rank '//str(lowest)//': '//text(:numbers(2)))
    end subroutine agree
 
-   !> Fails on all ranks if a rank has another label than rank 0. All ranks must call this procedure.
+   !> Checks that all ranks have the label of rank 0; `error` is set on all ranks if not. All ranks must call this procedure.
    subroutine compare(ranks, label, what, error)
       type(ranks_t), intent(in) :: ranks
       character(*), intent(in) :: label                    !! compared without trailing blanks, up to 4096 characters
