@@ -79,8 +79,8 @@ contains
       call compare_charts(this%results, this%threshold, this%charts, this%changes, this%curves)
       if (.not. (any(this%changes%is_known) .or. any([(count(this%rows(k)%is_there) > 1, k=1, size(this%rows))]) .or. &
          any([(count(this%numbers(k)%is_there) > 1, k=1, size(this%numbers))]))) then
-         call fail(error, exit_usage, this%results(1)%path//' has no column and no number in common with the other results: '// &
-            'there is nothing to compare')
+         call fail(error, exit_usage, this%results(1)%path//' has no curve, slope or key number in common with the other '// &
+            'results: there is nothing to compare')
          return
       end if
       call find_missing(this%results, this%rows, this%missing)
