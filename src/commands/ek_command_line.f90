@@ -17,7 +17,7 @@ module ek_command_line
       character(80) :: usage      !! usage after 'elastokin'; options without a line of help are appended
       character(18) :: brief      !! usage in the overview
       character(60) :: summary    !! description in the overview
-      character(720) :: text      !! description in the help of the command
+      character(960) :: text      !! description in the help of the command
       character(230) :: ending    !! last paragraph of the help, after the options
       integer :: files = 1        !! code for the number of files: 1: one; 2: two or more; 0: one or more
       character(15) :: alone = '' !! option that can replace the files; '' for no such option

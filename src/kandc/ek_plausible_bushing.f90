@@ -143,7 +143,8 @@ contains
          if (.not. (bushing%gives_z .and. minval(kt) > 0.0_wp)) return
          if (odd_rate(bushing%bushing%kr) /= 3 .or. twin_of(suspension, k) == 0) return
          low = minloc(kt, dim=1)
-         if (low == 3 .or. kt(low) > void*min(kt(3 - low), kt(3)) .or. kt(3) < soft*kt(3 - low)) return
+         if (low == 3) return
+         if (kt(low) > void*min(kt(3 - low), kt(3)) .or. kt(3) < soft*kt(3 - low)) return
          if (abs(kt(3) - kt(3 - low)) < 0.02_wp*kt(3)) return      ! stiff in all directions but one, as chosen by x_axis
          call doubts%add('order of kt', 'the '//trim(merge('first ', 'second', low == 1))//' of kt, '// &
             doubts%speak(rate, kt(low))//', is much softer than the third, '//doubts%speak(rate, kt(3))// &

@@ -239,8 +239,10 @@ contains
             if (abs(change_of(shown(k)%values(1), shown(k)%values(r), shown(k)%least) - change) <= 0.0_wp) exit
          end do
          call relative_change(shown(k)%values(1), shown(k)%values(r), percent_of_a, reason)
-         if (ieee_is_finite(percent_of_a)) reason = str(percent_of_a, 3)//' %'
-         if (percent_of_a > 0.0_wp) reason = '+'//reason
+         if (ieee_is_finite(percent_of_a)) then
+            reason = str(percent_of_a, 3)//' %'
+            if (percent_of_a > 0.0_wp) reason = '+'//reason
+         end if
          call lines%add(line//' '//shown(k)%unit//' ('//reason//'), '//shown(k)%test)
       end do
    end function largest_lines

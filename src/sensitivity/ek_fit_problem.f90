@@ -223,7 +223,7 @@ contains
       type(fit_point_t) :: point
       type(error_t), allocatable :: error
       character(name_length), allocatable :: heads(:)
-      character(:), allocatable :: case, head
+      character(:), allocatable :: case, head, unit
       integer :: c
 
       associate (this => fit%targets(k))
@@ -274,7 +274,9 @@ contains
             call mistakes%add(head//'a key number is one value and has no curve; give value')
             return
          end if
-         call add_curve(this, head, home, workspace%cases(c)%case%unit_name, wanted, point, problem, mistakes)
+         unit = ''
+         if (allocated(workspace%cases(c)%case%unit_name)) unit = workspace%cases(c)%case%unit_name      ! once on the rig
+         call add_curve(this, head, home, unit, wanted, point, problem, mistakes)
       end associate
    end subroutine add_target
 
