@@ -18,7 +18,7 @@ module ek_noise
    use ek_quantity, only: all_quantities, name_length
    implicit none(type, external)
    private
-   public :: noise_of, is_noise, is_constant, is_flat, noise_of_slope, is_lost, widen, is_within
+   public :: noise_of, is_noise, is_constant, is_flat, noise_of_slope, is_lost, widen, is_within, find_range
 
    real(wp), parameter, public :: solved = 1.0e-10_wp      !! usual tolerance of a solution [m], the default of a case
    real(wp), parameter, public :: derived = 1.0e-11_wp     !! tolerance that corresponds to the errors of derivatives [m];
@@ -87,6 +87,16 @@ contains
       character(*), intent(in) :: column        !! column heading of the result
       real(wp), intent(in) :: tolerance         !! tolerance of the solution [m]
       real(wp) :: low, high
+
+      call find_range(values, low, high)
+      is_constant = .true.
+      if (high > low) is_constant = is_noise(high - low, column, max(abs(low), abs(high)), tolerance)
+   end function is_constant
+
+   !> Finds the smallest and the largest finite value; low is above high without a finite value.
+   pure subroutine find_range(values, low, high)
+      real(wp), intent(in) :: values(:)         !! in any unit
+      real(wp), intent(out) :: low, high        !! in the unit of the values
       integer :: k
 
       low = huge(low)
@@ -96,9 +106,7 @@ contains
          low = min(low, values(k))
          high = max(high, values(k))
       end do
-      is_constant = .true.
-      if (high > low) is_constant = is_noise(high - low, column, max(abs(low), abs(high)), tolerance)
-   end function is_constant
+   end subroutine find_range
 
    !> Whether a derivative is only noise: the change of the result over one step of differences. .false. for a derivative that is
    !> not a number.

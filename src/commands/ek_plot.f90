@@ -95,7 +95,7 @@ contains
       do k = 1, size(rules)
          do sheet = 1, 2
             name = figure_name(rules(k), data, sheet)
-            if (.not. is_drawn(rules(k), sheet) .or. .not. is_asked(trim(rules(k)%name))) then
+            if (.not. is_drawn(rules(k), sheet) .or. .not. is_asked(kinds, trim(rules(k)%name))) then
                call remove_old(rules(k), sheet, name)
                cycle
             end if
@@ -163,17 +163,19 @@ contains
          call remove_file(join_path(folder, name//'.svg'))
       end subroutine remove_old
 
-      logical function is_asked(name)
-         character(*), intent(in) :: name
-         integer :: j
-
-         is_asked = kinds%count() == 0
-         do j = 1, kinds%count()
-            is_asked = is_asked .or. kinds%line(j) == name
-         end do
-      end function is_asked
-
    end subroutine draw_study
+
+   !> Whether a figure is asked for: all are without names.
+   pure logical function is_asked(kinds, name)
+      type(message_list_t), intent(in) :: kinds
+      character(*), intent(in) :: name
+      integer :: j
+
+      is_asked = kinds%count() == 0
+      do j = 1, kinds%count()
+         is_asked = is_asked .or. kinds%line(j) == name
+      end do
+   end function is_asked
 
    !> Adds the script and the pictures of a figure to a list of files.
    subroutine add_files(figure, files)

@@ -3,7 +3,7 @@
 module ek_study_noise
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
-   use ek_noise, only: noise_of, is_constant, widen
+   use ek_noise, only: noise_of, is_constant, find_range, widen
    use ek_study, only: study_t
    use ek_study_data, only: study_data_t
    implicit none(type, external)
@@ -53,15 +53,8 @@ contains
    pure real(wp) function spread_of(values)
       real(wp), intent(in) :: values(:)
       real(wp) :: low, high
-      integer :: k
 
-      low = huge(low)
-      high = -huge(high)
-      do k = 1, size(values)
-         if (.not. ieee_is_finite(values(k))) cycle
-         low = min(low, values(k))
-         high = max(high, values(k))
-      end do
+      call find_range(values, low, high)
       spread_of = 0.0_wp
       if (high > low) spread_of = high - low
    end function spread_of

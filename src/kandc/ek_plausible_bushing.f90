@@ -10,7 +10,7 @@ module ek_plausible_bushing
    use ek_element_label, only: element_label
    use ek_suspension, only: suspension_t, body_name
    use ek_plausible_range, only: doubts_t, rate, rotation_rate
-   use ek_plausible_shape, only: point_of
+   use ek_plausible_shape, only: centre_of
    implicit none(type, external)
    private
    public :: doubt_bushings
@@ -276,15 +276,5 @@ contains
          if (element%measure%body_j == body) partner = element%measure%body_i
       end associate
    end function partner_of
-
-   !> The position of a bushing's point on its first body [m].
-   pure function centre_of(suspension, k) result(at)
-      type(suspension_t), intent(in) :: suspension
-      integer, intent(in) :: k
-      real(wp) :: at(3)
-      associate (m => suspension%elements(k)%measure)
-         at = point_of(suspension, m%body_i, m%arm_i)
-      end associate
-   end function centre_of
 
 end module ek_plausible_bushing

@@ -7,7 +7,7 @@ module ek_plausible_shape
    use ek_plausible_range, only: doubts_t, length
    implicit none(type, external)
    private
-   public :: doubt_wheels, doubt_points, point_of
+   public :: doubt_wheels, doubt_points, point_of, centre_of
 
 contains
 
@@ -198,5 +198,15 @@ contains
       at = arm
       if (body > 0) at = at + suspension%bodies(body)%origin
    end function point_of
+
+   !> The position of an element's point on its first body at design [m].
+   pure function centre_of(suspension, k) result(at)
+      type(suspension_t), intent(in) :: suspension
+      integer, intent(in) :: k
+      real(wp) :: at(3)
+      associate (m => suspension%elements(k)%measure)
+         at = point_of(suspension, m%body_i, m%arm_i)
+      end associate
+   end function centre_of
 
 end module ek_plausible_shape
