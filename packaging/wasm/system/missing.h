@@ -1,8 +1,9 @@
 /* Functions that the Fortran runtime calls and wasi-libc does not have; system/missing.c defines them. Included before every file
-   of the runtime. */
+   of the runtime: flang's ISO_Fortran_binding_wrapper.h includes stdint.h within a namespace, so stdint.h is read here before. */
 #ifndef EK_MISSING_H
 #define EK_MISSING_H
 #include <stddef.h>
+#include <stdint.h>
 #ifdef __cplusplus
 extern "C" {
 #endif
