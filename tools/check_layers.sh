@@ -28,7 +28,7 @@ find . -name '*.[fF]90' | sort | sed 's|^\./||' | awk -v tables='CMakeLists.txt 
       for (a in layers) for (b in layers) if ((a, b) in may) for (c in layers) if ((b, c) in may && !((a, c) in may)) {may[a, c]; more = 1}
     } while (more)
     for (a in layers) if ((a, a) in may) {print "layer " a " stands below itself"; wrong = 1}
-    from["ek_page_assets"] = "report"     # made by the build
+    from["ek_page_assets"] = "pages"     # made by the build
     from["ek_build_facts"] = "top"
   }
   {

@@ -108,7 +108,7 @@ theory_and_code() {
   }
   break_theory 'a number that does not exist' src/model/ek_block.f90 's/Equation (M\.2)/Equation (M.99)/'
   break_theory 'another number' src/model/ek_block.f90 's/Equation (M\.2)/Equation (M.4)/'
-  break_theory 'a lost reference' src/kandc/ek_port_response.f90 '/Equation (C\.6)/d'
+  break_theory 'a lost reference' src/compliance/ek_port_response.f90 '/Equation (C\.6)/d'
   break_theory 'a renamed procedure' src/equilibrium/ek_motion.f90 's/largest_motion/longest_motion/g'
   break_theory 'an equation without code' docs/theory/measures.md '/^Code of (M\.2)/d'
   break_theory 'a lost equation' docs/theory/kkt.md 's/ .tag{K\.12}//'

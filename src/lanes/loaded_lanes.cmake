@@ -58,7 +58,7 @@ target_link_options(ek_loaded_lanes PRIVATE -Wl,-z,defs)
 ek_loaded_copy(ek_loaded_lanes_v3 elastokin/glibc-hwcaps/x86-64-v3 ${ek_lane_layer})
 target_compile_options(ek_loaded_lanes_v3 PRIVATE ${ek_lane_options} -march=x86-64-v3)
 # the same sources, so what is linked here for its modules leaves nothing in the library either
-target_link_libraries(ek_loaded_lanes_v3 PRIVATE -Wl,--as-needed ek_equilibrium ek_model ek_math ek_base)
+target_link_libraries(ek_loaded_lanes_v3 PRIVATE -Wl,--as-needed ek_equilibrium ek_model ek_math ek_os ek_base)
 set_target_properties(ek_loaded_lanes_v3 PROPERTIES Fortran_MODULE_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/modules/lanes_v3)
 add_dependencies(ek_loaded_lanes_v3 ek_lanes)     # which makes the copy of the kernels
 add_dependencies(ek_loaded_lanes ek_loaded_lanes_v3)

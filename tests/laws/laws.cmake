@@ -25,4 +25,4 @@ add_library(ek_test_laws STATIC
 set_target_properties(ek_test_laws PROPERTIES
   Fortran_MODULE_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/modules/laws)
 target_include_directories(ek_test_laws PUBLIC ${CMAKE_CURRENT_BINARY_DIR}/modules/laws)
-target_link_libraries(ek_test_laws PUBLIC ek_study ek_export ek_kandc ek_deck ek_equilibrium)
+target_link_libraries(ek_test_laws PUBLIC ek_study ek_export ek_plausible ek_deck ek_equilibrium)

@@ -88,7 +88,7 @@ Source: case study of a Formula Student car (OptimumG, May 2015), with one digit
     ("Rill", "Rill", "test_published_rill.pf", True, """\
 Source: G. Rill, Road Vehicle Dynamics (2012), listing 5.6: four numbers that its program prints at design, and six
 states by the same construction, computed outside elastokin. Deck: `rill.nml`. Heights and rack displacements are
-prescribed. Camber is positive with the top outward. `tests/kandc/test_rill.pf` contains eleven further states.
+prescribed. Camber is positive with the top outward. `tests/quantities/test_rill.pf` contains eleven further states.
 """),
     ("Boxster", "A McPherson axle in closed form", "test_published_boxster.pf", True, """\
 Source: a McPherson front axle as entered in a racing game. The curve was computed outside elastokin by closed forms.
@@ -126,7 +126,7 @@ TABLE
 A second program was written from the manual alone. It shares no line with elastokin and is not part of this
 repository. Some of its numbers are tests: eight decks of `input` under bumps, forces and steering. The tolerance is
 1e-8 of the value or 1 unit, whichever is larger, plus 1e-5 N or N m for forces and moments
-(`tests/kandc/test_second_program.pf`).
+(`tests/quantities/test_second_program.pf`).
 """
 
 

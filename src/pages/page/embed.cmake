@@ -34,7 +34,7 @@ ek_statements(script ${SCRIPT})
 ek_statements(live_style ${LIVE_STYLE})
 ek_statements(live_script ${LIVE_SCRIPT})
 ek_statements(turntable_script ${TURNTABLE_SCRIPT})
-file(WRITE ${MODULE} "!> Style sheet and script of the pages, made by embed.cmake from the files in src/report/page.
+file(WRITE ${MODULE} "!> Style sheet and script of the pages, made by embed.cmake from the files in src/pages/page.
 module ek_page_assets
    use ek_buffer, only: buffer_t
    implicit none(type, external)
