@@ -38,7 +38,7 @@ run_all() { # run_all BUILD FOLDER
     tests/support/caller_bits.py "$folder/callers.txt" "${decks[@]}" || echo "caller_bits: status $?" >>"$folder/statuses.txt"
   # without the facts of the build, dates and the name of the folder
   find "$folder" -type f -exec sed -i -E "/^#/d; s|$folder|OUT|g; s/20[0-9]{2}-[0-9]{2}-[0-9]{2}.[0-9]{2}:[0-9]{2}/DATE/g" {} +
-  find "$folder" -name report-files.csv -exec sed -i 's/,.*//' {} +
+  find "$folder" -name '*-files.csv' -exec sed -i 's/,.*//' {} +     # lists of a report's or a study's files: their checksums
 }
 
 "${EK_PYTHON:-python3}" -c 'import numpy' || { echo "compare_bits: numpy is missing; set EK_PYTHON" >&2; exit 1; }
