@@ -7,7 +7,7 @@
 # shellcheck disable=SC2016,SC2317     # expanded by another shell; called by name
 set -uo pipefail
 program=$(realpath "$1")
-work=$(mktemp -d)
+work=$(mktemp -d) || exit 1
 trap 'rm -rf "$work"' EXIT
 wrong=0
 checked=''

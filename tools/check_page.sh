@@ -9,7 +9,7 @@ browser=$(command -v chromium || command -v chromium-browser || command -v googl
   echo "no Chromium here (Debian: apt-get install chromium)" >&2
   exit 1
 }
-work=$(mktemp -d)
+work=$(mktemp -d) || exit 1
 trap 'rm -rf "$work"' EXIT
 wrong=0
 phone=390     # CSS pixels across

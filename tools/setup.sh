@@ -28,7 +28,10 @@ has_cmake() {
 
 has_lapack() { # whether a program that calls LAPACK links
   local folder status=1 libraries
-  folder=$(mktemp -d)
+  folder=$(mktemp -d) || { # errexit does not count in a condition
+    echo "setup: cannot make a temporary folder in ${TMPDIR:-/tmp}; set TMPDIR to a folder that can be written" >&2
+    exit 1
+  }
   printf 'external dsytrf\ncall dsytrf\nend\n' >"$folder/probe.f90"
   for libraries in -lopenblas '-llapack -lblas'; do
     # shellcheck disable=SC2086  # two arguments

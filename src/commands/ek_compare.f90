@@ -3,7 +3,6 @@ module ek_compare
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t, fail, exit_usage
    use ek_text, only: str, quoted
-   use ek_buffer, only: buffer_t
    use ek_file, only: make_folder, write_whole, join_path
    use ek_table, only: column_index, name_index, name_length
    use ek_chart, only: chart_t, charts_script, remove_drawn, pictures_of
@@ -12,16 +11,15 @@ module ek_compare
    use ek_gradient_definition, only: windows_t
    use ek_command_line, only: command_line_t, refuse_stream, read_windows, read_threshold
    use ek_console, only: print_note, print_text
-   use ek_change, only: change_of, verdict_of, letter_of
-   use ek_comparison, only: comparison_t, difference_t, compare_gradients, compare_numbers, results_shown, difference, &
-      percent, largest_lines
+   use ek_comparison, only: comparison_t, difference_t, compare_gradients, compare_numbers, results_shown, &
+      largest_lines
    use ek_compare_charts, only: compare_charts
    use ek_deck_file, only: deck_record_t
-   use ek_deck_difference, only: deck_difference_t, find_differences, step_text
-   use ek_compare_targets, only: find_targets, target_lines
-   use ek_verdict, only: plain
+   use ek_deck_difference, only: find_differences
+   use ek_compare_targets, only: find_targets
    use ek_compare_tables, only: write_tables
-   use ek_compare_page, only: page_of, verdicts
+   use ek_compare_text, only: text_of
+   use ek_compare_page, only: page_of
    implicit none(type, external)
    private
    public :: compare
@@ -220,148 +218,6 @@ contains
       end do
       if (names%count() > enough) text = text//' and '//str(names%count() - enough)//' more'
    end function some_of
-
-   !> The string for standard output: the paths of the results, the changes of the deck, the counts of changes, the values and
-   !> verdicts of the targets, and the table of gradients.
-   function text_of(this, is_short) result(text)
-      type(comparison_t), intent(in) :: this
-      logical, intent(in) :: is_short              !! only gradients that changed, or are in some of the results only, are listed
-      character(:), allocatable :: text
-      type(message_list_t) :: lines
-      type(buffer_t) :: out
-      integer :: k, r
-
-      do r = 1, size(this%results)
-         call out%line(letter_of(r)//': '//this%results(r)%path)
-      end do
-      call out%line('')
-      call add_changes(out, this%facts, this%deck)
-      call verdicts(this, lines)
-      do k = 1, lines%count()
-         call out%line(lines%line(k))
-      end do
-      call target_lines(this%targets, lines)
-      do k = 1, lines%count()
-         call out%line(plain(lines%line(k)))
-      end do
-      if (size(this%rows) == 0) then
-         call out%line('no gradients to compare')
-      else
-         call add_gradients(out, this, is_short)
-      end if
-      text = out%text()
-   end function text_of
-
-   !> Adds lines such as 'Deck checksum: 12ab → 34cd' or 'point.seat.y: -500 → -520 (-20)'. Of more than 30 values, only the
-   !> first 30 are added.
-   subroutine add_changes(out, facts, values)
-      type(buffer_t), intent(inout) :: out
-      type(deck_difference_t), intent(in) :: facts(:), values(:)
-      integer, parameter :: most = 30
-      integer :: k
-
-      do k = 1, size(facts)
-         call add_change(facts(k))
-      end do
-      do k = 1, min(size(values), most)
-         call add_change(values(k))
-      end do
-      if (size(values) > most) call out%line('and '//str(size(values) - most)//' more; see deck-differences.csv')
-      if (size(facts) + size(values) > 0) call out%line('')
-
-   contains
-
-      !> Adds one line with the values of all results.
-      subroutine add_change(change)
-         type(deck_difference_t), intent(in) :: change
-         character(:), allocatable :: step
-         integer :: r
-
-         call out%add(change%path//': '//given(change%texts%line(1)))
-         do r = 2, change%texts%count()
-            call out%add(' → '//given(change%texts%line(r)))
-         end do
-         step = ''
-         if (change%texts%count() == 2) step = step_text(change%texts%line(1), change%texts%line(2))
-         if (step /= '') call out%add(' ('//step//')')
-         if (change%sides /= '') call out%add(', '//change%sides)
-         call out%line('')
-      end subroutine add_change
-
-      !> A value, or 'not given' for an empty value.
-      pure function given(words) result(text)
-         character(*), intent(in) :: words
-         character(:), allocatable :: text
-
-         text = words
-         if (words == '') text = 'not given'
-      end function given
-
-   end subroutine add_changes
-
-   !> Adds the table of gradients.
-   subroutine add_gradients(out, this, is_short)
-      type(buffer_t), intent(inout) :: out
-      type(comparison_t), intent(in) :: this
-      logical, intent(in) :: is_short              !! without gradients that are the same or have no value
-      character(:), allocatable :: test
-      character(16) :: verdicts(size(this%results))
-      integer :: k, r
-
-      test = ''
-      do k = 1, size(this%rows)
-         associate (row => this%rows(k))
-            verdicts(1) = 'same'
-            do r = 2, size(this%results)
-               verdicts(r) = verdict_of(change_of(row%values(1), row%values(r), row%least), this%threshold, row%is_there(1), &
-                  row%is_there(r), r)
-            end do
-            if (is_short .and. all(verdicts == 'same' .or. verdicts == 'not a number')) cycle
-            if (row%test /= test) then
-               test = row%test
-               call out%line('')
-               call out%add(padded(test, -42)//padded('A', 12))
-               do r = 2, size(this%results)
-                  call out%add(padded(letter_of(r), 12)//padded('difference', 12)//padded('percent', 9))
-               end do
-               call out%line('  unit')
-            end if
-            call out%add(padded(trim(row%quantity//' '//row%side), -42)//number_text(row%values(1), 6, 12))
-            do r = 2, size(this%results)
-               call out%add(number_text(row%values(r), 6, 12)//number_text(difference(row%values(1), row%values(r)), 4, 12)// &
-                  number_text(percent(row%values(1), row%values(r)), 3, 9))
-            end do
-            call out%add('  '//padded(row%unit, -12))
-            do r = 2, size(this%results)
-               call out%add(' '//trim(verdicts(r)))
-            end do
-            call out%line('')
-         end associate
-      end do
-   end subroutine add_gradients
-
-   !> A number for the table on the terminal; '-' for a missing value.
-   pure function number_text(value, digits, width) result(text)
-      real(wp), intent(in) :: value
-      integer, intent(in) :: digits, width
-      character(:), allocatable :: text
-
-      text = str(value, digits)
-      if (text == 'not a number') text = '-'
-      text = padded(text, width)
-   end function number_text
-
-   !> A string with blanks in front to fill a width; with a negative width, the blanks follow the string. At least one blank is
-   !> added.
-   pure function padded(text, width) result(filled)
-      character(*), intent(in) :: text
-      integer, intent(in) :: width
-      character(:), allocatable :: filled, blanks
-
-      blanks = repeat(' ', max(1, abs(width) - len(text)))
-      filled = blanks//text
-      if (width < 0) filled = text//blanks
-   end function padded
 
    !> Draws all charts in one run of gnuplot. If no charts are wanted, deletes the files of charts drawn earlier.
    subroutine draw(is_wanted, charts, folder, message, is_drawn, error)

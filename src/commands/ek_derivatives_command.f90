@@ -20,7 +20,7 @@ module ek_derivatives_command
    use ek_direction, only: direction_t, all_directions, find_directions, refuse_shared
    use ek_derivatives, only: derivatives_t, begin_derivatives, find_derivatives, refuse_case
    use ek_command_line, only: command_line_t
-   use ek_load_deck, only: deck_settings_t, read_deck_settings, load_session
+   use ek_load_deck, only: deck_settings_t, read_deck_settings, load_session, spare_results
    use ek_run_columns, only: choose_columns
    use ek_console, only: print_note, print_path, print_remarks, print_text
    implicit none(type, external)
@@ -51,6 +51,9 @@ contains
       if (allocated(error)) return
       associate (workspace => session%workspace)
          call choose_case(settings, workspace, k, error)
+         if (allocated(error)) return
+         if (settings%out /= '-') &
+            call spare_results(trim(workspace%cases(k)%case%name)//'_derivatives', workspace%design%cases, error)
          if (allocated(error)) return
          call choose_numbers(line, session, directions, error)
          if (.not. allocated(error)) call choose_quantities(line, workspace, k, columns, error)

@@ -11,7 +11,7 @@ module ek_explain
    use ek_workspace, only: workspace_t, balance_or_explain
    use ek_examination, only: examination_t
    use ek_schedule, only: new_schedule
-   use ek_path_states, only: nearest_reached
+   use ek_path_states, only: nearest_state, nearest_reached
    use ek_case_result, only: case_result_t, solve_options_t, solve_case, add_remarks, failure_of
    use ek_contribution_table, only: contribution_table_t, start_contributions, choose_contributions, find_contributions, &
       key_compliances
@@ -20,7 +20,7 @@ module ek_explain
    use ek_explain_text, only: add_largest, add_rigid, add_scan
    use ek_model_remark, only: model_remarks_t, find_model_remarks
    use ek_command_line, only: command_line_t
-   use ek_load_deck, only: deck_settings_t, read_deck_settings, load_deck, chosen_cases, examine_chosen
+   use ek_load_deck, only: deck_settings_t, read_deck_settings, load_deck, chosen_cases, examine_chosen, spare_results
    use ek_run_numbers, only: split_names
    use ek_table, only: name_length
    use ek_version, only: version
@@ -55,6 +55,11 @@ contains
       call read_settings(line, settings, error)
       if (.not. allocated(error)) call load_deck(settings, workspace, checksum, error)
       if (.not. allocated(error)) call chosen_cases(settings, workspace%raw, workspace%design%cases, chosen, error)
+      if (allocated(error)) return
+      do k = 1, size(chosen)
+         call spare_results(chosen(k)%name//'_contributions', workspace%design%cases, error)
+         call spare_results(chosen(k)%name//'_load_paths', workspace%design%cases, error)
+      end do
       if (.not. allocated(error)) call examine_chosen(settings%file, workspace%raw, chosen, found, error)
       if (.not. allocated(error)) call make_folder(settings%out, error)
       if (.not. allocated(error)) call balance_or_explain(chosen(1)%tolerance, workspace, error)
@@ -129,14 +134,14 @@ contains
       call print_remarks(settings%is_quiet, result%remarks)
       call failure_of(result, error)
       if (.not. result%is_run()) return
+      call find_printed(settings, result, printed, error)
+      if (settings%has_place .and. printed == 0) return
       associate (suspension => result%suspension, case => result%case, path => result%path)
          call start_contributions(suspension, table)
          call take_columns(settings%columns, table, trouble)
-         printed = nearest_reached(path, settings%place*case%unit)
          do k = 1, settings%rigid%count()
             if (.not. allocated(trouble)) call find_laws(settings%rigid%line(k), table, laws, trouble)
          end do
-         if (.not. allocated(trouble) .and. settings%has_place) call refuse_outside(settings%place, case, trouble)
          name = join_path(settings%out, suspension%name//'_'//wanted%name)
          if (.not. allocated(trouble)) call begin_explain_files(name, wanted%name, 'model '//suspension%name//', case '// &
             wanted%name//', elastokin '//version//', deck checksum '//checksum, files, trouble)
@@ -184,18 +189,39 @@ contains
       end if
    end subroutine take_columns
 
-   !> Rejects a swept value outside the range of a case.
-   subroutine refuse_outside(place, case, error)
-      real(wp), intent(in) :: place
-      type(case_t), intent(in) :: case
-      type(error_t), allocatable, intent(out) :: error
+   !> Finds the state that is printed: the state nearest to --at, or the reached state nearest to design. A swept value outside the
+   !> range of the case is an error, as is a state of --at that was not reached, for another state would be explained.
+   subroutine find_printed(settings, result, printed, error)
+      type(settings_t), intent(in) :: settings
+      type(case_result_t), intent(in) :: result              !! is_run
+      integer, intent(out) :: printed                        !! index of the state; 0: none
+      type(error_t), allocatable, intent(inout) :: error     !! exit_usage; exit_convergence: added to the error of the case
+      character(:), allocatable :: words
       real(wp) :: low, high
+      integer :: near
 
-      low = min(case%from, case%to)/case%unit
-      high = max(case%from, case%to)/case%unit
-      if (place < low - 1.0e-9_wp*(high - low) .or. place > high + 1.0e-9_wp*(high - low)) call fail(error, exit_usage, &
-         '--at: case '//quoted(case%name)//' goes from '//str(low)//' to '//str(high)//' '//case%unit_name//', found '//str(place))
-   end subroutine refuse_outside
+      associate (path => result%path, case => result%case, place => settings%place)
+         printed = nearest_reached(path, place*case%unit)
+         if (.not. settings%has_place) return
+         low = min(case%from, case%to)/case%unit
+         high = max(case%from, case%to)/case%unit
+         if (place < low - 1.0e-9_wp*(high - low) .or. place > high + 1.0e-9_wp*(high - low)) then
+            printed = 0
+            call fail(error, exit_usage, '--at: case '//quoted(case%name)//' goes from '//str(low)//' to '//str(high)//' '// &
+               case%unit_name//', found '//str(place))
+            return
+         end if
+         near = nearest_state(path, place*case%unit)
+         if (path%is_reached(near)) return
+         words = '--at: case '//quoted(case%name)//' did not reach the state at '//str(path%value(near)/case%unit)//' '// &
+            case%unit_name//', so nothing is explained'
+         if (printed > 0) words = words//'; the nearest state that was reached is at '// &
+            str(path%value(printed)/case%unit)//' '//case%unit_name
+         printed = 0
+      end associate
+      if (allocated(error)) words = error%message//new_line('a')//words
+      call fail(error, exit_convergence, words)
+   end subroutine find_printed
 
    !> Prints one state: the largest contributions, and the answers to --rigid and --scan.
    subroutine print_state(settings, result, k, table, error)

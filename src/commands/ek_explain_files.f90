@@ -43,6 +43,7 @@ contains
       call begin_file(self%shares, name//'_contributions.csv', error)
       if (allocated(error)) return
       call begin_file(self%paths, name//'_load_paths.csv', error)
+      if (allocated(error)) call self%shares%abandon()
       if (allocated(error)) return
       call self%shares%add('# '//header//nl// &
          '# the values of a column and state add up to column_value; rows of 0 are omitted'//nl// &
@@ -125,13 +126,14 @@ contains
       end do
    end subroutine add_paths
 
-   !> Ends both tables. The complete files then exist.
+   !> Ends both tables. The complete files then exist; after an error, no temporary file remains.
    subroutine end_explain_files(self, error)
       type(explain_files_t), intent(inout) :: self
       type(error_t), allocatable, intent(out) :: error
 
       call self%shares%finish(error)
       if (.not. allocated(error)) call self%paths%finish(error)
+      call self%paths%abandon()                        ! no effect on a finished table
    end subroutine end_explain_files
 
    !> The ratio value/whole [-]; 0 if whole is 0.

@@ -9,7 +9,7 @@ module ek_export
    use ek_table, only: table_t
    use ek_model_remark, only: model_remarks_t, find_model_remarks
    use ek_command_line, only: command_line_t
-   use ek_load_deck, only: load_deck
+   use ek_load_deck, only: load_deck, spare_results
    use ek_console, only: print_path, print_note, print_model_remarks, write_table
    use ek_export_settings, only: export_settings_t, read_export_settings, make_request, front_of
    use ek_kandc_map, only: kandc_map_t, solve_map
@@ -25,6 +25,8 @@ module ek_export
    use ek_export_panels, only: carmaker_panels, carsim_panels, mathworks_panels, csv_panels
    implicit none(type, external)
    private
+
+   character(10), parameter :: names(3) = [character(10) :: 'kinematics', 'loads', 'compliance']      !! tables of --to csv
    public :: export
 
    !> The model of a deck, the requested map, the solved map, the checksum of the deck, and whether the axle is the front axle.
@@ -92,8 +94,13 @@ contains
       type(error_t), allocatable, intent(out) :: error
       class(workspace_t), allocatable :: workspace
       type(model_remarks_t) :: remarks
+      integer :: k
 
       call load_deck(settings, workspace, axle%checksum, error)
+      if (allocated(error)) return
+      do k = 1, merge(size(names), 0, settings%target == 'csv')
+         call spare_results(trim(names(k)), workspace%design%cases, error)
+      end do
       if (.not. allocated(error)) call make_request(settings, workspace%raw, workspace%design%cases, axle%request, error)
       if (.not. allocated(error) .and. (settings%target == 'carmaker' .or. settings%target == 'matlab-kc')) &
          call front_of(settings, workspace%raw, axle%is_front, error)
@@ -219,7 +226,6 @@ contains
       type(panel_list_t), intent(out) :: panels
       type(error_t), allocatable, intent(inout) :: unprinted
       type(error_t), allocatable, intent(out) :: error
-      character(10), parameter :: names(3) = [character(10) :: 'kinematics', 'loads', 'compliance']
       type(table_t) :: tables(3)
       type(load_table_result_t) :: loads
       real(wp) :: force, moment

@@ -17,7 +17,7 @@ module ek_load_deck
    use ek_setting_log, only: applied_t, add_applied, overridden_settings
    implicit none(type, external)
    private
-   public :: deck_settings_t, read_deck_settings, load_deck, load_session, read_changed, chosen_cases, examine_chosen
+   public :: deck_settings_t, read_deck_settings, load_deck, load_session, read_changed, chosen_cases, examine_chosen, spare_results
 
    !> Options of a command with a deck. A command extends the type by its own settings. An option that the command does not accept
    !> has the value of an option that is not given.
@@ -237,6 +237,20 @@ contains
          if (settings%increments > 0) chosen(k)%increments = settings%increments
       end do
    end subroutine chosen_cases
+
+   !> Rejects an output file <model>_<stem>.csv of a command other than `run` if it would overwrite the results of a case.
+   subroutine spare_results(stem, cases, error)
+      character(*), intent(in) :: stem                  !! file name, without the model and the extension
+      type(case_t), intent(in) :: cases(:)              !! cases of the deck; `run` writes <model>_<case>.csv
+      type(error_t), allocatable, intent(inout) :: error      !! exit_usage; an error that exists is left unchanged
+      integer :: k
+
+      if (allocated(error)) return
+      do k = 1, size(cases)
+         if (cases(k)%name == stem) call fail(error, exit_usage, 'the file of this command would overwrite the results of case '// &
+            quoted(cases(k)%name)//'; rename this case')
+      end do
+   end subroutine spare_results
 
    !> Examines the cases to run. If no case can be solved, returns an error that lists each defect once.
    subroutine examine_chosen(file, suspension, chosen, found, error)

@@ -34,6 +34,7 @@ module ek_report
    use ek_report_pictures, only: draw_pictures
    use ek_explanation, only: explanation_t, find_explanations
    use ek_live, only: live_t, add_live
+   use ek_live_reruns, only: measure_reruns
    use ek_turntable, only: make_turntable
    use ek_gradient_definition, only: windows_t
    use ek_model_remark, only: model_remarks_t, find_model_remarks
@@ -127,6 +128,7 @@ contains
       if (allocated(scales)) call take_scales(scales, page%charts)
       call write_numbers(workspace, checksum, page, unprinted, error)
       if (allocated(error)) return
+      if (allocated(page%live)) call measure_reruns(workspace, chosen, page%tests, page%numbers, page%live)
       if (.not. page%is_static) call make_turntable(workspace%suspension, page%tests, page%paths, page%turntable)
       call set_head(settings, workspace%suspension, checksum, page)
       call list_values(deck, page%deck_paths, page%deck_texts)

@@ -19,7 +19,7 @@ module ek_solve_command
    use ek_solve_text, only: add_findings, compromise_csv
    use ek_deck_fragment, only: records_with
    use ek_command_line, only: command_line_t
-   use ek_load_deck, only: deck_settings_t, read_deck_settings, load_session
+   use ek_load_deck, only: deck_settings_t, read_deck_settings, load_session, spare_results
    use ek_console, only: print_path, print_text
    use ek_version, only: version
    implicit none(type, external)
@@ -52,6 +52,7 @@ contains
       end if
       if (allocated(error)) return
       call load_session(settings, session, error)
+      if (.not. allocated(error)) call spare_results('compromise', session%workspace%design%cases, error)
       if (allocated(error)) return
       call read_unknowns(line%values('--vary'), session, unknowns, error)
       call read_conditions(line, settings, session%workspace, wanted, targets, weights, fault)

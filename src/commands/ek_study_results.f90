@@ -17,7 +17,7 @@ module ek_study_results
    use ek_sampler_settings, only: sampler_settings_t
    use ek_designer, only: designer_t, begin_designer
    use ek_study_plan, only: plan_sampler
-   use ek_study_tables, only: responses_name, curves_name, has_limits
+   use ek_study_tables, only: responses_name, curves_name, has_limits, limits_of
    use ek_study_data, only: study_data_t, study_axis_t, percents
    use ek_store, only: wants_store, read_store, store_name
    use ek_store_description, only: keeps
@@ -73,13 +73,13 @@ contains
       call name_axes(study, designer, data)
       call set_bands(designer%workspace%design%targets, study%responses, data%responses)
       call find_tables(study, out, data%designs, scratch, folder, error)
+      tolerance = maxval([(designer%workspace%cases(k)%case%tolerance, k=1, size(designer%case_names))])
       if (.not. allocated(error)) call read_rows(study, deck_checksum(deck), join_path(folder, responses_name(study)), sampler, &
-         data, error)
+         tolerance, data, error)
       if (allocated(error)) then
          call end_scratch(scratch)
          return
       end if
-      tolerance = maxval([(designer%workspace%cases(k)%case%tolerance, k=1, size(designer%case_names))])
       call settle_responses(study, tolerance, data)
       if (size(data%columns) > 0) then
          call read_curves(join_path(folder, curves_name(study)), deck_checksum(deck), tolerance, data, error)
@@ -195,16 +195,17 @@ contains
    end subroutine name_column
 
    !> Reads the table of responses. Its factors must be those of the study.
-   subroutine read_rows(study, deck_sum, path, sampler, data, error)
+   subroutine read_rows(study, deck_sum, path, sampler, tolerance, data, error)
       type(study_t), intent(in) :: study
       character(*), intent(in) :: deck_sum, path
       type(sampler_t), intent(in) :: sampler         !! designs of the study
+      real(wp), intent(in) :: tolerance              !! largest tolerance of the cases [m]
       type(study_data_t), intent(inout) :: data
       type(error_t), allocatable, intent(out) :: error
       type(lines_t) :: lines
       type(reason_t), allocatable :: reasons(:)
       character(64), allocatable :: names(:)
-      real(wp), allocatable :: values(:)
+      real(wp), allocatable :: values(:), limits(:, :)
       logical :: are_numbers
       integer :: k, m, status, rest, d
 
@@ -221,6 +222,7 @@ contains
          do d = 1, m
             call name_response(study, d, trim(names(1 + k + d)), data%responses(d))
          end do
+         limits = limits_of(study, names(k + 2:k + m + 1), tolerance)
          allocate (values(size(names) - 1), data%x(k, data%designs), data%y(m, data%designs), reasons(0))
          d = 0
          do
@@ -265,7 +267,7 @@ contains
          if (.not. any(abs(row(size(row)) - [(f, f=0, design_invalid)]) <= 0.0_wp)) return
          is_design = .true.
          if (has_limits(study)) is_design = abs(row(k + m + 2) - merge(1.0_wp, 0.0_wp, row(size(row)) < 0.5_wp .and. &
-            keeps(row(k + 2:k + m + 1), study%responses%lower, study%responses%upper))) <= 0.0_wp
+            keeps(row(k + 2:k + m + 1), limits(1, :), limits(2, :)))) <= 0.0_wp
       end function is_design
 
       !> Reports that a table does not belong to the study.

@@ -66,6 +66,7 @@ contains
          do k = 1, size(own(1)%list)
             do r = 1, size(results)
                places(r) = chart_number(own(r)%list, own(1)%list(k))
+               if (r > 1 .and. places(r) > 0) call separate_sides(own(1)%list(k), own(r)%list(places(r)))
             end do
             call join(own, places, design, threshold, results(1)%tests(t)%name, chart, change, curves)
             if (all(places(2:) == 0)) cycle
@@ -81,6 +82,32 @@ contains
       end do
       charts = charts(:used)
    end subroutine compare_charts
+
+   !> Replaces each curve of both sides by a curve of either side where the chart of the first result has a curve of either side, so
+   !> that each wheel is compared with the same wheel.
+   pure subroutine separate_sides(mine, other)
+      type(chart_t), intent(in) :: mine            !! chart of the first result
+      type(chart_t), intent(inout) :: other
+      type(chart_t) :: separated
+      type(trace_t) :: trace
+      integer, allocatable :: found(:)
+      integer :: k, j
+
+      separated = other
+      separated%traces = other%traces(:0)
+      do k = 1, size(other%traces)
+         trace = other%traces(k)
+         found = partners(mine, trace%title)
+         if (size(found) < 2) call add_trace(separated, trace)
+         do j = 1, merge(size(found), 0, size(found) > 1)
+            trace%title = mine%traces(found(j))%title
+            trace%colour = mine%traces(found(j))%colour
+            trace%dash = mine%traces(found(j))%dash
+            call add_trace(separated, trace)
+         end do
+      end do
+      other = separated
+   end subroutine separate_sides
 
    !> The index of the chart in a list that has the name and the abscissa of another chart; 0 if the list has no such chart.
    pure integer function chart_number(list, chart) result(number)

@@ -22,6 +22,7 @@ module ek_compare_page
 
    integer, parameter :: principal = 6        !! number of changed charts of a test that are not folded
    integer, parameter :: most_rows = 40       !! number of rows of a table that are not folded
+   integer, parameter :: few_changes = 20     !! a longer list of values that differ is after the results
 
 contains
 
@@ -46,12 +47,13 @@ contains
          call warnings%add('The page has no pictures: '//why_none)
          call add_warnings(page, 'Warnings', warnings)
       end if
-      call add_changes(page, this)
+      if (size(this%deck) <= few_changes) call add_changes(page, this)
       call add_results(page, this)
       do t = 1, size(this%results(1)%tests)
          if (any([(this%charts(k)%test == t, k=1, size(this%charts))])) call add_test(page, this, t)
       end do
       call add_warnings(page, 'Missing from some results', this%missing)
+      if (size(this%deck) > few_changes) call add_changes(page, this)
       if (.not. this%is_static) call set_data(page, comparison_data(this%results(1)%tests, this%charts))
       text = page_text(page)
    end function page_of

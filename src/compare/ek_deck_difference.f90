@@ -7,7 +7,7 @@ module ek_deck_difference
    use ek_deck_file, only: deck_record_t
    implicit none(type, external)
    private
-   public :: deck_difference_t, find_differences, step_text
+   public :: deck_difference_t, find_differences, difference_size, step_text
 
    character(*), parameter :: left(2) = [character(12) :: '.left_', 'wheel.left.'], &
       right(2) = [character(12) :: '.right_', 'wheel.right.'], both(2) = [character(12) :: '.', 'wheel.']
@@ -64,6 +64,29 @@ contains
          is_default = all([(row%texts%line(r) == '' .or. row%texts%line(r) == defaults(2, d), r=1, row%texts%count())])
       end do
    end function is_default
+
+   !> The size of a difference, for sorting: of numbers the largest change from the first result as a share of the larger number, 0 to
+   !> 2; below 0 for strings, and if a result does not give the value.
+   real(wp) function difference_size(row) result(share)
+      type(deck_difference_t), intent(in) :: row
+      real(wp) :: first, value
+      logical :: is_number, is_other
+      integer :: r
+
+      share = -1.0_wp
+      if (.not. is_in_all(row)) return
+      share = 0.0_wp
+      call get_decimal(row%texts%line(1), first, is_number)
+      do r = 2, row%texts%count()
+         call get_decimal(row%texts%line(r), value, is_other)
+         if (.not. (is_number .and. is_other)) then
+            share = -0.5_wp
+            return
+         else if (abs(value - first) > 0.0_wp) then
+            share = max(share, abs(value - first)/max(abs(value), abs(first)))
+         end if
+      end do
+   end function difference_size
 
    !> Whether every result gives a string for a row.
    logical function is_in_all(row)

@@ -5,7 +5,7 @@ module ek_report_files
    use ek_error, only: error_t, fail, exit_file
    use ek_text, only: str, quoted, lower
    use ek_file, only: write_whole, join_path, base_name, file_exists, folder_exists
-   use ek_table, only: read_csv
+   use ek_table, only: read_csv, name_length
    use ek_decimal, only: get_decimal
    use ek_gnuplot_text, only: one_line
    use ek_text_table, only: text_table_t, new_text_table, add_row, text_table_csv, read_text_table, cell_of
@@ -234,7 +234,32 @@ contains
       call choose_abscissa(test)
       ! a table of `run` does not state its kind: with the travel as abscissa it is treated as parallel travel
       if (test%kind == 'other' .and. test%abscissa /= 'factor') test%kind = 'parallel_travel'
+      call suit_table(test)
    end subroutine read_test
+
+   !> Completes a table of another program or a part of a table: without a column of wheel travel, the prefixes left_ and right_ give
+   !> the wheels; without the abscissa of its test, the first column is the abscissa if it rises or falls from row to row.
+   pure subroutine suit_table(test)
+      type(test_result_t), intent(inout) :: test
+      character(6), parameter :: sides(2) = [character(6) :: 'left_', 'right_']
+      integer :: k, n
+
+      if (size(test%table%columns) == 0) return
+      do k = 1, merge(2, 0, size(test%sides) == 0)
+         if (.not. any(index(test%table%columns, trim(sides(k))) == 1)) cycle
+         test%prefixes = [character(name_length) :: test%prefixes, sides(k)]
+         test%sides = [test%sides, 3 - 2*k]
+      end do
+      if (any(test%table%columns == test%abscissa) .or. size(test%table%values, 2) < 2) return
+      if (any([(any(test%table%columns == trim(test%prefixes(k))//test%abscissa), k=1, size(test%prefixes))])) return
+      n = size(test%table%values, 2)
+      associate (x => test%table%values(1, :))
+         if (.not. all(ieee_is_finite(x))) return
+         if (.not. (all(x(2:) > x(:n - 1)) .or. all(x(2:) < x(:n - 1)))) return
+      end associate
+      test%abscissa = trim(test%table%columns(1))
+      test%label = test%abscissa
+   end subroutine suit_table
 
    !> The label of a result in the legend: the last part of its path, of a file without its extension.
    pure function label_of(path, is_folder) result(label)

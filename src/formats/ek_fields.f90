@@ -2,6 +2,7 @@
 module ek_fields
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
+   use ek_text, only: lower
    use ek_letters, only: is_wide, with_line_ends, line_count, save_as_utf8
    use ek_decimal, only: get_decimal
    use ek_flaws, only: flaws_t, shown
@@ -146,6 +147,7 @@ contains
       character(*), intent(in) :: text
       character(:), allocatable :: name
       integer, parameter :: longest = 50      ! with left_, right_ or the name of a component it is still a name
+      character(*), parameter :: fixed_body(2) = ['chassis', 'ground ']      ! no other part of a deck may have these names
       integer :: k
 
       name = trim(adjustl(text))
@@ -154,7 +156,7 @@ contains
          if (verify(name(k:k), 'abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789') > 0) name(k:k) = '_'
       end do
       if (len(name) == 0) name = 'unnamed'
-      if (verify(name(1:1), '0123456789_') == 0) name = 'p'//name
+      if (verify(name(1:1), '0123456789_') == 0 .or. any(lower(name) == fixed_body)) name = 'p'//name
    end function legal_name
 
 end module ek_fields

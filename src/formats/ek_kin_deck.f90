@@ -18,6 +18,8 @@ module ek_kin_deck
    private
    public :: kin_deck
 
+   integer, parameter :: longest_title = 2000      !! characters that a deck accepts
+
 contains
 
    !> Writes the axle of a .kin file as a deck.
@@ -37,7 +39,7 @@ contains
       call deck%blank()
       call deck%begin('model')
       call deck%word('name', name)
-      call deck%word('title', kin%remark)
+      if (len_trim(kin%remark) > 0) call deck%word('title', kin%remark(:min(len(kin%remark), longest_title)))
       call deck%word('axes', trim(merge('iso   ', 'x-rear', kin%is_iso)))
       if (kin%has_forces) then
          call deck%word('balance', 'all')

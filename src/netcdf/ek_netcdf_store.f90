@@ -65,10 +65,11 @@ contains
          next = 1
          do k = 1, store%chunks
             if (file%fault /= nf90_noerr) exit
-            call read_chunk(join_path(folder, chunk_name(k)), store%identity, next, 0, chunk, is_good)
+            call read_chunk(join_path(folder, chunk_name(k)), store%identity, next, 0, chunk, is_good, error)
             if (is_good) is_good = fits(store, chunk)
             if (.not. is_good) then
-               call fail(error, exit_file, join_path(folder, chunk_name(k))//': the chunk is missing or damaged')
+               if (.not. allocated(error)) call fail(error, exit_file, join_path(folder, chunk_name(k))// &
+                  ': the chunk is missing or damaged')
                exit
             end if
             call write_chunk(store, chunk, file)

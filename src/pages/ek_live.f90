@@ -14,6 +14,8 @@ module ek_live
    private
    public :: live_t, live_test_t, add_live
 
+   real(wp), parameter, public :: slider_end = 10.0_wp      !! a slider goes from 1/10 of a rate to 10 times the rate (live.js)
+
    !> The columns of a test at its states, or at the design state alone.
    type :: live_test_t
       character(:), allocatable :: name
@@ -32,6 +34,11 @@ module ek_live
       character(:), allocatable :: balance                   !! `balance` of the deck: preload trim in a run with other rates
       type(live_test_t) :: design
       type(live_test_t), allocatable :: tests(:)             !! tests with columns that follow the rates
+      integer :: reruns = 0, failed = 0                      !! runs that were compared with the page; runs without a result
+      real(wp) :: deviation = 0.0_wp                         !! largest deviation of a number of the page from a run [-]
+      character(:), allocatable :: worst                     !! its column; not allocated without a deviation
+      real(wp), allocatable :: worst_factor(:)               !! its factors of the rates
+      real(wp) :: worst_values(2) = 0.0_wp                   !! its values of the page and of the run, in the unit of the column
    end type live_t
 
 contains

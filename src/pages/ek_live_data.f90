@@ -5,10 +5,10 @@ module ek_live_data
    use ek_kinds, only: wp
    use ek_text, only: str
    use ek_base64, only: base64_of_numbers
-   use ek_json, only: json_t, json_string, json_number
+   use ek_json, only: json_t, json_string, json_number, json_numbers
    use ek_buffer, only: buffer_t
    use ek_quantity, only: unit_of, unit_text
-   use ek_live_rates, only: live_rate_t
+   use ek_live_rates, only: live_rate_t, rate_path
    use ek_live_state, only: live_state_t
    use ek_live, only: live_t, live_test_t
    use ek_live_small, only: small_t, make_small, entries
@@ -16,7 +16,7 @@ module ek_live_data
    use ek_summary, only: kept_number
    implicit none(type, external)
    private
-   public :: add_live_data
+   public :: add_live_data, find_columns
 
    real(wp), parameter :: degree = acos(-1.0_wp)/180.0_wp
 
@@ -39,6 +39,7 @@ contains
          call add_rate(json, live%rates%rate(k))
       end do
       call json%close(']')
+      if (live%reruns > 0) call add_reruns(json, live)
       allocate (columns(2, size(numbers)), is_used(size(live%design%column)))
       is_used = .false.
       do k = 1, size(numbers)
@@ -71,7 +72,7 @@ contains
    subroutine add_rate(json, rate)
       type(json_t), intent(inout) :: json
       type(live_rate_t), intent(in) :: rate
-      character(:), allocatable :: name, key
+      character(:), allocatable :: name
       real(wp) :: value
       integer :: side
 
@@ -79,9 +80,6 @@ contains
       if (rate%element(2) /= '') name = name(6:)
       value = rate%rate/1.0e3_wp
       if (rate%is_of_angle) value = rate%rate*degree
-      key = 'rate'
-      if (rate%group == 'damper') key = 'gas_rate'
-      if (rate%group == 'bushing') key = trim(merge('kr', 'kt', rate%number > 3))//'('//str(mod(rate%number - 1, 3) + 1)//')'
       call json%open('{')
       call json%item('name', json_string(name))
       call json%item('group', json_string(trim(rate%group)))
@@ -91,11 +89,29 @@ contains
       call json%open('[', 'paths')
       do side = 1, 2
          if (rate%element(side) == '') cycle
-         call json%item_of_list(json_string(trim(rate%group)//'.'//trim(rate%element(side))//'.'//key))
+         call json%item_of_list(json_string(rate_path(rate, side)))
       end do
       call json%close(']')
       call json%close('}')
    end subroutine add_rate
+
+   !> Adds the deviation of the page from runs at the ends of the sliders: number of runs, runs without a result, and of the largest
+   !> deviation (a share of the value of the run) the column, the factors of the rates, and the values of page and run.
+   subroutine add_reruns(json, live)
+      type(json_t), intent(inout) :: json
+      type(live_t), intent(in) :: live
+
+      call json%open('{', 'reruns')
+      call json%item('count', str(live%reruns))
+      call json%item('failed', str(live%failed))
+      call json%item('deviation', json_number(live%deviation))
+      if (allocated(live%worst)) then
+         call json%item('column', json_string(live%worst))
+         call json%item('factors', json_numbers(live%worst_factor))
+         call json%item('values', json_numbers(live%worst_values))
+      end if
+      call json%close('}')
+   end subroutine add_reruns
 
    !> Finds the columns of the design state from which a key number is read, for the left and the right wheel. A column is 0
    !> if the key number is not read at design, has no value or does not follow the rates.

@@ -27,6 +27,7 @@ module ek_sheet
       character(:), allocatable :: file
       integer :: head_line = 0                          !! line of the headings; 0: no headings
       character(name_length), allocatable :: heads(:)   !! headings; '' for a column without heading
+      integer :: head_cells = 0                         !! number of cells in the line of headings, also of empty cells at its end
       type(message_list_t) :: header                    !! comments, each without its #
       integer :: rows = 0                               !! number of rows, with a row of units
       integer :: unit_row = -1                          !! 1: the first row contains units; −1: not yet known (ek_sheet_columns)
@@ -43,6 +44,7 @@ module ek_sheet
    type :: cells_t
       integer, allocatable :: first(:), last(:)
       integer :: used = 0                               !! number of cells, without empty cells after the last heading
+      integer :: whole = 0                              !! number of cells, with these empty cells
       logical :: is_closed = .true.                     !! .false.: a double quote is not closed
    end type cells_t
 
@@ -169,6 +171,7 @@ contains
       end associate
       call split_row(sheet, 0, cells)
       if (.not. cells%is_closed) call sheet%head_mistakes%add(head_place(sheet)//'a double quote is not closed')
+      sheet%head_cells = cells%whole
       columns = cells%used
       do while (columns > 1)                         ! separators behind the last head; the line has other characters too
          if (plain_cell(sheet, cells, columns) /= '') exit
@@ -242,6 +245,7 @@ contains
          call add_cell(begin, at - 1, cells)
          begin = at + 1
       end do
+      cells%whole = used
       cells%is_closed = .not. is_quoted
 
    contains

@@ -83,7 +83,8 @@ contains
    end subroutine take_columns
 
    !> Describes a row with too few or too many cells; '' if the row has as many cells as there are headings. Empty cells after the
-   !> last heading do not count, and cells after the last requested column may be missing.
+   !> last heading do not count, and cells after the last requested column may be missing. A row in which commas may be both
+   !> separators and decimal marks is an error.
    function row_fault(sheet, row, cells, last) result(fault)
       type(sheet_t), intent(in) :: sheet
       integer, intent(in) :: row
@@ -92,7 +93,10 @@ contains
       character(:), allocatable :: fault
 
       fault = ''
-      if (cells%is_closed .and. cells%used <= size(sheet%heads) .and. cells%used >= last) return
+      if (cells%is_closed .and. cells%used <= size(sheet%heads) .and. cells%used >= last) then
+         fault = comma_fault(sheet, cells, last)
+         return
+      end if
       if (.not. cells%is_closed) then
          fault = 'a double quote is not closed'
          return
@@ -102,6 +106,34 @@ contains
          index(sheet%text(sheet%first(row):sheet%last(row)), '.') == 0) fault = fault//' (if some of the commas are '// &
          'decimal commas: write decimal points, or separate the columns by semicolons)'
    end function row_fault
+
+   !> Describes a row whose commas may be decimal commas: without a decimal point in the columns that are read, 1,5,20, may be 1.5 and
+   !> 20 or 1, 5 and 20 where the last column is empty, and 1,05 may be 1.05. '' for other rows.
+   function comma_fault(sheet, cells, last) result(fault)
+      type(sheet_t), intent(in) :: sheet           !! after find_decimal_marks
+      type(cells_t), intent(in) :: cells           !! of a row with enough cells
+      integer, intent(in) :: last                  !! last requested column
+      character(:), allocatable :: fault
+      integer :: k
+
+      fault = ''
+      if (sheet%separator /= ',' .or. sheet%has_decimal_points) return
+      if (cells%whole /= sheet%head_cells .and. cells%whole > last) then
+         fault = 'expected '//plural(sheet%head_cells, 'cell', 'cells')//', found '//str(cells%whole)
+      else
+         do k = 2, last
+            if (cells%last(k) <= cells%first(k) .or. cells%last(k - 1) < cells%first(k - 1)) cycle
+            associate (cell => sheet%text(cells%first(k):cells%last(k)), mark => cells%last(k - 1))
+               if (verify(cell, '0123456789') > 0 .or. cell(1:1) /= '0') cycle
+               if (verify(sheet%text(mark:mark), '0123456789') > 0) cycle
+               fault = 'column '//quoted(sheet%heads(k))//': expected a number, found '//quoted(cell)
+               exit
+            end associate
+         end do
+      end if
+      if (fault /= '') fault = fault//' (commas may be separators or decimal commas: write decimal points, for example 1.0, or '// &
+         'separate the columns by semicolons)'
+   end function comma_fault
 
    !> Adds an error for each unit of the row of units that is not the expected unit.
    subroutine check_units(sheet, places, units)
@@ -121,7 +153,7 @@ contains
    end subroutine check_units
 
    !> Finds whether the cells of columns contain decimal points. If they contain none, commas that do not separate columns are
-   !> decimal commas.
+   !> decimal commas, and commas that separate columns may be decimal commas (row_fault).
    subroutine find_decimal_marks(sheet, places)
       type(sheet_t), intent(inout) :: sheet
       integer, intent(in) :: places(:)
@@ -130,7 +162,7 @@ contains
 
       cells = new_cells(sheet)
       sheet%has_decimal_points = .false.
-      if (sheet%separator == ',' .or. sheet%rows == 0) return
+      if (sheet%rows == 0) return
       associate (content => sheet%text(sheet%first(1):))
          if (index(content, ',') == 0 .or. index(content, '.') == 0) return
       end associate

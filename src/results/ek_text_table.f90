@@ -1,11 +1,14 @@
 !> A table of strings as comma-separated values (RFC 4180): a line of column names, then one line per row.
 !>
 !> A cell is quoted if it contains a comma, a quote or a line end, or begins with #. Lines of a file that begin with # are
-!> skipped, and so are empty lines.
+!> skipped, and so are empty lines. A blank precedes a cell that a spreadsheet would read as a formula: text that begins with =, +,
+!> - or @. The reader removes this blank.
 module ek_text_table
    use ek_error, only: error_t, message_list_t, fail, exit_file
    use ek_text, only: str, quoted, plural
    use ek_buffer, only: buffer_t
+   use ek_decimal, only: get_decimal
+   use ek_kinds, only: wp
    use ek_file, only: read_whole
    use ek_letters, only: with_line_ends
    implicit none(type, external)
@@ -102,14 +105,42 @@ contains
       integer :: k
 
       cell = text
+      if (is_formula(text)) cell = ' '//text
       if (scan(text, ',"'//line_end//achar(13)) == 0 .and. index(text, '#') /= 1) return
       cell = '"'
+      if (is_formula(text)) cell = '" '
       do k = 1, len(text)
          if (text(k:k) == '"') cell = cell//'"'
          cell = cell//text(k:k)
       end do
       cell = cell//'"'
    end function protected_cell
+
+   !> Whether a spreadsheet reads a cell as a formula: the cell begins with =, +, - or @, and is neither a number, a percentage nor
+   !> this sign alone.
+   pure logical function is_formula(text)
+      character(*), intent(in) :: text
+      real(wp) :: value
+      integer :: last
+      logical :: is_number
+
+      is_formula = .false.
+      last = len_trim(text)
+      if (scan(text, '=+-@') /= 1 .or. last == 1) return
+      if (text(last:last) == '%') last = max(1, len_trim(text(:last - 1)))
+      call get_decimal(text(:last), value, is_number)
+      is_formula = .not. is_number
+   end function is_formula
+
+   !> A cell as it was before it was written: without the blank that precedes a formula.
+   pure function bare_cell(cell) result(text)
+      character(*), intent(in) :: cell
+      character(:), allocatable :: text
+
+      text = cell
+      if (index(cell, ' ') /= 1) return
+      if (is_formula(cell(2:))) text = cell(2:)
+   end function bare_cell
 
    !> Reads a table from a CSV file, as written by text_table_csv, also after a spreadsheet has saved it with semicolons or tabs.
    subroutine read_text_table(path, table, error)
@@ -206,7 +237,7 @@ contains
          else if (text(at:at) == '"') then
             is_quoted = .true.
          else if (text(at:at) == separator) then
-            call fields%add(cell%text())
+            call fields%add(bare_cell(cell%text()))
             call cell%clear()
          else if (text(at:at) == line_end) then
             line = line + 1
@@ -217,7 +248,7 @@ contains
          end if
          at = at + 1
       end do
-      call fields%add(cell%text())
+      call fields%add(bare_cell(cell%text()))
       is_closed = .not. is_quoted
    end subroutine take_record
 

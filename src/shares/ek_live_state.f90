@@ -12,16 +12,18 @@
 !> uses G and A of the suspension whose heights are held. A stiffness is the inverse of such a column: the formula gives the change
 !> of its inverse.
 module ek_live_state
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
    use ek_compliance, only: compliance_t
-   use ek_contribution, only: contribution_t, new_contribution, split_compliance
+   use ek_contribution, only: contribution_t, new_contribution, split_compliance, of_stiffness
    use ek_element_part, only: find_deflections
    use ek_kkt, only: kkt_t
+   use ek_lapack, only: dgesv
    use ek_linear_columns, only: linear_columns_t, start_linear_columns, choose_linear_columns, find_linear_columns, &
       fill_linear_columns
    use ek_live_rates, only: live_rates_t, find_laws
    use ek_loaded_wheels, only: phase
+   use ek_measure, only: evaluation_t, evaluate
    use ek_path, only: path_t
    use ek_port_response, only: lock_t, find_lock, keep_locked
    use ek_quantity, only: unit_size
@@ -34,7 +36,7 @@ module ek_live_state
    use ek_wheel_side, only: prefix_of
    implicit none(type, external)
    private
-   public :: live_state_t, live_columns_t, start_live, find_live_state
+   public :: live_state_t, live_columns_t, start_live, find_live_state, changed_value
 
    !> A stiffness column equal to 1/(displacement of a wheel centre along an axis, under equal loads along this axis on all wheels).
    !> The ride rate has the tyre in series, which adds a constant to the inverse.
@@ -83,6 +85,7 @@ contains
 
       call start_linear_columns(suspension, self%columns)
       self%shares = new_contribution(suspension, self%columns%kandc%compliance%wheels)
+      call append_drivers(self%shares)
       call find_laws(suspension, self%shares, rates, self%laws)
       can_hold = size(suspension%wheels) == 1 .or. self%columns%kandc%is_pair
       allocate (self%name(0), self%is_held(0), self%is_inverse(0), self%wheel(0), self%axis(0), is_wanted(self%columns%used))
@@ -121,6 +124,70 @@ contains
 
    end subroutine start_live
 
+   !> Appends the drivers with a stiffness to the laws of a list of contributions, which has the laws of the elements alone.
+   subroutine append_drivers(shares)
+      type(contribution_t), intent(inout) :: shares          !! of new_contribution
+      integer :: laws, k
+
+      do k = 1, size(shares%share)
+         if (shares%share(k)%part == of_stiffness) shares%law = [shares%law, k]
+      end do
+      laws = size(shares%law)
+      associate (n => size(shares%gradient, 1), loads => size(shares%move, 1))
+         deallocate (shares%slope)
+         allocate (shares%slope(laws), source=0.0_wp)
+         shares%gradient = reshape(shares%gradient, [n, laws], pad=[0.0_wp])
+         shares%move = reshape(shares%move, [loads, laws], pad=[0.0_wp])
+         shares%left_move = reshape(shares%left_move, [loads, laws], pad=[0.0_wp])
+      end associate
+   end subroutine append_drivers
+
+   !> Finds slope and gradient of the drivers with a stiffness, and their deflections per unit load. A driver acts along the gradient
+   !> of its row like a spring.
+   subroutine find_drivers(suspension, state, shares)
+      type(suspension_t), intent(in) :: suspension
+      type(state_t), intent(in) :: state
+      type(contribution_t), intent(inout) :: shares          !! of append_drivers, at this state
+      real(wp) :: value
+      integer :: l, n, row
+
+      n = suspension%unknowns()
+      do l = 1, size(shares%law)
+         associate (share => shares%share(shares%law(l)))
+            if (share%part /= of_stiffness) cycle
+            row = suspension%joints(share%item)%first_row
+         end associate
+         shares%slope(l) = 1.0_wp/suspension%rows(row)%compliance
+         call find_row(suspension, state, row, value, shares%gradient(:, l))
+         shares%move(:, l) = matmul(shares%gradient(:n, l), shares%right(:n, :))
+         shares%left_move(:, l) = matmul(shares%gradient(:n, l), shares%left(:n, :))
+      end do
+   end subroutine find_drivers
+
+   !> Finds the value of the row of a driver, and its gradient.
+   subroutine find_row(suspension, state, row, value, gradient)
+      type(suspension_t), intent(in) :: suspension
+      type(state_t), intent(in) :: state
+      integer, intent(in) :: row
+      real(wp), intent(out) :: value                         !! m, -, rad
+      real(wp), intent(out) :: gradient(:)                   !! unknown of all bodies
+      type(evaluation_t) :: evaluation
+      integer :: t, b
+
+      value = 0.0_wp
+      gradient = 0.0_wp
+      do t = suspension%rows(row)%first, suspension%rows(row)%first + suspension%rows(row)%terms - 1
+         associate (m => suspension%terms(t)%measure, coefficient => suspension%terms(t)%coefficient)
+            call evaluate(m, state%poses(m%body_i + 1), state%poses(m%body_j + 1), evaluation)
+            value = value + coefficient*evaluation%value
+            b = 6*m%body_i
+            if (b > 0) gradient(b - 5:b) = gradient(b - 5:b) + coefficient*evaluation%gradient(1:6)
+            b = 6*m%body_j
+            if (b > 0) gradient(b - 5:b) = gradient(b - 5:b) + coefficient*evaluation%gradient(7:12)
+         end associate
+      end do
+   end subroutine find_row
+
    pure logical function is_named(name, names)
       character(*), intent(in) :: name, names(:)
       integer :: k
@@ -155,6 +222,7 @@ contains
          self%is_known = compliance%is_known
          if (.not. self%is_known) return
          call split_compliance(suspension, state, inputs, kkt, compliance, shares)
+         call find_drivers(suspension, state, shares)
          call find_self_moves(columns%laws, kkt, compliance, shares, self%self)
          m = size(columns%laws)
          root = sqrt(shares%slope(columns%laws))
@@ -168,7 +236,7 @@ contains
          call find_factors(suspension, left, move, columns, self)
          call hold_heights(compliance, move, left, self)
          self%move = transpose(left)
-         call find_forces(suspension, state, root, columns, self)
+         call find_forces(suspension, state, inputs, root, columns, self)
       end associate
    end subroutine find_live_state
 
@@ -231,19 +299,32 @@ contains
       self%held_move = transpose(response(:n, n + 1:))
    end subroutine hold_heights
 
-   !> Finds √rate × deflection of each law at the state. A changed rate changes the force of its law in proportion to this value.
-   subroutine find_forces(suspension, state, root, columns, self)
+   !> Finds √rate × deflection of each law at the state. A changed rate changes the force of its law in proportion to this value. The
+   !> deflection of a driver is its displacement from design less its prescribed displacement.
+   subroutine find_forces(suspension, state, inputs, root, columns, self)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
+      type(inputs_t), intent(in) :: inputs
       real(wp), intent(in) :: root(:)
       type(live_columns_t), intent(in) :: columns
       type(live_state_t), intent(inout) :: self
-      real(wp) :: deflection(6)
-      integer :: l
+      real(wp) :: deflection(6), value, at_design
+      real(wp) :: gradient(suspension%unknowns())
+      integer :: l, k, row
 
       allocate (self%deflection(size(root)))
       do l = 1, size(root)
          associate (share => columns%shares%share(columns%shares%law(columns%laws(l))))
+            if (share%part == of_stiffness) then
+               row = suspension%joints(share%item)%first_row
+               call find_row(suspension, design_state(suspension), row, at_design, gradient)
+               call find_row(suspension, state, row, value, gradient)
+               do k = 1, inputs%rows
+                  if (inputs%row(k) == row) value = value - inputs%change(k)
+               end do
+               self%deflection(l) = root(l)*(value - at_design)
+               cycle
+            end if
             associate (element => suspension%elements(share%item))
                call find_deflections(element, state%poses(element%measure%body_i + 1), state%poses(element%measure%body_j + 1), &
                   deflection)
@@ -252,5 +333,32 @@ contains
          end associate
       end do
    end subroutine find_forces
+
+   !> The value of a column with other rates, as the script of the page computes it. Equation (C.19) of docs/theory/compliance.md.
+   real(wp) function changed_value(state, c, is_held, is_inverse, value, change) result(changed)
+      type(live_state_t), intent(in) :: state               !! is_known
+      integer, intent(in) :: c                               !! index of the column
+      logical, intent(in) :: is_held, is_inverse             !! kind of the column
+      real(wp), intent(in) :: value                          !! value with the rates of the deck, in the unit of the column
+      real(wp), intent(in) :: change(:)                      !! relative change of the rate of each law
+      real(wp) :: matrix(size(change), size(change)), x(size(change), 1)
+      integer :: pivots(size(change)), k, info
+
+      do k = 1, size(change)
+         if (is_held) matrix(k, :) = change(k)*state%held_self(k, :)
+         if (.not. is_held) matrix(k, :) = change(k)*state%self(k, :)
+         matrix(k, k) = matrix(k, k) + 1.0_wp
+      end do
+      x(:, 1) = change*state%load(:, c)
+      call dgesv(size(change), 1, matrix, size(change), pivots, x, size(change), info)
+      changed = ieee_value(changed, ieee_quiet_nan)
+      if (info /= 0) return
+      changed = -dot_product(state%read(:, c), x(:, 1))
+      if (is_inverse) then
+         changed = value/(1.0_wp + value*changed)
+      else
+         changed = value + changed
+      end if
+   end function changed_value
 
 end module ek_live_state

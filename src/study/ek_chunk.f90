@@ -9,7 +9,7 @@ module ek_chunk
    use ek_error, only: error_t
    use ek_text, only: str
    use ek_checksum, only: checksum_t, include, digits_of
-   use ek_file, only: read_whole, remove_file
+   use ek_file, only: read_whole, remove_file, file_exists
    use ek_system, only: facts_t, facts_of, regular_file, link_file, device_file, other_file, unknown_file
    use ek_writer, only: writer_t, begin_file
    implicit none(type, external)
@@ -178,12 +178,13 @@ contains
 
    !> Reads a chunk. is_good is .false. if the file is absent, damaged, from another study, written on a machine of another byte
    !> order, or contains other designs (a renamed file).
-   subroutine read_chunk(path, identity, first, designs, self, is_good)
+   subroutine read_chunk(path, identity, first, designs, self, is_good, unread)
       character(*), intent(in) :: path, identity
       integer(i8), intent(in) :: first             !! index of the first design of the chunk
       integer, intent(in) :: designs               !! number of designs of the chunk; 0: not known
       type(chunk_t), intent(inout) :: self
       logical, intent(out) :: is_good
+      type(error_t), allocatable, intent(out), optional :: unread   !! reason why the file cannot be read; not its content
       character(:), allocatable :: text
       type(error_t), allocatable :: error
       type(checksum_t) :: sum
@@ -192,7 +193,10 @@ contains
 
       is_good = .false.
       call read_whole(path, text, error)
-      if (allocated(error)) return
+      if (allocated(error)) then
+         if (present(unread) .and. file_exists(path)) call move_alloc(error, unread)
+         return
+      end if
       at = len(text) - 17
       if (at < len(mark)) return
       if (index(text, mark//line_end//identity//line_end) /= 1) return

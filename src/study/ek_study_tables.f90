@@ -180,8 +180,8 @@ contains
       logical :: is_good
 
       path = join_path(parts_folder(study, out), chunk_name(k))
-      call read_chunk(path, plan%identity, first_of(plan, k), designs_in(plan, k), chunk, is_good)
-      if (.not. is_good) call fail(error, exit_file, path//': the chunk is missing or damaged')
+      call read_chunk(path, plan%identity, first_of(plan, k), designs_in(plan, k), chunk, is_good, error)
+      if (.not. is_good .and. .not. allocated(error)) call fail(error, exit_file, path//': the chunk is missing or damaged')
    end subroutine load_chunk
 
    !> Counts the designs of a chunk by status, and updates the sizes that the tables need.

@@ -10,7 +10,7 @@ set -uo pipefail
 cd "$(dirname "$0")/../.." || exit 1
 if [ $# -ne 2 ]; then echo "usage: compare_bits.sh BUILD OTHER" >&2; exit 1; fi
 export OPENBLAS_NUM_THREADS=1     # threads sum in another order
-out=$(mktemp -d)
+out=$(mktemp -d) || exit 1
 trap 'rm -rf "$out"' EXIT
 
 run_all() { # run_all BUILD FOLDER

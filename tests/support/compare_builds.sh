@@ -9,7 +9,7 @@ cd "$(dirname "$0")/../.." || exit 1
 if [ $# -ne 2 ]; then echo "usage: compare_builds.sh BUILD OTHER" >&2; exit 1; fi
 limit=5e-10
 export OPENBLAS_NUM_THREADS=1     # threads sum in another order
-out=$(mktemp -d)
+out=$(mktemp -d) || exit 1
 trap 'rm -rf "$out"' EXIT
 wrong=0
 

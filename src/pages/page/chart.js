@@ -59,13 +59,17 @@ class Chart {
     if (test.follow) test.follow();
     const match = test.other && test.other.charts.find((c) => c.id === description.id);
     this.match = match;
-    this.curves = description.curves.map((c) => {
+    // a curve of both wheels is two curves where the other report has one for each wheel
+    const own = description.curves.flatMap((c) => {
+      const sides = c.name === both && match ? match.curves.filter(({ name }) => name === "left" || name === "right") : [];
+      return sides.length === 2 ? sides.map(({ name, dash }) => ({ ...c, name, dash })) : [c];
+    });
+    this.curves = own.map((c) => {
       const curve = { name: c.name || "value", colour: c.colour, dash: c.dash, x: test.data.x[c.x], y: test.data.y[c.y],
         design: c.design ?? test.data.design, from: c.from };
       // with other rates: the curve of the deck
       if (test.deck && test.deck[c.y]) Object.assign(curve, { column: c.y, deck: { x: curve.x, y: test.deck[c.y] } });
-      const same = match && (match.curves.find((t) => t.name === c.name) || match.curves.find((t) => t.name === both) ||
-        (c.name === both && match.curves[0]));
+      const same = match && (match.curves.find((t) => t.name === c.name) || match.curves.find((t) => t.name === both));
       if (same) curve.other = { x: test.other.x[same.x], y: test.other.y[same.y] };
       return curve;
     });

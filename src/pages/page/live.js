@@ -156,6 +156,16 @@ function update(chart) {
   if (test.cursor !== null) chart.show_cursor();
 }
 
+// The measured deviation of the numbers from runs at the ends of the sliders.
+function deviation() {
+  const { count, failed, deviation: share, column } = live.reruns ?? { count: 0, failed: 0, deviation: 0 };
+  if (count === failed) return "How much the numbers then differ was not measured.";
+  const digit = 10 ** (Math.floor(Math.log10(100 * share)) - 1), percent = Number((Math.ceil(100 * share / digit) * digit).toPrecision(2));
+  return `In ${count - failed} runs with rates of 0.1 and 10 times those of the deck (each rate alone, all together, alternating, and a search), ` +
+    (share > 0 ? `a number of the table differed by at most ${percent} % (${column}).` : "no number of the table differed.") +
+    (failed > 0 ? ` In ${failed} further runs no preloads hold the axle.` : "");
+}
+
 // How far the numbers are those of a rerun.
 function exactness() {
   const about = ([mm, deg]) => `about ${Number(mm.toPrecision(2))} mm and ${Number(deg.toPrecision(2))}°`, list = [];
@@ -165,7 +175,7 @@ function exactness() {
     `the wheel centre would move by ${about(at_design)}, to first order` + (live.balance === "spring" ? " before the springs are balanced again." : "."));
   else if (live.balance === "all" && has_bushing) list.push(`Numbers of the table, at design: exact for the forces in the deck's parts. A run ` +
     "with these rates finds the same position, but balance = 'all' then distributes the preloads of the bushings in another way, " +
-    "which may change their geometric stiffness a little.");
+    `which changes their geometric stiffness. ${deviation()}`);
   else list.push(`Numbers of the table, at design: exact. A run of the deck with these rates finds the same state and the same numbers.`);
   for (const own of live.tests.filter((t) => t.ends)) {
     const ends = own.ends.map((end) => settling(own, end));
