@@ -22,7 +22,7 @@ module ek_named_numbers
    use ek_key_number, only: key_number_t, nothing, read_source, largest_of_all
    use ek_number_reach, only: reach_of, lacks_state
    use ek_missing_number, only: missing_reason
-   use ek_number_names, only: list_all, find_number, stems_of, explain_unknown
+   use ek_number_names, only: list_all, find_number, side_of_only_wheel, stems_of, explain_unknown
    implicit none(type, external)
    private
    public :: named_numbers_t, prepare_numbers, read_numbers, needed_tests, explain_missing
@@ -78,7 +78,7 @@ contains
       end do
       is_complete = .true.
       do k = 1, size(names)
-         call find_number(names(k), heads, number, wheel)
+         call find_number(names(k), heads, number, wheel, side_of_only_wheel(suspension))
          is_complete = is_complete .and. number > 0
          if (number == 0) cycle
          numbers%numbers(k) = listed(number)

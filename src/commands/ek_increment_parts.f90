@@ -96,7 +96,7 @@ contains
             if (work == reacting) call assemble(suspension, state, inputs, residual_only, kkt)
             if (work >= assembling) call assemble(suspension, state, inputs, whole_tangent, kkt)
             if (work >= factorising) call factorise(kkt)
-            if (work >= solving) call solve(kkt)
+            if (work >= solving .and. .not. kkt%is_singular) call solve(kkt)
          end do
          spent = (processor_seconds() - start)/count
       end subroutine time_work

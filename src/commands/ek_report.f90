@@ -27,6 +27,7 @@ module ek_report
    use ek_planned_test, only: planned_tests
    use ek_key_numbers, only: key_numbers
    use ek_key_number_table, only: write_key_numbers
+   use ek_plausible_shape, only: vehicle_size
    use ek_report_content, only: report_t, add_fact
    use ek_report_data, only: report_data
    use ek_report_page, only: report_page
@@ -94,6 +95,7 @@ contains
       if (allocated(error)) return
       page%folder = settings%out
       page%is_static = settings%is_static
+      page%vehicle = vehicle_size(workspace%raw)
       if (workspace%raw%axle%has_axle) page%axle = merge(-1, 1, workspace%raw%axle%is_front)
       call make_folder(page%folder, error)
       if (.not. allocated(error)) call make_folder(join_path(page%folder, 'figures'), error)

@@ -145,11 +145,13 @@ contains
 
    !> Finds the best and the worst design of a response. Designs are judged by the limits of the response. Without limits, the
    !> designs with the smallest and the largest value are found; for a response of type `rms`, the smallest value is best.
-   subroutine find_extremes(study, designer, data, r)
+   subroutine find_extremes(study, designer, data, r, extremes, used)
       type(study_t), intent(in) :: study
       type(designer_t), intent(in) :: designer
-      type(study_data_t), intent(inout) :: data
+      type(study_data_t), intent(in) :: data
       integer, intent(in) :: r
+      type(extreme_t), intent(inout) :: extremes(:)     !! two for each response
+      integer, intent(inout) :: used                    !! the first `used` are filled
       real(wp), allocatable :: margin(:)
       logical, allocatable :: is_known(:)
       logical :: is_judged
@@ -194,7 +196,8 @@ contains
          end do
          one%settings = one%settings//'"'
          one%fragment = deck_fragment(designer, data%x(:, design))
-         data%extremes = [data%extremes, one]
+         used = used + 1
+         extremes(used) = one
       end subroutine add
 
    end subroutine find_extremes

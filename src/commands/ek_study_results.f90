@@ -18,7 +18,7 @@ module ek_study_results
    use ek_designer, only: designer_t, begin_designer
    use ek_study_plan, only: plan_sampler
    use ek_study_tables, only: responses_name, curves_name, has_limits, limits_of
-   use ek_study_data, only: study_data_t, study_axis_t, percents
+   use ek_study_data, only: extreme_t, study_data_t, study_axis_t, percents
    use ek_store, only: wants_store, read_store, store_name
    use ek_store_description, only: keeps
    use ek_study_list, only: check_tables
@@ -58,7 +58,8 @@ contains
       type(scratch_t) :: scratch
       character(:), allocatable :: folder
       real(wp) :: tolerance
-      integer :: k, r
+      type(extreme_t), allocatable :: extremes(:)
+      integer :: k, r, used
 
       allocate (designer)
       call begin_designer(study, deck, designer, error)
@@ -88,12 +89,15 @@ contains
       end if
       call end_scratch(scratch)
       if (allocated(error)) return
-      allocate (data%summaries(size(data%responses)), data%effects(size(data%responses)), data%extremes(0))
+      allocate (data%summaries(size(data%responses)), data%effects(size(data%responses)))
+      allocate (extremes(2*size(data%responses)))
+      used = 0
       do r = 1, size(data%responses)
          call summarise(data%responses(r), data%y(r, :), data%summaries(r))
          call find_effects(study, sampler, data, r, data%effects(r))
-         call find_extremes(study, designer, data, r)
+         call find_extremes(study, designer, data, r, extremes, used)
       end do
+      data%extremes = extremes(:used)
       if (study%kind == tolerance_kind) call read_moments(out, data)
    end subroutine read_results_of
 

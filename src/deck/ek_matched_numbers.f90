@@ -133,7 +133,9 @@ contains
          if (.not. (is_like(own_name(records(k)), path%name) .or. is_meant(records(k), path))) cycle
          if (path%has_subscript) then
             if (path%is_wild .and. entry_index(records(k), path%key, 0) == 0) cycle
-            call add(k, path%first)
+            do v = path%first, path%last
+               call add(k, v)
+            end do
             cycle
          end if
          do e = 1, records(k)%used

@@ -15,7 +15,7 @@ module ek_parameter
    private
    public :: parameter_t, parameters_t, choice_t, add_parameter, find_parameters, put_value, put_change, in_range
    public :: all_in_range, parameter_path, value_path
-   public :: path_t, split_path, is_meant, change_t, changed
+   public :: path_t, split_path, is_meant, is_addressed, change_t, changed
 
    character(*), parameter :: left_wheel_alone = 'left_left'     ! in a path
 
@@ -50,7 +50,7 @@ module ek_parameter
       character(:), allocatable :: name, key
       type(key_t) :: row                     !! row of the key in the table of keys, if `is_known`
       logical :: is_known = .false.
-      integer :: first = 1
+      integer :: first = 1, last = 1         !! subscripts, if `has_subscript`; equal for one element
       logical :: has_subscript = .false.
       logical :: is_wild = .false.           !! the name contains *
    end type path_t
@@ -70,7 +70,7 @@ contains
       type(path_t), intent(out) :: path
       character(:), allocatable, intent(out) :: message     !! '' if there is no error
       character(:), allocatable :: inside
-      integer :: dot, last, mark, status
+      integer :: dot, last, mark, colon, status
 
       message = ''
       path%name = ''
@@ -101,22 +101,46 @@ contains
       if (mark > 0) then
          path%has_subscript = .true.
          inside = path%key(mark + 1:len(path%key) - 1)
+         colon = index(inside, ':')
          status = 1
-         if (path%key(len(path%key):) == ')' .and. inside /= '' .and. len(inside) < 7 .and. verify(inside, '0123456789') == 0) &
-            read (inside, *, iostat=status) path%first
+         if (path%key(len(path%key):) == ')') then
+            call read_subscript(inside(:merge(colon - 1, len(inside), colon > 0)), path%first, status)
+            path%last = path%first
+            if (colon > 0 .and. status == 0) call read_subscript(inside(colon + 1:), path%last, status)
+         end if
+         if (status == 0 .and. path%last < path%first) status = 1
          if (status /= 0) then
-            message = 'the subscript must be one integer, found '//path%key(mark:)
+            message = 'the subscript must be one integer, or a range such as 1:3, found '//path%key(mark:)
             return
          end if
          path%key = path%key(:mark - 1)
       end if
       if (path%group == point_group .and. len(path%key) == 1 .and. index('xyz', path%key) > 0) then
          path%first = index('xyz', path%key)
+         path%last = path%first
          path%has_subscript = .true.
          path%key = 'at'
       end if
       call find_key(path%group, path%key, path%row, path%is_known)
    end subroutine split_path
+
+   !> Reads a subscript; status is not 0 if the string is no integer of up to six digits.
+   pure subroutine read_subscript(text, subscript, status)
+      character(*), intent(in) :: text
+      integer, intent(inout) :: subscript
+      integer, intent(out) :: status
+
+      status = 1
+      if (text == '' .or. len(text) > 6 .or. verify(text, '0123456789') > 0) return
+      read (text, *, iostat=status) subscript
+   end subroutine read_subscript
+
+   !> Whether a path leads to an element of its key: to every element, unless the path has a subscript.
+   pure logical function is_addressed(path, element)
+      type(path_t), intent(in) :: path
+      integer, intent(in) :: element
+      is_addressed = .not. path%has_subscript .or. (element >= path%first .and. element <= path%last)
+   end function is_addressed
 
    !> Whether a path leads to a record. The wheel 'left' of a mirrored axle, whose name on the left is that of the half deck, is also
    !> found as 'left_left': the name of every other record on the left begins with left_.
@@ -196,7 +220,7 @@ contains
       do k = 1, parameters%used
          associate (this => parameters%list(k), record => records(parameters%list(k)%record))
             if (record%group /= group_names(path%group) .or. this%key /= path%key) cycle
-            if (path%has_subscript .and. this%at /= path%first) cycle
+            if (.not. is_addressed(path, this%at)) cycle
             if (path%is_wild .and. .not. this%is_given) cycle
             if (is_like(own_name(record), path%name)) then      ! of both sides, also if a wild name fits the sided name too
                found = [found, choice_t(k, this%sign)]

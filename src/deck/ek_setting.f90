@@ -19,7 +19,7 @@ module ek_setting
    use ek_scanner, only: scan_values
    use ek_group, only: group_names, is_single, unknown_key, longest, number, word_length, key_t
    use ek_namelist, only: value_fault, surplus
-   use ek_parameter, only: path_t, split_path, is_meant, change_t, changed
+   use ek_parameter, only: path_t, split_path, is_meant, is_addressed, change_t, changed
    implicit none(type, external)
    private
    public :: apply_setting, split_setting, change_t, read_change
@@ -140,7 +140,7 @@ contains
          associate (entry => record%entries(e))
             if (entry%key /= path%key) cycle
             do v = 1, entry%used
-               if (path%has_subscript .and. entry%first + v - 1 /= path%first) cycle
+               if (.not. is_addressed(path, entry%first + v - 1)) cycle
                if (value_fault(entry%values(v), number) /= '') cycle      ! reported by check_record
                read (entry%values(v)%text, *) old
                entry%values(v)%text = changed(change, old)
@@ -171,11 +171,15 @@ contains
             call scan_values(trim(text), given, message)
          end if
          if (message /= '') return
-         last = path%first + given%used - 1
+         last = max(path%first + given%used - 1, path%last)
          if (path%first < 1 .or. last > key%most) then
             if (path%first < 1 .or. path%first > key%most) last = path%first
+            if (path%last > key%most) last = path%last
             message = path%key//' has '//plural(key%most, 'element', 'elements')//', found element '//str(last)// &
                surplus(key, given)
+         else if (path%last > path%first .and. given%used /= path%last - path%first + 1) then
+            message = path%key//'('//str(path%first)//':'//str(path%last)//') needs '//str(path%last - path%first + 1)// &
+               ' values, found '//str(given%used)
          else if (.not. path%has_subscript .and. given%used < key%least) then
             message = path%key//' needs '//plural(key%least, 'value', 'values')//', found '//str(given%used)
          end if

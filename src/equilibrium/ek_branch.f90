@@ -70,6 +70,7 @@ module ek_branch
       real(wp) :: log_determinant = huge(1.0_wp)   !! ln |det N| at the newest state; huge: not known
       logical :: was_uneven = .true.        !! |det N| changed by more than `even` in the step to the newest state
       logical :: has_tangent = .false.      !! tangent_a belongs to the newest state
+      logical :: is_at_end = .false.        !! N at the newest state is singular to the last bit: this state has no tangent
       real(wp) :: width_before = 0.0_wp     !! swept value of a minus swept value of the state before; 0: unknown
       integer :: serial = -1                !! serial number of the last factorisation at or near b
       real(wp) :: missed = 0.0_wp           !! distance of this factorisation from b [m]
@@ -159,6 +160,7 @@ contains
       call remember(self%predictor, place, packed)
       self%negative = negative
       self%has_tangent = .false.
+      self%is_at_end = .false.
       self%log_determinant = huge(1.0_wp)
       call mark(self%factors, -1)
    end subroutine leave
@@ -180,6 +182,7 @@ contains
       integer, intent(out) :: verdict
       type(step_t) :: step
       real(wp) :: width, bow
+      logical :: is_found
       integer :: older
 
       width = place - self%predictor%abscissa(self%predictor%newest)
@@ -199,8 +202,12 @@ contains
          call unpack_state(self%predictor%packed(:, older), self%shifted)
          call motion_between(self%shifted, self%before, self%motion_before)
       end if
-      call find_tangent(self%work, suspension, state_b, inputs_b, step%rate, kkt, self%tangent_b)
-      if (self%has_tangent) then
+      call find_tangent(self%work, suspension, state_b, inputs_b, step%rate, kkt, self%tangent_b, is_found)
+      verdict = doubtful
+      if (.not. is_found) return
+      if (self%is_at_end) then
+         step%rest = huge(step%rest)
+      else if (self%has_tangent) then
          step%rest = trapezoidal_rest(self%motion, self%tangent_a, self%tangent_b, width, kkt%length)
       else if (abs(self%width_before) > 0.0_wp) then
          ! with this tangent at a, the error of the trapezoidal rule is that of the parabola
@@ -213,7 +220,6 @@ contains
       end if
       step%is_explained = step%rest <= smooth
       if (.not. step%is_explained) call evaluate_closer(self, step, suspension, state_b, kkt)
-      verdict = doubtful
       if (step%is_explained .or. step%is_past) then
          verdict = same_branch
          if (step%negative_b /= self%negative) then
@@ -239,7 +245,7 @@ contains
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state_b
       type(kkt_t), intent(inout) :: kkt          !! factors at or near b
-      logical :: knows_a
+      logical :: knows_a, is_found
 
       call straighten(self%chord, suspension, self%before, state_b, step%is_bent)
       knows_a = self%negative >= 0 .and. self%factors%is_kept
@@ -254,7 +260,8 @@ contains
       if (knows_a) call decide(self, step, kkt%length)
       if (step%is_past) return
       if (self%negative < 0) call evaluate_beginning(self, step, suspension, .true., kkt)
-      if (abs(step%width) <= shortest*self%least .and. (self%has_tangent .or. abs(self%width_before) > 0.0_wp)) &
+      if (abs(step%width) <= shortest*self%least .and. .not. self%is_at_end .and. &
+         (self%has_tangent .or. abs(self%width_before) > 0.0_wp)) &
          step%is_past = is_bend(self%motion, self%tangent_a, self%tangent_b, step%width, kkt%length)
       if (step%is_past) return
       if (.not. step%is_new_at_a) call evaluate_beginning(self, step, suspension, .true., kkt)
@@ -266,7 +273,8 @@ contains
       self%factorisations = self%factorisations + 1
       self%serial = kkt%factorisations
       self%missed = 0.0_wp
-      call find_tangent(self%work, suspension, state_b, step%inputs_b, step%rate, kkt, self%tangent_b)
+      call find_tangent(self%work, suspension, state_b, step%inputs_b, step%rate, kkt, self%tangent_b, is_found)
+      if (.not. is_found) return
       if (step%is_bent) call evaluate_along_chord(self%chord, suspension, self%work, at_b, state_b, step%inputs_b, step%rate, kkt, &
          self%chord_b, step%is_regular(at_b))
       call decide(self, step, kkt%length)
@@ -288,8 +296,12 @@ contains
          self%negative = kkt%negative
          step%is_new_at_a = .true.
       end if
-      call find_tangent(self%work, suspension, self%before, step%inputs_a, step%rate, kkt, self%tangent_a)
-      self%has_tangent = .true.
+      call find_tangent(self%work, suspension, self%before, step%inputs_a, step%rate, kkt, self%tangent_a, self%has_tangent)
+      self%is_at_end = .not. self%has_tangent
+      step%rest = huge(step%rest)
+      step%is_regular(at_a) = .false.
+      step%is_explained = .false.
+      if (self%is_at_end) return
       step%rest = trapezoidal_rest(self%motion, self%tangent_a, self%tangent_b, step%width, kkt%length)
       step%is_explained = step%rest <= smooth
       if (step%is_bent .and. .not. step%is_explained) call evaluate_along_chord(self%chord, suspension, self%work, at_a, &
@@ -303,6 +315,7 @@ contains
       type(step_t), intent(inout) :: step
       real(wp), intent(in) :: length             !! m
 
+      if (self%is_at_end) return
       step%rest = trapezoidal_rest(self%motion, self%tangent_a, self%tangent_b, step%width, length)
       step%is_explained = step%rest <= smooth
       if (step%is_explained .or. .not. step%is_bent) return
@@ -322,6 +335,7 @@ contains
       self%was_uneven = abs(outcome%log_determinant - self%log_determinant) > even
       self%log_determinant = outcome%log_determinant
       self%negative = outcome%negative
+      self%is_at_end = .false.
       self%has_tangent = was_compared .and. self%knows_end
       if (self%has_tangent) self%tangent_a = self%tangent_b
    end subroutine accept

@@ -208,9 +208,10 @@ contains
             call add_dyad(self%dyads, measure%body_i, measure%body_j, evaluation%gradient)
          end associate
       end do
-      call solve_columns(self%dyads, kkt)
-      is_regular = .true.
+      is_regular = .not. kkt%is_singular
       tangent = 0.0_wp
+      if (.not. is_regular) return
+      call solve_columns(self%dyads, kkt)
       do slope = least, most
          associate (laws => self%bent_law(:self%bends))
             self%change(:self%bends) = self%slope(slope, laws) - self%own(end, laws)
@@ -219,7 +220,7 @@ contains
          is_regular = is_regular .and. self%dyads%negative == kkt%negative
          if (.not. is_regular) return
          if (slope /= mean) cycle
-         call find_tangent(work, suspension, state, inputs, rate, kkt, tangent, self%dyads)
+         call find_tangent(work, suspension, state, inputs, rate, kkt, tangent, is_regular, self%dyads)
       end do
    end subroutine evaluate_along_chord
 

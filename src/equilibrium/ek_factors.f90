@@ -13,6 +13,7 @@ module ek_factors
       logical :: is_kept = .false.          !! the object contains the factors of the state
       integer, private :: serial = -1       !! number of the factorisation; −1: the state has no factors
       integer, private :: negative = 0      !! number of negative eigenvalues
+      logical, private :: is_singular = .false.   !! whether N is singular, as in kkt_t
       integer, private :: stage = nothing   !! stage of the factors, as in kkt_t
       integer, private :: way = 0           !! plan of the factors, as in kkt_t
       real(wp), allocatable, private :: matrix(:, :), planned(:)
@@ -65,6 +66,7 @@ contains
       real(wp), allocatable :: matrix(:, :), planned(:)
       integer, allocatable :: pivots(:)
       integer :: number
+      logical :: is_singular
 
       call move_alloc(self%matrix, matrix)
       call move_alloc(kkt%matrix, self%matrix)
@@ -81,6 +83,9 @@ contains
       number = self%negative
       self%negative = kkt%negative
       kkt%negative = number
+      is_singular = self%is_singular
+      self%is_singular = kkt%is_singular
+      kkt%is_singular = is_singular
       number = self%stage
       self%stage = kkt%stage
       kkt%stage = number

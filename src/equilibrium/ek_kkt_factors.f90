@@ -20,6 +20,8 @@ module ek_kkt_factors
    public :: max_growth, proven_growth
 
    real(wp), parameter :: max_growth = 1.0e4_wp     !! limit of factors by plan: the error of a solution is some 1e-16 × this
+   real(wp), parameter :: vanished = 1.0e-30_wp     !! smallest to largest pivot: below it, the matrix is singular; a quotient could
+                                                    !! overflow
    real(wp), parameter :: proven_growth = 100.0_wp  !! limit without correction of solutions: |S − L D Lᵀ| ≈ 1e-16 |S| growth²
 
 contains
@@ -81,7 +83,7 @@ contains
       call spread_lower(kkt%n, kkt%pattern, kkt%store, kkt%scaling, kkt%matrix)
       call dsytrf('L', kkt%n, kkt%matrix, kkt%n, kkt%pivots, kkt%work, size(kkt%work), info)
       call count_inertia(kkt%n, kkt%matrix, kkt%pivots, kkt%negative, kkt%pivot_ratio, kkt%log_determinant)
-      kkt%is_singular = info /= 0 .or. .not. kkt%pivot_ratio > 0.0_wp
+      kkt%is_singular = info /= 0 .or. .not. kkt%pivot_ratio > vanished
    end subroutine factorise_by_lapack
 
    !> Fills the lower triangle of the scaled matrix, D S D.
@@ -152,12 +154,13 @@ contains
       if (most > 0.0_wp) ratio = least/most
    end subroutine count_inertia
 
-   !> Solves with the last factors. On return, kkt%rhs is [Δq; Δλ].
+   !> Solves with the last factors. On return, kkt%rhs is [Δq; Δλ]. The caller checks kkt%is_singular: a zero pivot is divided by.
    !> Equation (K.5) of docs/theory/kkt.md.
    pure subroutine solve(kkt)
       type(kkt_t), intent(inout) :: kkt
 
       if (are_checked) call require(kkt%stage >= lapack_factors, 'solve: the matrix is not factorised')
+      if (are_checked) call require(.not. kkt%is_singular, 'solve: the matrix is singular')
       kkt%is_at_design = .false.
       kkt%solutions = kkt%solutions + 1
       if (kkt%stage == plan_factors) then
@@ -169,7 +172,7 @@ contains
       call multiply(kkt%n, kkt%scale, kkt%rhs)
    end subroutine solve
 
-   !> Solves for many right-hand sides with the last factors.
+   !> Solves for many right-hand sides with the last factors. The caller checks kkt%is_singular.
    !> Equation (K.5) of docs/theory/kkt.md.
    subroutine solve_many(kkt, many, columns)
       type(kkt_t), intent(inout) :: kkt
@@ -178,6 +181,7 @@ contains
       integer :: j, k, last, info
 
       if (are_checked) call require(kkt%stage >= lapack_factors, 'solve_many: the matrix is not factorised')
+      if (are_checked) call require(.not. kkt%is_singular, 'solve_many: the matrix is singular')
       if (kkt%stage == plan_factors) then
          if (.not. allocated(kkt%turned)) allocate (kkt%turned(several, kkt%n), source=0.0_wp)
          do j = 0, many - 1, several

@@ -83,14 +83,16 @@ contains
    !>
    !> With a constant moment, a load that rotates with its body, or the imbalance at design, the true matrix is not symmetric and N
    !> is its symmetric part. The derivative of the residual along the tangent then corrects the tangent.
+   !> A singular N has no tangent: is_found is .false. and the tangent is zero.
    !> Equation (K.13) of docs/theory/kkt.md.
-   subroutine find_tangent(self, suspension, state, inputs, rate, kkt, tangent, dyads)
+   subroutine find_tangent(self, suspension, state, inputs, rate, kkt, tangent, is_found, dyads)
       type(tangent_t), intent(inout) :: self
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
       type(inputs_t), intent(in) :: inputs, rate
       type(kkt_t), intent(inout) :: kkt
       real(wp), intent(out) :: tangent(:)
+      logical, intent(out) :: is_found                    !! N is not singular
       type(dyads_t), intent(inout), optional :: dyads     !! the matrix is N plus these dyads
       integer, parameter :: max_refinements = 6
       real(wp), parameter :: enough = 4.0e-4_wp           ! of the motion: a tenth of what a comparison of tangents allows
@@ -98,6 +100,11 @@ contains
       real(wp) :: step, largest
       integer :: k
 
+      is_found = .not. kkt%is_singular
+      if (.not. is_found) then
+         tangent = 0.0_wp
+         return
+      end if
       call assemble_rate(suspension, state, rate, kkt)
       call solve(kkt)
       if (present(dyads)) call correct(dyads, kkt%rhs)

@@ -14,7 +14,7 @@ module ek_number_names
    use ek_key_numbers, only: list_key_numbers, number_heads, wanted_gradients
    implicit none(type, external)
    private
-   public :: list_numbers, list_all, find_number, stems_of, explain_unknown
+   public :: list_numbers, list_all, find_number, side_of_only_wheel, stems_of, explain_unknown
 
 contains
 
@@ -33,7 +33,7 @@ contains
       call list_all(suspension, cases, tests, listed, heads)
       known = pack(heads, heads /= '')
       do k = 1, size(names)
-         call find_number(names(k), heads, number, wheel)
+         call find_number(names(k), heads, number, wheel, side_of_only_wheel(suspension))
          if (number > 0) cycle
          call mistakes%add('there is no key number '//quoted(trim(names(k)))// &
             suggestion_by_part(trim(names(k)), known))
@@ -56,12 +56,13 @@ contains
       where (index(names, 'right_') == 1) stems = stems(:) (7:)
    end function stems_of
 
-   !> Finds a name among the key numbers. Of a number of both wheels, a name without left_ or right_ means the left wheel. `number`
-   !> is 0 if the name is unknown.
-   pure subroutine find_number(name, heads, number, wheel)
+   !> Finds a name among the key numbers. Of a number of both wheels, a name without left_ or right_ means the left wheel. In a model
+   !> with one wheel, whose key numbers have no side, a name with its side means this wheel. `number` is 0 if the name is unknown.
+   pure subroutine find_number(name, heads, number, wheel, only_side)
       character(*), intent(in) :: name
       character(*), intent(in) :: heads(:, :)           !! (wheel, number)
       integer, intent(out) :: number, wheel
+      integer, intent(in), optional :: only_side        !! side of the only wheel: −1 left, 1 right; absent or 0: two wheels
       integer :: k
 
       number = 0
@@ -75,7 +76,17 @@ contains
       end do
       wheel = 1
       number = findloc(heads(1, :) == 'left_'//name, .true., dim=1, back=.true.)
+      if (number > 0 .or. .not. present(only_side)) return
+      if (only_side < 0 .and. index(name, 'left_') == 1) number = findloc(heads(1, :) == name(6:), .true., dim=1, back=.true.)
+      if (only_side > 0 .and. index(name, 'right_') == 1) number = findloc(heads(1, :) == name(7:), .true., dim=1, back=.true.)
    end subroutine find_number
+
+   !> Side of the wheel of a model with one wheel: −1 left, 1 right; 0 for other models.
+   pure integer function side_of_only_wheel(suspension) result(side)
+      type(suspension_t), intent(in) :: suspension
+      side = 0
+      if (size(suspension%wheels) == 1) side = suspension%wheels(1)%side
+   end function side_of_only_wheel
 
    !> Lists the names of all key numbers, with units and definitions, in the order of the report. No case is solved, so that a
    !> listed key number may turn out to be NaN.

@@ -10,6 +10,7 @@ module ek_report_content
    use ek_explanation, only: explanation_t
    use ek_live, only: live_t
    use ek_turntable, only: turntable_t
+   use ek_plausible_range, only: size_t
    implicit none(type, external)
    private
    public :: report_t, add_fact
@@ -30,6 +31,7 @@ module ek_report_content
       type(explanation_t), allocatable :: explanations(:)     !! contributions to the rates and the key compliances
       type(live_t), allocatable :: live                !! rates that the page can change, if requested
       type(turntable_t), allocatable :: turntable      !! the suspension in space, if something moves
+      type(size_t) :: vehicle = size_t()               !! size of the vehicle, for its usual ranges
       integer :: axle = 0                              !! position of the axle: −1 front, 1 rear, 0 unknown; for the effect of steer
       type(message_list_t) :: drawn                    !! scripts and pictures of this report, relative to the folder
       type(message_list_t) :: copies                   !! copies of the load tables of the deck, in the folder

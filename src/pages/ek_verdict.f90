@@ -7,7 +7,7 @@ module ek_verdict
    use ek_text, only: str, plural
    use ek_key_number, only: key_number_t, has_value
    use ek_number_words, only: steer_effect, target_verdict, short_name, is_equal, is_opposite, sides_text
-   use ek_plausible_range, only: usual_range
+   use ek_plausible_range, only: size_t, usual_range
    use ek_load_state, only: differ, stand_text
    use ek_table, only: column_index
    use ek_test_result, only: test_result_t, design_row
@@ -183,14 +183,14 @@ contains
          is_spoken = .false.
          do k = 1, size(report%numbers)
             if (report%numbers(k)%name /= domain%numbers(n)) cycle
-            call speak(report%numbers(k), report%axle, words, verdict)
+            call speak(report%numbers(k), report%axle, report%vehicle, words, verdict)
             is_spoken = words /= ''
             exit
          end do
          if (.not. is_spoken .and. allocated(report%missing)) then
             do k = 1, size(report%missing)
                if (report%missing(k)%name /= domain%numbers(n)) cycle
-               call speak(report%missing(k), report%axle, words, verdict)
+               call speak(report%missing(k), report%axle, report%vehicle, words, verdict)
                is_spoken = words /= ''
                exit
             end do
@@ -222,9 +222,10 @@ contains
 
    !> Creates the string of a key number, '' for a number without a value and without a reason: 'bump camber −13.83 deg/m (inside the target −30 … −20)', or 'lateral force steer 0.108
    !> deg/kN: understeer'.
-   subroutine speak(number, axle, words, verdict)
+   subroutine speak(number, axle, vehicle, words, verdict)
       type(key_number_t), intent(in) :: number
       integer, intent(in) :: axle
+      type(size_t), intent(in) :: vehicle
       character(:), allocatable, intent(out) :: words
       character(7), intent(out) :: verdict
       character(:), allocatable :: band, unit
@@ -250,13 +251,14 @@ contains
       if (effect /= '') words = words//': '//trim(effect)
       if (is_equal(number) .and. effect == '' .and. index(sides_text(number), 'both wheels to') == 1) &
          words = words//' ('//sides_text(number)//')'
-      call find_band(number, verdict, band)
+      call find_band(number, vehicle, verdict, band)
       if (verdict /= '') words = words//' ('//trim(verdict)//' '//band//')'
    end subroutine speak
 
    !> Finds the band of a key number, and the verdict 'inside' or 'outside'. The verdict is '' without a band or a value.
-   subroutine find_band(number, verdict, band)
+   subroutine find_band(number, vehicle, verdict, band)
       type(key_number_t), intent(in) :: number
+      type(size_t), intent(in) :: vehicle
       character(7), intent(out) :: verdict
       character(:), allocatable, intent(out) :: band
       type(key_number_t) :: judged
@@ -272,7 +274,7 @@ contains
             if (numbers_with_range(k) == number%name) exit
          end do
          if (k == 0) return
-         call usual_range(trim(range_rows(k)), judged%target(1), judged%target(2), is_known)
+         call usual_range(trim(range_rows(k)), vehicle, judged%target(1), judged%target(2), is_known)
          if (.not. is_known) return
          judged%has_target = .true.
       end if

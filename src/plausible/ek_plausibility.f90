@@ -22,7 +22,7 @@ module ek_plausibility
    use ek_plausible_springs, only: doubt_springs, doubt_replaced_preloads
    use ek_plausible_steering, only: doubt_steering
    use ek_plausible_response, only: doubt_response, find_shortening
-   use ek_plausible_shape, only: doubt_wheels, doubt_points, point_of
+   use ek_plausible_shape, only: doubt_wheels, doubt_points, point_of, vehicle_size
    implicit none(type, external)
    private
    public :: doubt
@@ -45,6 +45,7 @@ contains
 
       if (.not. suspension%is_plausible_wanted) return
       doubts%units = suspension%units
+      doubts%size = vehicle_size(suspension)
       kkt = new_kkt(suspension)
       call diagnose(suspension, design_state(suspension), kkt, diagnosis, wants_preload_held=.true.)
       call doubt_connections(suspension, doubts, carries)

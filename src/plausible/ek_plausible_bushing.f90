@@ -10,7 +10,7 @@ module ek_plausible_bushing
    use ek_element_label, only: element_label
    use ek_suspension, only: suspension_t, body_name
    use ek_plausible_range, only: doubts_t, rate, rotation_rate
-   use ek_plausible_shape, only: centre_of
+   use ek_plausible_shape, only: centre_of, point_of
    implicit none(type, external)
    private
    public :: doubt_bushings
@@ -39,8 +39,8 @@ contains
    end subroutine doubt_bushings
 
    !> Examines a bushing of an arm without axes of its own: its axial rate should act along the pivot of the arm, not along the z
-   !> axis of the deck. A deck in which no bushing has axes may use the axes of the deck on purpose; there, both bushings of the
-   !> arm must have an axial rate.
+   !> axis of the deck. The pivot is the line to the other bushing of the arm, or to its only ball joint on the same body. A deck in
+   !> which no bushing has axes may use the axes of the deck on purpose; there, both bushings of the arm must have an axial rate.
    subroutine doubt_missing_axis(suspension, k, has_axes, doubts)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: k
@@ -48,22 +48,31 @@ contains
       type(doubts_t), intent(inout) :: doubts
       real(wp), parameter :: aslant = 30.0_wp*degree
       real(wp) :: line(3), off
+      character(:), allocatable :: partner
       integer :: twin
       logical :: is_of_kr
 
       associate (bushing => suspension%elements(k))
          if (bushing%gives_z .or. bushing%gives_x) return
-         twin = twin_of(suspension, k)
-         if (twin == 0) return
          is_of_kr = .not. is_axial(bushing, .false.)
          if (is_of_kr .and. .not. is_axial(bushing, .true.)) return
-         if (.not. has_axes .and. .not. is_axial(suspension%elements(twin), is_of_kr)) return
-         line = centre_of(suspension, twin) - centre_of(suspension, k)
+         twin = twin_of(suspension, k)
+         if (twin > 0) then
+            if (.not. has_axes .and. .not. is_axial(suspension%elements(twin), is_of_kr)) return
+            line = centre_of(suspension, twin) - centre_of(suspension, k)
+            partner = element_label(suspension%elements(twin))
+         else
+            if (.not. has_axes) return
+            twin = ball_joint_of(suspension, k)
+            if (twin == 0) return
+            line = ball_of(suspension, twin) - centre_of(suspension, k)
+            partner = 'joint '//quoted(suspension%joints(twin)%name)
+         end if
          off = acos(min(1.0_wp, abs(line(3))/norm2(line)))
          if (off < aslant) return
          call doubts%add('no axis', 'it has no z_axis, so that the third of '//trim(merge('kr', 'kt', is_of_kr))// &
             third_rate(bushing, is_of_kr, doubts)//' acts '//trim(merge('about', 'along', is_of_kr))// &
-            ' z of the deck, '//str(nint(off/degree))//' deg from the line to '//element_label(suspension%elements(twin))// &
+            ' z of the deck, '//str(nint(off/degree))//' deg from the line to '//partner// &
             ', about which body '//quoted(body_name(suspension, arm_of(suspension, k)))//' turns; give z_axis or z_vector '// &
             '(z_vector = 0, 0, 1 if the bushing is upright)')
       end associate
@@ -250,6 +259,51 @@ contains
       end if
       twin = 0
    end function twin_of
+
+   !> Index of the only ball joint between the bodies of bushing k, on the same side of the car; 0 if there is none, or if another
+   !> joint or bushing connects the two bodies.
+   pure integer function ball_joint_of(suspension, k) result(ball)
+      type(suspension_t), intent(in) :: suspension
+      integer, intent(in) :: k
+      real(wp) :: here(3), there(3)
+      integer :: j, connections
+
+      ball = 0
+      connections = 0
+      associate (m => suspension%elements(k)%measure)
+         do j = suspension%scalars + 1, size(suspension%elements)
+            associate (other => suspension%elements(j)%measure)
+               if (j /= k .and. min(m%body_i, m%body_j) == min(other%body_i, other%body_j) .and. &
+                  max(m%body_i, m%body_j) == max(other%body_i, other%body_j)) return
+            end associate
+         end do
+         do j = 1, size(suspension%joints)
+            associate (joint => suspension%joints(j))
+               if (min(m%body_i, m%body_j) /= min(joint%body_i, joint%body_j) .or. &
+                  max(m%body_i, m%body_j) /= max(joint%body_i, joint%body_j)) cycle
+               connections = connections + 1
+               if (joint%kind == 'spherical') ball = j
+            end associate
+         end do
+      end associate
+      if (connections == 1 .and. ball > 0) then
+         here = centre_of(suspension, k)
+         there = ball_of(suspension, ball)
+         if (here(2)*there(2) > 0.0_wp .and. norm2(there - here) > apart) return
+      end if
+      ball = 0
+   end function ball_joint_of
+
+   !> Centre of a ball joint at design [m].
+   pure function ball_of(suspension, joint) result(at)
+      type(suspension_t), intent(in) :: suspension
+      integer, intent(in) :: joint
+      real(wp) :: at(3)
+
+      associate (m => suspension%terms(suspension%rows(suspension%joints(joint)%first_row)%first)%measure)
+         at = point_of(suspension, m%body_i, m%arm_i)
+      end associate
+   end function ball_of
 
    !> Index of the body of a bushing that is the arm: the body that is farther from the chassis, which is not a subframe.
    pure integer function arm_of(suspension, k) result(arm)

@@ -7,7 +7,7 @@ module ek_plausible_ends
    use ek_element_label, only: element_label
    use ek_suspension, only: suspension_t, body_name
    use ek_plausible_range, only: doubts_t, length
-   use ek_plausible_names, only: has_word
+   use ek_plausible_names, only: has_word, without_side
    use ek_plausible_shape, only: point_of
    implicit none(type, external)
    private
@@ -112,15 +112,13 @@ contains
          ', its end on body '//quoted(body_name(suspension, m%body_j))//' at '//quoted(name_j)//': are the two points swapped?')
    end subroutine doubt_exchange
 
-   !> Name of a body without the prefix of its side.
+   !> Name of a body without its side.
    pure function bare(suspension, body) result(name)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: body
       character(:), allocatable :: name
 
-      name = body_name(suspension, body)
-      if (index(name, 'left_') == 1) name = name(6:)
-      if (index(name, 'right_') == 1) name = name(7:)
+      name = without_side(body_name(suspension, body))
    end function bare
 
    !> Phrase about the point of an end: "at 'drop_lca' "; '' if no hardpoint is there.

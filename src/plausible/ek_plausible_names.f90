@@ -9,7 +9,7 @@ module ek_plausible_names
    use ek_plausible_shape, only: point_of
    implicit none(type, external)
    private
-   public :: doubt_names, has_word
+   public :: doubt_names, has_word, without_side
 
    integer, parameter :: rearward = 1, right = 2, up = 3, outboard = 4     !! directions from the first name of a pair to the second
 
@@ -26,7 +26,7 @@ module ek_plausible_names
       word_pair_t('lower', 'upper', up, 'above'), word_pair_t('bottom', 'top', up, 'above'), &
       word_pair_t('inner', 'outer', outboard, 'farther out than'), &
       word_pair_t('inboard', 'outboard', outboard, 'farther out than'), &
-      word_pair_t('left', 'right', right, 'right of')]
+      word_pair_t('left', 'right', right, 'right of'), word_pair_t('l', 'r', right, 'right of')]
 
 contains
 
@@ -104,6 +104,21 @@ contains
          if (a(:head - 1)//trim(pairs(p)%second)//a(tail:) == b) pair = p
       end do
    end function pair_of
+
+   !> A name without its side: 'left_lca', 'lca_left', 'lca_l' and 'l_lca' are 'lca'.
+   pure function without_side(name) result(bare)
+      character(*), intent(in) :: name
+      character(:), allocatable :: bare
+      character(5), parameter :: sides(4) = ['left ', 'right', 'l    ', 'r    ']
+      integer :: k, n
+
+      bare = name
+      do k = 1, size(sides)
+         n = len_trim(sides(k))
+         if (index(lower(name), trim(sides(k))//'_') == 1) bare = name(n + 2:)
+         if (index(lower(name)//' ', '_'//trim(sides(k))//' ', back=.true.) > 1) bare = name(:len(name) - n - 1)
+      end do
+   end function without_side
 
    !> Whether a name contains another name, between underscores: 'drop_link_lca' contains 'lca' and 'drop_link'.
    pure logical function has_word(name, word)

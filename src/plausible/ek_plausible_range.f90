@@ -9,7 +9,7 @@ module ek_plausible_range
    use ek_text, only: str
    implicit none(type, external)
    private
-   public :: doubts_t, length, rate, rotation_rate, force, is_usual, usual_range
+   public :: doubts_t, size_t, size_of, length, rate, rotation_rate, force, is_usual, usual_range
 
    ! dimensions
    integer, parameter :: length = 1, rate = 2, rotation_rate = 3, force = 4, moment = 5, angle = 6, mass = 7, share = 8, &
@@ -122,10 +122,35 @@ module ek_plausible_range
    ! track of the table. Bump toe: 30 mm of travel, about the least that a Formula Student car must have, would change toe
    ! by 3 deg. Compliances have no range: no source covers both trucks and race cars.
 
+   integer, parameter :: any_size = 0, light = 1, car = 2, heavy = 3
+
+   !> The size of a vehicle: a class with ranges of its own, and the scale of a model car.
+   type :: size_t
+      private
+      integer :: class = any_size
+      real(wp) :: scale = 1.0_wp       !! lengths as a share of those of a car
+   end type size_t
+
+   !> The range of a quantity for one class.
+   type :: class_range_t
+      integer :: class
+      character(28) :: quantity
+      real(wp) :: low, high            !! as in `ranges`
+   end type class_range_t
+
+   ! Light: Formula Student and cars with wheels up to 13 inch. Heavy: trucks and buses. Bump toe: 3 deg in 30, 40 and 46 mm of travel.
+   ! The other limits are those of existing vehicles, widened.
+   type(class_range_t), parameter :: class_ranges(*) = [ &
+      class_range_t(light, 'half track', 400.0_wp, 900.0_wp), class_range_t(car, 'half track', 450.0_wp, 1200.0_wp), &
+      class_range_t(heavy, 'half track', 600.0_wp, 1400.0_wp), class_range_t(light, 'wheel rate', 2.0_wp, 500.0_wp), &
+      class_range_t(car, 'wheel rate', 3.0_wp, 1500.0_wp), class_range_t(heavy, 'wheel rate', 10.0_wp, 3000.0_wp), &
+      class_range_t(car, 'bump toe', -75.0_wp, 75.0_wp), class_range_t(heavy, 'bump toe', -65.0_wp, 65.0_wp)]
+
    !> The remarks without repetition. Both sides of a mirrored deck have the same line and give one remark.
    type :: doubts_t
       type(message_list_t) :: remarks
       type(units_t) :: units = units_t()               !! units of the deck
+      type(size_t) :: size = size_t()                  !! size of the vehicle
       character(:), allocatable, private :: where, thing   !! location and name of the examined item: file:line, "spring 'coil'"
       type(message_list_t), private :: seen
    contains
@@ -189,7 +214,7 @@ contains
          call self%add(quantity, 'no range for '//quantity)
          return
       end if
-      row = ranges(k)
+      row = row_of(k, self%size)
       unit = deck_unit(row%dimension, self%units)
       usual = deck_unit(row%dimension, units_t())
       x = value
@@ -256,10 +281,12 @@ contains
 
    !> Returns the usual range of a quantity in the unit of the table (N/mm, Hz, deg/m, …). The range applies to the magnitude if
    !> `low` is not negative.
-   pure subroutine usual_range(quantity, low, high, is_known)
+   pure subroutine usual_range(quantity, size_of_car, low, high, is_known)
       character(*), intent(in) :: quantity     !! quantity of a row of `ranges`
+      type(size_t), intent(in) :: size_of_car
       real(wp), intent(out) :: low, high
       logical, intent(out) :: is_known         !! `ranges` has such a row
+      type(range_t) :: row
       integer :: k
 
       k = findloc(ranges%quantity, quantity, dim=1)
@@ -267,9 +294,65 @@ contains
       low = -huge(1.0_wp)
       high = huge(1.0_wp)
       if (.not. is_known) return
-      low = ranges(k)%low
-      high = ranges(k)%high
+      row = row_of(k, size_of_car)
+      low = row%low
+      high = row%high
    end subroutine usual_range
+
+   !> Row k of the table for a size of vehicle: the narrower range of its class, or the range of a model car of this scale. Forces of
+   !> a model are proportional to its volume, so that its rates are to its area.
+   pure type(range_t) function row_of(k, size_of_car) result(row)
+      integer, intent(in) :: k
+      type(size_t), intent(in) :: size_of_car
+      real(wp) :: factor
+      integer :: c
+
+      row = ranges(k)
+      do c = 1, size(class_ranges)
+         if (class_ranges(c)%class /= size_of_car%class .or. class_ranges(c)%quantity /= row%quantity) cycle
+         row%low = class_ranges(c)%low
+         row%high = class_ranges(c)%high
+      end do
+      select case (row%dimension)
+      case (length, derived)
+         factor = size_of_car%scale
+      case (rate, derived_rate)
+         factor = size_of_car%scale**2
+      case (force, mass)
+         factor = size_of_car%scale**3
+      case (rotation_rate, moment)
+         factor = size_of_car%scale**4
+      case (frequency)
+         factor = 1.0_wp/sqrt(size_of_car%scale)
+      case (slope)
+         factor = 1.0_wp/size_of_car%scale
+      case default
+         return
+      end select
+      row%low = factor*row%low
+      row%high = factor*row%high
+   end function row_of
+
+   !> The size of a vehicle by the radius of its wheels and its wheelbase. A wheel below 120 mm is that of a model car if loads and
+   !> springs are those of a model, too; otherwise its unit is doubtful.
+   pure type(size_t) function size_of(radius, wheelbase, largest_load, least_rate) result(size_of_car)
+      real(wp), intent(in) :: radius           !! m
+      real(wp), intent(in) :: wheelbase        !! m; 0: not known
+      real(wp), intent(in) :: largest_load     !! largest constant load on a wheel [N]; 0: none
+      real(wp), intent(in) :: least_rate       !! smallest rate of a spring [N/m]; 0: none
+      real(wp), parameter :: usual_radius = 0.31_wp, largest_model = 0.12_wp, smallest_model = 0.008_wp
+
+      if (radius >= 0.18_wp .and. radius <= 0.275_wp .and. wheelbase < 1.75_wp) then
+         size_of_car%class = light
+      else if (radius >= 0.4_wp .and. radius <= 0.75_wp) then
+         size_of_car%class = heavy
+      else if (radius >= 0.24_wp .and. radius < 0.4_wp .and. wheelbase < 3.6_wp) then
+         size_of_car%class = car
+      else if (radius > smallest_model .and. radius < largest_model) then
+         if (max(largest_load, least_rate) > 0.0_wp .and. largest_load < 60.0_wp .and. least_rate < 3.0e3_wp) &
+            size_of_car%scale = radius/usual_radius
+      end if
+   end function size_of
 
    !> Whether a value (SI) is within the range of a table row.
    pure logical function is_within(row, value)

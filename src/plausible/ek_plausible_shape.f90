@@ -4,10 +4,11 @@ module ek_plausible_shape
    use ek_text, only: str, quoted
    use ek_measure, only: axis_axis, rotation
    use ek_suspension, only: suspension_t, wheel_t, body_name
-   use ek_plausible_range, only: doubts_t, length
+   use ek_element, only: axial_spring
+   use ek_plausible_range, only: doubts_t, size_t, size_of, length
    implicit none(type, external)
    private
-   public :: doubt_wheels, doubt_points, point_of, centre_of
+   public :: doubt_wheels, doubt_points, point_of, centre_of, vehicle_size
 
 contains
 
@@ -208,5 +209,35 @@ contains
          at = point_of(suspension, m%body_i, m%arm_i)
       end associate
    end function centre_of
+
+   !> The size of a vehicle, which decides its ranges; of any size if the radius of a wheel contradicts the height of its centre.
+   pure type(size_t) function vehicle_size(suspension) result(size_of_car)
+      type(suspension_t), intent(in) :: suspension
+      real(wp), parameter :: differs = 0.15_wp
+      real(wp) :: height, load, rate
+      integer :: k, w
+
+      if (size(suspension%wheels) == 0) return
+      load = 0.0_wp
+      do w = 1, size(suspension%wheels)
+         associate (wheel => suspension%wheels(w))
+            height = wheel%centre(3) - wheel%contact(3)
+            if (abs(wheel%radius - height) > differs*abs(height)) return
+            do k = 1, size(suspension%loads)
+               if (.not. suspension%loads(k)%is_case .and. suspension%loads(k)%body == wheel%body) &
+                  load = max(load, abs(suspension%loads(k)%force(3)))
+            end do
+         end associate
+      end do
+      rate = 0.0_wp       ! a rod may be a stiff spring, so that the softest one counts
+      do k = 1, suspension%scalars
+         associate (spring => suspension%elements(k))
+            if (spring%kind /= axial_spring .or. .not. spring%law%rate > 0.0_wp) cycle
+            if (.not. rate > 0.0_wp .or. spring%law%rate < rate) rate = spring%law%rate
+         end associate
+      end do
+      size_of_car = size_of(suspension%wheels(1)%radius, merge(suspension%axle%wheelbase, 0.0_wp, suspension%axle%has_axle), &
+         load, rate)
+   end function vehicle_size
 
 end module ek_plausible_shape

@@ -62,10 +62,11 @@ contains
       type(error_t), allocatable, intent(out) :: error     !! exit_deck
       type(message_list_t) :: mistakes
       type(claims_t) :: claims
+      type(fit_problem_t), allocatable :: parts(:)         ! of each target
       character(:), allocatable :: twice
       integer :: k
 
-      allocate (problem%variables(0), problem%points(0), problem%wanted(0))
+      allocate (problem%variables(0))
       call new_claims(workspace%design%parameters, claims)
       do k = 1, size(fit%factors)
          call claim_factor(fit, k, workspace, claims, twice)
@@ -73,11 +74,34 @@ contains
          if (twice == '') call add_factor(fit%factors(k), deck, workspace, problem%variables, mistakes)
       end do
       problem%knows_deviation = any(is_given(fit%targets%deviation))
+      allocate (parts(size(fit%targets)))
       do k = 1, size(fit%targets)
-         call add_target(fit, k, home, workspace, problem, mistakes)
+         allocate (parts(k)%points(0), parts(k)%wanted(0))
+         call add_target(fit, k, home, workspace, parts(k), mistakes)
       end do
+      call join_parts(parts, problem)
       if (mistakes%count() > 0) call fail(error, exit_deck, mistakes%text())
    end subroutine make_problem
+
+   !> Joins the points of all targets.
+   pure subroutine join_parts(parts, problem)
+      type(fit_problem_t), intent(in) :: parts(:)
+      type(fit_problem_t), intent(inout) :: problem
+      integer :: k, before, n
+
+      n = 0
+      do k = 1, size(parts)
+         n = n + size(parts(k)%points)
+      end do
+      allocate (problem%points(n), problem%wanted(n))
+      before = 0
+      do k = 1, size(parts)
+         n = size(parts(k)%points)
+         problem%points(before + 1:before + n) = parts(k)%points
+         problem%wanted(before + 1:before + n) = parts(k)%wanted
+         before = before + n
+      end do
+   end subroutine join_parts
 
    !> Adds a factor. With each = .true., adds one factor for each number to which the paths lead.
    subroutine add_factor(factor, deck, workspace, variables, mistakes)

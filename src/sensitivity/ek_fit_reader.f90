@@ -10,7 +10,7 @@ module ek_fit_reader
    use ek_deck, only: deck_t, read_deck
    use ek_deck_reading, only: deck_reading_t, complain, complain_of_all, refuse, choice, has_key, where_of, line_of, is_second, &
       text_of, number_of, numbers_of, whole_of, switch_of, value_count, raw
-   use ek_study, only: change_names, by_value, not_given, is_given
+   use ek_study, only: max_factors, change_names, by_value, not_given, is_given
    use ek_fit, only: fit_t, fit_factor_t, fit_target_t
    implicit none(type, external)
    private
@@ -25,14 +25,19 @@ contains
       type(error_t), allocatable, intent(out) :: error       !! exit_file, exit_deck
       type(deck_t) :: file
       type(deck_reading_t) :: reading
-      integer :: k
+      integer, allocatable :: groups(:)
+      integer :: k, factors, targets
 
       call read_deck(path, file, error, is_study=.true.)
       if (allocated(error)) return
       reading%file = file%file
       reading%records = file%records(:file%used)
       reading%deck_errors = file%deck_errors
-      allocate (reading%cards(file%used), fit%factors(0), fit%targets(0))
+      allocate (reading%cards(file%used))
+      groups = [(group_number(reading%records(k)%group), k=1, file%used)]
+      allocate (fit%factors(count(groups == factor_group)), fit%targets(count(groups == fit_target_group)))
+      factors = 0
+      targets = 0
       do k = 1, file%used
          reading%k = k
          associate (card => reading%cards(k), record => reading%records(k))
@@ -51,13 +56,17 @@ contains
          case (fit_group)
             call take_fit(reading, fit)
          case (factor_group)
-            call take_factor(reading, fit)
+            factors = factors + 1
+            call take_factor(reading, fit%factors(factors))
          case (fit_target_group)
-            call take_target(reading, fit)
+            targets = targets + 1
+            call take_target(reading, fit%targets(targets))
          end select
       end do
       if (all(reading%cards%group /= fit_group)) call complain_of_all(reading, 'there is no &fit')
       if (size(fit%factors) == 0) call complain_of_all(reading, 'there is no &factor: nothing may change')
+      if (size(fit%factors) > max_factors) call complain_of_all(reading, 'a fit has at most '//str(max_factors)// &
+         ' factors, found '//str(size(fit%factors))//'; divide them among several fits')
       if (size(fit%targets) == 0) then
          call complain_of_all(reading, 'there is no &target: nothing to fit')
       else if (all(fit%targets%weight <= 0.0_wp)) then
@@ -99,11 +108,10 @@ contains
    end subroutine take_fit
 
    !> Reads a &factor: paths, change, bounds, prior and weights.
-   subroutine take_factor(reading, fit)
+   subroutine take_factor(reading, this)
       type(deck_reading_t), intent(inout) :: reading
-      type(fit_t), intent(inout) :: fit
+      type(fit_factor_t), intent(inout) :: this
       character(*), parameter :: of_studies(6) = [character(12) :: 'distribution', 'values', 'from', 'to', 'count', 'spacing']
-      type(fit_factor_t) :: this
       integer :: k
 
       call refuse(reading, of_studies, 'a fit does not use it; give lower and upper, and deviation for a prior')
@@ -137,14 +145,12 @@ contains
       end if
       if (is_given(this%tolerance) .and. is_given(this%deviation)) &
          call complain(reading, 'deviation', 'give tolerance (three standard deviations) or deviation, not both')
-      fit%factors = [fit%factors, this]
    end subroutine take_factor
 
    !> Reads a &target: the quantity, and its value, limits or file.
-   subroutine take_target(reading, fit)
+   subroutine take_target(reading, this)
       type(deck_reading_t), intent(inout) :: reading
-      type(fit_t), intent(inout) :: fit
-      type(fit_target_t) :: this
+      type(fit_target_t), intent(inout) :: this
       integer :: of
 
       this%name = text_of(reading, 'name')
@@ -183,7 +189,6 @@ contains
             if (this%low > this%high) call complain(reading, 'high', 'high must not be below low')
          end if
       end if
-      fit%targets = [fit%targets, this]
    end subroutine take_target
 
 end module ek_fit_reader

@@ -10,7 +10,7 @@ module ek_wanted_number
    use ek_case, only: case_t
    use ek_test_result, only: test_result_t, unfolded_rows
    use ek_key_number, only: key_number_t, nothing, read_source
-   use ek_number_names, only: list_all, find_number, stems_of
+   use ek_number_names, only: list_all, find_number, side_of_only_wheel, stems_of
    use ek_number_reach, only: reach_of
    use ek_compliance_table, only: compliance_columns
    use ek_workspace, only: workspace_t
@@ -108,7 +108,7 @@ contains
       allocate (known(0))
       call report_cases(workspace, cases)
       call list_all(workspace%raw, cases, tests, listed, heads, stems_of([name]))
-      call find_number(name, heads, number, wanted%wheel)
+      call find_number(name, heads, number, wanted%wheel, side_of_only_wheel(workspace%raw))
       if (number == 0) then
          call list_all(workspace%raw, cases, tests, listed, heads)
          known = pack(heads, heads /= '')

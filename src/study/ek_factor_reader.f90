@@ -15,12 +15,12 @@ module ek_factor_reader
 contains
 
    !> Reads a &factor. Its values are a list, or steps (from, to, count and spacing), or a range.
-   subroutine take_factor(reading, study)
+   subroutine take_factor(reading, study, this)
       type(deck_reading_t), intent(inout) :: reading
-      type(study_t), intent(inout) :: study                !! the factor is added to its factors
+      type(study_t), intent(in) :: study
+      type(study_factor_t), intent(inout) :: this
       character(*), parameter :: range_keys(6) = [character(12) :: 'lower', 'upper', 'nominal', 'tolerance', 'deviation', &
          'distribution']
-      type(study_factor_t) :: this
       integer :: k
 
       this%name = text_of(reading, 'name')
@@ -49,7 +49,6 @@ contains
       end if
       if (allocated(this%values)) call refuse(reading, [range_keys(:2), range_keys(4:)], &
          'a factor has values, or a range of its own, not both')
-      study%factors = [study%factors, this]
    end subroutine take_factor
 
    !> Reads from, to, count and spacing, which define values in equal steps, or in equal ratios (spacing = 'log'). One value is `from`.

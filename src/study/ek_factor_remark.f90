@@ -1,11 +1,11 @@
-!> Messages on the samples of a study, and on factors that move hardpoints. One message names points of a wheel that a pattern also moves. The other
-!> names a point that is moved away from another point at the same location.
+!> Messages on the samples of a study, on factors that the preload trim replaces, and on factors that move hardpoints: points of a
+!> wheel that a pattern also moves, and a point that is moved away from another point at the same location.
 module ek_factor_remark
    use ek_kinds, only: wp, i8
    use ek_error, only: message_list_t
    use ek_text, only: str, quoted
    use ek_record, only: record_t, element
-   use ek_group, only: group_names, point_group
+   use ek_group, only: group_names, point_group, spring_group, wheel_group, model_group
    use ek_reader, only: design_t
    use ek_study, only: study_t
    use ek_sampler_kind, only: sobol_kind, saltelli_kind
@@ -26,7 +26,7 @@ contains
       type(design_t), intent(in) :: design                 !! design of the deck
       type(factor_paths_t), intent(in) :: paths(:)         !! paths of each factor
       type(message_list_t), intent(inout) :: words
-      logical :: is_moved(size(design%records)), is_new(2)
+      logical :: is_moved(size(design%records)), is_new(3)
       character(:), allocatable :: list
       integer :: f
 
@@ -48,9 +48,65 @@ contains
                call words%add(factor%where//': factor '//quoted(factor%name)//': it moves '//list// &
                   ' at the same location; if they are one point, let one factor move both')
             end if
+            list = replaced_key(design, paths(f))
+            if (len(list) > 0 .and. is_new(3)) then
+               is_new(3) = .false.
+               call words%add(factor%where//': factor '//quoted(factor%name)//': it changes '//list//', which has no effect, '// &
+                  'because the preload trim (balance in &model) replaces it; set balance = .false. in this &spring, or remove '// &
+                  'the factor')
+            end if
          end associate
       end do
    end subroutine factor_remarks
+
+   !> The preload or free length of a spring that a factor changes although the preload trim replaces it: "preload of spring 'coil'".
+   !> '' if there is none. With more springs than wheels the trim distributes the load according to the given preloads, so that they
+   !> have an effect.
+   function replaced_key(design, paths) result(text)
+      type(design_t), intent(in) :: design
+      type(factor_paths_t), intent(in) :: paths
+      character(:), allocatable :: text
+      integer :: j
+
+      text = ''
+      if (all(setting_of_model(design, 'balance') /= [character(6) :: 'spring', 'all'])) return
+      if (count_of(design, group_names(spring_group)) > count_of(design, group_names(wheel_group))) return
+      do j = 1, size(paths%found)
+         associate (p => design%parameters%list(paths%found(j)%number))
+            if (p%record <= 0 .or. all(p%key /= [character(14) :: 'preload', 'free_length'])) cycle
+            if (design%records(p%record)%group /= group_names(spring_group)) cycle
+            if (element(design%records(p%record), 'balance', 1) /= '') cycle
+            if (element(design%records(p%record), 'curve', 1) /= '') cycle
+            text = trim(p%key)//' of spring '//quoted(element(design%records(p%record), 'name', 1))
+            return
+         end associate
+      end do
+   end function replaced_key
+
+   !> A word of &model; '' if the deck does not give it.
+   function setting_of_model(design, key) result(word)
+      type(design_t), intent(in) :: design
+      character(*), intent(in) :: key
+      character(:), allocatable :: word
+      integer :: k
+
+      word = ''
+      do k = 1, size(design%records)
+         if (design%records(k)%group == group_names(model_group)) word = element(design%records(k), key, 1)
+      end do
+   end function setting_of_model
+
+   !> Number of records of a group in the mirrored deck.
+   integer function count_of(design, group) result(number)
+      type(design_t), intent(in) :: design
+      character(*), intent(in) :: group
+      integer :: k
+
+      number = 0
+      do k = 1, size(design%records)
+         if (design%records(k)%group == group) number = number + 1
+      end do
+   end function count_of
 
    !> A message on a number of Sobol' points that is no power of 2; '' otherwise. Only the first 2ᵐ points have one point in each of
    !> 2ᵐ equal intervals of every factor. Other numbers lose this balance and much of the accuracy.

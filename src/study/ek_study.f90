@@ -3,18 +3,23 @@ module ek_study
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan, ieee_is_finite
    use ek_kinds, only: wp
    use ek_error, only: error_t, fail, exit_deck
-   use ek_text, only: quoted
+   use ek_text, only: str, quoted
    use ek_checksum, only: checksum_t
    use ek_group, only: word_length, note_length
    use ek_quantity, only: name_length
    use ek_distribution, only: new_distribution, from_tolerance, truncate, mean_of, uniform_kind, &
       triangular_kind
-   use ek_sampler_kind, only: sampler_kinds, list_kind
+   use ek_sampler_kind, only: sampler_kinds, list_kind, tolerance_kind
    use ek_sampler_settings, only: factor_t, sampler_settings_t
    implicit none(type, external)
    private
    public :: study_t, study_factor_t, response_t, step_size_kind, kind_names, change_names, by_value, by_delta, by_scale
-   public :: define_factor, is_given, not_given
+   public :: define_factor, is_given, not_given, surplus_factors
+
+   ! The paths of each factor are compared with all numbers and factors: 5000 factors take some 20 s before the first design
+   integer, parameter, public :: max_factors = 5000              !! largest number of factors of a study or fit
+   ! A tolerance study has derivatives for each pair of factors: 1000 factors take a minute, and the time grows with the cube
+   integer, parameter :: max_tolerance_factors = 2000            !! largest number of factors of a tolerance study
 
    ! how a factor changes a number of the deck
    integer, parameter :: by_value = 1       !! the factor replaces the number of the deck
@@ -79,6 +84,20 @@ module ek_study
    end type study_t
 
 contains
+
+   !> A message on a study with more factors than its kind can take; '' otherwise.
+   pure function surplus_factors(study) result(message)
+      type(study_t), intent(in) :: study
+      character(:), allocatable :: message
+      integer :: most
+
+      message = ''
+      if (study%kind == 0) return
+      most = max_factors
+      if (study%kind == tolerance_kind) most = max_tolerance_factors
+      if (size(study%factors) > most) message = 'a study of kind '//quoted(trim(kind_names(study%kind)))//' has at most '// &
+         str(most)//' factors, found '//str(size(study%factors))//'; divide them among several studies'
+   end function surplus_factors
 
    !> NaN, which marks a number that the file does not give.
    pure real(wp) function not_given()

@@ -8,7 +8,7 @@ module ek_study_each
    use ek_deck, only: deck_t
    use ek_parameter, only: choice_t, path_t, find_parameters, split_path, parameter_path
    use ek_reader, only: design_t, read_design
-   use ek_study, only: study_t, study_factor_t, by_scale
+   use ek_study, only: study_t, study_factor_t, surplus_factors, by_scale
    use ek_factor_paths, only: is_held_in_plane
    use ek_workspace, only: workspace_t
    use ek_workspace_cases, only: open_cases
@@ -55,6 +55,8 @@ contains
       end do
       study%settings%pairs = reshape(place(pack(study%settings%pairs, .true.)), shape(study%settings%pairs))
       call move_alloc(factors, study%factors)
+      if (surplus_factors(study) /= '') call fail(error, exit_deck, study%where//': study '//quoted(study%name)//': '// &
+         surplus_factors(study))
    end subroutine expand_factors
 
    !> Replaces columns with `*` by the matching columns of the results. The columns `state`, `factor` (which is always written) and

@@ -15,7 +15,7 @@ module ek_study_reader
    use ek_deck_reading, only: deck_reading_t, complain, complain_of_all, refuse, choice, choose, has_key, where_of, line_of, &
       text_of, texts_of, number_of, whole_of, long_of, switch_of, value_count, raw
    use ek_sampler_kind, only: sampler_kinds, grid_kind, list_kind
-   use ek_study, only: study_t, response_t, of_names, step_size_kind, kind_names
+   use ek_study, only: study_t, study_factor_t, response_t, surplus_factors, of_names, step_size_kind, kind_names
    use ek_factor_reader, only: take_factor, is_lost
    implicit none(type, external)
    private
@@ -32,7 +32,8 @@ contains
       type(error_t), allocatable, intent(out) :: error
       type(deck_t) :: file
       type(deck_reading_t) :: reading
-      integer :: k
+      type(study_factor_t), allocatable :: factors(:)
+      integer :: k, f, r
 
       call read_deck(path, file, error, is_study=.true.)
       if (allocated(error)) return
@@ -50,7 +51,6 @@ contains
          return
       end if
       allocate (reading%cards(file%used))
-      allocate (study%factors(0), study%responses(0))
       allocate (study%settings%pairs(2, 0), study%settings%correlations(0))
       do k = 1, file%used
          reading%k = k
@@ -67,15 +67,25 @@ contains
          end associate
          call check_name(reading)
       end do
+      allocate (factors(count(reading%cards%group == factor_group)))
+      allocate (study%responses(count(reading%cards%group == response_group)))
       do k = 1, file%used      ! a factor and a response depend on the kind of the study
          reading%k = k
          if (reading%cards(k)%group == study_group) call take_study(reading, study)
       end do
+      f = 0
+      r = 0
       do k = 1, file%used
          reading%k = k
-         if (reading%cards(k)%group == factor_group) call take_factor(reading, study)
-         if (reading%cards(k)%group == response_group) call take_response(reading, study)
+         if (reading%cards(k)%group == factor_group) then
+            f = f + 1
+            call take_factor(reading, study, factors(f))
+         else if (reading%cards(k)%group == response_group) then
+            r = r + 1
+            call take_response(reading, study%responses(:r - 1), study%responses(r))
+         end if
       end do
+      call move_alloc(factors, study%factors)
       do k = 1, file%used
          reading%k = k
          if (reading%cards(k)%group == correlation_group) call take_correlation(reading, study)
@@ -234,11 +244,11 @@ contains
    end subroutine take_correlation
 
    !> Reads a &response: the column, and the number to be read from the column.
-   subroutine take_response(reading, study)
+   subroutine take_response(reading, former, this)
       type(deck_reading_t), intent(inout) :: reading
-      type(study_t), intent(inout) :: study
+      type(response_t), intent(in) :: former(:)            !! responses that precede this response
+      type(response_t), intent(inout) :: this
       character(*), parameter :: of_slopes(2) = [character(4) :: 'at', 'over']
-      type(response_t) :: this
       logical :: is_known                                  ! the kind of the response
       integer :: c
 
@@ -268,14 +278,13 @@ contains
          'of = ''rms'' and file, a CSV of the curve from which the column deviates, belong together')
       if (this%lower > this%upper) &
          call complain(reading, 'upper', 'the limits leave no value: lower is above upper')
-      if (is_known) call take_difference(reading, study, this)
-      study%responses = [study%responses, this]
+      if (is_known) call take_difference(reading, former, this)
    end subroutine take_response
 
    !> Reads the two responses of a difference. Any other response must have a column.
-   subroutine take_difference(reading, study, this)
+   subroutine take_difference(reading, former, this)
       type(deck_reading_t), intent(inout) :: reading
-      type(study_t), intent(in) :: study                   !! study with the responses that precede this response
+      type(response_t), intent(in) :: former(:)            !! responses that precede this response
       type(response_t), intent(inout) :: this
       character(*), parameter :: others(7) = [character(6) :: 'column', 'case', 'side', 'at', 'over', 'window', 'file']
       integer :: j, k
@@ -290,8 +299,8 @@ contains
       if (.not. (has_key(reading, 'responses') .or. is_lost(reading, 'responses'))) call complain(reading, '', &
          'of = ''difference'' needs responses, the names of two')
       do k = 1, 2
-         do j = 1, size(study%responses)
-            if (study%responses(j)%name == this%names(k)) this%less(k) = j
+         do j = 1, size(former)
+            if (former(j)%name == this%names(k)) this%less(k) = j
          end do
          if (this%less(k) == 0 .and. this%names(k) /= '') call complain(reading, 'responses', 'there is no response '// &
             quoted(trim(this%names(k)))//' before this one')
@@ -303,9 +312,10 @@ contains
       type(deck_reading_t), intent(inout) :: reading
       type(study_t), intent(in) :: study
 
-      if (study%kind == step_size_kind) return
+      if (study%kind == step_size_kind .or. study%kind == 0) return
       if (size(study%factors) == 0) call complain(reading, '', 'kind = '//quoted(trim(kind_names(study%kind)))// &
          ' needs a &factor')
+      if (surplus_factors(study) /= '') call complain(reading, '', surplus_factors(study))
       if (size(study%responses) == 0 .and. size(study%columns) == 0) call complain(reading, '', &
          'the study has no output: give columns, or a &response')
    end subroutine check_whole
