@@ -41,7 +41,8 @@ contains
 
       name = ''
       if (response%of == 'gradient') then
-         if (response%over == '' .and. .not. abs(response%window) > 0.0_wp) name = trim(number_name(response%column, is_slope=.true.))
+         if (response%over == '' .and. .not. abs(response%window) > 0.0_wp) &
+            name = trim(number_name(response%column, is_slope=.true.))
       else if (response%of == 'value' .and. .not. abs(response%at) > 0.0_wp) then
          name = number_at_design(response%column)
       end if
