@@ -3,6 +3,7 @@
 module ek_case_remarks
    use ek_kinds, only: wp, degree, millimetre
    use ek_text, only: str, quoted, plural
+   use ek_noise, only: is_noise, noise_of
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t, scales_loads, default_tolerance
    use ek_state, only: state_t, inputs_t, design_state, unpack_state
@@ -52,9 +53,9 @@ contains
          if (norm2(attitude%centre) <= least) cycle
          call remarks%add(note, on_settling, case, 'under the constant loads wheel '// &
             quoted(suspension%wheels(k)%name)//' settles by '// &
-            str(without_rounding(attitude%centre(3))/millimetre, 4)//' mm (toe '// &
-            str(without_rounding(attitude%toe)/degree, 4)//' deg, camber '// &
-            str(without_rounding(attitude%camber)/degree, 4)//' deg there)', 0.0_wp)
+            str(without_noise(attitude%centre(3)/millimetre, 'mm', case%tolerance), 4)//' mm (toe '// &
+            str(without_noise(attitude%toe/degree, 'deg', case%tolerance), 4)//' deg, camber '// &
+            str(without_noise(attitude%camber/degree, 'deg', case%tolerance), 4)//' deg there)', 0.0_wp)
       end do
    end subroutine settling_remarks
 
@@ -87,7 +88,7 @@ contains
       type(inputs_t) :: inputs
       type(outcome_t) :: outcome
       type(attitude_t) :: linear, exact
-      real(wp) :: travel, toe, camber
+      real(wp) :: travel, toe, camber, tolerance
       real(wp), parameter :: much_travel = 1.0e-5_wp     ! m: 0.01 mm, about what a K&C rig resolves
       real(wp), parameter :: much_angle = 1.0e-3_wp*degree
       character(:), allocatable :: place, advice
@@ -107,9 +108,10 @@ contains
          linear = wheel_attitude(suspension, state, 1)
          call find_equilibrium(suspension, inputs, min(case%tolerance, default_tolerance), state, kkt, outcome)
          exact = wheel_attitude(suspension, state, 1)
-         travel = without_rounding(linear%centre(3) - exact%centre(3))
-         toe = without_rounding(linear%toe - exact%toe)
-         camber = without_rounding(linear%camber - exact%camber)
+         tolerance = min(case%tolerance, default_tolerance)
+         travel = millimetre*without_noise((linear%centre(3) - exact%centre(3))/millimetre, 'mm', tolerance)
+         toe = degree*without_noise((linear%toe - exact%toe)/degree, 'deg', tolerance)
+         camber = degree*without_noise((linear%camber - exact%camber)/degree, 'deg', tolerance)
          place = str(path%value(k)/case%unit)
          if (.not. outcome%is_converged) then
             call remarks%add(failure, on_drift, case, 'no equilibrium was found near the state at factor '//place// &
@@ -122,12 +124,13 @@ contains
       end do
    end subroutine drift_remarks
 
-   !> A length or angle; 0 if its magnitude is only rounding, such as the travel of a wheel whose height is held.
-   pure real(wp) function without_rounding(value)
-      real(wp), intent(in) :: value                !! m or rad
-      real(wp), parameter :: rounding = 1.0e-12_wp
-      without_rounding = merge(0.0_wp, value, abs(value) < rounding)
-   end function without_rounding
+   !> A length or angle; 0 if it is only rounding noise (ek_noise), such as the travel of a wheel whose height is held.
+   pure real(wp) function without_noise(value, unit, tolerance)
+      real(wp), intent(in) :: value                !! in the unit
+      character(*), intent(in) :: unit             !! 'mm' or 'deg'
+      real(wp), intent(in) :: tolerance            !! tolerance of the solution [m]
+      without_noise = merge(0.0_wp, value, is_noise(value, unit, 0.0_wp, tolerance))
+   end function without_noise
 
    !> Adds a failure if states of a linear method are marked converged = 0 because they violate the joint constraints.
    subroutine closure_remarks(case, table, remarks)
@@ -194,7 +197,7 @@ contains
       type(state_t) :: state
       real(wp) :: gap(3), theta(3)
       type(curve_t) :: curve
-      logical :: is_reported(2)
+      logical :: is_reported(2), is_angle
       integer :: s, k, c
 
       if (.not. (any(suspension%elements%law%has_curve) .or. any(suspension%elements%bushing%has_curves))) return
@@ -223,9 +226,10 @@ contains
          do c = 1, 6
             if (reach(c, k)%at_most == 0) cycle
             is_reported = .false.
+            is_angle = suspension%elements(k)%measure%kind == rotation .or. c > 3
             do s = 1, size(suspension%elements)
                if (s == k .or. suspension%elements(s)%where /= suspension%elements(k)%where .or. reach(c, s)%at_most == 0) cycle
-               is_reported = is_reported .or. further(reach(c, s), reach(c, k), s < k)
+               is_reported = is_reported .or. further(reach(c, s), reach(c, k), s < k, is_angle, case%tolerance)
             end do
             associate (element => suspension%elements(k))
                if (element%law%has_curve) then
@@ -233,8 +237,7 @@ contains
                else
                   curve = element%bushing%laws(c)%curve
                end if
-               call report(case, path, curve, reach(c, k), element_label(element), element%measure%kind == rotation .or. c > 3, &
-                  is_reported, remarks)
+               call report(case, path, curve, reach(c, k), element_label(element), is_angle, is_reported, remarks)
             end associate
          end do
       end do
@@ -261,14 +264,18 @@ contains
    end subroutine extend
 
    !> Whether another element of the same line of the deck has a larger excess: (1) below the curve, (2) above. If two excesses are
-   !> equal, the result is .true. for the later element, so that only the first is reported.
-   pure function further(other, own, is_before) result(is_further)
+   !> equal but for noise (ek_noise), the result is .true. for the later element, so that only the first is reported.
+   pure function further(other, own, is_before, is_angle, tolerance) result(is_further)
       type(reach_t), intent(in) :: other, own
       logical, intent(in) :: is_before
+      logical, intent(in) :: is_angle              !! the deflections are angles
+      real(wp), intent(in) :: tolerance            !! tolerance of the solution [m]
       logical :: is_further(2)
-      real(wp) :: slack
+      real(wp) :: slack, unit
 
-      slack = 1.0e-6_wp*max(abs(own%most), abs(own%least), abs(other%most), abs(other%least))
+      unit = merge(degree, millimetre, is_angle)
+      slack = unit*noise_of(trim(merge('deg', 'mm ', is_angle)), &
+         max(abs(own%most), abs(own%least), abs(other%most), abs(other%least))/unit, tolerance)
       is_further(1) = other%least < own%least - slack .or. (is_before .and. other%least < own%least + slack)
       is_further(2) = other%most > own%most + slack .or. (is_before .and. other%most > own%most - slack)
    end function further

@@ -192,7 +192,7 @@ module ek_command
       option_t('solve', '--for name=value', 'a quantity and its requested value: --for left_bump_steer=0; with'// &
       indent//'case and swept value: --for "roll:left_camber_deg@2=-1.5"; =keep: the present value; may be repeated'), &
       option_t('solve', '--weight name=size', 'deviation that counts as 1 if not all conditions can be met'//indent// &
-      '(default: its noticeable change, as printed); may be repeated'), &
+      '(default: half the width of its &target_band, otherwise a noticeable change);'//indent//'may be repeated'), &
       option_t('solve', '--case NAME', 'case or standard test of the columns (default: the first case of the deck)'), &
       option_t('solve', '--at VALUE', 'swept value at which columns are read (default: design)'), &
       option_t('solve', '--out DIR', 'output folder (default: out)'), &

@@ -141,8 +141,8 @@ contains
          associate (row => this%rows(k))
             verdicts(1) = 'same'
             do r = 2, size(this%results)
-               verdicts(r) = verdict_of(change_of(row%values(1), row%values(r), row%least), this%threshold, row%is_there(1), &
-                  row%is_there(r), r)
+               verdicts(r) = verdict_of(change_of(row%values(1), row%values(r), row%least, row%unit), this%threshold, &
+                  row%is_there(1), row%is_there(r), r)
             end do
             if (is_short .and. all(verdicts == 'same' .or. verdicts == 'not a number')) cycle
             if (row%test /= test) then
@@ -157,7 +157,7 @@ contains
             call out%add(padded(trim(row%quantity//' '//row%side), -42)//number_text(row%values(1), 6, 12))
             do r = 2, size(this%results)
                call out%add(number_text(row%values(r), 6, 12)//number_text(difference(row%values(1), row%values(r)), 4, 12)// &
-                  number_text(percent(row%values(1), row%values(r)), 3, 9))
+                  number_text(percent(row%values(1), row%values(r), row%unit), 3, 9))
             end do
             call out%add('  '//padded(row%unit, -12))
             do r = 2, size(this%results)

@@ -7,7 +7,7 @@ module ek_response_bands
    use ek_key_numbers, only: number_name
    implicit none(type, external)
    private
-   public :: set_bands
+   public :: set_bands, number_at_design
 
 contains
 
@@ -38,17 +38,26 @@ contains
    pure function key_number_of(response) result(name)
       type(response_t), intent(in) :: response
       character(:), allocatable :: name
-      character(:), allocatable :: column
 
       name = ''
-      column = response%column
       if (response%of == 'gradient') then
-         if (response%over == '' .and. .not. abs(response%window) > 0.0_wp) name = trim(number_name(column, is_slope=.true.))
+         if (response%over == '' .and. .not. abs(response%window) > 0.0_wp) &
+            name = trim(number_name(response%column, is_slope=.true.))
       else if (response%of == 'value' .and. .not. abs(response%at) > 0.0_wp) then
-         if (index(column, 'left_') == 1) column = column(6:)
-         if (index(column, 'right_') == 1) column = column(7:)
-         name = trim(number_name(column, is_slope=.false.))
+         name = number_at_design(response%column)
       end if
    end function key_number_of
+
+   !> Name of the key number that equals a column at design: 'toe_deg' for 'left_toe_deg'. '' if there is none.
+   pure function number_at_design(column) result(name)
+      character(*), intent(in) :: column
+      character(:), allocatable :: name
+      integer :: first
+
+      first = 1
+      if (index(column, 'left_') == 1) first = 6
+      if (index(column, 'right_') == 1) first = 7
+      name = trim(number_name(column(first:), is_slope=.false.))
+   end function number_at_design
 
 end module ek_response_bands

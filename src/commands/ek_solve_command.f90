@@ -41,6 +41,7 @@ contains
       real(wp), allocatable :: targets(:), weights(:)
       type(search_t) :: search
       type(findings_t) :: found
+      type(message_list_t) :: origins
       type(compromise_t) :: compromise
       type(error_t), allocatable :: fault
 
@@ -55,7 +56,7 @@ contains
       if (.not. allocated(error)) call spare_results('compromise', session%workspace%design%cases, error)
       if (allocated(error)) return
       call read_unknowns(line%values('--vary'), session, unknowns, error)
-      call read_conditions(line, settings, session%workspace, wanted, targets, weights, fault)
+      call read_conditions(line, settings, session%workspace, wanted, targets, weights, origins, fault)
       if (allocated(error) .and. allocated(fault)) error%message = error%message//new_line('a')//fault%message
       if (allocated(fault) .and. .not. allocated(error)) call move_alloc(fault, error)
       if (allocated(error)) return
@@ -63,7 +64,7 @@ contains
       if (allocated(error)) return
       allocate (compromise%x(size(unknowns), 0))
       if (.not. all(found%is_reached)) call find_compromise(search, max_sweeps, session%workspace, compromise)
-      call write_results(settings, session, unknowns, search, found, compromise, error)
+      call write_results(settings, session, unknowns, search, found, origins, compromise, error)
       if (allocated(error)) return
       if (.not. all(found%is_reached)) call fail(error, exit_convergence, 'not met: '//str(count(.not. found%is_reached))// &
          ' of '//plural(size(found%is_reached), 'condition', 'conditions')//'; the numbers that come closest were written')
@@ -132,12 +133,13 @@ contains
 
    !> Writes the solution as a file of settings, the compromise of two conditions that exclude each other as a table, and prints the
    !> findings.
-   subroutine write_results(settings, session, unknowns, search, found, compromise, error)
+   subroutine write_results(settings, session, unknowns, search, found, origins, compromise, error)
       type(deck_settings_t), intent(in) :: settings
       type(session_t), intent(in) :: session
       type(unknown_t), intent(in) :: unknowns(:)
       type(search_t), intent(in) :: search
       type(findings_t), intent(in) :: found
+      type(message_list_t), intent(in) :: origins           !! of read_conditions
       type(compromise_t), intent(in) :: compromise
       type(error_t), allocatable, intent(out) :: error
       type(error_t), allocatable :: unprinted
@@ -147,7 +149,7 @@ contains
       integer :: j
 
       allocate (changed(0))
-      call add_findings(session%workspace, unknowns, search, found, text)
+      call add_findings(session%workspace, unknowns, search, found, origins, text)
       call file%line('# elastokin '//version//' solve: numbers of '//session%workspace%raw%name//' for --set-file')
       do j = 1, settings%set_files%count()
          call file%line('# found with --set-file '//visible(settings%set_files%line(j))//'; give this file after it')

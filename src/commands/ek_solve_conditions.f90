@@ -1,10 +1,13 @@
-!> The conditions of `elastokin solve`: the options --for and --weight.
+!> The conditions of `elastokin solve`: the options --for and --weight, and the target bands of the deck as weights.
 module ek_solve_conditions
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t, fail, exit_usage
-   use ek_text, only: quoted, suggestion
+   use ek_text, only: str, quoted, suggestion
    use ek_decimal, only: get_bounded, size_hint
    use ek_key_number, only: nothing
+   use ek_target_band, only: target_band_t
+   use ek_response_bands, only: number_at_design
    use ek_table, only: name_length
    use ek_workspace, only: workspace_t
    use ek_workspace_cases, only: case_number
@@ -20,13 +23,15 @@ module ek_solve_conditions
 contains
 
    !> Reads the conditions of --for, each [case:]quantity[@swept value]=value, and their weights; reports all errors.
-   subroutine read_conditions(line, settings, workspace, wanted, targets, weights, error)
+   !> The weight of a condition is that of --weight, otherwise half the width of the target band of the deck for its quantity.
+   subroutine read_conditions(line, settings, workspace, wanted, targets, weights, origins, error)
       type(command_line_t), intent(in) :: line
       type(deck_settings_t), intent(in) :: settings
       type(workspace_t), intent(in) :: workspace
       type(wanted_number_t), allocatable, intent(out) :: wanted(:)
       real(wp), allocatable, intent(out) :: targets(:)       !! NaN: the value at the start
       real(wp), allocatable, intent(out) :: weights(:)       !! NaN: not given
+      type(message_list_t), intent(out) :: origins           !! description of the band of each weight; '' without a band
       type(error_t), allocatable, intent(out) :: error
       type(message_list_t) :: given, mistakes
       type(error_t), allocatable :: fault
@@ -77,8 +82,41 @@ contains
          end do
       end do
       call read_weights(line%values('--weight'), wanted, workspace, weights, mistakes)
+      do k = 1, size(wanted)
+         call take_band(workspace%design%targets, wanted(k), weights(k), text)
+         call origins%add(text)
+      end do
       if (mistakes%count() > 0) call fail(error, exit_usage, mistakes%text())
    end subroutine read_conditions
+
+   !> Sets a weight that is not given to half the width of the band of the deck (&target_band) for the quantity: a key number, or a
+   !> column at design. A band with one limit has no width. If a quantity has several bands, the last band counts, as in a report.
+   subroutine take_band(bands, wanted, weight, origin)
+      type(target_band_t), intent(in) :: bands(:)
+      type(wanted_number_t), intent(in) :: wanted
+      real(wp), intent(inout) :: weight                      !! NaN: not given
+      character(:), allocatable, intent(out) :: origin       !! description of the band; '' if the weight is not that of a band
+      character(:), allocatable :: name
+      integer :: t
+
+      origin = ''
+      if (ieee_is_finite(weight)) return
+      name = ''
+      if (allocated(wanted%key)) then
+         name = wanted%key%name
+      else if (.not. abs(wanted%at) > 0.0_wp) then
+         name = number_at_design(trim(wanted%column))
+      end if
+      if (name == '') return
+      do t = size(bands), 1, -1
+         if (bands(t)%quantity == name) exit
+      end do
+      if (t == 0) return
+      if (.not. (bands(t)%low > -huge(1.0_wp) .and. bands(t)%high < huge(1.0_wp))) return
+      if (.not. bands(t)%high > bands(t)%low) return
+      weight = 0.5_wp*(bands(t)%high - bands(t)%low)
+      origin = ', half the width of the target band '//str(bands(t)%low, 9)//' to '//str(bands(t)%high, 9)//' of '//bands(t)%where
+   end subroutine take_band
 
    !> Splits [case:]quantity[@swept value] into its parts; a part that is not given is ''.
    subroutine split(text, case, name, place)

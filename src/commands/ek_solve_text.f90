@@ -1,6 +1,7 @@
 !> The findings of elastokin solve as printed: values that were reached, values that were missed, and the reasons.
 module ek_solve_text
    use ek_kinds, only: wp
+   use ek_error, only: message_list_t
    use ek_text, only: str, plural
    use ek_decimal, only: decimal
    use ek_buffer, only: buffer_t
@@ -19,11 +20,12 @@ module ek_solve_text
 contains
 
    !> Adds all findings of `solve` to the printed output.
-   subroutine add_findings(workspace, unknowns, search, found, text)
+   subroutine add_findings(workspace, unknowns, search, found, origins, text)
       type(workspace_t), intent(in) :: workspace
       type(unknown_t), intent(in) :: unknowns(:)
       type(search_t), intent(in) :: search
       type(findings_t), intent(in) :: found
+      type(message_list_t), intent(in) :: origins     !! description of the band of each weight; '' without a band
       type(buffer_t), intent(inout) :: text
       integer :: j
 
@@ -31,7 +33,8 @@ contains
          do j = 1, size(wanted)
             call text%line(trim(merge('reached:    ', 'not reached:', found%is_reached(j)))//' '//label_of(workspace, wanted(j))// &
                ' = '//quantity(found%after(j), wanted(j)%unit)//trim(wanted_text(j))//' (before '// &
-               quantity(found%before(j), '')//'; weight: '//trim(quantity(search%weights(j), wanted(j)%unit))//')')
+               quantity(found%before(j), '')//'; weight: '//trim(quantity(search%weights(j), wanted(j)%unit))// &
+               origins%line(j)//')')
          end do
       end associate
       if (.not. all(found%is_reached)) call text%line('  sum of squares of the deviations, each divided by its weight: '// &

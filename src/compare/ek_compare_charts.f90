@@ -342,9 +342,11 @@ contains
       type(trace_t), intent(in) :: a, b
       type(chart_t), intent(in) :: chart           !! chart of curve a
       real(wp) :: cut, scale, y, one, most, beyond
+      character(:), allocatable :: unit
       integer :: k
       logical :: is_paired
 
+      unit = unit_in(chart%y_label)
       change = missing_change()
       most = 0.0_wp
       beyond = 0.0_wp
@@ -371,12 +373,24 @@ contains
          most = abs(one)
          change%largest = b%y(k) - y
          change%at = b%x(k)
-         change%change = change_of(scale, scale + one, scale)
+         change%change = change_of(scale, scale + one, scale, unit)
          beyond = max(abs(y), scale)
       end do
       ! every difference is beyond the cut
-      if (change%is_known .and. .not. most > 0.0_wp) change%change = change_of(beyond, beyond + change%largest, beyond)
+      if (change%is_known .and. .not. most > 0.0_wp) change%change = &
+         change_of(beyond, beyond + change%largest, beyond, unit)
    end function distance
+
+   !> The unit in the label of an axis: 'deg' of 'deg    (+ toe-in)', 'N' of 'force, N    (+ compression)'.
+   pure function unit_in(label) result(unit)
+      character(*), intent(in) :: label
+      character(:), allocatable :: unit
+
+      unit = label//'    ('
+      unit = unit(:index(unit, '    (') - 1)
+      unit = trim(unit(index(unit, ', ', back=.true.) + 1:))
+      unit = trim(adjustl(unit))
+   end function unit_in
 
    !> The value of a curve at x, interpolated between two adjacent states; NaN if no two adjacent states with values enclose
    !> x.

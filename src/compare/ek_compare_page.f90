@@ -285,12 +285,12 @@ contains
       call add_cell(page, trim(row%quantity//' '//row%side))
       call add_cell(page, page_number(row%values(1)), 'n')
       do r = 2, size(row%values)
-         change = change_of(row%values(1), row%values(r), row%least)
+         change = change_of(row%values(1), row%values(r), row%least, row%unit)
          verdict = trim(verdict_of(change, this%threshold, row%is_there(1), row%is_there(r), r))
          call add_cell(page, page_number(row%values(r)), 'n')
          call add_cell(page, page_number(difference(row%values(1), row%values(r))), 'n')
          if (verdict == 'changed' .or. verdict == 'same') then
-            call relative_change(row%values(1), row%values(r), percent, verdict)
+            call relative_change(row%values(1), row%values(r), row%unit, percent, verdict)
             if (ieee_is_finite(percent)) verdict = page_number(percent)
          end if
          call add_cell(page, verdict, 'n')

@@ -65,8 +65,8 @@ contains
                call put(table, first + 3, decimal(row%values(1)))
                call put(table, first + 4, decimal(row%values(r)))
                call put(table, first + 5, decimal(difference(row%values(1), row%values(r))))
-               call put(table, first + 6, decimal(percent(row%values(1), row%values(r))))
-               change = change_of(row%values(1), row%values(r), row%least)
+               call put(table, first + 6, decimal(percent(row%values(1), row%values(r), row%unit)))
+               change = change_of(row%values(1), row%values(r), row%least, row%unit)
                call put(table, first + 7, decimal(100*change))
                call put(table, first + 8, trim(verdict_of(change, this%threshold, row%is_there(1), row%is_there(r), r)))
             end associate

@@ -4,6 +4,8 @@ module ek_comparison
    use ek_kinds, only: wp
    use ek_error, only: message_list_t
    use ek_text, only: str
+   use ek_quantity, only: unit_ending
+   use ek_noise, only: is_noise, solved
    use ek_gradient, only: gradient_t
    use ek_report_files, only: results_t
    use ek_chart, only: chart_t, both_sides, rounded
@@ -118,14 +120,14 @@ contains
       if (ieee_is_finite(a) .and. ieee_is_finite(b)) difference = b - a
    end function difference
 
-   !> The change 100 (b − a)/|a| [%]; NaN if a or b is missing, or if a is zero to rounding.
-   elemental real(wp) function percent(a, b)
-      real(wp), intent(in) :: a, b
-      real(wp), parameter :: nothing = 1.0e-9_wp     ! in the unit of any gradient: rounding of a zero
+   !> The change 100 (b − a)/|a| [%]; NaN if a or b is missing, or if a is only rounding noise (ek_noise).
+   elemental real(wp) function percent(a, b, unit)
+      real(wp), intent(in) :: a, b              !! in the unit
+      character(*), intent(in) :: unit          !! 'deg/m'
 
       percent = ieee_value(1.0_wp, ieee_quiet_nan)
       if (.not. (ieee_is_finite(a) .and. ieee_is_finite(b))) return
-      if (abs(a) <= nothing) return
+      if (is_noise(a, unit_ending(unit), 0.0_wp, solved)) return
       if (abs(b - a) < huge(1.0_wp)*min(1.0_wp, abs(a))/100) percent = 100*((b - a)/abs(a))
    end function percent
 
@@ -138,7 +140,7 @@ contains
 
       largest = ieee_value(1.0_wp, ieee_quiet_nan)
       do r = 2, size(row%values)
-         change = change_of(row%values(1), row%values(r), row%least)
+         change = change_of(row%values(1), row%values(r), row%least, row%unit)
          if (.not. ieee_is_finite(change)) cycle
          if (.not. ieee_is_finite(largest)) largest = change
          if (abs(change) > abs(largest)) largest = change
@@ -236,9 +238,9 @@ contains
             line = line//' → '//str(shown(k)%values(r), 4)
          end do
          do r = 2, size(shown(k)%values) - 1      ! the result of the largest change
-            if (abs(change_of(shown(k)%values(1), shown(k)%values(r), shown(k)%least) - change) <= 0.0_wp) exit
+            if (abs(change_of(shown(k)%values(1), shown(k)%values(r), shown(k)%least, shown(k)%unit) - change) <= 0.0_wp) exit
          end do
-         call relative_change(shown(k)%values(1), shown(k)%values(r), percent_of_a, reason)
+         call relative_change(shown(k)%values(1), shown(k)%values(r), shown(k)%unit, percent_of_a, reason)
          if (ieee_is_finite(percent_of_a)) then
             reason = str(percent_of_a, 3)//' %'
             if (percent_of_a > 0.0_wp) reason = '+'//reason

@@ -73,15 +73,14 @@ contains
       if (allocated(study%effects(1)%total) .and. study%kind == 'tolerance') words = 'share of the variance'
    end function measure_of
 
-   !> Whether a factor has no effect on a response: at most a millionth of the largest effect. .false. if the effect is
-   !> unknown.
+   !> Whether a factor has no effect on a response. The measures of effects are computed from differences and derivatives of which
+   !> rounding noise (ek_noise) has become 0, so that any other effect is real, however small. .false. if the effect is unknown.
    pure logical function has_no_effect(sizes, f)
-      real(wp), intent(in) :: sizes(:)
-      integer, intent(in) :: f
-      real(wp), parameter :: rounding = 1.0e-6_wp
+      real(wp), intent(in) :: sizes(:)            !! of effect_sizes
+      integer, intent(in) :: f                    !! factor
 
       has_no_effect = .false.
-      if (ieee_is_finite(sizes(f))) has_no_effect = abs(sizes(f)) <= rounding*maxval(abs(sizes), mask=ieee_is_finite(sizes))
+      if (ieee_is_finite(sizes(f))) has_no_effect = .not. abs(sizes(f)) > 0.0_wp
    end function has_no_effect
 
    !> Indices of all factors, sorted by the largest effect on any response, as a share of the largest effect on that response.
@@ -105,14 +104,15 @@ contains
       order = ranked(shares, size(shares))
    end function factor_order
 
-   !> Names of the factors with the largest effects on a response, at most four, in order: 'tie_rod_inner_z, lca_rear_z'. ''
-   !> if no factor has an effect that is more than chance.
+   !> Names of the factors with the largest effects on a response, at most four, in order: 'tie_rod_inner_z, lca_rear_z'. Factors
+   !> with less than a millionth of the largest effect are not named. '' if no factor has an effect that is more than chance.
    pure function strongest_names(study, r) result(names)
       type(study_data_t), intent(in) :: study
       integer, intent(in) :: r                    !! response
       character(:), allocatable :: names
       real(wp), allocatable :: sizes(:)
       integer, allocatable :: order(:)
+      real(wp), parameter :: least_share = 1.0e-6_wp       ! of the largest effect: such a factor is not among the strongest
       integer :: k
 
       names = ''
@@ -121,6 +121,7 @@ contains
       do k = 1, size(order)
          if (.not. ieee_is_finite(sizes(order(k)))) exit
          if (has_no_effect(sizes, order(k)) .or. sizes(order(k)) < least_correlation(study)) exit
+         if (sizes(order(k)) < least_share*sizes(order(1))) exit
          if (k > 1) names = names//', '
          names = names//study%factors(order(k))%name
       end do

@@ -5,6 +5,7 @@ module ek_grid_figures
    use ek_kinds, only: wp, millimetre
    use ek_text, only: str
    use ek_buffer, only: buffer_t
+   use ek_noise, only: is_noise, solved
    use ek_quantity, only: quantity_named, label_of, head_with_unit
    use ek_rig_test, only: swept_unit
    use ek_suspension, only: suspension_t, driver_unit
@@ -106,16 +107,16 @@ contains
       text = carpet_script(carpet, carpet_name(test), test%title//': carpets of toe and camber', model//side)
    end function grid_carpet
 
-   !> Whether the right wheel has the values of the left wheel at the opposite value of the driver.
+   !> Whether the right wheel has the values of the left wheel at the opposite value of the driver, but for noise (ek_noise).
    pure logical function is_symmetric(test)
       type(test_result_t), intent(in) :: test
-      real(wp), parameter :: same = 1.0e-6_wp      ! deg, and mm of the driver
       real(wp), dimension(size(test%grid%travel), size(test%grid%steer)) :: left, right
       logical :: is_there(size(test%grid%travel), size(test%grid%steer))
       integer :: n, c
 
       n = size(test%grid%steer)
-      is_symmetric = size(test%prefixes) == 2 .and. all(abs(test%grid%steer + test%grid%steer(n:1:-1)) < same)
+      is_symmetric = size(test%prefixes) == 2 .and. all(are_equal(test%grid%steer, &
+         -test%grid%steer(n:1:-1), 'steer_'//trim(test%grid%unit)))
       if (.not. is_symmetric) return
       do c = 1, size(carpet_columns)
          left = values_of(test, 1, trim(carpet_columns(c)))
@@ -123,9 +124,18 @@ contains
          right = right(:, n:1:-1)
          is_there = ieee_is_finite(left)
          is_symmetric = is_symmetric .and. all(is_there .eqv. ieee_is_finite(right))
-         is_symmetric = is_symmetric .and. all(abs(pack(left - right, is_there)) <= same)
+         is_symmetric = is_symmetric .and. all(are_equal(left, right, trim(carpet_columns(c))) .or. .not. is_there)
       end do
    end function is_symmetric
+
+   !> Whether two values of a result are equal but for noise (ek_noise). .false. if one of them is not a number.
+   elemental logical function are_equal(a, b, column)
+      real(wp), intent(in) :: a, b
+      character(*), intent(in) :: column         !! column heading of the result
+
+      are_equal = .false.
+      if (ieee_is_finite(a) .and. ieee_is_finite(b)) are_equal = is_noise(a - b, column, max(abs(a), abs(b)), solved)
+   end function are_equal
 
    !> The values of a column of a wheel on the grid; NaN where the test has no value.
    pure function values_of(test, wheel, column) result(values)

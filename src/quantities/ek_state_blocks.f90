@@ -9,11 +9,12 @@ module ek_state_blocks
    use ek_state_columns, only: of_position, of_axis, of_element, of_readout, of_bushing, of_joint
    implicit none(type, external)
    private
-   public :: block_reads, same_block, parts_of_block, pair_of_block, is_linear_block
+   public :: block_reads, same_block, parts_of_block, pair_of_block
 
 contains
 
-   !> Finds the unknowns that the values of a block follow from: unknowns of bodies, and reactions of rows.
+   !> Finds the unknowns that the values of a block follow from: unknowns of bodies, and reactions of rows. Values that follow from
+   !> reactions are proportional to them.
    pure subroutine block_reads(suspension, list, b, is_read)
       type(suspension_t), intent(in) :: suspension
       type(column_list_t), intent(in) :: list
@@ -51,7 +52,7 @@ contains
                end do
             end associate
          case default
-            is_read = .true.
+            is_read(:suspension%unknowns()) = .true.
          end select
       end associate
    end subroutine block_reads
@@ -157,13 +158,6 @@ contains
       body_i = measure%body_i
       body_j = measure%body_j
    end subroutine take_pair
-
-   !> Whether the values of a block are proportional to its reactions, at given poses.
-   pure logical function is_linear_block(list, b)
-      type(column_list_t), intent(in) :: list
-      integer, intent(in) :: b                   !! index of the block
-      is_linear_block = list%section(b) == of_joint
-   end function is_linear_block
 
    !> Index of the first term of a row, of the last term of a row.
    pure integer function first_term(suspension, row)

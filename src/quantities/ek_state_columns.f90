@@ -143,8 +143,8 @@ contains
       end do
    end subroutine state_values
 
-   !> Computes the values of all quantities of one block. A new section needs its case here; ek_state_blocks is right without one,
-   !> but with one its derivatives are cheaper.
+   !> Computes the values of all quantities of one block. A new section needs its case here; ek_state_blocks is right without
+   !> one if the values do not follow from reactions, but with one its derivatives are cheaper.
    pure subroutine block_vector(suspension, state, wheels, kkt, list, b, values)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state

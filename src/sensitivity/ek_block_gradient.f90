@@ -17,7 +17,7 @@ module ek_block_gradient
    use ek_kkt, only: kkt_t
    use ek_stencil, only: stencils, differentiate
    use ek_column_gradient, only: step_of_place
-   use ek_column_observer, only: column_observer_t, count_blocks, columns_of_block, find_reads, find_pair, is_linear, observe_block
+   use ek_column_observer, only: column_observer_t, count_blocks, columns_of_block, find_reads, find_pair, observe_block
    implicit none(type, external)
    private
    public :: block_gradients_t, begin_gradients, are_cheaper, find_block_gradients, find_shares
@@ -28,7 +28,6 @@ module ek_block_gradient
       integer :: first = 0, last = 0                       !! columns
       integer, allocatable :: unknowns(:)                  !! the unknowns that the block follows from
       integer :: body_i = 0, body_j = 0                    !! 0: the block follows from the unknowns themselves
-      logical :: is_linear = .false.                       !! the columns are proportional to the reactions
       real(wp) :: gap(3) = 0.0_wp                          !! from the reference point of body_i to that of body_j [m]
       real(wp), allocatable :: slopes(:, :), errors(:, :)  !! (unknown, column): ∂y/∂z, and the estimate of its error
    end type block_gradient_t
@@ -58,7 +57,6 @@ contains
             call find_pair(suspension, observer, b, this%body_i, this%body_j)
             if (this%body_i > 0) is_read(6*this%body_i - 5:6*this%body_i) = .false.
             this%unknowns = pack([(k, k=1, kkt%n)], is_read)
-            this%is_linear = is_linear(observer, b)
             allocate (this%slopes(size(this%unknowns), this%first:this%last), this%errors(size(this%unknowns), &
                this%first:this%last))
          end associate
@@ -109,22 +107,17 @@ contains
             if (this%body_i > 0) this%gap = state%poses(this%body_j + 1)%r - state%poses(this%body_i + 1)%r
             do u = 1, size(this%unknowns)
                k = this%unknowns(u)
-               h = step_of(k)
-               body = (k + 5)/6
-               if (this%is_linear .and. k > kkt%nq) then
+               if (k > kkt%nq) then
                   call observe_unit(k - kkt%nq, b, this%slopes(u, :), this%errors(u, :))
                   cycle
                end if
+               h = step_of(k)
+               body = (k + 5)/6
                do j = 1, 4
-                  if (k <= kkt%nq) then
-                     moved%poses(body + 1) = self%poses(j, k)
-                  else
-                     moved%reaction(k - kkt%nq) = state%reaction(k - kkt%nq) + stencils(1)%at(j)*h
-                  end if
+                  moved%poses(body + 1) = self%poses(j, k)
                   call observe_block(suspension, moved, kkt, observer, b, y(:, j))
                end do
-               if (k <= kkt%nq) moved%poses(body + 1) = state%poses(body + 1)
-               if (k > kkt%nq) moved%reaction(k - kkt%nq) = state%reaction(k - kkt%nq)
+               moved%poses(body + 1) = state%poses(body + 1)
                call differentiate(stencils(1), h, values(this%first:this%last), y(this%first:this%last, :), this%slopes(u, :), &
                   this%errors(u, :))
             end do
@@ -133,8 +126,8 @@ contains
 
    contains
 
-      !> Finds the derivatives of columns that are proportional to the reactions: their values for one reaction of 1, without the
-      !> others.
+      !> Finds the derivatives of columns with respect to a reaction. Columns that follow from reactions, the forces of joints, are
+      !> proportional to them, so that the derivatives are the values for one reaction of 1, without the others.
       subroutine observe_unit(row, b, slopes, errors)
          integer, intent(in) :: row, b
          real(wp), intent(out) :: slopes(:), errors(:)

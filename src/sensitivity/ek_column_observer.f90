@@ -10,7 +10,7 @@ module ek_column_observer
    use ek_sweep_table, only: observer_t, make_observer, observe_state, quantity_columns, reads_matrix, reads_poses_of_wheels
    use ek_state_columns, only: block_vector, most_values
    use ek_column_list, only: fill_asked
-   use ek_state_blocks, only: block_reads, same_block, parts_of_block, pair_of_block, is_linear_block
+   use ek_state_blocks, only: block_reads, same_block, parts_of_block, pair_of_block
    use ek_compliance, only: compliance_t, new_compliance, keep_responses
    use ek_skew_system, only: has_skew_part
    use ek_compliance_table, only: compliance_columns, observe_compliance
@@ -18,7 +18,7 @@ module ek_column_observer
    private
    public :: column_observer_t, new_column_observer, observe_columns, keep_state, kept_loads, &
       reads_states, reads_wheels_only
-   public :: count_blocks, columns_of_block, find_reads, find_pair, is_linear, is_same_block, observe_block
+   public :: count_blocks, columns_of_block, find_reads, find_pair, is_same_block, observe_block
 
    !> The requested columns of a model, and work space to observe the columns.
    type :: column_observer_t
@@ -116,13 +116,6 @@ contains
       integer, intent(out) :: body_i, body_j
       call pair_of_block(suspension, self%observer%list, self%observer%list%blocks(k), body_i, body_j)
    end subroutine find_pair
-
-   !> Whether the values of a block are proportional to its reactions, at given poses.
-   pure logical function is_linear(self, k)
-      type(column_observer_t), intent(in) :: self
-      integer, intent(in) :: k
-      is_linear = is_linear_block(self%observer%list, self%observer%list%blocks(k))
-   end function is_linear
 
    !> Whether the values of a block at any state are equal in two designs.
    pure logical function is_same_block(here, there, self, k)

@@ -14,14 +14,12 @@ module ek_fit_factors
    use ek_swept_range, only: range_fault
    use ek_fit, only: fit_t
    use ek_fit_problem, only: fit_problem_t
-   use ek_fit_solver, only: fit_result_t, begin_fit, search_fit
+   use ek_fit_solver, only: fit_result_t, begin_fit, search_fit, noise_of_sum
    use ek_fit_statistics, only: fit_statistics_t, find_statistics
    implicit none(type, external)
    private
    public :: fit_factors
 
-   real(wp), parameter :: rounding = 1.0e-9_wp       !! difference of sums of squares that is no difference, as a share of the sum
-                                                     !! at the start
    real(wp), parameter :: small = 0.05_wp            !! limit of the same difference, as a share of the smallest sum, if no target
                                                      !! gives its deviation: the scatter of few numbers is hardly known
 
@@ -58,7 +56,7 @@ contains
       if (found%ended == 0) return                         ! all iterations were used
       limit = (statistics%quantile*statistics%sigma)**2
       if (.not. problem%knows_deviation) limit = min(limit, small*found%sum_after)
-      limit = found%sum_after + limit + rounding*found%sum_before
+      limit = found%sum_after + limit + noise_of_sum(problem, found%after)
       is_last = .true.
       do
          f = next_factor(problem, found, statistics, start, is_fixed .or. is_tried)

@@ -10,11 +10,12 @@ module ek_fit_solver
    use ek_workspace, only: workspace_t
    use ek_direction, only: direction_t
    use ek_study, only: is_given
+   use ek_noise, only: noise_of, solved
    use ek_wanted_values, only: wanted_values_t, begin_values, find_values
    use ek_fit_problem, only: fit_problem_t, fit_point_t
    implicit none(type, external)
    private
-   public :: fit_result_t, begin_fit, search_fit, difference_of, is_at_work
+   public :: fit_result_t, begin_fit, search_fit, difference_of, is_at_work, noise_of_sum
 
    type :: fit_result_t
       real(wp), allocatable :: x(:)                  !! values of the factors, in their units
@@ -133,6 +134,20 @@ contains
       if (is_given(point%low)) difference = difference - max(0.0_wp, point%low - value)
       difference = difference/point%deviation
    end function difference_of
+
+   !> The largest difference of two sums of squares that is only rounding noise of the values (ek_noise).
+   pure real(wp) function noise_of_sum(problem, values) result(noise)
+      type(fit_problem_t), intent(in) :: problem
+      real(wp), intent(in) :: values(:)                    !! value of each point, in its unit
+      real(wp) :: of_value
+      integer :: k
+
+      noise = 0.0_wp
+      do k = 1, size(problem%points)
+         of_value = noise_of(problem%wanted(k)%heading, values(k), solved)/problem%points(k)%deviation
+         noise = noise + (2.0_wp*abs(difference_of(problem%points(k), values(k))) + of_value)*of_value
+      end do
+   end function noise_of_sum
 
    !> Whether a point contributes to the fit: its target is a value, or its limit is exceeded.
    pure logical function is_at_work(point, value)

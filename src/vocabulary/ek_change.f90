@@ -1,17 +1,16 @@
-!> Whether a result has changed by more than a share of its value, or of the least span of its chart. A difference that is small
-!> against the least span is noise: 1e-16 against 1e-17 deg/m is not a change, nor is 0 against 1e-7.
+!> Whether a result has changed by more than a share of its value, or of the least span of its chart. A difference that is only
+!> rounding noise (ek_noise) is not a change: 1e-16 against 1e-17 deg/m, 0 against 1e-6 N.
 module ek_change
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
-   use ek_quantity, only: all_quantities, unit_of, unit_text
-   use ek_noise, only: widths
+   use ek_quantity, only: all_quantities, unit_of, unit_text, unit_ending
+   use ek_noise, only: widths, noise_of, is_noise, solved
    implicit none(type, external)
    private
    public :: least_of, change_of, verdict_of, letter_of, has_changed, relative_change
    public :: changed, same, unknown, only_in
 
    character(*), parameter :: changed = 'changed', same = 'same', unknown = 'not a number', only_in = 'only in '
-   real(wp), parameter :: rounding = 1.0e-6_wp      !! share of the scale; a smaller difference counts as rounding
 
 contains
 
@@ -41,28 +40,33 @@ contains
       if (least_span >= huge(1.0_wp)) least_span = 0.0_wp
    end function least_span
 
-   !> The change (b − a) as a share of a scale: |a|, or the least span if that is larger. 0 if the share is at most 1e-6,
-   !> which is rounding; NaN if a or b is missing.
-   elemental real(wp) function change_of(a, b, least)
-      real(wp), intent(in) :: a, b, least
-      real(wp) :: scale
+   !> The change (b − a) as a share of a scale: |a|, or the least span if that is larger. 0 if the difference is only rounding
+   !> noise of the usual tolerance of a case (ek_noise); NaN if a or b is missing.
+   elemental real(wp) function change_of(a, b, least, unit)
+      real(wp), intent(in) :: a, b              !! in the unit
+      real(wp), intent(in) :: least             !! least span, in the unit
+      character(*), intent(in) :: unit          !! 'deg/m'
+      real(wp) :: larger
 
       change_of = ieee_value(1.0_wp, ieee_quiet_nan)
       if (.not. (ieee_is_finite(a) .and. ieee_is_finite(b))) return
       change_of = 0.0_wp
-      scale = max(abs(a), least, 1.0e-9_wp)
-      if (abs(b - a) <= rounding*scale) return
-      change_of = (b - a)/scale
+      larger = max(abs(a), abs(b))
+      if (is_noise(b - a, unit_ending(unit), larger, solved)) return
+      change_of = (b - a)/max(abs(a), least, noise_of(unit_ending(unit), 0.0_wp, solved))
    end function change_of
 
    !> Computes the change of magnitude from a to b in percent of a, whatever the least span: −55.4 for −2 → −0.892. NaN where a
-   !> percentage has no meaning, and `reason` is then 'from 0' or 'opposite sign'; '' if a or b is missing. Both 0: 0.
-   pure subroutine relative_change(a, b, percent, reason)
-      real(wp), intent(in) :: a, b
+   !> percentage has no meaning, and `reason` is then 'from 0' or 'opposite sign'; '' if a or b is missing. Both 0: 0. A value that
+   !> is only rounding noise (ek_noise) counts as 0.
+   pure subroutine relative_change(a, b, unit, percent, reason)
+      real(wp), intent(in) :: a, b              !! in the unit
+      character(*), intent(in) :: unit          !! 'deg/m'
       real(wp), intent(out) :: percent
       character(:), allocatable, intent(out) :: reason
-      real(wp), parameter :: nothing = 1.0e-9_wp     ! in the unit of any number: rounding of a zero
+      real(wp) :: nothing                       ! noise of a value 0
 
+      nothing = noise_of(unit_ending(unit), 0.0_wp, solved)
       reason = ''
       percent = ieee_value(1.0_wp, ieee_quiet_nan)
       if (.not. (ieee_is_finite(a) .and. ieee_is_finite(b))) return

@@ -10,7 +10,7 @@ module ek_quantity
    implicit none(type, external)
    private
    public :: name_length, quantity_t, quantity_named, held_name, label_of, without_phase, column_of_stem
-   public :: unit_of, unit_text, unit_size, slope_unit, head_with_unit
+   public :: unit_of, unit_text, unit_ending, unit_size, slope_unit, head_with_unit
 
    integer, parameter :: name_length = 192    !! longest column name: two names of a deck (63 letters each) and their suffixes
 
@@ -309,6 +309,17 @@ contains
       text = '–'
       if (k > 0) text = trim(units(k)%text)
    end function unit_text
+
+   !> The suffix of the column names that have a unit: 'n_per_mm' for 'N/mm'; '' for an unknown unit.
+   pure function unit_ending(text) result(ending)
+      character(*), intent(in) :: text              !! unit as a label
+      character(:), allocatable :: ending
+      integer :: k
+
+      k = findloc(units%text, text, dim=1)
+      ending = ''
+      if (k > 0) ending = trim(units(k)%ending)
+   end function unit_ending
 
    !> SI value of the unit of a column. The value is 1 for a column without a known unit, for %, mm/m, deg/deg and mm/mm, and for
    !> deg/mm and N/deg, which are not converted.
