@@ -23,14 +23,11 @@ module ek_api
    use ek_error, only: error_t
    use ek_table, only: table_t, column, column_index
    use ek_case_result, only: case_result_t
-   use ek_session, only: session_t, open_file, open_text, checksum_of
+   use ek_session, only: session_t, open_file, open_text, checksum_of, copy_session, opened_files, open_files, used_deck, &
+      find_remarks
    use ek_session_settings, only: set_number, set_text, get_number, set_all, reset
-   use ek_session_copy, only: copy_session, opened_files, open_files, used_deck
    use ek_kept_files, only: kept_files_t
-   use ek_session_solution, only: solve, result_of, read_remark, compliance_at
-   use ek_session_derivatives, only: find_slopes
-   use ek_session_numbers, only: read_key_numbers
-   use ek_session_remarks, only: find_remarks
+   use ek_session_solution, only: solve, result_of, read_remark, compliance_at, find_slopes, read_key_numbers
    use ek_model_remark, only: model_remarks_t, read_model_remark
    implicit none(type, external)
    private

@@ -3,7 +3,7 @@ module ek_c_copy
    use, intrinsic :: iso_c_binding, only: c_associated, c_f_pointer, c_int, c_null_ptr, c_ptr
    use ek_error, only: error_t
    use ek_kept_files, only: kept_files_t, add_file
-   use ek_session_copy, only: copy_session, open_files, used_deck
+   use ek_session, only: copy_session, open_files, used_deck
    use ek_c_handle, only: handle_t, open_handle, take_handle, finish, refuse, say, from_c, is_position, ek_ok
    use ek_c_model, only: new_handle
    implicit none(type, external)

@@ -6,7 +6,7 @@ module ek_c_numbers
    use ek_table, only: name_length
    use ek_workspace_cases, only: report_cases
    use ek_number_names, only: list_numbers
-   use ek_session_numbers, only: read_key_numbers
+   use ek_session_solution, only: read_key_numbers
    use ek_c_handle, only: handle_t, open_handle, take_handle, take_names, finish, refuse, say, is_position, ek_ok
    implicit none(type, external)
    private

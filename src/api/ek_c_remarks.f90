@@ -3,7 +3,7 @@ module ek_c_remarks
    use, intrinsic :: iso_c_binding, only: c_associated, c_f_pointer, c_int, c_null_ptr, c_ptr
    use ek_error, only: error_t
    use ek_model_remark, only: read_model_remark
-   use ek_session_remarks, only: find_remarks
+   use ek_session, only: find_remarks
    use ek_c_handle, only: handle_t, open_handle, take_handle, finish, refuse, say, is_position, ek_ok
    implicit none(type, external)
    private

@@ -7,8 +7,7 @@ module ek_c_results
    use ek_response, only: no_column
    use ek_table, only: name_length, column_index
    use ek_case_result, only: case_result_t
-   use ek_session_solution, only: solve, result_of, compliance_at, read_remark
-   use ek_session_derivatives, only: find_slopes
+   use ek_session_solution, only: solve, result_of, compliance_at, read_remark, find_slopes
    use ek_c_handle, only: handle_t, open_handle, take_handle, take_array, take_names, take_text, finish, refuse, say, &
       from_c, is_position, ek_ok
    implicit none(type, external)

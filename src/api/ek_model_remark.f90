@@ -1,5 +1,5 @@
 !> Messages on a model before its cases are solved. The commands print these messages, and a program that calls elastokin reads them
-!> (ek_session_remarks).
+!> (ek_session).
 module ek_model_remark
    use ek_error, only: message_list_t
    use ek_suspension, only: suspension_t

@@ -1,20 +1,29 @@
-!> A deck opened for a program that calls elastokin. Part of the Fortran interface (described in ek_api).
+!> A deck opened for a program that calls elastokin. Part of the Fortran interface (described in ek_api): opening, copies,
+!> and the messages on the model.
+!>
+!> A copy is made from the deck as opened, and no file is read again. The copy has the same checksum even if the files have changed
+!> since.
 module ek_session
    use ek_kinds, only: wp
-   use ek_error, only: error_t
+   use ek_error, only: error_t, fail, exit_usage
    use ek_text, only: replace
    use ek_deck, only: deck_t, read_deck, parse_deck, move_deck, deck_checksum
    use ek_case_result, only: solve_options_t
    use ek_table, only: name_length
    use ek_design_numbers, only: design_numbers_t, begin_numbers, apply_settings
-   use ek_workspace, only: workspace_t, put_numbers
-   use ek_workspace_cases, only: open_workspace
+   use ek_workspace, only: workspace_t, put_numbers, settle_model
+   use ek_workspace_cases, only: open_workspace, report_cases
    use ek_named_numbers, only: named_numbers_t
    use ek_derivatives, only: derivatives_t
+   use ek_kept_files, only: kept_files_t
+   use ek_deck_writer, only: deck_as_used
+   use ek_case, only: case_t
+   use ek_model_remark, only: model_remarks_t, find_model_remarks
    implicit none(type, external)
    private
-   public :: session_t, prepared_t, derived_t, open_file, open_text, open_deck, take_deck
-   public :: take_new_numbers, changed_deck, checksum_of, without_option, begin_opened, begin_again, begin_workspace, empty_session
+   public :: session_t, prepared_t, derived_t, open_file, open_text, open_deck, take_deck, take_new_numbers, changed_deck, &
+      checksum_of, without_option, begin_opened, begin_again, begin_workspace, empty_session, copy_session, opened_files, &
+      open_files, used_deck, find_remarks
 
    !> The columns with which a case was solved. A further solution with these columns creates no strings.
    type :: prepared_t
@@ -43,8 +52,8 @@ module ek_session
       class(workspace_t), allocatable :: other  !! workspace of the last solution if `workspace` lacks it: of the deck with its
       !!                                               numbers as strings, or of the deck before set_text or reset
       real(wp), allocatable :: solved_x(:)          !! values of all parameters at the last solution [SI]
-      class(derived_t), allocatable :: derived      !! derivatives requested last (ek_session_derivatives)
-      ! ek_session_numbers
+      class(derived_t), allocatable :: derived      !! derivatives requested last (ek_session_solution)
+      ! key numbers (ek_session_solution)
       class(named_numbers_t), allocatable :: named  !! key numbers requested last
       character(name_length), allocatable :: names(:)
       logical :: is_named_ready = .false.  !! whether these key numbers were read before: a further reading creates no strings
@@ -188,5 +197,110 @@ contains
       digits = deck_checksum(changed)
       !$omp end critical (ek_words)
    end subroutine checksum_of
+
+   !> Creates a second session of the same deck with the same changes, without a solution.
+   subroutine copy_session(from, to, error)
+      type(session_t), intent(in) :: from                  !! session with a deck
+      type(session_t), intent(inout) :: to
+      type(error_t), allocatable, intent(out) :: error
+
+      call empty_session(to)
+      !$omp critical (ek_words)
+      to%original = from%original
+      to%deck = from%deck
+      allocate (to%workspace)
+      call open_workspace(to%deck, to%workspace, error)
+      if (.not. allocated(error)) then
+         call begin_workspace(to)
+         to%numbers = from%numbers
+         to%numbers%is_new = .true.
+         to%is_text_changed = from%is_text_changed
+      end if
+      !$omp end critical (ek_words)
+   end subroutine copy_session
+
+   !> The deck as opened, then every file named in the deck: included files, hardpoints, property files, load tables.
+   function opened_files(session) result(files)
+      type(session_t), intent(in) :: session
+      type(kept_files_t) :: files
+      files = session%original%kept
+   end function opened_files
+
+   !> Opens a deck from the content of its files (opened_files). A file that is not in this list is read from disk.
+   subroutine open_files(files, session, error)
+      type(kept_files_t), intent(in) :: files              !! the first is the deck
+      type(session_t), intent(inout) :: session
+      type(error_t), allocatable, intent(out) :: error     !! exit_usage, exit_deck: every error of the deck
+
+      call empty_session(session)
+      if (files%count() == 0) then
+         call fail(error, exit_usage, 'expected the files of a deck, found none')
+         return
+      end if
+      !$omp critical (ek_words)
+      call parse_deck(files%text(1), files%path(1), session%original, error, kept=files)
+      if (.not. allocated(error)) call begin_opened(session, error)
+      !$omp end critical (ek_words)
+   end subroutine open_files
+
+   !> Writes the deck with its present numbers as one string. The string contains the included files, hardpoints, property files,
+   !> both sides and all changes.
+   subroutine used_deck(session, text, error)
+      type(session_t), intent(in) :: session
+      character(:), allocatable, intent(out) :: text
+      type(error_t), allocatable, intent(out) :: error     !! exit_deck: the present numbers define no valid model
+      type(deck_t) :: changed
+
+      !$omp critical (ek_words)
+      call changed_deck(session, changed, error)
+      if (.not. allocated(error)) call deck_as_used(changed, text, error)
+      call without_option(error)
+      !$omp end critical (ek_words)
+      if (.not. allocated(text)) text = ''
+   end subroutine used_deck
+
+   !> Finds the messages on the model at the present numbers, as the command line prints them. Examples: no spring, contact points
+   !> away from the ground, implausible values, preloads found by the preload trim (`balance`), or the reason why the model cannot
+   !> be solved. No case is solved; the last solution is unchanged.
+   subroutine find_remarks(session, remarks, error)
+      type(session_t), intent(inout) :: session
+      type(model_remarks_t), intent(out) :: remarks
+      type(error_t), allocatable, intent(out) :: error     !! exit_usage, exit_deck: a number is outside its range
+      class(workspace_t), allocatable :: other
+      type(deck_t) :: changed
+      logical :: is_done
+
+      call take_new_numbers(session)
+      !$omp critical (ek_words)
+      call find_of(session%workspace, remarks, is_done)
+      if (.not. is_done) then
+         allocate (other)
+         call changed_deck(session, changed, error)
+         if (.not. allocated(error)) call open_workspace(changed, other, error)
+         if (.not. allocated(error)) call find_of(other, remarks, is_done)
+         call without_option(error)
+      end if
+      !$omp end critical (ek_words)
+   end subroutine find_remarks
+
+   !> Finds the messages at the numbers of a workspace. is_done is .false. if the design must be read from the deck's strings.
+   subroutine find_of(workspace, remarks, is_done)
+      type(workspace_t), intent(inout) :: workspace
+      type(model_remarks_t), intent(out) :: remarks
+      logical, intent(out) :: is_done
+      type(case_t), allocatable :: cases(:)
+      type(error_t), allocatable :: fault
+      logical :: is_balanced
+
+      call settle_model(workspace, is_balanced, is_done, fault)
+      if (.not. is_done) return
+      call report_cases(workspace, cases)
+      if (is_balanced) then
+         call find_model_remarks(workspace%suspension, workspace%raw, workspace%design%cases, cases, .true., remarks)
+      else
+         call find_model_remarks(workspace%raw, workspace%raw, workspace%design%cases, cases, .false., remarks)
+      end if
+      if (allocated(fault)) call remarks%faults%add(fault%message)
+   end subroutine find_of
 
 end module ek_session

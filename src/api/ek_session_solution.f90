@@ -1,4 +1,5 @@
-!> A deck opened for a program that calls elastokin: the solution of a case. Part of the Fortran interface (ek_api).
+!> A deck opened for a program that calls elastokin: the solution of a case, its derivatives, and key numbers by name. Part of the
+!> Fortran interface (ek_api).
 module ek_session_solution
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
@@ -13,12 +14,17 @@ module ek_session_solution
    use ek_schedule, only: new_schedule
    use ek_compliance_table, only: state_compliance
    use ek_wheel_side, only: deck_frame
-   use ek_workspace, only: workspace_t, solve_numbers, solve_or_explain, succeeded, out_of_range
-   use ek_workspace_cases, only: open_workspace, heads_of_case, case_number
-   use ek_session, only: session_t, without_option, prepared_t, take_new_numbers, changed_deck
+   use ek_workspace, only: workspace_t, solve_numbers, solve_or_explain, succeeded, out_of_range, settle_numbers, &
+      settle_or_explain
+   use ek_workspace_cases, only: open_workspace, heads_of_case, case_number, report_cases
+   use ek_session, only: session_t, without_option, prepared_t, take_new_numbers, changed_deck, derived_t
+   use ek_direction, only: direction_t, find_directions, refuse_shared
+   use ek_derivatives, only: derivatives_t, begin_derivatives, find_derivatives, refuse_case
+   use ek_case, only: case_t
+   use ek_named_numbers, only: named_numbers_t, prepare_numbers, read_numbers, needed_tests, explain_missing
    implicit none(type, external)
    private
-   public :: solve, result_of, read_remark, compliance_at, find_row
+   public :: solve, result_of, read_remark, compliance_at, find_row, find_slopes, read_key_numbers
 
 contains
 
@@ -262,5 +268,241 @@ contains
          end do
       end do
    end subroutine compliance_at
+
+   !> Computes the derivatives of columns in one row of the last solution with respect to numbers of the deck, and estimates of
+   !> their errors [unit of the column per unit of the number]. No solution is repeated (ek_derivatives). A derivative is NaN if the
+   !> state did not converge, if the column has no value at the state, or if the number cannot be changed.
+   subroutine find_slopes(session, row, columns, paths, slopes, errors, error)
+      type(session_t), intent(inout), target :: session
+      integer, intent(in) :: row                               !! row of the table of the last solution
+      character(*), intent(in) :: columns(:)  !! columns of the case (requested or not), or of its compliance matrix
+      character(*), intent(in) :: paths(:)                     !! as in set_number, each of one number, or of both sides of an axle
+      real(wp), intent(out) :: slopes(:, :), errors(:, :)      !! (column, path)
+      type(error_t), allocatable, intent(out) :: error         !! exit_usage: wrong row, column or path; no derivatives of the case
+      type(case_result_t), pointer :: result
+      integer :: state
+      logical :: is_ready
+
+      slopes = ieee_value(1.0_wp, ieee_quiet_nan)
+      errors = ieee_value(1.0_wp, ieee_quiet_nan)
+      if (any([shape(slopes), shape(errors)] < [size(columns), size(paths), size(columns), size(paths)])) then
+         call fail(error, exit_usage, 'expected arrays of '//str(size(columns))//' x '//str(size(paths))// &
+            ' numbers (columns x paths)')
+         return
+      end if
+      call find_row(session, row, result, state, error)
+      if (allocated(error)) return
+      is_ready = is_prepared(session, columns, paths)
+      if (.not. is_ready) then
+         !$omp critical (ek_words)
+         call prepare_derivatives(session, columns, paths, error)
+         !$omp end critical (ek_words)
+         if (allocated(error)) return
+      end if
+      if (allocated(session%other)) then
+         call find(session%other, session%derived)
+      else
+         call find(session%workspace, session%derived)
+      end if
+
+   contains
+
+      !> Computes the derivatives at the row, and orders them by column and path.
+      subroutine find(workspace, derived)
+         class(workspace_t), intent(inout) :: workspace
+         class(derived_t), intent(inout) :: derived
+         integer :: c, p
+
+         call find_derivatives(workspace, [state], derived%derivatives)
+         do p = 1, size(paths)
+            do c = 1, size(columns)
+               slopes(c, p) = derived%derivatives%slopes(derived%column(c), derived%direction(p), 1)
+               errors(c, p) = derived%derivatives%errors(derived%column(c), derived%direction(p), 1)
+            end do
+         end do
+      end subroutine find
+
+   end subroutine find_slopes
+
+   !> Whether the last request had the same columns, paths, case and workspace.
+   pure logical function is_prepared(session, columns, paths)
+      type(session_t), intent(in) :: session
+      character(*), intent(in) :: columns(:), paths(:)
+
+      is_prepared = .false.
+      if (.not. allocated(session%derived) .or. allocated(session%other)) return
+      associate (derived => session%derived)
+         if (derived%derivatives%case /= session%solved .or. size(columns) /= size(derived%columns)) return
+         if (size(paths) /= size(derived%paths)) return
+         is_prepared = all(columns == derived%columns) .and. all(paths == derived%paths)
+      end associate
+   end function is_prepared
+
+   !> Prepares directions, columns and work space. Creates strings.
+   subroutine prepare_derivatives(session, columns, paths, error)
+      type(session_t), intent(inout), target :: session
+      character(*), intent(in) :: columns(:), paths(:)
+      type(error_t), allocatable, intent(out) :: error
+      type(direction_t), allocatable :: directions(:)
+      type(message_list_t) :: mistakes
+      class(workspace_t), pointer :: workspace
+      character(name_length), allocatable :: heads(:)
+      integer :: c
+
+      workspace => session%workspace
+      if (allocated(session%other)) workspace => session%other
+      call refuse_case(workspace%cases(session%solved)%case, error)
+      if (allocated(error)) return
+      if (.not. allocated(session%derived)) allocate (session%derived)
+      associate (derived => session%derived)
+         call place_paths(workspace, session, paths, directions, derived%direction, mistakes)
+         if (mistakes%count() == 0) call begin_derivatives(workspace, session%solved, columns, directions, derived%derivatives)
+         derived%column = spread(0, 1, size(columns))
+         do c = 1, size(columns)
+            if (mistakes%count() > 0) exit
+            derived%column(c) = findloc(derived%derivatives%columns == columns(c), .true., dim=1)
+         end do
+         if (mistakes%count() == 0 .and. any(derived%column == 0)) then
+            call heads_of_case(session%solved, workspace, heads)
+            do c = 1, size(columns)
+               if (derived%column(c) > 0) cycle
+               if (any(heads == columns(c))) then
+                  call mistakes%add(quoted(trim(columns(c)))//' describes the solution and has no derivative')
+               else
+                  call mistakes%add(no_column(trim(columns(c)), heads))
+               end if
+            end do
+         end if
+         derived%columns = columns
+         derived%paths = paths
+      end associate
+      if (mistakes%count() == 0) return
+      call fail(error, exit_usage, mistakes%text())
+      session%derived%derivatives%case = 0        ! kept as room; is_prepared knows that it is no answer
+   end subroutine prepare_derivatives
+
+   !> Finds the direction of each path. A path that leads to more or fewer than one direction is an error.
+   subroutine place_paths(workspace, session, paths, directions, place, mistakes)
+      class(workspace_t), intent(in) :: workspace
+      type(session_t), intent(in) :: session
+      character(*), intent(in) :: paths(:)
+      type(direction_t), allocatable, intent(out) :: directions(:)
+      integer, allocatable, intent(out) :: place(:)            !! index of the direction of each path
+      type(message_list_t), intent(inout) :: mistakes
+      type(direction_t), allocatable :: these(:)
+      type(message_list_t) :: one
+      type(error_t), allocatable :: error
+      integer :: p
+
+      allocate (directions(0))
+      allocate (place(size(paths)), source=0)
+      do p = 1, size(paths)
+         one = message_list_t()
+         call one%add(trim(paths(p)))
+         call find_directions(workspace%design, session%deck, one, these, error)
+         if (allocated(error)) then
+            call mistakes%add(error%message)
+         else if (size(these) /= 1) then
+            call mistakes%add(quoted(trim(paths(p)))//' leads to '//str(size(these))//' numbers; expected a path of one, or of '// &
+               'both sides of an axle')
+         else
+            directions = [directions, these(1)]
+            place(p) = size(directions)
+         end if
+      end do
+      if (mistakes%count() > 0) return
+      call refuse_shared(workspace%design, directions, error)
+      if (allocated(error)) call mistakes%add(error%message)
+   end subroutine place_paths
+
+   !> Reads key numbers of the report by name, at the present numbers. Only the tests that these key numbers need are solved, as far
+   !> as needed. The last solution is unchanged.
+   subroutine read_key_numbers(session, names, values, error)
+      type(session_t), intent(inout) :: session
+      character(*), intent(in) :: names(:)
+      real(wp), intent(out) :: values(:)                   !! one for each name, in the units of key_numbers.csv
+      type(error_t), allocatable, intent(out) :: error     !! exit_usage, exit_deck, exit_model: none has a value; exit_convergence:
+      !!                                                      some are not a number; the message names them and the states that
+      !!                                                      they need and that were not found
+      type(case_t), allocatable :: cases(:)
+      type(message_list_t) :: none                         ! a case with a defect is not read from numbers alone
+      logical :: is_done, is_whole
+      integer :: k, outcome
+
+      values = ieee_value(1.0_wp, ieee_quiet_nan)
+      if (size(values) < size(names)) then
+         call fail(error, exit_usage, 'expected an array of '//str(size(names))//' values, one for each name, found '// &
+            str(size(values)))
+         return
+      end if
+      call take_new_numbers(session)
+      is_done = session%is_named_ready
+      if (is_done) is_done = size(names) == size(session%names)
+      do k = 1, size(names)
+         if (is_done) is_done = session%names(k) == names(k)
+      end do
+      if (is_done) then
+         call settle_numbers(needed_tests(session%named), session%workspace, outcome)
+         is_done = outcome == succeeded
+      end if
+      if (is_done) then
+         call report_cases(session%workspace, cases)
+         call read_numbers(session%named, session%workspace%suspension, cases, values, is_whole)
+         if (is_whole) return
+      end if
+      !$omp critical (ek_words)
+      if (is_done) then
+         call explain_missing(session%named, names, values, none, error)
+      else
+         call read_with_words(session, names, values, error)
+      end if
+      !$omp end critical (ek_words)
+   end subroutine read_key_numbers
+
+   !> Reads key numbers that were not requested before, or key numbers of a design that may have a defect. Creates strings.
+   subroutine read_with_words(session, names, values, error)
+      type(session_t), intent(inout) :: session
+      character(*), intent(in) :: names(:)
+      real(wp), intent(inout) :: values(:)
+      type(error_t), allocatable, intent(out) :: error
+      class(workspace_t), allocatable :: other
+      class(named_numbers_t), allocatable :: named
+      type(deck_t) :: changed
+      logical :: is_done
+
+      session%is_named_ready = .false.
+      session%names = names
+      if (.not. allocated(session%named)) allocate (session%named)
+      call read_of(session%workspace, session%named, is_done)
+      if (allocated(error)) return
+      session%is_named_ready = is_done
+      if (is_done) return
+      allocate (other, named)
+      call changed_deck(session, changed, error)
+      if (.not. allocated(error)) call open_workspace(changed, other, error)
+      if (.not. allocated(error)) call read_of(other, named, is_done)
+      call without_option(error)
+
+   contains
+
+      subroutine read_of(workspace, numbers, is_done)
+         type(workspace_t), intent(inout) :: workspace
+         type(named_numbers_t), intent(inout) :: numbers
+         logical, intent(out) :: is_done
+         type(case_t), allocatable :: cases(:)
+         type(message_list_t) :: defects
+         logical :: is_solvable(size(workspace%report_order)), is_whole
+
+         call report_cases(workspace, cases)
+         call prepare_numbers(names, workspace%raw, cases, numbers, error)
+         is_done = .false.
+         if (.not. allocated(error)) call settle_or_explain(needed_tests(numbers), workspace, is_solvable, defects, is_done, error)
+         if (allocated(error) .or. .not. is_done) return
+         call report_cases(workspace, cases)                 ! with the present numbers
+         call read_numbers(numbers, workspace%suspension, cases, values, is_whole, is_solvable)
+         if (.not. is_whole) call explain_missing(numbers, names, values, defects, error)
+      end subroutine read_of
+
+   end subroutine read_with_words
 
 end module ek_session_solution

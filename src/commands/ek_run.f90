@@ -1,10 +1,11 @@
 !> elastokin run: builds the model of a deck. For each case, solves the sweep and writes the table as CSV and, if requested, the
 !> figures.
+!> --json: the tables, messages (key `remarks`) and status of a run as one object (schema/run.schema.json).
 module ek_run
    use ek_kinds, only: wp
    use ek_error, only: error_t, fail, exit_usage, exit_convergence
    use ek_text, only: str, quoted, plural
-   use ek_file, only: make_folder, join_path, base_name
+   use ek_file, only: make_folder, join_path, base_name, write_whole, write_standard_output
    use ek_rig_test, only: rig_test, lifts, is_scattered
    use ek_suspension, only: suspension_t, load_number
    use ek_case, only: case_t
@@ -14,20 +15,27 @@ module ek_run
    use ek_compliance_table, only: compliance_table
    use ek_target, only: target_t, find_target
    use ek_table, only: table_t, print_csv, name_length
-   use ek_json, only: json_t
+   use ek_json, only: json_t, json_string, json_numbers
    use ek_gnuplot, only: figure_t, run_figures, draw_figures
    use ek_model_remark, only: model_remarks_t, find_model_remarks
    use ek_command_line, only: command_line_t
    use ek_load_deck, only: deck_settings_t, read_deck_settings, load_deck, chosen_cases, examine_chosen
    use ek_run_numbers, only: run_numbers
    use ek_run_columns, only: choose_columns
-   use ek_run_json, only: begin_run_json, add_run_json, write_run_json
-   use ek_console, only: print_note, print_error, print_model_remarks, print_remarks, write_table, show_progress, clear_progress
+   use ek_console, only: print_note, print_error, print_model_remarks, print_remarks, write_table, show_progress, clear_progress, &
+      print_path
    use ek_member_loads, only: load_record_t, begin_loads, add_loads
    use ek_load_files, only: write_loads, remove_loads
+   use ek_version, only: version
+   use ek_quantity, only: unit_of, unit_text
+   use ek_remark, only: remark_t
    implicit none(type, external)
    private
    public :: run
+
+   character(*), parameter :: severities(3) = [character(7) :: 'note', 'warning', 'failure']
+   character(*), parameter :: outcomes(0:4) = [character(13) :: 'solved', 'partly_solved', 'not_solvable', 'not_mountable', &
+      'out_of_memory']                                           ! of ek_case_result
 
    type, extends(deck_settings_t) :: settings_t
       logical :: has_plots = .false., has_compliance = .false., has_json = .false., has_loads = .false.
@@ -299,5 +307,77 @@ contains
       is_vertical = abs(suspension%loads(k)%force(3)) >= norm2(suspension%loads(k)%force(1:2)) &
          .and. norm2(suspension%loads(k)%moment) <= 0.0_wp
    end function is_vertical
+
+   !> Begins the JSON object: program, model, checksum, and the list of cases.
+   subroutine begin_run_json(model, checksum, json)
+      character(*), intent(in) :: model, checksum
+      type(json_t), intent(out) :: json
+
+      call json%open('{')
+      call json%item('program', json_string('elastokin '//version))
+      call json%item('model', json_string(model))
+      call json%item('checksum', json_string(checksum))
+      call json%open('[', 'cases')
+   end subroutine begin_run_json
+
+   !> Adds one case: its outcome, its messages, and its table column by column. A case that was not solved has no columns.
+   subroutine add_run_json(result, case, json)
+      type(case_result_t), intent(in) :: result
+      type(case_t), intent(in) :: case             !! case as in the deck
+      type(json_t), intent(inout) :: json
+      type(remark_t) :: remark
+      integer :: k
+
+      call json%open('{')
+      call json%item('name', json_string(case%name))
+      call json%item('test', json_string(case%test))
+      call json%item('method', json_string(case%method))
+      call json%item('solver', json_string(trim(merge('plan  ', 'lapack', case%uses_plan))))
+      call json%item('outcome', json_string(trim(outcomes(result%outcome))))
+      call json%open('[', 'remarks')
+      do k = 1, result%remarks%count()
+         remark = result%remarks%item(k)
+         call json%open('{')
+         call json%item('severity', json_string(trim(severities(remark%severity))))
+         call json%item('text', json_string(remark%whole()))
+         call json%close('}')
+      end do
+      call json%close(']')
+      if (result%is_run()) then
+         call json%item('factor_unit', json_string(result%case%unit_name))
+         call json%open('[', 'columns')
+         do k = 1, size(result%table%columns)
+            call json%open('{')
+            call json%item('name', json_string(trim(result%table%columns(k))))
+            call json%item('unit', json_string(unit_text(unit_of(trim(result%table%columns(k))))))
+            call json%item('values', json_numbers(result%table%values(k, :)))
+            call json%close('}')
+         end do
+         call json%close(']')
+      end if
+      call json%close('}')
+   end subroutine add_run_json
+
+   !> Ends the JSON object and writes it.
+   subroutine write_run_json(json, status, folder, model, error)
+      type(json_t), intent(inout) :: json
+      integer, intent(in) :: status                                !! exit status of the program
+      character(*), intent(in) :: folder, model                    !! output folder, - for standard output; model name
+      type(error_t), allocatable, intent(inout) :: error           !! a failure to write; an earlier error is not replaced
+      type(error_t), allocatable :: unwritten
+      character(:), allocatable :: path
+
+      call json%close(']')
+      call json%item('status', str(status))
+      call json%close('}')
+      if (folder == '-') then
+         call write_standard_output(json%text(), unwritten)
+      else
+         path = join_path(folder, model//'_run.json')
+         call write_whole(path, json%text(), unwritten)
+         if (.not. allocated(unwritten)) call print_path(path, unwritten)
+      end if
+      if (allocated(unwritten) .and. .not. allocated(error)) call move_alloc(unwritten, error)
+   end subroutine write_run_json
 
 end module ek_run

@@ -9,9 +9,8 @@ module ek_run_numbers
    use ek_case, only: case_t
    use ek_table, only: name_length
    use ek_workspace_cases, only: report_cases, restrict_cases
-   use ek_session, only: session_t
-   use ek_session_numbers, only: read_key_numbers
-   use ek_session_remarks, only: find_remarks
+   use ek_session, only: session_t, find_remarks
+   use ek_session_solution, only: read_key_numbers
    use ek_model_remark, only: model_remarks_t
    use ek_command_line, only: command_line_t
    use ek_load_deck, only: deck_settings_t, load_session, chosen_cases

@@ -2,6 +2,8 @@
 !>
 !> All values of factors and responses are stored (8 bytes each). Curves are stored for at most 5,000 designs. A NetCDF store is
 !> first written as tables into a scratch folder (ek_store).
+!>
+!> The target bands of a deck (&target_band) become limits of those responses that equal key numbers.
 module ek_study_results
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp, i8
@@ -11,7 +13,7 @@ module ek_study_results
    use ek_quantity, only: quantity_t, quantity_named, unit_of, unit_text
    use ek_deck, only: deck_t, deck_checksum
    use ek_rig, only: rig_t, rig_of
-   use ek_study, only: study_t, by_delta, by_scale
+   use ek_study, only: study_t, by_delta, by_scale, response_t
    use ek_sampler, only: sampler_t, designs_of, sample
    use ek_sampler_kind, only: sampler_kinds, tolerance_kind
    use ek_sampler_settings, only: sampler_settings_t
@@ -27,12 +29,13 @@ module ek_study_results
    use ek_study_curves, only: read_curves, curve_step
    use ek_table_lines, only: lines_t, open_table, next_line, take_numbers, close_table
    use ek_moment_tables, only: read_moments
-   use ek_response_bands, only: set_bands
    use ek_study_noise, only: settle_responses
    use ek_study_findings, only: summarise, find_effects, find_extremes
+   use ek_target_band, only: target_band_t
+   use ek_key_numbers, only: number_name
    implicit none(type, external)
    private
-   public :: read_results_of
+   public :: read_results_of, number_at_design
 
    integer, parameter :: most_reasons = 12           !! largest number of kinds of failures
 
@@ -340,5 +343,54 @@ contains
             ': '//reasons(k)%words)
       end do
    end subroutine list_reasons
+
+   !> Sets the limits of the responses that have a band and no limits of their own. If a key number has several bands, the last band
+   !> counts, as in a report.
+   subroutine set_bands(targets, responses, axes)
+      type(target_band_t), intent(in) :: targets(:)
+      type(response_t), intent(in) :: responses(:)
+      type(study_axis_t), intent(inout) :: axes(:)   !! axes of the responses
+      character(:), allocatable :: name
+      integer :: r, t
+
+      do r = 1, size(axes)
+         if (axes(r)%lower > -huge(1.0_wp) .or. axes(r)%upper < huge(1.0_wp)) cycle
+         name = key_number_of(responses(r))
+         if (name == '') cycle
+         do t = 1, size(targets)
+            if (targets(t)%quantity /= name) cycle
+            axes(r)%is_target = .true.
+            axes(r)%lower = targets(t)%low
+            axes(r)%upper = targets(t)%high
+         end do
+      end do
+   end subroutine set_bands
+
+   !> Name of the key number that a response equals: a gradient with the window of the report, or a column at design. '' if the
+   !> response does not equal a key number.
+   pure function key_number_of(response) result(name)
+      type(response_t), intent(in) :: response
+      character(:), allocatable :: name
+
+      name = ''
+      if (response%of == 'gradient') then
+         if (response%over == '' .and. .not. abs(response%window) > 0.0_wp) &
+            name = trim(number_name(response%column, is_slope=.true.))
+      else if (response%of == 'value' .and. .not. abs(response%at) > 0.0_wp) then
+         name = number_at_design(response%column)
+      end if
+   end function key_number_of
+
+   !> Name of the key number that equals a column at design: 'toe_deg' for 'left_toe_deg'. '' if there is none.
+   pure function number_at_design(column) result(name)
+      character(*), intent(in) :: column
+      character(:), allocatable :: name
+      integer :: first
+
+      first = 1
+      if (index(column, 'left_') == 1) first = 6
+      if (index(column, 'right_') == 1) first = 7
+      name = trim(number_name(column(first:), is_slope=.false.))
+   end function number_at_design
 
 end module ek_study_results

@@ -16,6 +16,8 @@
 !>
 !> The contact point given by the deck is fixed to the carrier at the arm a from the wheel centre: a force F there equals the same
 !> force at the centre with the moment a×F, and the point moves by δ + θ×a. Moments and rotations do not depend on the point.
+!>
+!> The matrix is in the store of ek_pattern.
 module ek_compliance
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
@@ -26,7 +28,6 @@ module ek_compliance
    use ek_suspension, only: suspension_t
    use ek_state, only: state_t, inputs_t
    use ek_kkt, only: kkt_t, assemble, release, factorise, solve_many, whole_matrix, whole_tangent, lapack_factors
-   use ek_quadratic_form, only: quadratic_form
    use ek_skew_system, only: skew_system_t, has_skew_part, factorise_skew, solve_skew
    implicit none(type, external)
    private
@@ -396,5 +397,27 @@ contains
          call solve_many(kkt, many, columns)
       end if
    end subroutine solve_further
+
+   !> The product X K Xᵀ for a symmetric matrix K, given by the entries of its lower triangle. From explicit shapes the compiler
+   !> generates tight code.
+   pure function quadratic_form(entries, row, column, from, store, many, n, x) result(form)
+      integer, intent(in) :: entries, many, n
+      integer, intent(in) :: row(entries), column(entries), from(entries)     !! from: positions in the store
+      real(wp), intent(in) :: store(*), x(many, n)
+      real(wp) :: form(many, many), y(many, n)
+      integer :: e, j, k
+
+      y = 0.0_wp
+      do e = 1, entries
+         y(:, row(e)) = y(:, row(e)) + store(from(e))*x(:, column(e))
+         if (row(e) /= column(e)) y(:, column(e)) = y(:, column(e)) + store(from(e))*x(:, row(e))
+      end do
+      form = 0.0_wp
+      do k = 1, n
+         do j = 1, many
+            form(:, j) = form(:, j) + x(j, k)*y(:, k)
+         end do
+      end do
+   end function quadratic_form
 
 end module ek_compliance

@@ -3,24 +3,33 @@
 !> A state that does not converge is approached by halved increments; if no increment converges, the sweep in
 !> that direction ends, and the states before it remain valid. The rows of a table are independent states:
 !> if one state does not converge, the next is reached from design.
+!>
+!> The states of a linear method are checked: do they lie on the path from design?
+!> The recursive and the corrected increment take one step without a check, and may step across a lock onto another assembly.
+!> Therefore the exact path is followed again in a few long steps checked by ek_reach. At the end of each step, Newton's method
+!> is started from the state of the linear method and must converge to the exact path. States beyond the last swept value at which
+!> Newton's method converges are marked as not reached.
 module ek_path
    use ek_kinds, only: wp
-   use ek_case, only: case_t
+   use ek_case, only: case_t, default_tolerance
    use ek_suspension, only: suspension_t
-   use ek_state, only: state_t, inputs_t, design_state, return_to_design, pack_state, unpack_state
+   use ek_state, only: state_t, inputs_t, design_state, return_to_design, pack_state, unpack_state, motion_between, largest_motion
    use ek_schedule, only: schedule_t, make_schedule, inputs_at
    use ek_path_states, only: path_t, new_path, count_ways, ways, span
    use ek_kkt, only: kkt_t, condition
    use ek_reach, only: failure_t, reach, settle
    use ek_recursion, only: start_recursion, recursive_increment, corrected_increment, check_increment
-   use ek_branch, only: branch_t, renew_branch, leave, note_crossing
-   use ek_confirm, only: confirm
+   use ek_branch, only: branch_t, renew_branch, leave, note_crossing, new_branch
    use ek_arc, only: arc_t, new_arc, begin
    use ek_arc_survey, only: survey_t, survey, go_to, length_at, print_limits, arrived
    use ek_predictor, only: predictor_t, remember, forget, depth
+   use ek_newton, only: outcome_t, find_equilibrium
    implicit none(type, external)
    private
-   public :: path_t, sweep, new_path, walk, walk_t, empty_walk, progress_procedure, suspect, min_step, crossing_step
+   public :: path_t, sweep, new_path, walk, walk_t, empty_walk, progress_procedure, suspect, min_step, crossing_step, confirm
+
+   integer, parameter :: max_evaluations = 10          !! largest number of comparisons per direction
+   real(wp), parameter :: apart = 1.0e-6_wp       !! equilibria further apart are different [m]
 
    real(wp), parameter :: min_step = 4.0e-10_wp     !! shortest step, as a share of the range: resolution of the end of a path
    real(wp), parameter :: crossing_step = 1.0e-6_wp   !! width of a step across a bifurcation, as a share of the range: in a
@@ -38,7 +47,6 @@ module ek_path
 
    !> The present state of a walk, and the data for the next increment. The memory is used again from design to design of a model.
    type :: walk_t
-      private
       type(state_t) :: state
       real(wp) :: here = 0.0_wp        !! swept value of `state`, and the inputs at this value; for the linear methods
       type(inputs_t) :: inputs
@@ -360,5 +368,81 @@ contains
       self%inputs = next
       self%here = value
    end subroutine advance
+
+   !> Checks the states from `first` to `last`, outward from design, and marks states that are not on the path as not reached.
+   !> Without static equilibrium under the constant loads, nothing is checked.
+   subroutine confirm(suspension, schedule, place, packed, first, last, least, kkt, is_reached, failure)
+      type(suspension_t), intent(in) :: suspension
+      type(schedule_t), intent(in) :: schedule
+      real(wp), intent(in) :: place(:)               !! swept value of each state
+      real(wp), intent(in) :: packed(:, :)           !! (coordinate, state)
+      integer, intent(in) :: first, last
+      real(wp), intent(in) :: least                  !! shortest step [swept value]
+      type(kkt_t), intent(inout) :: kkt
+      logical, intent(inout) :: is_reached(:)
+      type(failure_t), intent(inout) :: failure      !! state: the first rejected state
+      type(state_t) :: exact, linear
+      type(branch_t) :: branch
+      type(inputs_t) :: inputs
+      type(outcome_t) :: outcome
+      type(failure_t) :: lost
+      real(wp) :: motion(kkt%nq)
+      real(wp), allocatable :: settled(:)
+      integer :: k, sure, stride, iterations, end, direction
+
+      direction = sign(1, last - first)
+      end = first - direction
+      do k = first, last, direction
+         if (.not. is_reached(k)) exit
+         end = k
+      end do
+      if ((end - first)*direction < 0) return
+      exact = design_state(suspension)
+      linear = exact
+      call settle(suspension, default_tolerance, exact, kkt, lost)
+      if (lost%state > 0) return
+      allocate (settled(size(packed, 1)))
+      call pack_state(exact, settled)
+      branch = new_branch(suspension)
+      branch%least = least
+      branch%width = 1.0e3_wp*least
+      call leave(branch, 0.0_wp, settled, kkt%negative)
+      stride = max(1, (abs(end - first) + max_evaluations)/max_evaluations)
+      sure = first - direction
+      k = first
+      if (abs(place(first)) <= 0.0_wp) then       ! design itself
+         sure = first
+         if (end == first) return
+         k = first + sign(min(stride, abs(end - first)), direction)
+      end if
+      do
+         call reach(suspension, schedule, place(k), default_tolerance, branch, exact, kkt, iterations, lost)
+         if (lost%state > 0) then
+            ! states before the end of the path are kept
+            do while (sure /= k)
+               if (abs(place(sure + direction)) > abs(lost%reached)) exit
+               sure = sure + direction
+            end do
+            exit
+         end if
+         call unpack_state(packed(:, k), linear)
+         call inputs_at(schedule, place(k), inputs)
+         call find_equilibrium(suspension, inputs, default_tolerance, linear, kkt, outcome)
+         if (.not. outcome%is_converged) exit
+         call motion_between(exact, linear, motion)
+         if (.not. largest_motion(motion, kkt%length) <= apart) exit
+         sure = k
+         if (k == end) return
+         k = k + sign(min(stride, abs(end - k)), direction)
+      end do
+      is_reached(sure + direction:end:direction) = .false.
+      if (lost%state == 0) then
+         lost%value = place(sure + direction)
+         lost%is_off_path = .true.
+         if (sure - (first - direction) /= 0) lost%reached = place(sure)
+      end if
+      failure = lost
+      failure%state = sure + direction
+   end subroutine confirm
 
 end module ek_path

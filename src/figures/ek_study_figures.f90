@@ -1,19 +1,30 @@
 !> The figures of a study. One table, `rules`, gives the conditions for drawing each figure: the kind of study, columns,
 !> responses, and the numbers of factors and designs. A new figure needs a row in `rules`, a case in `script_of`, and a
 !> procedure in ek_sample_figures, ek_effect_figures or a separate file.
+!>
+!> Drawn here: the curves of the designs, where each panel is coloured by the factor with the largest effect on its
+!> curves, and parallel coordinates, one line per design across factors and responses.
 module ek_study_figures
-   use ek_text, only: plural
-   use ek_study_data, only: study_data_t, has_indices
-   use ek_sample_figures, only: fan_script, histogram_script, convergence_script
-   use ek_scatter_figure, only: pairs_script, matrix_script
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use ek_text, only: plural, str
+   use ek_study_data, only: study_data_t, has_indices, is_geometric, range_of_values
+   use ek_sample_figures, only: fan_script, histogram_script, convergence_script, thinned, add_scale, cut
+   use ek_scatter_figure, only: pairs_script, matrix_script, most_columns, leading_factors
    use ek_study_panels, only: sheets_of, response_panels, column_panels, panels_text
-   use ek_family_figure, only: family_script
-   use ek_parallel_figure, only: parallel_script
    use ek_effect_figures, only: map_script, line_script, tornado_script, sobol_script, morris_script
    use ek_carpet_figure, only: carpet_script, study_carpet
+   use ek_kinds, only: wp
+   use ek_study_sheet, only: sheet_t, new_sheet, begin_data, add_numbers, end_data, begin_panels, begin_panel, end_panels, blues, &
+      two_lines
+   use ek_gnuplot_text, only: gnuplot_text
    implicit none(type, external)
    private
-   public :: figure_rule_t, rules, applies, script_of, figure_name, sheets, others
+   public :: figure_rule_t, rules, applies, script_of, figure_name, sheets, others, family_script, curve_leader, parallel_script
+
+   integer, parameter :: most_curves = 300           !! largest number of designs with curves in the figure
+
+   character(*), parameter :: nl = new_line('a')
+   integer, parameter :: most_lines = 300            !! largest number of lines of the figure
 
    !> The conditions for drawing a figure.
    type :: figure_rule_t
@@ -147,5 +158,183 @@ contains
          text = ''
       end select
    end function script_of
+
+   !> The gnuplot script of the curves, with one panel per column. Of more than 300 designs, only some are drawn.
+   function family_script(study, name, subtitle, panels) result(text)
+      type(study_data_t), intent(in) :: study
+      integer, intent(in) :: panels(:)               !! indices of the columns
+      character(*), intent(in) :: name, subtitle
+      character(:), allocatable :: text
+      type(sheet_t) :: sheet
+      integer, allocatable :: leaders(:)
+      logical :: is_common
+      integer :: c, every
+
+      every = (size(study%drawn) + most_curves - 1)/most_curves
+      sheet = new_sheet(name, 'The curves of all designs', '', size(panels))
+      if (size(study%drawn)*every < study%designs .or. every > 1) sheet%title = 'The curves of some designs'
+      allocate (leaders(sheet%panels))
+      do c = 1, sheet%panels
+         leaders(c) = curve_leader(study, panels(c))
+      end do
+      is_common = all(leaders == leaders(1))
+      sheet%has_scale = is_common
+      sheet%subtitle = subtitle// &
+         thinned(every*max(1, study%designs/max(1, size(study%drawn))), study%designs)
+      if (.not. is_common) sheet%subtitle = sheet%subtitle//'; colour: from dark to light the factor above each panel'
+      call add_curves(sheet, study, panels, leaders, every)
+      call begin_panels(sheet)
+      call sheet%text%line(blues)
+      if (is_common) call add_scale(sheet, study%factors(leaders(1))%label, study%x(leaders(1), :))
+      do c = 1, sheet%panels
+         call begin_panel(sheet, c, trim(above(c)), study%swept, study%columns(panels(c))%label)
+         if (c == 2 .or. .not. is_common) call sheet%text%line('unset colorbox')
+         call sheet%text%line('unset logscale cb')
+         if (is_geometric(study%x(leaders(c), :))) call sheet%text%line('set logscale cb')
+         call sheet%text%line('plot $curves using 1:'//str(1 + sheet%panels + c)//':'//str(1 + c)// &
+            ' with lines linewidth 1 linecolor palette notitle')
+      end do
+      text = end_panels(sheet)
+
+   contains
+
+      !> Title above a panel if the panels have different factors: the factor of the panel and its range. Otherwise ''.
+      function above(panel) result(words)
+         integer, intent(in) :: panel
+         character(:), allocatable :: words
+         real(wp) :: range(2)
+
+         words = ''
+         if (is_common) return
+         range = range_of_values(study%x(leaders(panel), :))
+         words = study%factors(leaders(panel))%label//' '//str(range(1), 4)//' … '//str(range(2), 4)
+      end function above
+
+   end function family_script
+
+   !> Adds the data of every `every`-th design: swept value, the factor of each panel, and the column of each panel.
+   subroutine add_curves(sheet, study, panels, leaders, every)
+      type(sheet_t), intent(inout) :: sheet
+      type(study_data_t), intent(in) :: study
+      integer, intent(in) :: panels(:), leaders(:), every
+      integer :: k, j
+
+      call begin_data(sheet, 'curves')
+      do k = 1, size(study%drawn), every
+         do j = 1, size(study%sweep)
+            if (.not. any(ieee_is_finite(study%curves(:, j, k)))) cycle
+            call add_numbers(sheet, [study%sweep(j), study%x(leaders, study%drawn(k)), study%curves(panels, j, k)])
+         end do
+         call sheet%text%line('')
+      end do
+      call end_data(sheet)
+   end subroutine add_curves
+
+   !> Index of the factor that explains most of the scatter of a column. The measure is the squared correlation of factor and column
+   !> over all swept values, weighted with the variance of the column at each swept value.
+   pure integer function curve_leader(study, column) result(leader)
+      type(study_data_t), intent(in) :: study
+      integer, intent(in) :: column
+      real(wp) :: explained(size(study%factors))
+      integer :: f, j
+
+      explained = 0.0_wp
+      do j = 1, size(study%sweep)
+         do f = 1, size(explained)
+            explained(f) = explained(f) + explained_variance(study%x(f, study%drawn), study%curves(column, j, :))
+         end do
+      end do
+      leader = maxloc(explained, dim=1)
+   end function curve_leader
+
+   !> The part of the variance of y that a straight line over x explains, times the number of designs. Designs without values
+   !> are omitted; with less than two designs, the part is 0.
+   pure real(wp) function explained_variance(x, y) result(part)
+      real(wp), intent(in) :: x(:), y(:)
+      logical :: is_used(size(x))
+      real(wp) :: xx, xy, mean(2)
+      integer :: n
+
+      part = 0.0_wp
+      is_used = ieee_is_finite(x) .and. ieee_is_finite(y)
+      n = count(is_used)
+      if (n < 2) return
+      mean = [sum(x, mask=is_used), sum(y, mask=is_used)]/n
+      xx = sum((x - mean(1))**2, mask=is_used)
+      xy = sum((x - mean(1))*(y - mean(2)), mask=is_used)
+      if (xx > 0.0_wp) part = xy**2/xx
+   end function explained_variance
+
+   !> The script of the parallel coordinates: one line per design across the leading factors and up to four responses,
+   !> coloured by the first response. Of more than 300 designs, only some are drawn. Designs without a value of a response are
+   !> omitted.
+   function parallel_script(study, name, subtitle) result(text)
+      type(study_data_t), intent(in) :: study
+      character(*), intent(in) :: name, subtitle
+      character(:), allocatable :: text
+      type(sheet_t) :: sheet
+      integer, allocatable :: factors(:)
+      real(wp), allocatable :: values(:, :), low(:), span(:)
+      real(wp) :: range(2)
+      character(:), allocatable :: place
+      integer :: k, d, n, every
+
+      allocate (factors(min(most_columns, size(study%factors))))
+      factors(:) = leading_factors(study, most_columns)
+      n = size(factors) + min(size(study%responses), 4)
+      values = reshape([study%x(factors, :)], [size(factors), study%designs])
+      allocate (low(n), span(n))
+      every = max(1, (study%designs + most_lines - 1)/most_lines)
+      sheet = new_sheet(name, 'Factors and responses of each design', subtitle// &
+         '; one line per design'//thinned(every, study%designs)// &
+         cut(size(factors), size(study%factors), 'factors')//cut(n - size(factors), size(study%responses), 'responses'), 1, &
+         height=600)
+      sheet%has_scale = .true.
+      sheet%right = 95
+      sheet%left = 95
+      sheet%bottom = 24
+      sheet%letters = merge(12, 14, n > 7)
+      do k = 1, n
+         if (k <= size(factors)) range = range_of_values(values(k, :))
+         if (k > size(factors)) range = range_of_values(study%y(k - size(factors), :))
+         low(k) = range(1)
+         span(k) = max(range(2) - range(1), tiny(1.0_wp))
+      end do
+      call begin_data(sheet, 'lines')
+      do d = 1, study%designs, every
+         if (.not. all(ieee_is_finite(study%y(:n - size(factors), d)))) cycle
+         do k = 1, n
+            if (k <= size(factors)) range(1) = values(k, d)
+            if (k > size(factors)) range(1) = study%y(k - size(factors), d)
+            call add_numbers(sheet, [real(k, wp), (range(1) - low(k))/span(k), study%y(1, d)])
+         end do
+         call sheet%text%line('')
+      end do
+      call end_data(sheet)
+      call begin_panels(sheet)
+      call sheet%text%line(blues//nl//'unset border; unset grid; unset xzeroaxis; unset yzeroaxis; unset ytics; unset xtics')
+      call sheet%text%line('set xrange [0.8:'//str(n + 0.2_wp)//']; set yrange [-0.09:1.25]')
+      call add_scale(sheet, study%responses(1)%label, study%y(1, :))
+      do k = 1, n
+         place = ' at first '//str(k)//', first '
+         call sheet%text%line('set arrow '//str(k)//' from first '//str(k)//', first 0 to first '//str(k)// &
+            ", first 1 nohead front linewidth 1.5 linecolor rgb '#404040'")
+         if (k <= size(factors)) then
+            call sheet%text%line('set label '//str(10 + k)//' '//two_lines(study%factors(factors(k))%label, 18)//place// &
+               trim(merge('1.21', '1.12', modulo(k, 2) == 1))//" center textcolor rgb '#202020'")
+         else
+            call sheet%text%line('set label '//str(10 + k)//' '//two_lines(study%responses(k - size(factors))%label, 18)//place// &
+               trim(merge('1.21', '1.12', modulo(k, 2) == 1))//" center textcolor rgb '#A04000'")
+         end if
+         call sheet%text%line('set label '//str(40 + k)//' '//gnuplot_text(str(low(k), 5))//place// &
+            "-0.045 center textcolor rgb '#606060'")
+         call sheet%text%line('set label '//str(70 + k)//' '//gnuplot_text(str(low(k) + span(k), 5))//place// &
+            "1.035 center textcolor rgb '#606060'")
+      end do
+      call begin_panel(sheet, 1, '', '', '')
+      call sheet%text%line("plot $lines using 1:2:3 with lines linewidth 1 linecolor palette notitle")
+      call sheet%text%line('set cbtics autofreq; unset label; unset arrow; set border 3; set xrange [*:*]; set yrange [*:*]')
+      text = end_panels(sheet)
+   end function parallel_script
 
 end module ek_study_figures

@@ -15,8 +15,7 @@ module ek_foreign_deck
    use ek_kin, only: kin_t
    use ek_kin_reader, only: parse_kin, is_kin
    use ek_kin_check, only: is_used_mount, check_kin
-   use ek_kin_mounts, only: mount_law_t
-   use ek_kin_deck, only: kin_deck
+   use ek_kin_deck, only: mount_law_t, kin_deck
    use ek_lcf, only: lcf_t, parse_lcf, lcf_table
    use ek_deck_text, only: deck_text_t
    use ek_law_text, only: put_curve, put_curves, put_bushing_law

@@ -1,6 +1,8 @@
 !> The key numbers of a report, from all its tests: attitude at design, rates, ride and roll, compliance,
 !> anti-dive, anti-lift, anti-squat, steering. Numbers without a column or test are omitted. Titles, units and signs come from
 !> ek_quantity and ek_gradient_definition.
+!> Springs have the motion ratio of each spring on two points and of each spring on a length measure, at design.
+!> The definition of a slope is a sentence, from which its value follows: columns, and the factor on the slope of each wheel.
 module ek_key_numbers
    use ek_kinds, only: wp
    use ek_table, only: column_index
@@ -11,12 +13,13 @@ module ek_key_numbers
    use ek_key_number, only: key_number_t, key_source_t, nothing, read_source, has_value, at_design, largest, least, slope, &
       in_phase, anti_phase
    use ek_missing_number, only: missing_reason
-   use ek_slope_definition, only: slope_definition
-   use ek_ratio_numbers, only: ratio_numbers
    use ek_place_numbers, only: number_list_t, new_number, add_source, append, numbers_of, place_numbers
+   use ek_text, only: spaced, str
    implicit none(type, external)
    private
    public :: key_number_t, key_numbers, list_key_numbers, number_heads, wanted_gradients, without_side, number_name
+
+   character(*), parameter :: ratio_ending = '_motion_ratio', gap_ending = '_gap_mm'
 
    !> One key number: its group, its column or gradient, and the way in which it is read.
    type :: entry_t
@@ -371,5 +374,110 @@ contains
       if (index(column, 'left_') == 1) name = column(6:)
       if (index(column, 'right_') == 1) name = column(7:)
    end function without_side
+
+   !> Appends the motion ratio of each element with a column of motion ratio: the change of the length of the element per wheel
+   !> travel. Stops are omitted, because they are without contact near design.
+   subroutine ratio_numbers(tests, numbers, wanted)
+      type(test_result_t), intent(in) :: tests(:)
+      type(number_list_t), intent(inout) :: numbers
+      character(*), intent(in), optional :: wanted(:)    !! names without left_ and right_; absent: all
+      character(:), allocatable :: element, on_right
+      type(key_number_t) :: number
+      integer :: t, c, ends
+      logical :: is_pair
+
+      do t = 1, size(tests)
+         if (tests(t)%kind == 'parallel_travel') exit
+      end do
+      if (t > size(tests)) return
+      associate (test => tests(t), columns => tests(t)%table%columns)
+         is_pair = size(test%prefixes) > 1
+         do c = 1, size(columns)
+            ends = len_trim(columns(c)) - len(ratio_ending)
+            if (ends < 1) cycle
+            if (columns(c) (ends + 1:) /= ratio_ending) cycle
+            element = columns(c) (:ends)
+            if (column_index(test%table, element//gap_ending) > 0) cycle
+            on_right = ''
+            if (is_pair .and. index(element, 'right_') == 1) then
+               if (column_index(test%table, 'left_'//element(7:)//ratio_ending) > 0) cycle      ! with the left one
+            else if (is_pair .and. index(element, 'left_') == 1) then
+               on_right = 'right_'//element(6:)//ratio_ending
+               if (column_index(test%table, on_right) == 0) on_right = ''
+            end if
+            call make(element, on_right)
+            if (present(wanted)) then
+               if (.not. any(wanted == number%name)) cycle
+            end if
+            call append(number, numbers)
+         end do
+      end associate
+
+   contains
+
+      subroutine make(element, on_right)
+         character(*), intent(in) :: element, on_right        !! column of the element on the right; '': none
+         character(:), allocatable :: stem
+         type(key_source_t) :: source
+
+         stem = element
+         if (on_right /= '') stem = element(6:)
+         call new_number('Motion ratios', 'motion ratio, '//spaced(stem), '–', '− shortens in bump', at_design, number)
+         number%name = stem//ratio_ending
+         number%condition = 'test '//tests(t)%name//', at design, wheels in parallel travel'
+         number%definition = stem//ratio_ending//', d(length of '//stem//')/d(wheel travel); − shortens in bump'
+         number%is_of_axle = is_pair .and. on_right == ''
+         source = key_source_t(test=t)
+         source%column(1) = element//ratio_ending
+         source%column(2) = on_right
+         call add_source(source, number)
+      end subroutine make
+
+   end subroutine ratio_numbers
+
+   !> The definition of a slope: 'least-squares slope of toe_deg over factor, times −1000 (left wheel), 1000 (right wheel)'. The
+   !> value is the slope of the columns as they are in the table of the test, times the factor.
+   function slope_definition(column, over, per_factor, unit, times) result(text)
+      character(*), intent(in) :: column, over      !! columns of y and x, without the name of the wheel
+      real(wp), intent(in) :: per_factor            !! load or displacement at `factor` = 1
+      character(*), intent(in) :: unit              !! its unit, with a leading blank
+      real(wp), intent(in) :: times(2)              !! factor of each wheel on the slope in the unit of the window; 0: no number
+      character(:), allocatable :: text
+
+      text = 'least-squares slope of '//column//' over '//over
+      if (over /= 'factor') then
+         text = text//times_of(times)
+         return
+      end if
+      if (abs(per_factor - 1.0_wp) > 0.0_wp) text = text//' (1: '//signed(per_factor)//unit//')'
+      text = text//times_of(times/per_factor)
+   end function slope_definition
+
+   !> The factors on the slopes of the columns of both wheels, which include unit and sign: ', times 1000', or ', times −1000 (left
+   !> wheel), 1000 (right wheel)'; '' if both are 1. The factor of a wheel without the number is 0.
+   function times_of(times) result(text)
+      real(wp), intent(in) :: times(2)
+      character(:), allocatable :: text
+      real(wp) :: both(2)
+
+      both = times
+      where (.not. abs(both) > 0.0_wp) both = times([2, 1])
+      text = ''
+      if (all(abs(both - 1.0_wp) <= 0.0_wp)) return
+      if (abs(both(1) - both(2)) <= 0.0_wp) then
+         text = ', times '//signed(both(1))
+      else
+         text = ', times '//signed(both(1))//' (left wheel), '//signed(both(2))//' (right wheel)'
+      end if
+   end function times_of
+
+   !> A number with the minus sign of the page.
+   function signed(number) result(text)
+      real(wp), intent(in) :: number
+      character(:), allocatable :: text
+
+      text = str(abs(number), 9)
+      if (number < 0.0_wp) text = '−'//text
+   end function signed
 
 end module ek_key_numbers

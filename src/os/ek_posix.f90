@@ -3,7 +3,7 @@
 !> Only POSIX functions without variable argument lists are used (`open` without its third argument), and no structure is accessed
 !> except the four addresses of Dl_info. The layout of other structures and processor-dependent constants are therefore not needed.
 !> `__errno_location` is the name of errno in glibc and musl. `flock` is not in POSIX, but in every Linux and BSD. Users of this
-!> module are ek_system, ek_writer, ek_process, ek_file, ek_stream, ek_append_file, ek_loaded_library, ek_interrupt, ek_clock,
+!> module are ek_system, ek_writer, ek_process, ek_file, ek_append_file, ek_loaded_library, ek_interrupt, ek_clock,
 !> ek_drawing, and the main program of elastokin-netcdf.
 module ek_posix
    use, intrinsic :: iso_c_binding, only: c_char, c_int, c_long, c_funptr, c_ptr, c_size_t

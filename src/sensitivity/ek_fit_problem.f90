@@ -1,5 +1,6 @@
 !> A fit checked against its deck: the factors become directions with bounds and priors. The targets become requested numbers, one
 !> per point.
+!> Each number of the deck belongs to at most one factor. The curve of a target is a table: abscissa, required value and limits.
 module ek_fit_problem
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t, fail, exit_deck
@@ -12,12 +13,14 @@ module ek_fit_problem
    use ek_workspace, only: workspace_t
    use ek_workspace_cases, only: case_number
    use ek_parameter, only: parameter_path
-   use ek_matched_numbers, only: claims_t, new_claims
-   use ek_fit_claims, only: claim_factor
-   use ek_fit_curve, only: read_curve
+   use ek_matched_numbers, only: claims_t, new_claims, matches_t, match_t, match_paths, match_name, claim
    use ek_direction, only: direction_t, find_directions
    use ek_wanted_number, only: wanted_number_t, find_wanted, find_column
    use ek_fit, only: fit_t, fit_factor_t, fit_target_t
+   use ek_factor_paths, only: shared_text
+   use ek_sheet, only: sheet_t, read_sheet, column_of, mistakes_of, complain
+   use ek_sheet_columns, only: take_columns, find_unit_row, or_empty
+   use ek_unit_row, only: unit_of_heading
    implicit none(type, external)
    private
    public :: fit_problem_t, fit_variable_t, fit_point_t, make_problem
@@ -358,5 +361,95 @@ contains
       wanted%column = ''
       wanted%reach = [huge(1.0_wp)]
    end subroutine make_slope
+
+   !> Checks that the numbers of a factor belong to no earlier factor. `message` describes a number that an earlier factor changes,
+   !> and a number that two paths of the factor change in different ways; otherwise it is ''.
+   subroutine claim_factor(fit, f, workspace, claims, message)
+      type(fit_t), intent(in) :: fit
+      integer, intent(in) :: f                             !! index of the factor
+      type(workspace_t), intent(in) :: workspace
+      type(claims_t), intent(inout) :: claims              !! numbers of all factors
+      character(:), allocatable, intent(out) :: message
+      type(matches_t) :: matches, one
+      type(match_t), allocatable :: shared(:)
+      character(:), allocatable :: ignored
+      integer :: k, j, other
+
+      associate (factor => fit%factors(f), design => workspace%design)
+         call match_paths(design%parameters, design%records, factor%paths, factor%change /= by_value, matches, message)
+         if (factor%change == by_scale) message = ''                 ! a multiple has no direction
+         do k = 2, merge(size(factor%paths), 1, message == '' .and. matches%has_repeated)
+            call match_paths(design%parameters, design%records, factor%paths(k:k), factor%change /= by_value, one, ignored)
+            do j = 1, size(matches%list)
+               associate (before => matches%list(j)%path)
+                  if (before >= k .or. .not. any(one%list%number == matches%list(j)%number)) cycle
+                  if (message == '' .and. abs(factor%weights(before) - factor%weights(k)) > 0.0_wp) message = 'its paths '// &
+                     quoted(trim(factor%paths(before)))//' and '//quoted(trim(factor%paths(k)))//' change '// &
+                     match_name(design%records, matches%list(j), matches%list)//' with different weights; remove one of them'
+               end associate
+            end do
+         end do
+         if (message /= '') message = factor%where//': factor '//quoted(factor%name)//': '//message
+         call claim(claims, matches%list, f, other, shared)
+         if (other > 0 .and. message == '') message = shared_text(factor%where, factor%name, fit%factors(other)%where, &
+            fit%factors(other)%name, match_name(design%records, shared(1), shared))
+      end associate
+   end subroutine claim_factor
+
+   !> Reads the curve of a target. Each row needs the abscissa. If the table has the column of the required values, each row needs
+   !> the required value; otherwise each row needs a limit.
+   subroutine read_curve(target, home, swept_unit, rows, mistakes)
+      type(fit_target_t), intent(in) :: target
+      character(*), intent(in) :: home                     !! folder of the fit, with its slash
+      character(*), intent(in) :: swept_unit               !! unit of the swept value of the case
+      real(wp), allocatable, intent(out) :: rows(:, :)     !! (abscissa, value, low, high; row); nan if not given
+      type(message_list_t), intent(inout) :: mistakes      !! receives all errors of the table
+      character(*), parameter :: limit(2) = [character(4) :: 'low', 'high']
+      type(sheet_t) :: sheet
+      type(error_t), allocatable :: error
+      character(16) :: units(2)
+      character(:), allocatable :: path
+      real(wp), allocatable :: values(:, :), limits(:, :)
+      integer, allocatable :: of_limits(:)
+      integer :: places(2), of(2), k
+
+      allocate (rows(4, 0))
+      path = target%file
+      if (index(path, '/') /= 1) path = home//path
+      call read_sheet(path, sheet, error)
+      if (allocated(error)) then
+         call mistakes%add(error%message)
+         return
+      end if
+      places = [column_of(sheet, trim(target%over)), column_of(sheet, trim(target%column))]
+      of = [(column_of(sheet, trim(limit(k))), k=1, 2)]
+      of_limits = pack(of, of > 0)
+      units(1) = unit_of_heading(trim(target%over))
+      units(2) = unit_of_heading(trim(target%quantity))
+      if (target%over == 'factor') units(1) = swept_unit
+      if (sheet%head_mistakes%count() == 0 .and. (places(1) == 0 .or. (places(2) == 0 .and. size(of_limits) == 0))) &
+         call sheet%head_mistakes%add(path//' must have the columns '//trim(target%over)//' and '//trim(target%column)// &
+         ', or low, or high')
+      if (sheet%head_mistakes%count() == 0) then
+         call find_unit_row(sheet, [pack(places, places > 0), of_limits])
+         call take_columns(sheet, pack(places, places > 0), values, pack(units, places > 0))
+         call take_columns(sheet, [places(1), of_limits], limits, [units(1), spread(units(2), 1, size(of_limits))], or_empty)
+         if (places(2) == 0) then
+            do k = 1, size(limits, 2)
+               if (.not. any(is_given(limits(2:, k)))) call complain(sheet, sheet%unit_row + k, &
+                  'expected a limit in column low or high, found none')
+            end do
+         end if
+      end if
+      call mistakes_of(sheet, mistakes)
+      if (mistakes%count() > 0) return
+      deallocate (rows)
+      allocate (rows(4, size(values, 2)), source=not_given())
+      rows(1, :) = values(1, :)
+      if (places(2) > 0) rows(2, :) = values(2, :)
+      do k = 1, 2
+         if (of(k) > 0) rows(2 + k, :) = limits(1 + findloc(of_limits, of(k), dim=1), :)
+      end do
+   end subroutine read_curve
 
 end module ek_fit_problem

@@ -9,8 +9,7 @@ module ek_example
    use ek_joint, only: joint_geometry_t
    use ek_rotation, only: identity3
    use ek_suspension, only: suspension_t, load_t, wheel_t
-   use ek_rig, only: rig_t, new_rig, add_height, put_on
-   use ek_rig_numbers, only: set_rig_numbers
+   use ek_rig, only: rig_t, new_rig, add_height, put_on, set_rig_numbers
    use ek_parts, only: add_body, add_joint, add_bushing, add_spring, add_load, add_wheel
    implicit none(type, external)
    private
