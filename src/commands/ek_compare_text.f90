@@ -8,7 +8,7 @@ module ek_compare_text
    use ek_file, only: join_path
    use ek_change, only: change_of, verdict_of, letter_of
    use ek_comparison, only: comparison_t, descending, difference, percent
-   use ek_deck_difference, only: deck_difference_t, difference_size, step_text
+   use ek_deck_difference, only: deck_difference_t, few_changes, difference_size, step_text
    use ek_compare_targets, only: target_lines
    use ek_compare_page, only: verdicts
    use ek_verdict, only: plain
@@ -18,8 +18,8 @@ module ek_compare_text
 
 contains
 
-   !> The string for standard output: the paths of the results, the counts of changes, the values and verdicts of the targets, the
-   !> largest differences of curves, the table of gradients, and the differences of the decks.
+   !> The string for standard output: the paths of the results, the differences of the decks, the counts of changes, the values and
+   !> verdicts of the targets, the largest differences of curves, and the table of gradients. Many differences of the decks are last.
    function text_of(this, is_short) result(text)
       type(comparison_t), intent(in) :: this
       logical, intent(in) :: is_short              !! only gradients that changed, or are in some of the results only, are listed
@@ -32,6 +32,7 @@ contains
          call out%line(letter_of(r)//': '//this%results(r)%path)
       end do
       call out%line('')
+      if (size(this%deck) <= few_changes) call add_changes(out, this%facts, this%deck, this%folder)
       call verdicts(this, lines)
       do k = 1, lines%count()
          call out%line(lines%line(k))
@@ -46,7 +47,10 @@ contains
       else
          call add_gradients(out, this, is_short)
       end if
-      call add_changes(out, this%facts, this%deck, this%folder)
+      if (size(this%deck) > few_changes) then
+         call out%line('')
+         call add_changes(out, this%facts, this%deck, this%folder)
+      end if
       text = out%text()
    end function text_of
 
@@ -81,21 +85,20 @@ contains
       type(buffer_t), intent(inout) :: out
       type(deck_difference_t), intent(in) :: facts(:), values(:)
       character(*), intent(in) :: folder           !! folder of deck-differences.csv
-      integer, parameter :: most = 20
       integer :: k, order(size(values))
 
-      if (size(facts) + size(values) > 0) call out%line('')
       do k = 1, size(facts)
          call add_change(facts(k))
       end do
       if (size(values) > 0) call out%line(plural(size(values), 'value of the deck differs:', 'values of the deck differ:'))
       order = [(k, k=1, size(values))]
-      if (size(values) > most) order = descending([(difference_size(values(k)), k=1, size(values))])
-      do k = 1, min(size(values), most)
+      if (size(values) > few_changes) order = descending([(difference_size(values(k)), k=1, size(values))])
+      do k = 1, min(size(values), few_changes)
          call add_change(values(order(k)))
       end do
-      if (size(values) > most) call out%line('these are the '//str(most)//' largest; '// &
+      if (size(values) > few_changes) call out%line('these are the '//str(few_changes)//' largest; '// &
          join_path(folder, 'deck-differences.csv')//' contains all')
+      if (size(facts) + size(values) > 0) call out%line('')
 
    contains
 

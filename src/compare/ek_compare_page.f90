@@ -13,7 +13,7 @@ module ek_compare_page
    use ek_change, only: change_of, verdict_of, has_changed, letter_of, relative_change
    use ek_compare_targets, only: add_targets
    use ek_comparison, only: comparison_t, difference_t, difference, largest_change, descending, counted
-   use ek_deck_difference, only: deck_difference_t, step_text
+   use ek_deck_difference, only: deck_difference_t, few_changes, step_text
    use ek_report_data, only: comparison_data
    use ek_report_page, only: add_pictures, add_constants
    implicit none(type, external)
@@ -22,7 +22,6 @@ module ek_compare_page
 
    integer, parameter :: principal = 6        !! number of changed charts of a test that are not folded
    integer, parameter :: most_rows = 40       !! number of rows of a table that are not folded
-   integer, parameter :: few_changes = 20     !! a longer list of values that differ is after the results
 
 contains
 

@@ -7,7 +7,9 @@ module ek_deck_difference
    use ek_deck_file, only: deck_record_t
    implicit none(type, external)
    private
-   public :: deck_difference_t, find_differences, difference_size, step_text
+   public :: deck_difference_t, few_changes, find_differences, difference_size, step_text
+
+   integer, parameter :: few_changes = 20     !! a longer list of values that differ is after the results, on pages and terminal
 
    character(*), parameter :: left(2) = [character(12) :: '.left_', 'wheel.left.'], &
       right(2) = [character(12) :: '.right_', 'wheel.right.'], both(2) = [character(12) :: '.', 'wheel.']
