@@ -8,7 +8,7 @@ module ek_table_lines
    private
    public :: lines_t, open_table, next_line, take_numbers, close_table
 
-   integer, parameter :: longest_line = 200000       !! length of the longest line of column names [characters]
+   integer, parameter :: longest_line = 4000000      !! length of the longest line of column names [characters]
    integer, parameter :: longest_message = 1000      !! characters stored of the message on a failed design
 
    !> A table that is read line by line.
