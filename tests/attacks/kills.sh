@@ -50,6 +50,7 @@ digest() {
   (cd "$1" && find . \( -type f -o -type l \) ! -name 'convergence.*' ! -name 'work_precision.*' ! -name step_size.html | sort | while read -r file; do
     case $file in
       */step_size.csv) cut -d, -f1-6,8- "$file" ;;
+      */step_size-files.csv) cut -d, -f1 "$file" ;;      # the checksum of that table
       # gnuplot 5.4 writes two lines of one colour as one path or as two, at random
       *.svg | *.html) sed -zE "s#  '/>\s*<path stroke='[^']*'  d='# #g" "$file" ;;
       *) cat "$file" ;;
