@@ -73,17 +73,17 @@ END
   [ "$(wc -l <"$folder/snippet.py")" -ge 5 ] || { echo "the manual has no such lines"; return 1; }
   (
     cd "$folder" || exit 1
-    "$program" study netcdf.nml --quiet && "$program" study csv.nml --quiet && ncdump -h out/tolerance.nc && "$tools/bin/python" snippet.py >said.txt || exit 1
+    "$program" study netcdf.nml --quiet && "$program" study csv.nml --out csv --quiet && ncdump -h out/tolerance.nc && "$tools/bin/python" snippet.py >said.txt || exit 1
     cat said.txt
     "$tools/bin/python" - <<'END'
 import csv, math, statistics, xarray
-rows = list(csv.DictReader(line for line in open("out/tolerance_responses.csv") if line[0] != "#"))
+rows = list(csv.DictReader(line for line in open("csv/tolerance_responses.csv") if line[0] != "#"))
 wanted = statistics.pstdev(float(row["toe_gradient_deg_per_m"]) for row in rows)
 found, checksum = open("said.txt").read().split()
 assert math.isclose(wanted, float(found), rel_tol=1e-9), (wanted, found)
 assert len(checksum) == 16 and len(open("band.csv").readlines()) > 20
 store = xarray.open_dataset("out/tolerance.nc")
-lines = csv.DictReader(line for line in open("out/tolerance_curves.csv") if line[0] != "#" and line.strip())
+lines = csv.DictReader(line for line in open("csv/tolerance_curves.csv") if line[0] != "#" and line.strip())
 for row, value in zip(lines, store.toe_deg.values.ravel(), strict=True):
     assert float(row["toe_deg"]) == float(f"{value:.15g}"), (row, value)
 END
