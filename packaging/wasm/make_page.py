@@ -72,7 +72,7 @@ parts = {
     "PROGRAM": program,
     # one script: a worker of a page without a server loads no other
     "WORKER": re.sub(r"(?m)^export ", "", source("wasi.mjs")) + source("worker.js"),
-    "SCRIPT": source("page.js"),
+    "SCRIPT": source("page.js") + source("workbench.js") + source("start.js"),
 }
 page = re.sub(r"@([A-Z]+)@", lambda found: parts[found.group(1)], source("page.html"))
 size = len(page.encode())

@@ -4,8 +4,10 @@
 
 A deck of the library is opened, checked, run and reported; a mistake is typed, located and undone; files are dropped; a deck that
 does not parse, an empty file, a mechanism and a wrong command are reported in the page; a run is stopped; the page is closed and
-opened again. FOLDER receives downloads. Requires playwright (PyPI) and a Chromium in the path. Exit status 1 with a line per failure.
+opened again. Points are dragged, moved by keys and typed: the curves are those of a run with the settings that the page saves, to
+the last bit; undo gives the text as it was. FOLDER receives downloads. Requires playwright (PyPI) and a Chromium in the path. Exit status 1 with a line per failure.
 """
+import random
 import shutil
 import sys
 import time
@@ -111,6 +113,90 @@ with sync_playwright() as tool:
     require(page.input_value("#text") == text, "the document was lost when a command was stopped")
     page.click("[data-command=check]")
     said("check: done")
+
+    # points and curves
+    def curves():
+        end = time.monotonic() + patient / 1000     # the page allows no eval, which wait_for_function needs
+        while time.monotonic() < end:
+            found = page.evaluate("elastokin.curves()")
+            if found["isCurrent"] and found.get("columns"):
+                return found
+            time.sleep(0.02)
+        raise TimeoutError("no curves")
+
+    def agrees(what, test="parallel_travel"):
+        """The curves are those of a run of the document as opened, with the settings that the page saves."""
+        drawn, settings = curves(), page.evaluate("changes()")
+        result = page.evaluate("""([text, settings, test]) => elastokin.command(["run", "mcpherson_axle.nml", "--case", test, "--increments",
+          "20", "--set-file", "changes.set", "--out", "out"], { "mcpherson_axle.nml": text, "changes.set": settings })""",
+          [text, settings, test])
+        solved = f"out/mcpherson_axle_{test}.csv" in result["files"]
+        is_bad = page.locator("#said").get_attribute("class") == "bad"
+        require(solved != is_bad, f"{what}: the page says '{page.inner_text('#said')}', the run {result['status']} {result['messages'][:200]}")
+        if not solved:      # the curves are those before, and grey
+            require("stale" in (page.locator("#charts").get_attribute("class") or ""), f"{what}: curves of a former document are not grey")
+            print(f"{what}: {page.inner_text('#said')[:160]}")
+            return settings
+        table = [row.split(",") for row in result["files"][f"out/mcpherson_axle_{test}.csv"].split("\n") if row and not row.startswith("#")]
+        for name, values in drawn["columns"].items():
+            column = table[0].index(name)
+            wanted = [row[column] for row in table[1:]]
+            same = len(wanted) == len(values) and all(float(text or "nan") == value or (text in ("", "nan") and value != value)
+                                                      for text, value in zip(wanted, values))
+            require(same, f"{what}: {name} is not that of the run with {settings.split()}")
+        return settings
+
+    page.click("[data-tab=points]")
+    expect(page.locator("#charts figure")).to_have_count(6, timeout=patient)
+    require(agrees("as opened") == "", "a document that was not changed has changes")
+    page.click("#baseline")
+    chance, started, runs = random.Random(51), time.monotonic(), curves()["runs"]
+    dots = page.locator("#views circle").count()
+    for k in range(10):
+        dot = page.locator("#views circle").nth(chance.randrange(dots))
+        dot.scroll_into_view_if_needed()
+        box = dot.bounding_box()
+        x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+        page.mouse.move(x, y)
+        page.mouse.down()
+        for m in range(1, 6):
+            page.mouse.move(x + m * chance.choice((-1, 1)), y + m * chance.choice((-1, 1)))
+        page.mouse.up()
+        agrees(f"drag {k}")
+        if page.locator("#said").get_attribute("class") == "bad":
+            page.click("#undo")
+    runs = curves()["runs"] - runs
+    print(f"10 drags: {runs} solutions, {runs / (time.monotonic() - started):.1f} a second with the comparisons")
+    require(runs >= 10, "curves do not follow a drag")
+    require("Δ at most" in page.locator("#charts figcaption").first.inner_text(), "there is no difference from the baseline")
+    shot("points")
+    page.click("[data-tab=points]")
+    page.fill("[aria-label='tie_rod_outer z']", "-60")
+    page.press("[aria-label='tie_rod_outer z']", "Enter")
+    page.locator("circle[aria-label='lca_rear, Side view']").focus()
+    page.keyboard.press("ArrowUp")
+    settings = agrees("typed")
+    require("point.tie_rod_outer.z = -60.0" in settings and "point.lca_rear.z = " in settings, f"typed and by key: {settings}")
+    with page.expect_download() as loaded:
+        page.click("#changes")
+    loaded.value.save_as(folder / "changes.set")
+    require((folder / "changes.set").read_text() == settings, "the saved settings are others")
+    page.select_option("#test", "steering")
+    agrees("another test", "steering")
+    page.fill("#text", page.input_value("#text").replace("&spring", "&sprong", 1))
+    expect(page.locator("#said")).to_have_class("bad", timeout=patient)
+    require("sprong" in page.inner_text("#said"), f"a deck that cannot be read: {page.inner_text('#said')}")
+    require(page.locator("#charts.stale").count() == 1, "curves of a former document are not grey")
+    require("&sprong" in page.input_value("#text"), "the document was lost when it could not be solved")
+    shot("not_solved")
+    while page.is_enabled("#undo"):
+        page.click("#undo")
+    require(page.input_value("#text") == text, "undo does not give the text as it was")
+    page.click("#redo")
+    require(page.input_value("#text") != text, "redo does nothing")
+    page.click("#undo")
+    expect(page.locator("#said")).not_to_have_class("bad", timeout=patient)
+    page.click("[data-tab=messages]")
 
     drop({"broken.nml": "&model name = 'broken' /\n&point name = 'a' at = 1, 2 /\n", "notes.csv": "a,b\n1,2\n"})
     said("check: error in the deck")

@@ -100,6 +100,7 @@ function openDocument(list, { name = "", isNew = true } = {}) {
   showFile(decks.length > 0 ? deck : list[0][0]);
   isEdited = !isNew;
   keep();
+  document.dispatchEvent(new CustomEvent("opened", { detail: { isNew } }));
   return command(["check", deck]);
 }
 
@@ -289,6 +290,7 @@ function openTab(name) {
     tab.setAttribute("aria-selected", String(tab.dataset.tab === name));
     element(tab.dataset.tab).hidden = tab.dataset.tab !== name;
   }
+  document.body.classList.toggle("bench", name === "points");
 }
 
 function download(name, content) {
@@ -319,6 +321,7 @@ element("folder").addEventListener("change", ({ target }) => {
 element("deck").addEventListener("change", ({ target }) => {
   deck = target.value;
   showFile(deck);
+  document.dispatchEvent(new CustomEvent("opened", { detail: { isNew: true } }));
   command(["check", deck]);
 });
 element("file").addEventListener("change", ({ target }) => showFile(target.value));
@@ -338,6 +341,7 @@ element("text").addEventListener("input", () => {
   files.set(shown, element("text").value);
   isEdited = true;
   number();
+  document.dispatchEvent(new Event("edited"));
   clearTimeout(pause);
   pause = setTimeout(() => {
     keep();
@@ -374,16 +378,6 @@ addEventListener("drop", async (event) => {
   document.body.classList.remove("dropping");
   readFiles(await dropped(event.dataTransfer.items));
 });
-
-showTable();
-if (missing.length > 0) say(`This browser has no ${missing.join(", ")}; a newer one is needed.`, "bad");
-else {
-  program = new Program();
-  program.ready.then(() => {
-    if (restore()) return;
-    say("Ready. Open a deck of the library, or drop a deck here.", "good");
-  }, (error) => say(`The program cannot run in this browser: ${error.message}`, "bad"));
-}
 
 // For scripts: a command line with files, path -> text; the files that it wrote as text
 globalThis.elastokin = {
