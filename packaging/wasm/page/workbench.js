@@ -44,7 +44,20 @@ function groupsOf(text) {
 
 const stringsOf = (text, key) => key ? [...text.slice(key.start, key.end).matchAll(/'((?:[^']|'')*)'|"([^"]*)"/g)].map((m) => m[1] ?? m[2]) : [];
 
-// Reads the points of all files, each coordinate with its position, and the lines between the points of each body.
+// The points of a deck with three numbers: { name, at: [{ start, text, value }, …] }, each number with its position in the text.
+function pointsOf(text, groups) {
+  const points = [];
+  for (const { name, keys } of groups) {
+    if (name !== "point" || !keys.name || !keys.at) continue;
+    const numbers = [...text.slice(keys.at.start, keys.at.end).matchAll(/[-+]?(?:\d+\.?\d*|\.\d+)(?:[ed][-+]?\d+)?/gi)];
+    if (numbers.length !== 3) continue;
+    points.push({ name: stringsOf(text, keys.name)[0],
+      at: numbers.map((m) => ({ start: keys.at.start + m.index, text: m[0], value: Number(m[0].replace(/d/i, "e")) })) });
+  }
+  return points;
+}
+
+// Reads the points of all files, and the lines between the points of each body.
 function readPoints() {
   bench.points = [];
   const of = new Map(), pairs = [];
@@ -55,14 +68,10 @@ function readPoints() {
   };
   for (const [file, text] of files) {
     if (!/\.nml$/i.test(file)) continue;
-    for (const { name, keys } of groupsOf(text)) {
+    const groups = groupsOf(text);
+    bench.points.push(...pointsOf(text, groups).map((point) => ({ file, ...point })));
+    for (const { name, keys } of groups) {
       if (name === "model" && keys.axes) bench.axes = stringsOf(text, keys.axes)[0] ?? "x-rear";
-      if (name === "point" && keys.name && keys.at) {
-        const numbers = [...text.slice(keys.at.start, keys.at.end).matchAll(/[-+]?(?:\d+\.?\d*|\.\d+)(?:[ed][-+]?\d+)?/gi)];
-        if (numbers.length !== 3) continue;
-        bench.points.push({ file, name: stringsOf(text, keys.name)[0],
-          at: numbers.map((m) => ({ start: keys.at.start + m.index, text: m[0], value: Number(m[0].replace(/d/i, "e")) })) });
-      }
       const bodies = stringsOf(text, keys.bodies), ends = stringsOf(text, keys.at);
       if (bodies.length === 2) {
         add(bodies[0], ends[0]);
@@ -141,22 +150,15 @@ function setButtons() {
 
 // The coordinates that differ from the document as opened, as settings for --set-file
 function changes() {
-  const before = [];
+  const lines = [];
   for (const [file, text] of bench.opened) {
     if (!/\.nml$/i.test(file)) continue;
-    for (const { name, keys } of groupsOf(text)) {
-      if (name === "point" && keys.name && keys.at) {
-        before.push([stringsOf(text, keys.name)[0], text.slice(keys.at.start, keys.at.end).match(/[-+]?(?:\d+\.?\d*|\.\d+)(?:[ed][-+]?\d+)?/gi) ?? []]);
-      }
+    for (const { name, at } of pointsOf(text, groupsOf(text))) {
+      const now = pointOf(name);
+      ["x", "y", "z"].forEach((axis, k) => {
+        if (now && now.at[k].value !== at[k].value) lines.push(`point.${name}.${axis} = ${now.at[k].text}\n`);
+      });
     }
-  }
-  const lines = [];
-  for (const [name, numbers] of before) {
-    const point = pointOf(name);
-    if (!point || numbers.length !== 3) continue;
-    ["x", "y", "z"].forEach((axis, k) => {
-      if (Number(numbers[k].replace(/d/i, "e")) !== point.at[k].value) lines.push(`point.${name}.${axis} = ${point.at[k].text}\n`);
-    });
   }
   return lines.join("");
 }
