@@ -50,7 +50,9 @@ contains
       type(error_t), allocatable, intent(out) :: error      !! exit_file: the list cannot be written
       type(message_list_t) :: kept
 
-      if (files%count() == 0 .and. .not. file_exists(join_path(out, study_list_name(study)))) return
+      if (files%count() == 0) then
+         if (.not. file_exists(join_path(out, study_list_name(study)))) return
+      end if
       call list_kept(study, out, with_tables=.true., with_figures=.false., names=kept)
       call renew_file_list(out, study_list_name(study), files, 'study', is_quiet, error, kept)
    end subroutine list_figures

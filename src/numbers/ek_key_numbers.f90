@@ -263,6 +263,11 @@ contains
       logical :: is_there
 
       times = 0.0_wp
+      per_factor = 1.0_wp
+      column = ''
+      over = ''
+      unit = ''
+      sign = ''
       call new_number(trim(entry%group), trim(entry%name)//trim(phases(entry%how))//fitted, '', '', entry%how, number)
       number%name = trim(name_of(entry))
       do t = 1, size(tests)

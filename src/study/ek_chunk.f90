@@ -194,7 +194,8 @@ contains
       is_good = .false.
       call read_whole(path, text, error)
       if (allocated(error)) then
-         if (present(unread) .and. file_exists(path)) call move_alloc(error, unread)
+         if (.not. present(unread)) return
+         if (file_exists(path)) call move_alloc(error, unread)
          return
       end if
       at = len(text) - 17
