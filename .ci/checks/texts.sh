@@ -10,6 +10,11 @@ scripts_are_sound() {
 # no variable saved by its initial value, kinds, no unreachable statement, no trailing blanks
 fortran_is_tidy() {
   local tools=$logs/venv
+  # Fortran has no pointer to data that must not change: a definition is not written to after its deck was opened
+  if grep -rnE '(^|\)) *([a-z_]+%)*definition%[a-z_0-9%]+(\([^)=]*\))?[a-z_0-9%]* = ' src --include='*.f90'; then
+    echo 'these lines change a definition, which all workspaces of a deck share'
+    return 1
+  fi
   if [ ! -x "$tools/bin/fortitude" ]; then
     if ! python3 -m venv "$tools" || ! "$tools/bin/pip" install --quiet fortitude-lint==0.10.0; then
       skip "fortitude-lint could not be installed from PyPI"

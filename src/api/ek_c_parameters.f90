@@ -51,7 +51,7 @@ contains
       handle => handle_at(model, k)
       address = c_null_ptr
       if (.not. associated(handle)) return
-      associate (design => handle%session%workspace%design)
+      associate (design => handle%session%workspace%definition)
          !$omp critical (ek_words)
          address = say(handle, parameter_path(design%parameters%list(k + 1), design%records))
          !$omp end critical (ek_words)
@@ -68,7 +68,7 @@ contains
       address = c_null_ptr
       if (.not. associated(handle)) return
       !$omp critical (ek_words)
-      address = say(handle, parameter_unit(handle%session%workspace%design, k + 1))
+      address = say(handle, parameter_unit(handle%session%workspace%definition, k + 1))
       !$omp end critical (ek_words)
    end function ek_parameter_unit
 
@@ -80,7 +80,7 @@ contains
 
       handle => handle_at(model, k)
       answer = 0
-      if (associated(handle)) answer = merge(1_c_int, 0_c_int, handle%session%workspace%design%parameters%list(k + 1)%is_given)
+      if (associated(handle)) answer = merge(1_c_int, 0_c_int, handle%session%workspace%definition%parameters%list(k + 1)%is_given)
    end function ek_parameter_is_given
 
    !> Position of the corresponding parameter of the left side of a mirrored axle; -1 if there is no such parameter.
@@ -91,7 +91,7 @@ contains
 
       handle => handle_at(model, k)
       twin = -1_c_int
-      if (associated(handle)) twin = int(handle%session%workspace%design%parameters%list(k + 1)%tied, c_int) - 1_c_int
+      if (associated(handle)) twin = int(handle%session%workspace%definition%parameters%list(k + 1)%tied, c_int) - 1_c_int
    end function ek_parameter_twin
 
    !> Exit code after reading parameter k, from 0, in the unit of the deck.

@@ -8,7 +8,7 @@ module ek_design_numbers
    use ek_error, only: error_t
    use ek_parameter, only: choice_t, parameters_t, parameter_path
    use ek_number_range, only: is_inside
-   use ek_reader, only: design_t
+   use ek_reader, only: definition_t
    use ek_deck, only: deck_t, set_value
    use ek_factor_paths, only: shortest
    implicit none(type, external)
@@ -39,7 +39,7 @@ contains
 
    !> Stores the numbers of a deck as the current numbers and as the numbers of a reset.
    subroutine begin_numbers(design, numbers)
-      type(design_t), intent(in) :: design
+      type(definition_t), intent(in) :: design
       type(design_numbers_t), intent(out) :: numbers
       integer :: n, k
 
@@ -183,7 +183,7 @@ contains
    !> Applies the settings to a deck, in the order in which they were set.
    subroutine apply_settings(numbers, design, deck, error)
       type(design_numbers_t), intent(in) :: numbers
-      type(design_t), intent(in) :: design                 !! prepared by begin_numbers
+      type(definition_t), intent(in) :: design                 !! prepared by begin_numbers
       type(deck_t), intent(inout) :: deck
       type(error_t), allocatable, intent(out) :: error     !! exit_usage
       logical :: was_set(size(numbers%turn))               ! by an earlier setting

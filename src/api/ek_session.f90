@@ -8,6 +8,7 @@ module ek_session
    use ek_error, only: error_t, fail, exit_usage
    use ek_text, only: replace
    use ek_deck, only: deck_t, read_deck, parse_deck, move_deck, deck_checksum
+   use ek_reader, only: definition_t
    use ek_case_result, only: solve_options_t
    use ek_table, only: name_length
    use ek_design_numbers, only: design_numbers_t, begin_numbers, apply_settings
@@ -44,6 +45,7 @@ module ek_session
       type(deck_t) :: original                      !! deck as opened
       type(deck_t) :: deck                          !! deck with the settings of set_text
       class(workspace_t), allocatable :: workspace !! workspace of `deck`; allocated when opened. A class as in case_work_t
+      class(definition_t), allocatable :: definition       !! of `workspace`, which points to it
       type(design_numbers_t) :: numbers             !! numbers as changed since the deck was opened
       logical :: is_text_changed = .false.
       ! ek_session_solution
@@ -51,6 +53,7 @@ module ek_session
       type(prepared_t), allocatable :: prepared(:)  !! columns of each case
       class(workspace_t), allocatable :: other  !! workspace of the last solution if `workspace` lacks it: of the deck with its
       !!                                               numbers as strings, or of the deck before set_text or reset
+      class(definition_t), allocatable :: other_definition !! of `other`
       real(wp), allocatable :: solved_x(:)          !! values of all parameters at the last solution [SI]
       class(derived_t), allocatable :: derived      !! derivatives requested last (ek_session_solution)
       ! key numbers (ek_session_solution)
@@ -122,11 +125,11 @@ contains
 
    !> Opens the workspace of the deck as opened, and copies this deck to the current deck.
    subroutine begin_opened(session, error)
-      type(session_t), intent(inout) :: session
+      type(session_t), intent(inout), target :: session
       type(error_t), allocatable, intent(out) :: error
 
-      allocate (session%workspace)
-      call open_workspace(session%original, session%workspace, error)
+      allocate (session%workspace, session%definition)
+      call open_workspace(session%original, session%definition, session%workspace, error)
       if (allocated(error)) return
       session%deck = session%original
       call begin_workspace(session)
@@ -136,16 +139,21 @@ contains
    !> workspace is stored until the next solution.
    subroutine begin_again(deck, session, error)
       type(deck_t), intent(in) :: deck
-      type(session_t), intent(inout) :: session
+      type(session_t), intent(inout), target :: session
       type(error_t), allocatable, intent(out) :: error
       class(workspace_t), allocatable :: workspace
+      class(definition_t), allocatable, target :: definition
 
-      allocate (workspace)
-      call open_workspace(deck, workspace, error)
+      allocate (workspace, definition)
+      call open_workspace(deck, definition, workspace, error)
       if (allocated(error)) return
       session%deck = deck
-      if (session%solved > 0 .and. .not. allocated(session%other)) call move_alloc(session%workspace, session%other)
+      if (session%solved > 0 .and. .not. allocated(session%other)) then
+         call move_alloc(session%workspace, session%other)
+         call move_alloc(session%definition, session%other_definition)
+      end if
       call move_alloc(workspace, session%workspace)
+      call move_alloc(definition, session%definition)      ! it stays where it is
       call begin_workspace(session)
    end subroutine begin_again
 
@@ -155,7 +163,7 @@ contains
 
       if (allocated(session%prepared)) deallocate (session%prepared)
       allocate (session%prepared(size(session%workspace%cases)))
-      call begin_numbers(session%workspace%design, session%numbers)
+      call begin_numbers(session%workspace%definition, session%numbers)
       session%numbers%is_new = .false.                     ! the workspace was made with them
       session%is_named_ready = .false.
       if (allocated(session%derived)) session%derived%derivatives%case = 0      ! of another workspace: kept as room
@@ -176,7 +184,7 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       deck = session%deck
-      call apply_settings(session%numbers, session%workspace%design, deck, error)
+      call apply_settings(session%numbers, session%workspace%definition, deck, error)
    end subroutine changed_deck
 
    !> Removes '--set' from a message about a setting, so that the message gives only the path.
@@ -201,15 +209,15 @@ contains
    !> Creates a second session of the same deck with the same changes, without a solution.
    subroutine copy_session(from, to, error)
       type(session_t), intent(in) :: from                  !! session with a deck
-      type(session_t), intent(inout) :: to
+      type(session_t), intent(inout), target :: to
       type(error_t), allocatable, intent(out) :: error
 
       call empty_session(to)
       !$omp critical (ek_words)
       to%original = from%original
       to%deck = from%deck
-      allocate (to%workspace)
-      call open_workspace(to%deck, to%workspace, error)
+      allocate (to%workspace, to%definition)
+      call open_workspace(to%deck, to%definition, to%workspace, error)
       if (.not. allocated(error)) then
          call begin_workspace(to)
          to%numbers = from%numbers
@@ -267,6 +275,7 @@ contains
       type(model_remarks_t), intent(out) :: remarks
       type(error_t), allocatable, intent(out) :: error     !! exit_usage, exit_deck: a number is outside its range
       class(workspace_t), allocatable :: other
+      type(definition_t), target :: definition
       type(deck_t) :: changed
       logical :: is_done
 
@@ -276,7 +285,7 @@ contains
       if (.not. is_done) then
          allocate (other)
          call changed_deck(session, changed, error)
-         if (.not. allocated(error)) call open_workspace(changed, other, error)
+         if (.not. allocated(error)) call open_workspace(changed, definition, other, error)
          if (.not. allocated(error)) call find_of(other, remarks, is_done)
          call without_option(error)
       end if
@@ -296,9 +305,9 @@ contains
       if (.not. is_done) return
       call report_cases(workspace, cases)
       if (is_balanced) then
-         call find_model_remarks(workspace%suspension, workspace%raw, workspace%design%cases, cases, .true., remarks)
+         call find_model_remarks(workspace%suspension, workspace%raw, workspace%deck_cases, cases, .true., remarks)
       else
-         call find_model_remarks(workspace%raw, workspace%raw, workspace%design%cases, cases, .false., remarks)
+         call find_model_remarks(workspace%raw, workspace%raw, workspace%deck_cases, cases, .false., remarks)
       end if
       if (allocated(fault)) call remarks%faults%add(fault%message)
    end subroutine find_of

@@ -9,7 +9,7 @@ module ek_session_settings
    use ek_deck, only: deck_t, set_value
    use ek_parameter, only: choice_t, find_parameters, parameter_path
    use ek_matched_numbers, only: match_parameters
-   use ek_reader, only: design_t, read_design
+   use ek_reader, only: definition_t, read_design
    use ek_factor_paths, only: shortest
    use ek_design_numbers, only: reset_numbers, place_number, add_path, put_path, put_at, is_legal_path, is_legal_at
    use ek_session, only: session_t, begin_again, changed_deck, without_option
@@ -35,7 +35,7 @@ contains
          !$omp end critical (ek_words)
       end if
       if (allocated(error) .or. setting == 0) return
-      if (is_legal_path(session%numbers, setting, value, session%workspace%design%parameters)) then
+      if (is_legal_path(session%numbers, setting, value, session%workspace%definition%parameters)) then
          call put_path(session%numbers, setting, value)
       else
          !$omp critical (ek_words)
@@ -53,7 +53,7 @@ contains
       type(error_t), allocatable :: error
       type(message_list_t) :: lines
       type(deck_t) :: trial
-      type(design_t) :: design
+      type(definition_t) :: design
       character(:), allocatable :: setting, rest
       integer :: last
 
@@ -95,7 +95,7 @@ contains
       call set_value(trial, path, shortest(merge(value, 1.0_wp, abs(value) < number_limit)), error)
       call without_option(error)
       if (allocated(error)) return
-      call match_parameters(session%workspace%design%parameters, session%workspace%design%records, path, .false., found)
+      call match_parameters(session%workspace%definition%parameters, session%workspace%definition%records, path, .false., found)
       if (size(found) == 0) then
          call take_text(session, path, shortest(value), error)
       else
@@ -143,7 +143,7 @@ contains
       value = 0.0_wp
       is_one = .true.
       !$omp critical (ek_words)
-      call find_parameters(session%workspace%design%parameters, session%workspace%design%records, path, found)
+      call find_parameters(session%workspace%definition%parameters, session%workspace%definition%records, path, found)
       if (size(found) == 0) then
          trial = session%deck
          call set_value(trial, path, '1', error)           ! its message says what is wrong with the path
@@ -185,7 +185,7 @@ contains
       if (allocated(error)) return
       is_legal = .true.
       do k = 1, size(values)
-         is_legal = is_legal .and. is_legal_at(session%numbers, before + k, values(k), session%workspace%design%parameters)
+         is_legal = is_legal .and. is_legal_at(session%numbers, before + k, values(k), session%workspace%definition%parameters)
       end do
       if (is_legal) then
          do k = 1, size(values)
@@ -207,7 +207,7 @@ contains
       type(message_list_t) :: lines
       integer :: k
 
-      associate (design => session%workspace%design)
+      associate (design => session%workspace%definition)
          do k = 1, size(values)
             if (is_legal_at(session%numbers, before + k, values(k), design%parameters)) cycle
             call lines%add(range_message(session, parameter_path(design%parameters%list(before + k), design%records), values(k)))

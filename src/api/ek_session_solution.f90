@@ -6,6 +6,7 @@ module ek_session_solution
    use ek_error, only: error_t, message_list_t, fail, exit_usage
    use ek_text, only: str, quoted, is_like, did_you_mean
    use ek_deck, only: deck_t
+   use ek_reader, only: definition_t
    use ek_case_result, only: case_result_t, solve_options_t, add_remarks, failure_of
    use ek_remark, only: remark_t, remark_list_t, note, warning
    use ek_response, only: no_column
@@ -73,7 +74,7 @@ contains
 
    !> Solves a case that was not solved before or that may fail. Creates strings.
    subroutine solve_with_words(session, name, asked, error)
-      type(session_t), intent(inout) :: session
+      type(session_t), intent(inout), target :: session
       character(*), intent(in) :: name
       character(name_length), intent(in) :: asked(:)
       type(error_t), allocatable, intent(out) :: error
@@ -88,9 +89,10 @@ contains
       if (allocated(error)) return
       session%prepared(k)%is_ready = is_done
       if (.not. is_done) then
-         allocate (session%other)
+         if (allocated(session%other_definition)) deallocate (session%other_definition)
+         allocate (session%other, session%other_definition)
          call changed_deck(session, changed, error)
-         if (.not. allocated(error)) call open_workspace(changed, session%other, error)
+         if (.not. allocated(error)) call open_workspace(changed, session%other_definition, session%other, error)
          if (.not. allocated(error)) call find_case(name, session%other, session%deck%file, k, error)
          if (.not. allocated(error)) call prepare(session%other, k, asked, prepared, error)
          if (.not. allocated(error)) call solve_or_explain(k, prepared%options, session%other, is_done, error)
@@ -129,7 +131,7 @@ contains
       logical, allocatable :: is_wanted(:), fits(:)
       integer :: j, h
 
-      prepared%asked = asked
+      allocate (prepared%asked, source=asked)              ! an assignment reads bounds of what is not allocated
       if (size(asked) == 0) return
       call heads_of_case(k, workspace, heads)
       allocate (is_wanted(size(heads)), source=.false.)
@@ -399,7 +401,7 @@ contains
       do p = 1, size(paths)
          one = message_list_t()
          call one%add(trim(paths(p)))
-         call find_directions(workspace%design, session%deck, one, these, error)
+         call find_directions(workspace%definition, session%deck, one, these, error)
          if (allocated(error)) then
             call mistakes%add(error%message)
          else if (size(these) /= 1) then
@@ -411,7 +413,7 @@ contains
          end if
       end do
       if (mistakes%count() > 0) return
-      call refuse_shared(workspace%design, directions, error)
+      call refuse_shared(workspace%definition, directions, error)
       if (allocated(error)) call mistakes%add(error%message)
    end subroutine place_paths
 
@@ -466,6 +468,7 @@ contains
       real(wp), intent(inout) :: values(:)
       type(error_t), allocatable, intent(out) :: error
       class(workspace_t), allocatable :: other
+      type(definition_t), target :: definition
       class(named_numbers_t), allocatable :: named
       type(deck_t) :: changed
       logical :: is_done
@@ -479,7 +482,7 @@ contains
       if (is_done) return
       allocate (other, named)
       call changed_deck(session, changed, error)
-      if (.not. allocated(error)) call open_workspace(changed, other, error)
+      if (.not. allocated(error)) call open_workspace(changed, definition, other, error)
       if (.not. allocated(error)) call read_of(other, named, is_done)
       call without_option(error)
 

@@ -14,6 +14,7 @@ module ek_bench
    use ek_case, only: case_t, is_mountable, method_names
    use ek_kkt, only: kkt_t, new_kkt, assemble, whole_matrix, whole_tangent
    use ek_workspace, only: workspace_t, balance_or_explain
+   use ek_reader, only: definition_t
    use ek_path, only: path_t, sweep, new_path
    use ek_rig, only: mount
    use ek_examination, only: examination_t
@@ -142,12 +143,13 @@ contains
       type(case_t), intent(out) :: case
       type(error_t), allocatable, intent(out) :: error
       class(workspace_t), allocatable :: workspace
+      type(definition_t), target :: definition
       type(case_t), allocatable :: chosen(:)
       type(examination_t) :: found
       character(:), allocatable :: checksum
 
-      call load_deck(settings, workspace, checksum, error)
-      if (.not. allocated(error)) call chosen_cases(settings, workspace%raw, workspace%design%cases, chosen, error)
+      call load_deck(settings, definition, workspace, checksum, error)
+      if (.not. allocated(error)) call chosen_cases(settings, workspace%raw, workspace%deck_cases, chosen, error)
       if (.not. allocated(error)) call examine_chosen(settings%file, workspace%raw, chosen(1:1), found, error)
       if (.not. allocated(error)) call balance_or_explain(chosen(1)%tolerance, workspace, error)
       if (allocated(error)) return
@@ -358,6 +360,7 @@ contains
       type(error_t), allocatable, intent(out) :: error
       type(deck_t) :: deck
       class(workspace_t), allocatable :: workspace
+      type(definition_t), target :: definition
       type(factor_paths_t) :: paths(1)
       type(solve_options_t) :: options
       real(wp) :: start, value, time
@@ -366,16 +369,16 @@ contains
 
       allocate (workspace)
       call read_changed(settings%file, settings%changes, deck, error)
-      if (.not. allocated(error)) call open_cases(deck, [case_name], workspace, error)
+      if (.not. allocated(error)) call open_cases(deck, [case_name], definition, workspace, error)
       if (allocated(error)) return
-      associate (list => workspace%design%parameters%list, x => workspace%design%parameters%x)
-         do k = 1, workspace%design%parameters%used
+      associate (list => workspace%definition%parameters%list, x => workspace%definition%parameters%x)
+         do k = 1, workspace%definition%parameters%used
             if (list(k)%is_given .and. abs(x(k)) > 0.0_wp) exit
          end do
          paths(1)%found = [choice_t(k, 1.0_wp)]
          value = x(k)/list(k)%unit
       end associate
-      workspace%design%cases%increments = short_sweep
+      workspace%deck_cases%increments = short_sweep
       allocate (options%columns(1))
       options%columns = 'toe_deg'
       if (size(workspace%suspension%wheels) > 1) options%columns = prefix_of(workspace%suspension, 1)//'toe_deg'

@@ -66,7 +66,7 @@ contains
          call refuse_case(workspace%cases(k)%case, error)
          if (allocated(error)) return
          if (settings%increments > 0) workspace%cases(k)%case%increments = settings%increments
-         if (settings%increments > 0) workspace%design%cases%increments = settings%increments
+         if (settings%increments > 0) workspace%deck_cases%increments = settings%increments
          allocate (options%columns(0))
          call solve_or_explain(k, options, workspace, is_done, error)
          if (allocated(error)) return
@@ -123,7 +123,7 @@ contains
       type(column_list_t) :: list
       integer :: p, s
 
-      call all_directions(workspace%design, all)
+      call all_directions(workspace%definition, all)
       allocate (points(0))
       do p = 1, size(all)
          if (index(all(p)%path, 'point.') == 1) points = [points, all(p)]

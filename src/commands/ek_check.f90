@@ -17,6 +17,7 @@ module ek_check
    use ek_state, only: design_state
    use ek_kkt, only: kkt_t, new_kkt
    use ek_workspace, only: workspace_t, balance_or_explain
+   use ek_reader, only: definition_t
    use ek_standard_tests, only: standard_tests
    use ek_diagnosis, only: diagnosis_t, diagnose
    use ek_model_remark, only: model_remarks_t, find_model_remarks
@@ -99,6 +100,7 @@ contains
       type(error_t), allocatable, intent(out) :: error
       type(deck_t) :: deck
       class(workspace_t), allocatable :: workspace
+      type(definition_t), target :: definition
       type(case_t), allocatable :: chosen(:)
       type(mounted_case_t) :: mounted
       type(diagnosis_t) :: diagnosis
@@ -108,14 +110,14 @@ contains
       integer :: k
 
       model = ''
-      call load_deck(settings, workspace, checksum, error, needs_tables=.true., used_deck=deck)
+      call load_deck(settings, definition, workspace, checksum, error, needs_tables=.true., used_deck=deck)
       if (.not. allocated(checksum)) checksum = ''
       if (.not. allocated(error) .and. deck_path /= '') call write_deck_as_used(deck, deck_path, error)
       allocate (chosen(0))
       if (.not. allocated(error)) then
          model = workspace%raw%name
-         if (size(workspace%design%cases) > 0 .or. settings%case /= '') &
-            call chosen_cases(settings, workspace%raw, workspace%design%cases, chosen, error)
+         if (size(workspace%deck_cases) > 0 .or. settings%case /= '') &
+            call chosen_cases(settings, workspace%raw, workspace%deck_cases, chosen, error)
       end if
       if (allocated(error)) then
          call add_lines(error%message, messages%errors)
@@ -175,7 +177,7 @@ contains
       real(wp) :: tolerance
       integer :: k
 
-      associate (cases => workspace%design%cases)
+      associate (cases => workspace%deck_cases)
          tolerance = default_tolerance
          if (size(cases) > 0) tolerance = cases(1)%tolerance
          if (is_solvable) call balance_or_explain(tolerance, workspace, error)

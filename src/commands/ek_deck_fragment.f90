@@ -4,7 +4,7 @@ module ek_deck_fragment
    use ek_text, only: quoted, str
    use ek_record, only: record_t, element, own_name
    use ek_parameter, only: choice_t
-   use ek_reader, only: design_t
+   use ek_reader, only: definition_t
    use ek_factor_numbers, only: put_factor
    use ek_designer, only: designer_t
    implicit none(type, external)
@@ -26,21 +26,21 @@ contains
       integer :: f
 
       text = ''
-      x = designer%workspace%design%parameters%x
+      x = designer%workspace%definition%parameters%x
       allocate (found(0))
       do f = 1, size(values)
          if (size(designer%paths(f)%found) == 0) return
-         call put_factor(designer%paths(f), values(f), designer%workspace%design%parameters, x)
+         call put_factor(designer%paths(f), values(f), designer%workspace%definition%parameters, x)
          found = [found, designer%paths(f)%found]
       end do
-      text = records_with(designer%workspace%design, x, found)
+      text = records_with(designer%workspace%definition, x, found)
    end function deck_fragment
 
    !> Lines such as `&bushing name = 'lca_front', kt = 8000, 2000, 8000 /`: one per key, with all numbers of the key. Where the
    !> numbers of both sides change together, the record of the half deck is used. At most 60 lines are given; a comment states the
    !> number of further lines.
    function records_with(design, x, found) result(text)
-      type(design_t), intent(in) :: design
+      type(definition_t), intent(in) :: design
       real(wp), intent(in) :: x(:)                 !! numbers of the new design [SI, axes of the deck]
       type(choice_t), intent(in) :: found(:)       !! numbers that change
       character(:), allocatable :: text
@@ -61,7 +61,7 @@ contains
    !> Whether a number of the right side is derived from a number of the half deck, and changes together with the number on the left
    !> side.
    pure logical function is_image(design, x, found, number)
-      type(design_t), intent(in) :: design
+      type(definition_t), intent(in) :: design
       real(wp), intent(in) :: x(:)
       type(choice_t), intent(in) :: found(:)
       integer, intent(in) :: number
@@ -75,7 +75,7 @@ contains
 
    !> Whether a number of the left side has a corresponding number on the right side that changes with it.
    pure logical function has_image(design, x, found, number)
-      type(design_t), intent(in) :: design
+      type(definition_t), intent(in) :: design
       real(wp), intent(in) :: x(:)
       type(choice_t), intent(in) :: found(:)
       integer, intent(in) :: number
@@ -90,7 +90,7 @@ contains
 
    !> Adds the line of the key of a parameter, unless the string already contains the line.
    subroutine add_line(design, x, number, is_half, lines, all, text)
-      type(design_t), intent(in) :: design
+      type(definition_t), intent(in) :: design
       real(wp), intent(in) :: x(:)
       integer, intent(in) :: number
       logical, intent(in) :: is_half               !! whether the line is written as in the half deck

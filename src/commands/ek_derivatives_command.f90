@@ -53,7 +53,7 @@ contains
          call choose_case(settings, workspace, k, error)
          if (allocated(error)) return
          if (settings%out /= '-') &
-            call spare_results(trim(workspace%cases(k)%case%name)//'_derivatives', workspace%design%cases, error)
+            call spare_results(trim(workspace%cases(k)%case%name)//'_derivatives', workspace%deck_cases, error)
          if (allocated(error)) return
          call choose_numbers(line, session, directions, error)
          if (.not. allocated(error)) call choose_quantities(line, workspace, k, columns, error)
@@ -115,15 +115,15 @@ contains
       integer :: k
 
       if (.not. line%has('--with')) then
-         call all_directions(session%workspace%design, directions)
+         call all_directions(session%workspace%definition, directions)
          return
       end if
       given = line%values('--with')
       do k = 1, given%count()
          call split(given%line(k), paths)
       end do
-      call find_directions(session%workspace%design, session%deck, paths, directions, error)
-      if (.not. allocated(error)) call refuse_shared(session%workspace%design, directions, error)
+      call find_directions(session%workspace%definition, session%deck, paths, directions, error)
+      if (.not. allocated(error)) call refuse_shared(session%workspace%definition, directions, error)
       if (allocated(error)) error%message = '--with: '//error%message
    end subroutine choose_numbers
 

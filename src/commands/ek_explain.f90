@@ -12,6 +12,7 @@ module ek_explain
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t
    use ek_workspace, only: workspace_t, balance_or_explain
+   use ek_reader, only: definition_t
    use ek_examination, only: examination_t
    use ek_schedule, only: new_schedule
    use ek_path_states, only: nearest_state, nearest_reached
@@ -57,6 +58,7 @@ contains
       type(error_t), allocatable, intent(out) :: error
       type(settings_t) :: settings
       class(workspace_t), allocatable :: workspace
+      type(definition_t), target :: definition
       type(case_t), allocatable :: chosen(:)
       type(examination_t) :: found
       type(model_remarks_t) :: remarks
@@ -66,18 +68,18 @@ contains
       integer :: k
 
       call read_settings(line, settings, error)
-      if (.not. allocated(error)) call load_deck(settings, workspace, checksum, error)
-      if (.not. allocated(error)) call chosen_cases(settings, workspace%raw, workspace%design%cases, chosen, error)
+      if (.not. allocated(error)) call load_deck(settings, definition, workspace, checksum, error)
+      if (.not. allocated(error)) call chosen_cases(settings, workspace%raw, workspace%deck_cases, chosen, error)
       if (allocated(error)) return
       do k = 1, size(chosen)
-         call spare_results(chosen(k)%name//'_contributions', workspace%design%cases, error)
-         call spare_results(chosen(k)%name//'_load_paths', workspace%design%cases, error)
+         call spare_results(chosen(k)%name//'_contributions', workspace%deck_cases, error)
+         call spare_results(chosen(k)%name//'_load_paths', workspace%deck_cases, error)
       end do
       if (.not. allocated(error)) call examine_chosen(settings%file, workspace%raw, chosen, found, error)
       if (.not. allocated(error)) call make_folder(settings%out, error)
       if (.not. allocated(error)) call balance_or_explain(chosen(1)%tolerance, workspace, error)
       if (allocated(error)) return
-      call find_model_remarks(workspace%suspension, workspace%raw, workspace%design%cases, chosen, .true., remarks)
+      call find_model_remarks(workspace%suspension, workspace%raw, workspace%deck_cases, chosen, .true., remarks)
       call print_model_remarks(settings%is_quiet, remarks)
       files%has_json = settings%has_json
       if (files%has_json) call begin_explain_json(workspace%suspension%name, checksum, files%json)

@@ -6,6 +6,7 @@ module ek_export
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t, default_tolerance
    use ek_workspace, only: workspace_t, balance_or_explain
+   use ek_reader, only: definition_t
    use ek_table, only: table_t
    use ek_model_remark, only: model_remarks_t, find_model_remarks
    use ek_command_line, only: command_line_t
@@ -93,21 +94,22 @@ contains
       type(axle_map_t), intent(out) :: axle
       type(error_t), allocatable, intent(out) :: error
       class(workspace_t), allocatable :: workspace
+      type(definition_t), target :: definition
       type(model_remarks_t) :: remarks
       integer :: k
 
-      call load_deck(settings, workspace, axle%checksum, error)
+      call load_deck(settings, definition, workspace, axle%checksum, error)
       if (allocated(error)) return
       do k = 1, merge(size(names), 0, settings%target == 'csv')
-         call spare_results(trim(names(k)), workspace%design%cases, error)
+         call spare_results(trim(names(k)), workspace%deck_cases, error)
       end do
-      if (.not. allocated(error)) call make_request(settings, workspace%raw, workspace%design%cases, axle%request, error)
+      if (.not. allocated(error)) call make_request(settings, workspace%raw, workspace%deck_cases, axle%request, error)
       if (.not. allocated(error) .and. (settings%target == 'carmaker' .or. settings%target == 'matlab-kc')) &
          call front_of(settings, workspace%raw, axle%is_front, error)
       if (.not. allocated(error)) call balance_or_explain(default_tolerance, workspace, error)
       if (allocated(error)) return
       axle%suspension = workspace%suspension
-      call find_model_remarks(axle%suspension, workspace%raw, workspace%design%cases, workspace%design%cases, .true., remarks)
+      call find_model_remarks(axle%suspension, workspace%raw, workspace%deck_cases, workspace%deck_cases, .true., remarks)
       call print_model_remarks(settings%is_quiet, remarks)
       call solve_map(axle%suspension, axle%request, axle%map, error)
    end subroutine solve_axle

@@ -91,7 +91,7 @@ contains
       call add_doubts(problem, found, statistics, text)
       call text%line('as records of the deck:')
       call changed_numbers(problem, changed)
-      call text%line(records_with(workspace%design, workspace%x, changed))
+      call text%line(records_with(workspace%definition, workspace%x, changed))
    end subroutine add_fit_findings
 
    !> Adds the reason why the fit ended, and the quality of the fit.

@@ -192,7 +192,7 @@ contains
 
       call changed_numbers(problem, changed)
       call list%line('# elastokin '//version//' fit '//fit%name//': numbers of '//workspace%raw%name//' for --set-file')
-      associate (numbers => workspace%design%parameters)
+      associate (numbers => workspace%definition%parameters)
          ! a number of both sides has the path of the half deck, if both sides changed
          allocate (is_tied(numbers%used), source=.false.)
          do j = 1, size(changed)
@@ -218,7 +218,7 @@ contains
          integer, intent(in) :: number
          logical, intent(in) :: is_of_pair
          character(:), allocatable :: path
-         path = parameter_path(workspace%design%parameters%list(number), workspace%design%records, is_of_pair)
+         path = parameter_path(workspace%definition%parameters%list(number), workspace%definition%records, is_of_pair)
       end function path_of
 
    end function settings

@@ -83,7 +83,8 @@ contains
       changed = x
       do k = 1, size(factor)
          do side = 1, count(live%rates%rate(k)%element /= '')
-            call find_parameters(workspace%design%parameters, workspace%design%records, rate_path(live%rates%rate(k), side), found)
+            call find_parameters(workspace%definition%parameters, workspace%definition%records, &
+               rate_path(live%rates%rate(k), side), found)
             changed(found%number) = factor(k)*x(found%number)
          end do
       end do
@@ -112,7 +113,7 @@ contains
                   factor(live%rates%of_law) - 1.0_wp)
                if (.not. (ieee_is_finite(rerun) .and. ieee_is_finite(page))) cycle
                if (is_noise(page - rerun, trim(design%column(c)), abs(design%value(c, 1)), solved)) cycle
-               if (.not. abs(page - rerun) > live%deviation*abs(rerun)) cycle
+               if (.not. is_larger(abs(page - rerun), live%deviation*abs(rerun))) cycle
                live%deviation = abs(page - rerun)/max(abs(rerun), tiny(1.0_wp))
                live%worst = trim(design%column(c))
                live%worst_factor = factor
@@ -120,6 +121,17 @@ contains
             end do
          end do
       end associate
+
+   contains
+
+      !> Whether a deviation is larger than the largest one by more than noise. Of two wheels that are equal, the left is named.
+      pure logical function is_larger(deviation, largest)
+         real(wp), intent(in) :: deviation, largest        !! in the unit of column c
+
+         is_larger = deviation > largest .and. .not. is_noise(deviation - largest, trim(live%design%column(c)), &
+            abs(live%design%value(c, 1)), solved)
+      end function is_larger
+
    end subroutine compare_run
 
 end module ek_live_reruns

@@ -3,6 +3,7 @@ module ek_load_deck
    use ek_error, only: error_t, message_list_t, fail, exit_usage, exit_deck, exit_model
    use ek_text, only: str, quoted, suggestion
    use ek_deck, only: deck_t, read_deck, set_value, deck_checksum
+   use ek_reader, only: definition_t
    use ek_setting, only: split_setting
    use ek_set_file, only: set_file_t, read_set_file, apply_set_file, show_set_file, setting_count, get_setting
    use ek_workspace, only: workspace_t
@@ -53,8 +54,9 @@ contains
 
    !> Reads a deck, applies --set-file and --set, builds the model, and checks the tables and targets of its cases. All errors in
    !> the deck are reported together.
-   subroutine load_deck(settings, workspace, checksum, error, needs_tables, used_deck)
+   subroutine load_deck(settings, definition, workspace, checksum, error, needs_tables, used_deck)
       class(deck_settings_t), intent(in) :: settings
+      type(definition_t), target, intent(inout) :: definition !! replaced; must outlive the workspace and its copies
       class(workspace_t), allocatable, intent(out) :: workspace      !! without cases: the command chooses cases of the design
       character(:), allocatable, intent(out), optional :: checksum     !! checksum of the deck as it was used
       type(error_t), allocatable, intent(out) :: error
@@ -67,7 +69,7 @@ contains
       allocate (workspace)
       call read_set_deck(settings, deck, files, unset, error)
       if (allocated(error)) return
-      call open_model(deck, workspace, error, needs_tables)
+      call open_model(deck, definition, workspace, error, needs_tables)
       call add_unset(files, unset, error)
       if (allocated(error)) return
       if (present(checksum)) checksum = deck_checksum(deck)

@@ -4,6 +4,7 @@ module ek_opened_study
    use ek_text, only: quoted
    use ek_file, only: join_path, folder_name
    use ek_deck, only: deck_t
+   use ek_reader, only: definition_t
    use ek_sampler_kind, only: sampler_kinds
    use ek_study, only: study_t, step_size_kind, kind_names
    use ek_study_reader, only: read_study
@@ -25,6 +26,7 @@ module ek_opened_study
       type(study_t) :: study                         !! study; factors with each = .true. and columns with * are expanded
       type(deck_t) :: deck
       character(:), allocatable :: home, out         !! folder of the study; folder of its results
+      type(definition_t) :: definition               !! of the deck
       type(designer_t) :: designer
       type(study_plan_t) :: plan
       logical :: has_store = .false.                 !! whether the results are written to a NetCDF file
@@ -61,14 +63,14 @@ contains
 
    !> Plans the study: creates the design of the deck, checks the study against the deck, and creates the plan.
    subroutine plan_study(this, error, shards)
-      type(opened_study_t), intent(inout) :: this
+      type(opened_study_t), intent(inout), target :: this
       type(error_t), allocatable, intent(out) :: error
       integer, intent(in), optional :: shards        !! number of shards of this run; default 1
       integer :: n
 
       n = 1
       if (present(shards)) n = shards
-      call new_designer(this%study, this%deck, join_path(this%home, ''), this%designer, error)
+      call new_designer(this%study, this%deck, join_path(this%home, ''), this%definition, this%designer, error)
       if (.not. allocated(error)) call new_plan(this%study, this%deck, join_path(this%home, ''), this%designer, this%plan, error, &
          n, chunk_of_parts(this%study, this%out), this%build)
       if (allocated(error)) return

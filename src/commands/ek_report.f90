@@ -8,6 +8,7 @@ module ek_report
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t, default_tolerance
    use ek_workspace, only: workspace_t, balance_or_explain
+   use ek_reader, only: definition_t
    use ek_examination, only: examination_t
    use ek_standard_tests, only: standard_tests
    use ek_table, only: table_t, new_table
@@ -74,6 +75,7 @@ contains
       type(settings_t) :: settings
       class(report_t), allocatable :: page
       class(workspace_t), allocatable :: workspace
+      type(definition_t), target :: definition
       type(deck_t) :: deck
       type(case_t), allocatable :: cases(:), chosen(:)                  ! with the tests; those of this report
       type(examination_t) :: found
@@ -86,10 +88,10 @@ contains
       call read_settings(line, settings, error)
       if (.not. allocated(error) .and. line%has('--scales')) &
          call read_scales(line%value('--scales'), settings%windows, scales, error)
-      if (.not. allocated(error)) call load_deck(settings, workspace, checksum, error, used_deck=deck)
+      if (.not. allocated(error)) call load_deck(settings, definition, workspace, checksum, error, used_deck=deck)
       if (allocated(error)) return
-      cases = workspace%design%cases                        ! of a model without a wheel
-      if (size(workspace%raw%wheels) > 0) call standard_tests(workspace%raw, workspace%design%cases, cases, settings%case)
+      cases = workspace%deck_cases                        ! of a model without a wheel
+      if (size(workspace%raw%wheels) > 0) call standard_tests(workspace%raw, workspace%deck_cases, cases, settings%case)
       call chosen_cases(settings, workspace%raw, cases, chosen, error)
       if (.not. allocated(error)) call examine_chosen(settings%file, workspace%raw, chosen, found, error)
       if (allocated(error)) return
@@ -103,7 +105,7 @@ contains
       if (allocated(error)) return
       call planned_tests(workspace%suspension, chosen, page%tests)
       call name_files(page%tests)
-      call find_model_remarks(workspace%suspension, workspace%raw, workspace%design%cases, chosen, .true., remarks)
+      call find_model_remarks(workspace%suspension, workspace%raw, workspace%deck_cases, chosen, .true., remarks)
       call print_model_remarks(settings%is_quiet, remarks, page%warnings)
       call remove_file(join_path(page%folder, page_file))     ! a page of an earlier report must not be mistaken for this one
       call remove_file(join_path(page%folder, contents_file))
@@ -173,7 +175,7 @@ contains
       call print_path(join_path(page%folder, gradients_file), unprinted)
       call print_path(join_path(page%folder, gradients_json_file), unprinted)
       call key_numbers(page%tests, page%gradients, page%numbers, page%missing)
-      call set_targets(workspace%design%targets, page%numbers, page%warnings)
+      call set_targets(workspace%definition%targets, page%numbers, page%warnings)
       call write_key_numbers(page%numbers, size(workspace%suspension%wheels) > 1, workspace%suspension%name, checksum, &
          join_path(page%folder, numbers_file), join_path(page%folder, numbers_json_file), error)
       if (allocated(error)) return

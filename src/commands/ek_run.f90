@@ -10,6 +10,7 @@ module ek_run
    use ek_suspension, only: suspension_t, load_number
    use ek_case, only: case_t
    use ek_workspace, only: workspace_t, balance_or_explain
+   use ek_reader, only: definition_t
    use ek_examination, only: examination_t
    use ek_case_result, only: case_result_t, solve_options_t, solve_case, add_remarks, failure_of, add_header
    use ek_compliance_table, only: compliance_table
@@ -54,6 +55,7 @@ contains
       type(error_t), allocatable, intent(out) :: error
       type(settings_t) :: settings
       class(workspace_t), allocatable :: workspace
+      type(definition_t), target :: definition
       type(case_t), allocatable :: chosen(:)
       type(error_t), allocatable :: trouble, unprinted
       type(examination_t) :: found
@@ -68,9 +70,9 @@ contains
          call run_numbers(line, settings, error)
          return
       end if
-      if (.not. allocated(error)) call load_deck(settings, workspace, checksum, error)
+      if (.not. allocated(error)) call load_deck(settings, definition, workspace, checksum, error)
       if (allocated(error)) return
-      call chosen_cases(settings, workspace%raw, workspace%design%cases, chosen, error)
+      call chosen_cases(settings, workspace%raw, workspace%deck_cases, chosen, error)
       if (.not. allocated(error) .and. line%has('--columns')) &
          call choose_columns(line%value('--columns'), workspace%raw, chosen, settings%columns, error)
       if (allocated(error)) return
@@ -84,7 +86,7 @@ contains
       if (.not. allocated(error) .and. settings%out /= '-') call make_folder(settings%out, error)
       if (.not. allocated(error)) call balance_or_explain(chosen(1)%tolerance, workspace, error)
       if (allocated(error)) return
-      call find_model_remarks(workspace%suspension, workspace%raw, workspace%design%cases, chosen, .true., remarks)
+      call find_model_remarks(workspace%suspension, workspace%raw, workspace%deck_cases, chosen, .true., remarks)
       call print_model_remarks(settings%is_quiet, remarks)
 
       failed = 0

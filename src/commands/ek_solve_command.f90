@@ -62,7 +62,7 @@ contains
       end if
       if (allocated(error)) return
       call load_session(settings, session, error)
-      if (.not. allocated(error)) call spare_results('compromise', session%workspace%design%cases, error)
+      if (.not. allocated(error)) call spare_results('compromise', session%workspace%deck_cases, error)
       if (allocated(error)) return
       call read_unknowns(line%values('--vary'), session, unknowns, error)
       call read_conditions(line, settings, session%workspace, wanted, targets, weights, origins, fault)
@@ -117,7 +117,7 @@ contains
          end if
          path = message_list_t()
          call path%add(trim(adjustl(text(:equals - 1))))
-         call find_directions(session%workspace%design, session%deck, path, directions, fault)
+         call find_directions(session%workspace%definition, session%deck, path, directions, fault)
          if (allocated(fault)) then
             call mistakes%add('--vary '//fault%message)
          else if (size(directions) > 1) then
@@ -133,7 +133,7 @@ contains
       end do
       do k = 2, size(unknowns)
          do j = 1, k - 1
-            text = shared_number(session%workspace%design, unknowns(j)%direction, unknowns(k)%direction)
+            text = shared_number(session%workspace%definition, unknowns(j)%direction, unknowns(k)%direction)
             if (text /= '') call mistakes%add('--vary: '//text)
          end do
       end do
@@ -171,7 +171,7 @@ contains
          changed = [changed, unknowns(j)%direction%found]
       end do
       call text%line('as records of the deck:')
-      call text%line(records_with(session%workspace%design, session%workspace%x, changed))
+      call text%line(records_with(session%workspace%definition, session%workspace%x, changed))
       path = free_path(join_path(settings%out, session%workspace%raw%name//'_solve'), settings%set_files)
       call make_folder(settings%out, error)
       if (.not. allocated(error)) call write_whole(path, file%text(), error)
@@ -282,7 +282,7 @@ contains
       end do
       call read_weights(line%values('--weight'), wanted, workspace, weights, mistakes)
       do k = 1, size(wanted)
-         call take_band(workspace%design%targets, wanted(k), weights(k), text)
+         call take_band(workspace%definition%targets, wanted(k), weights(k), text)
          call origins%add(text)
       end do
       if (mistakes%count() > 0) call fail(error, exit_usage, mistakes%text())

@@ -113,8 +113,8 @@ contains
 
       associate (workspace => this%designer%workspace)
          if (sample_remark(this%study) /= '') call words%add(sample_remark(this%study))
-         call factor_remarks(this%study, workspace%design, this%designer%paths, words)
-         call find_model_remarks(workspace%suspension, workspace%raw, workspace%design%cases, workspace%cases%case, .true., remarks)
+         call factor_remarks(this%study, workspace%definition, this%designer%paths, words)
+         call find_model_remarks(workspace%suspension, workspace%raw, workspace%deck_cases, workspace%cases%case, .true., remarks)
       end associate
       do k = 1, words%count()
          call print_warning(words%line(k))

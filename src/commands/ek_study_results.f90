@@ -12,6 +12,7 @@ module ek_study_results
    use ek_file, only: join_path, file_exists
    use ek_quantity, only: quantity_t, quantity_named, unit_of, unit_text
    use ek_deck, only: deck_t, deck_checksum
+   use ek_reader, only: definition_t
    use ek_rig, only: rig_t, rig_of
    use ek_study, only: study_t, by_delta, by_scale, response_t
    use ek_sampler, only: sampler_t, designs_of, sample
@@ -56,6 +57,7 @@ contains
       type(study_data_t), intent(out) :: data
       type(error_t), allocatable, intent(out) :: error     !! exit_deck, exit_file
       class(designer_t), allocatable :: designer
+      type(definition_t), target :: definition
       type(sampler_settings_t) :: settings
       type(sampler_t) :: sampler
       type(scratch_t) :: scratch
@@ -65,7 +67,7 @@ contains
       integer :: k, r, used
 
       allocate (designer)
-      call begin_designer(study, deck, designer, error)
+      call begin_designer(study, deck, definition, designer, error)
       if (.not. allocated(error)) call plan_sampler(study, home, designer, settings, sampler, error)
       if (allocated(error)) return
       data%name = study%name
@@ -75,7 +77,7 @@ contains
       data%case = trim(designer%workspace%cases(1)%case%name)
       data%designs = int(designs_of(sampler))
       call name_axes(study, designer, data)
-      call set_bands(designer%workspace%design%targets, study%responses, data%responses)
+      call set_bands(designer%workspace%definition%targets, study%responses, data%responses)
       call find_tables(study, out, data%designs, scratch, folder, error)
       tolerance = maxval([(designer%workspace%cases(k)%case%tolerance, k=1, size(designer%case_names))])
       if (.not. allocated(error)) call read_rows(study, deck_checksum(deck), join_path(folder, responses_name(study)), sampler, &

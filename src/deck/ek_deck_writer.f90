@@ -13,7 +13,7 @@ module ek_deck_writer
    use ek_parameter, only: parameters_t, value_path
    use ek_attachment, only: path_of, text_of
    use ek_deck, only: deck_t, deck_checksum
-   use ek_reader, only: design_t, read_design
+   use ek_reader, only: definition_t, read_design
    use ek_version, only: version
    implicit none(type, external)
    private
@@ -102,7 +102,7 @@ contains
       character(:), allocatable, intent(out) :: text
       type(table_t), allocatable, intent(out) :: tables(:)
       type(error_t), allocatable, intent(out) :: error
-      type(design_t) :: design
+      type(definition_t) :: design
       type(buffer_t) :: lines
       type(checksum_t) :: sum
       logical :: is_listed

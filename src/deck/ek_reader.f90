@@ -28,20 +28,20 @@ module ek_reader
    use ek_case, only: case_t
    implicit none(type, external)
    private
-   public :: design_t, read_design, build_design, build_model
+   public :: definition_t, read_design, build_design, build_model
 
    !> The order of reading: groups to which others refer come first.
    integer, parameter :: reading_order(*) = [model_group, point_group, curve_group, body_group, mass_group, measure_group, &
       joint_group, bushing_group, spring_groups, wheel_group, axle_group, steering_group, load_group]
 
    !> A deck as a design space: realise(plan, x) is a suspension.
-   type :: design_t
+   type :: definition_t
       type(blueprint_t) :: plan
       type(parameters_t) :: parameters           !! the parameters, with their values in the deck (x)
       type(record_t), allocatable :: records(:)  !! of the mirrored deck, to which the parameters refer
       type(case_t), allocatable :: cases(:)      !! cases and their tables; may be of size 0; includes cases with an error
       type(target_band_t), allocatable :: targets(:)      !! target bands of key numbers, for the page of a report
-   end type design_t
+   end type definition_t
 
 contains
 
@@ -52,7 +52,7 @@ contains
       type(case_t), allocatable, intent(out) :: cases(:)     !! may be of size 0; includes cases with an error
       type(error_t), allocatable, intent(out) :: error
       logical, intent(out), optional :: is_whole             !! suspension complete: all errors are in cases or bands
-      type(design_t) :: design
+      type(definition_t) :: design
       logical :: is_complete
 
       call build_design(deck, design, suspension, error, is_complete)
@@ -64,7 +64,7 @@ contains
    !> error in the numbers, `error` is set and `is_whole` is .false.
    subroutine build_design(deck, design, suspension, error, is_whole)
       type(deck_t), intent(in) :: deck
-      type(design_t), intent(out) :: design
+      type(definition_t), intent(out) :: design
       type(suspension_t), intent(out) :: suspension
       type(error_t), allocatable, intent(out) :: error       !! exit_deck: all errors of the deck
       logical, intent(out) :: is_whole                       !! suspension complete: all errors are in cases or bands
@@ -81,7 +81,7 @@ contains
    !> Reads the design space of a deck, or all errors of the deck.
    subroutine read_design(deck, design, error, is_whole)
       type(deck_t), intent(in) :: deck
-      type(design_t), intent(out) :: design
+      type(definition_t), intent(out) :: design
       type(error_t), allocatable, intent(out) :: error
       logical, intent(out), optional :: is_whole             !! blueprint complete: all errors are in cases or bands
       type(deck_t) :: finished

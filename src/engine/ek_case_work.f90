@@ -1,7 +1,6 @@
 !> A case of a workspace: its numbers, its stage at the present design, and its solution.
 module ek_case_work
    use ek_suspension, only: suspension_t
-   use ek_reader, only: design_t
    use ek_case, only: case_t, copy_case_numbers, is_mountable
    use ek_examination, only: recognise_case, known_case_t
    use ek_rig, only: mount_again
@@ -33,15 +32,14 @@ module ek_case_work
 
 contains
 
-   !> Renews the numbers of a case at a design. The numbers of a case of the deck come from the design; a standard test is adapted
-   !> to the rack travel of the design.
-   subroutine renew_case(suspension, design, this)
+   !> Renews the numbers of a case at a design. A standard test is adapted to the rack travel of the design.
+   subroutine renew_case(suspension, deck_cases, this)
       type(suspension_t), intent(in) :: suspension
-      type(design_t), intent(in) :: design                 !! design with the cases of the present numbers
+      type(case_t), intent(in) :: deck_cases(:)            !! cases of the deck at the present numbers
       type(case_work_t), intent(inout) :: this
 
       if (this%number > 0) then
-         call copy_case_numbers(design%cases(this%number), this%case)
+         call copy_case_numbers(deck_cases(this%number), this%case)
       else
          call cover_rack_travel(suspension, this%case)
       end if
@@ -56,13 +54,13 @@ contains
 
    !> Renews the numbers of a case and examines the design on the rig of the case. is_sound is .false. if the case cannot be put on
    !> the rig, or if the design may have a defect. examine_case then finds the reason and creates strings.
-   subroutine examine_again(suspension, design, this, is_sound)
+   subroutine examine_again(suspension, deck_cases, this, is_sound)
       type(suspension_t), intent(in) :: suspension         !! realised, without the preload trim
-      type(design_t), intent(in) :: design                 !! design with the cases of the present numbers
+      type(case_t), intent(in) :: deck_cases(:)            !! cases of the deck at the present numbers
       type(case_work_t), intent(inout) :: this
       logical, intent(out) :: is_sound
 
-      call renew_case(suspension, design, this)
+      call renew_case(suspension, deck_cases, this)
       is_sound = is_mountable(this%case)
       if (.not. is_sound) return
       call make_room(this)

@@ -16,10 +16,10 @@ module ek_workspace
    use ek_error, only: error_t, message_list_t, fail, exit_model
    use ek_text, only: quoted
    use ek_parameter, only: all_in_range
-   use ek_reader, only: design_t
+   use ek_reader, only: definition_t
    use ek_realise, only: realise, realise_cases
    use ek_suspension, only: suspension_t, copy_numbers
-   use ek_case, only: is_mountable, default_tolerance
+   use ek_case, only: case_t, is_mountable, default_tolerance
    use ek_balance, only: balance_failure_t, set_preloads, fail_balance
    use ek_preload_problem, only: preload_problem_t
    use ek_diagnosis, only: diagnosis_t
@@ -28,9 +28,9 @@ module ek_workspace
    use ek_case_work, only: case_work_t, renew_case, make_room, examine_again, put_on_rig, not_examined, examined
    implicit none(type, external)
    private
-   public :: workspace_t, put_numbers, ready_cases, mount_numbers, solve_numbers, solve_or_explain, settle_numbers, &
-      settle_or_explain, settle_model, balance_or_explain
-   public :: numbers_given, realised, succeeded, out_of_range, in_doubt, not_balanced
+   public :: workspace_t, give_definition, put_numbers, ready_cases, mount_numbers, solve_numbers, solve_or_explain, &
+      settle_numbers, settle_or_explain, settle_model, balance_or_explain
+   public :: numbers_given, realised, balanced, succeeded, out_of_range, in_doubt, not_balanced
 
    ! stages of the numbers, each after the one before
    integer, parameter :: numbers_given = 0
@@ -45,8 +45,10 @@ module ek_workspace
    integer, parameter :: not_balanced = 3   !! the preload trim failed: fail_balance gives the message
 
    type :: workspace_t
-      type(design_t) :: design
+      type(definition_t), pointer :: definition => null()   !! of the deck; shared by all copies of the workspace, and never changed
       real(wp), allocatable :: x(:)                     !! present numbers [SI, axes of the deck]; changed by put_numbers
+      type(case_t), allocatable :: deck_cases(:)        !! cases of the deck, with the present numbers
+      logical :: keeps_origins = .false.                !! the reference points of the bodies stay where they are in `raw`
       integer :: stage = numbers_given
       type(suspension_t) :: raw                         !! model with these numbers, without the preload trim
       type(suspension_t) :: suspension                  !! model with the preload trim
@@ -58,6 +60,17 @@ module ek_workspace
    end type workspace_t
 
 contains
+
+   !> Gives a workspace its definition, with the numbers of the deck. The definition must outlive the workspace and all its copies.
+   subroutine give_definition(definition, workspace)
+      type(definition_t), target, intent(in) :: definition
+      type(workspace_t), intent(inout) :: workspace        !! `raw` is the model of the definition
+
+      workspace%definition => definition
+      workspace%x = definition%parameters%x(:definition%parameters%used)
+      workspace%deck_cases = definition%cases
+      workspace%stage = realised
+   end subroutine give_definition
 
    !> Stores new numbers for the next solution. All stages are reset.
    pure subroutine put_numbers(x, workspace)
@@ -77,9 +90,11 @@ contains
 
       is_done = .true.
       if (workspace%stage >= realised) return
-      is_done = all_in_range(workspace%design%parameters, workspace%x)
-      if (is_done) call realise(workspace%design%plan, workspace%x, workspace%raw, is_done)
-      if (is_done) call realise_cases(workspace%design%plan, workspace%x, workspace%design%cases, is_done)
+      associate (definition => workspace%definition)
+         is_done = all_in_range(definition%parameters, workspace%x)
+         if (is_done) call realise(definition%plan, workspace%x, workspace%raw, is_done, workspace%keeps_origins)
+         if (is_done) call realise_cases(definition%plan, workspace%x, workspace%deck_cases, is_done)
+      end associate
       if (is_done) workspace%stage = realised
    end subroutine take_numbers
 
@@ -135,7 +150,7 @@ contains
 
       call take_numbers(workspace, is_done)
       do k = 1, size(workspace%cases)
-         if (is_done) call examine_again(workspace%raw, workspace%design, workspace%cases(k), is_done)
+         if (is_done) call examine_again(workspace%raw, workspace%deck_cases, workspace%cases(k), is_done)
       end do
       if (is_done) call balance_once(workspace%cases(1)%case%tolerance, workspace)
       is_done = is_done .and. workspace%stage == balanced
@@ -156,7 +171,7 @@ contains
 
       call take_numbers(workspace, is_done)
       if (.not. is_done) return
-      call renew_case(workspace%raw, workspace%design, workspace%cases(k))
+      call renew_case(workspace%raw, workspace%deck_cases, workspace%cases(k))
       call balance_once(tolerance, workspace)
       is_done = workspace%stage == balanced
       if (.not. is_done) return
@@ -177,7 +192,7 @@ contains
       if (.not. is_done) return
       outcome = in_doubt
       if (workspace%cases(k)%stage == not_examined) &
-         call examine_again(workspace%raw, workspace%design, workspace%cases(k), is_done)
+         call examine_again(workspace%raw, workspace%deck_cases, workspace%cases(k), is_done)
       if (.not. is_done) return
       outcome = not_balanced
       call balance_once(workspace%cases(k)%case%tolerance, workspace)
@@ -204,7 +219,7 @@ contains
       call take_numbers(workspace, is_done)
       if (.not. is_done) return
       associate (this => workspace%cases(k))
-         call renew_case(workspace%raw, workspace%design, this)
+         call renew_case(workspace%raw, workspace%deck_cases, this)
          if (.not. is_mountable(this%case)) then           ! the result gives the reason
             call make_room(this)
             call solve_case(workspace%raw, this%case, options, this%result)
@@ -239,9 +254,9 @@ contains
       do j = 1, size(is_needed)
          k = workspace%report_order(j)
          if (.not. is_needed(j)) then
-            call renew_case(workspace%raw, workspace%design, workspace%cases(k))
+            call renew_case(workspace%raw, workspace%deck_cases, workspace%cases(k))
          else if (workspace%cases(k)%stage == not_examined) then
-            call examine_again(workspace%raw, workspace%design, workspace%cases(k), is_done)
+            call examine_again(workspace%raw, workspace%deck_cases, workspace%cases(k), is_done)
             if (.not. is_done) return
          end if
       end do
@@ -269,7 +284,7 @@ contains
       if (.not. is_done) return
       do j = 1, size(is_needed)
          k = workspace%report_order(j)
-         call renew_case(workspace%raw, workspace%design, workspace%cases(k))
+         call renew_case(workspace%raw, workspace%deck_cases, workspace%cases(k))
          if (.not. is_needed(j) .or. .not. is_mountable(workspace%cases(k)%case)) cycle
          call prove_case(k, workspace, words)
          call add_distinct(defects, words)
@@ -308,7 +323,7 @@ contains
       call take_numbers(workspace, is_done)
       if (.not. is_done) return
       do k = 1, merge(0, size(workspace%cases), any(workspace%cases%stage > not_examined))
-         call renew_case(workspace%raw, workspace%design, workspace%cases(k))
+         call renew_case(workspace%raw, workspace%deck_cases, workspace%cases(k))
          if (.not. is_mountable(workspace%cases(k)%case)) cycle
          call prove_case(k, workspace, words)
          if (workspace%cases(k)%stage > not_examined) exit

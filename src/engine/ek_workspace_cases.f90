@@ -4,7 +4,7 @@ module ek_workspace_cases
    use ek_text, only: quoted, did_you_mean
    use ek_group, only: word_length
    use ek_deck, only: deck_t
-   use ek_reader, only: design_t, build_design
+   use ek_reader, only: definition_t, build_design
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t, is_mountable, prefer_plan
    use ek_diagnosis, only: diagnosis_t
@@ -14,7 +14,7 @@ module ek_workspace_cases
    use ek_sweep_table, only: sweep_columns
    use ek_table, only: name_length
    use ek_case_work, only: case_work_t, make_room, examined
-   use ek_workspace, only: workspace_t, balance_or_explain, numbers_given, realised
+   use ek_workspace, only: workspace_t, give_definition, balance_or_explain, numbers_given
    implicit none(type, external)
    private
    public :: open_model, open_workspace, open_cases, report_cases, restrict_cases, heads_of_case, case_number
@@ -22,24 +22,23 @@ module ek_workspace_cases
 contains
 
    !> Reads a deck without listing its cases, for a command that chooses its cases.
-   subroutine open_model(deck, workspace, error, needs_tables)
+   subroutine open_model(deck, definition, workspace, error, needs_tables)
       type(deck_t), intent(in) :: deck
+      type(definition_t), target, intent(inout) :: definition !! replaced; must outlive the workspace and its copies
       type(workspace_t), intent(inout) :: workspace          !! workspace, whose former content is deleted
       type(error_t), allocatable, intent(out) :: error       !! exit_deck, exit_file: all errors together
       logical, intent(in), optional :: needs_tables          !! if .true., a missing table is an error, also of a case not run
 
       call empty_workspace(workspace)
-      call read_checked(deck, workspace%design, workspace%raw, error, needs_tables)
+      call read_checked(deck, definition, workspace%raw, error, needs_tables)
       allocate (workspace%cases(0))
-      if (allocated(error)) return
-      allocate (workspace%x, source=workspace%design%parameters%x(:workspace%design%parameters%used))
-      workspace%stage = realised
+      if (.not. allocated(error)) call give_definition(definition, workspace)
    end subroutine open_model
 
    !> Reads a deck and collects all its errors, including errors in the tables and targets of its cases.
-   subroutine read_checked(deck, design, suspension, error, needs_tables)
+   subroutine read_checked(deck, definition, suspension, error, needs_tables)
       type(deck_t), intent(in) :: deck
-      type(design_t), intent(out) :: design
+      type(definition_t), intent(out) :: definition
       type(suspension_t), intent(out) :: suspension
       type(error_t), allocatable, intent(out) :: error
       logical, intent(in), optional :: needs_tables          !! if .true., a missing table is an error, also of a case not run
@@ -48,8 +47,8 @@ contains
 
       needs_all = .false.
       if (present(needs_tables)) needs_all = needs_tables
-      call build_design(deck, design, suspension, error, is_whole)
-      call check_inputs(suspension, design%cases, fault, is_whole)
+      call build_design(deck, definition, suspension, error, is_whole)
+      call check_inputs(suspension, definition%cases, fault, is_whole)
       if (.not. allocated(fault)) return
       if (allocated(error)) then
          error%message = error%message//new_line('a')//fault%message
@@ -60,26 +59,27 @@ contains
    end subroutine read_checked
 
    !> Reads a deck and lists its cases, then the standard tests that the deck does not define. Reports all errors together.
-   subroutine open_workspace(deck, workspace, error)
+   subroutine open_workspace(deck, definition, workspace, error)
       type(deck_t), intent(in) :: deck
+      type(definition_t), target, intent(inout) :: definition !! replaced; must outlive the workspace and its copies
       type(workspace_t), intent(inout) :: workspace          !! workspace, whose former content is deleted
       type(error_t), allocatable, intent(out) :: error       !! exit_deck
       type(case_t), allocatable :: tests(:), all(:)         ! of the report; with those on request
       integer :: own, k
 
-      call open_model(deck, workspace, error)
+      call open_model(deck, definition, workspace, error)
       if (allocated(error)) return
       deallocate (workspace%cases)
-      call prefer_plan(workspace%design%cases)
-      workspace%design%cases%has_all = .true.
+      call prefer_plan(workspace%deck_cases)
+      workspace%deck_cases%has_all = .true.
       allocate (tests(0), all(0))
-      if (size(workspace%raw%wheels) > 0) call standard_tests(workspace%raw, workspace%design%cases, tests)
-      if (size(workspace%raw%wheels) > 0) call standard_tests(workspace%raw, workspace%design%cases, all, '*')
-      own = size(workspace%design%cases)
+      if (size(workspace%raw%wheels) > 0) call standard_tests(workspace%raw, workspace%deck_cases, tests)
+      if (size(workspace%raw%wheels) > 0) call standard_tests(workspace%raw, workspace%deck_cases, all, '*')
+      own = size(workspace%deck_cases)
       allocate (workspace%cases(own + count([(is_standard(all(k)), k=1, size(all))])))
       do k = 1, own
          workspace%cases(k)%number = k
-         workspace%cases(k)%case = workspace%design%cases(k)
+         workspace%cases(k)%case = workspace%deck_cases(k)
       end do
       do k = 1, size(all)
          if (.not. is_standard(all(k))) cycle
@@ -95,16 +95,17 @@ contains
       pure logical function is_standard(test)
          type(case_t), intent(in) :: test
          integer :: j
-         is_standard = .not. any([(workspace%design%cases(j)%name == test%name, j=1, size(workspace%design%cases))])
+         is_standard = .not. any([(workspace%deck_cases(j)%name == test%name, j=1, size(workspace%deck_cases))])
       end function is_standard
 
    end subroutine open_workspace
 
    !> Reads a deck for selected cases ('': the first case of the deck). Examines the deck on the rig of each case, and balances the
    !> model with the tolerance of the first case. Errors in other cases are ignored.
-   subroutine open_cases(deck, names, workspace, error, increments)
+   subroutine open_cases(deck, names, definition, workspace, error, increments)
       type(deck_t), intent(in) :: deck
       character(*), intent(in) :: names(:)
+      type(definition_t), target, intent(inout) :: definition !! replaced; must outlive the workspace and its copies
       type(workspace_t), intent(inout) :: workspace          !! workspace, whose former content is deleted
       type(error_t), allocatable, intent(out) :: error     !! exit_deck, exit_file, exit_model, exit_convergence
       integer, intent(in), optional :: increments !! number of increments of all cases; absent or 0: the increments of the deck
@@ -113,19 +114,18 @@ contains
       integer :: k
 
       call empty_workspace(workspace)
-      call build_design(deck, workspace%design, workspace%raw, error, is_whole)
+      call build_design(deck, definition, workspace%raw, error, is_whole)
       if (allocated(error)) return
-      allocate (workspace%x, source=workspace%design%parameters%x(:workspace%design%parameters%used))
-      workspace%stage = realised
-      call prefer_plan(workspace%design%cases)
+      call give_definition(definition, workspace)
+      call prefer_plan(workspace%deck_cases)
       allocate (workspace%cases(size(names)))
       do k = 1, size(names)
-         call take_case(deck%file, trim(names(k)), workspace%design%cases, workspace%raw, workspace%cases(k), error)
+         call take_case(deck%file, trim(names(k)), workspace%deck_cases, workspace%raw, workspace%cases(k), error)
          if (allocated(error)) return
       end do
       if (present(increments)) then
          if (increments > 0) then
-            workspace%design%cases%increments = increments
+            workspace%deck_cases%increments = increments
             workspace%cases%case%increments = increments              ! also of a standard test
          end if
       end if
@@ -217,7 +217,7 @@ contains
             this%case = chosen(j)
             this%stage = min(this%stage, examined)
             if (allocated(this%result)) call take_off(this%result%mounted_case_t)
-            if (this%number > 0) workspace%design%cases(this%number) = chosen(j)
+            if (this%number > 0) workspace%deck_cases(this%number) = chosen(j)
          end associate
       end do
    end subroutine restrict_cases

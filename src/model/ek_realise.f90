@@ -39,11 +39,14 @@ contains
    end subroutine new_design
 
    !> Computes all numbers of the suspension for the parameters x. `new_design` must have been called once.
-   subroutine realise(plan, x, suspension, is_good)
+   subroutine realise(plan, x, suspension, is_good, keeps_origins)
       type(blueprint_t), intent(in) :: plan
       real(wp), intent(in) :: x(:)                        !! SI, axes of the deck
       type(suspension_t), intent(inout) :: suspension
       logical, intent(out) :: is_good
+      logical, intent(in), optional :: keeps_origins      !! whether the reference points of the bodies stay where they are, also of
+                                                          !! bodies for which the deck names a point; default .false.
+      logical :: is_kept
       integer :: k
 
       if (are_checked) then
@@ -56,7 +59,9 @@ contains
       do k = 1, size(plan%points)
          suspension%points(k)%at = suspension%vectors(:, plan%points(k))
       end do
-      call place_bodies(plan, x, suspension)
+      is_kept = .false.
+      if (present(keeps_origins)) is_kept = keeps_origins
+      call place_bodies(plan, x, is_kept, suspension)
       do k = 1, size(plan%readouts)
          associate (measure => suspension%readouts(k)%measure, this => plan%readouts(k))
             measure%arm_i = suspension%vectors(:, this%ends(1))
@@ -89,15 +94,16 @@ contains
    end subroutine realise
 
    !> Computes reference points and masses. The centres of gravity are still design points.
-   subroutine place_bodies(plan, x, suspension)
+   subroutine place_bodies(plan, x, keeps_origins, suspension)
       type(blueprint_t), intent(in) :: plan
       real(wp), intent(in) :: x(:)
+      logical, intent(in) :: keeps_origins
       type(suspension_t), intent(inout) :: suspension
       integer :: k
 
       do k = 1, size(plan%bodies)
          associate (body => suspension%bodies(k), this => plan%bodies(k))
-            if (this%origin > 0) body%origin = suspension%vectors(:, this%origin)
+            if (this%origin > 0 .and. .not. keeps_origins) body%origin = suspension%vectors(:, this%origin)
             body%mass = number_at(x, this%mass)
             body%centre = suspension%vectors(:, this%centre)
          end associate

@@ -10,7 +10,7 @@ module ek_direction
    use ek_text, only: quoted, replace
    use ek_deck, only: deck_t, set_value
    use ek_parameter, only: parameter_t, choice_t, find_parameters, parameter_path
-   use ek_reader, only: design_t
+   use ek_reader, only: definition_t
    use ek_study, only: by_scale
    use ek_factor_numbers, only: factor_paths_t
    use ek_factor_paths, only: is_held_in_plane
@@ -42,7 +42,7 @@ contains
    !> Lists the directions of all numbers that a deck gives. Numbers that cannot be varied (y of a point in the plane of &mirror)
    !> are omitted.
    subroutine all_directions(design, directions)
-      type(design_t), intent(in) :: design
+      type(definition_t), intent(in) :: design
       type(direction_t), allocatable, intent(out) :: directions(:)
       integer :: k, used
 
@@ -53,7 +53,7 @@ contains
    !> Finds the directions of paths, in the order of the paths, each direction once. A path with * or to a list (bushing.a.kt) leads
    !> to several directions.
    subroutine find_directions(design, deck, paths, directions, error)
-      type(design_t), intent(in) :: design
+      type(definition_t), intent(in) :: design
       type(deck_t), intent(in) :: deck                     !! deck of the design
       type(message_list_t), intent(in) :: paths
       type(direction_t), allocatable, intent(out) :: directions(:)
@@ -88,7 +88,7 @@ contains
 
    !> Describes a number that two directions have in common; '' if they have none.
    function shared_number(design, a, b) result(text)
-      type(design_t), intent(in) :: design
+      type(definition_t), intent(in) :: design
       type(direction_t), intent(in) :: a, b
       character(:), allocatable :: text
       integer :: j
@@ -108,7 +108,7 @@ contains
 
    !> Rejects directions that have a number in common: their derivatives would count the number twice.
    subroutine refuse_shared(design, directions, error)
-      type(design_t), intent(in) :: design
+      type(definition_t), intent(in) :: design
       type(direction_t), intent(in) :: directions(:)
       type(error_t), allocatable, intent(out) :: error     !! exit_usage: all pairs of directions
       type(message_list_t) :: mistakes
@@ -131,7 +131,7 @@ contains
    !> Creates one direction for each number found. A y coordinate in the centre plane of a mirrored deck is omitted. The number of
    !> the right side joins the direction of the left number if both were found.
    subroutine gather(design, found, directions, is_free_choice)
-      type(design_t), intent(in) :: design
+      type(definition_t), intent(in) :: design
       type(choice_t), intent(in) :: found(:)
       type(direction_t), allocatable, intent(out) :: directions(:)
       logical, intent(in) :: is_free_choice      !! numbers that the deck does not give are omitted
@@ -161,7 +161,7 @@ contains
    !> is its change [SI] per change of the factor, divided by `si`; for a factor that multiplies, `sign` is the number itself. The
    !> value of the factor is not set.
    function factor_direction(design, name, paths) result(direction)
-      type(design_t), intent(in) :: design
+      type(definition_t), intent(in) :: design
       character(*), intent(in) :: name
       type(factor_paths_t), intent(in) :: paths            !! paths of the factor, which lead to at least one number
       type(direction_t) :: direction
@@ -194,7 +194,7 @@ contains
 
    !> The step of difference quotients for a number, in SI units.
    real(wp) function step_of(design, number) result(step)
-      type(design_t), intent(in) :: design
+      type(definition_t), intent(in) :: design
       integer, intent(in) :: number
       character(:), allocatable :: unit
       type(parameter_t) :: this
@@ -221,7 +221,7 @@ contains
 
    !> The reason why a path leads to no number that can be varied.
    function fault_of(design, deck, path, found) result(text)
-      type(design_t), intent(in) :: design
+      type(definition_t), intent(in) :: design
       type(deck_t), intent(in) :: deck
       character(*), intent(in) :: path
       type(choice_t), intent(in) :: found(:)

@@ -70,7 +70,7 @@ contains
       integer :: k
 
       allocate (problem%variables(0))
-      call new_claims(workspace%design%parameters, claims)
+      call new_claims(workspace%definition%parameters, claims)
       do k = 1, size(fit%factors)
          call claim_factor(fit, k, workspace, claims, twice)
          if (twice /= '') call mistakes%add(twice)
@@ -127,7 +127,7 @@ contains
       do k = 1, size(factor%paths)
          path = message_list_t()
          call path%add(trim(factor%paths(k)))
-         call find_directions(workspace%design, deck, path, found, error)
+         call find_directions(workspace%definition, deck, path, found, error)
          if (allocated(error)) then
             call mistakes%add(head//error%message)
             return
@@ -167,8 +167,8 @@ contains
          if (.not. is_each) number%found = pack(number%found, [(all(this%direction%found%number /= number%found(l)%number), &
             l=1, size(number%found))])
          is_known = size(number%found) == 0
-         if (.not. is_known) number%path = parameter_path(workspace%design%parameters%list(number%found(1)%number), &
-            workspace%design%records, is_of_pair=size(number%found) > 1)
+         if (.not. is_known) number%path = parameter_path(workspace%definition%parameters%list(number%found(1)%number), &
+            workspace%definition%records, is_of_pair=size(number%found) > 1)
       end function is_known
 
       !> Sets the bounds and the prior of the factor, which is then complete.
@@ -183,7 +183,7 @@ contains
          this%deviation = factor%deviation
          if (is_given(factor%tolerance)) this%deviation = factor%tolerance/3.0_wp
          this%is_positive = factor%change == by_scale
-         associate (list => workspace%design%parameters%list)
+         associate (list => workspace%definition%parameters%list)
             if (factor%change == by_value) this%is_positive = .not. is_inside(list(this%direction%found(1)%number)%range, -1.0_wp)
          end associate
          this%scale = steps*this%direction%step
@@ -375,7 +375,7 @@ contains
       character(:), allocatable :: ignored
       integer :: k, j, other
 
-      associate (factor => fit%factors(f), design => workspace%design)
+      associate (factor => fit%factors(f), design => workspace%definition)
          call match_paths(design%parameters, design%records, factor%paths, factor%change /= by_value, matches, message)
          if (factor%change == by_scale) message = ''                 ! a multiple has no direction
          do k = 2, merge(size(factor%paths), 1, message == '' .and. matches%has_repeated)

@@ -58,8 +58,7 @@ contains
       self%case = k
       if (allocated(self%workspace)) deallocate (self%workspace)
       allocate (self%workspace, source=workspace)
-      ! they keep the reference points of the design, also of bodies for which the deck names a point that moves
-      self%workspace%design%plan%bodies%origin = 0
+      self%workspace%keeps_origins = .true.
       self%x = workspace%x
       associate (elements => size(workspace%raw%elements))
          self%is_own = spread(.false., 1, elements)
@@ -264,7 +263,7 @@ contains
       if (.not. self%has_elements_alone) return
       self%is_own(:) = .false.
       do j = 1, size(direction%found)
-         call mark_own_elements(self%workspace%design%plan, direction%found(j)%number, &
+         call mark_own_elements(self%workspace%definition%plan, direction%found(j)%number, &
             self%workspace%cases(self%case)%number, self%is_own, self%has_elements_alone)
          if (.not. self%has_elements_alone) return
       end do
@@ -290,13 +289,13 @@ contains
       end if
       self%x(:) = x
       call move_along(direction, steps*direction%step, self%x)
-      is_done = in_range(self%workspace%design%parameters, direction%found, self%x)
+      is_done = in_range(self%workspace%definition%parameters, direction%found, self%x)
       if (.not. is_done) return
       associate (raw => self%workspace%raw, there => self%workspace%cases(self%case)%result%suspension)
          do k = 1, size(raw%elements)
             if (.not. (self%is_own(k) .or. self%is_moved(k))) cycle
             self%is_moved(k) = self%is_own(k)
-            call realise_element(self%workspace%design%plan, self%x, k, raw, is_done)
+            call realise_element(self%workspace%definition%plan, self%x, k, raw, is_done)
             if (.not. is_done) exit
             call copy_element(raw%elements(k), there%elements(k))
          end do

@@ -12,6 +12,7 @@ module ek_study_slopes
    use ek_error, only: error_t, message_list_t, fail, exit_deck, exit_model
    use ek_text, only: quoted
    use ek_deck, only: deck_t
+   use ek_reader, only: definition_t
    use ek_table, only: column_index, name_length
    use ek_study, only: study_t
    use ek_response_value, only: reading_t, read_response, is_difference
@@ -42,6 +43,7 @@ module ek_study_slopes
       type(direction_t), allocatable, private :: directions(:)
       type(factor_paths_t), allocatable, private :: paths(:)
       class(workspace_t), allocatable, private :: workspace
+      type(definition_t), private :: definition              !! of the workspace, which points to it
    end type study_slopes_t
 
 contains
@@ -51,7 +53,7 @@ contains
       type(study_t), intent(in) :: study
       type(deck_t), intent(in) :: deck
       type(designer_t), intent(in) :: designer               !! designer of the study (new_designer)
-      class(study_slopes_t), allocatable, intent(out) :: self
+      class(study_slopes_t), allocatable, target, intent(out) :: self
       type(error_t), allocatable, intent(out) :: error       !! exit_deck: factors or cases without derivatives; exit_model
       type(message_list_t) :: mistakes
       logical :: is_done
@@ -59,7 +61,7 @@ contains
 
       allocate (self)
       allocate (self%workspace)
-      call open_workspace(deck, self%workspace, error)
+      call open_workspace(deck, self%definition, self%workspace, error)
       if (allocated(error)) return
       self%readings = designer%readings
       self%case_of = designer%case_of
@@ -70,7 +72,7 @@ contains
             call mistakes%add(study%factors(f)%where//': factor '//quoted(study%factors(f)%name)// &
                ': its paths lead to an integer, a name or a switch, which has no derivative; use kind = ''monte_carlo''')
          else
-            self%directions(f) = factor_direction(self%workspace%design, study%factors(f)%name, self%paths(f))
+            self%directions(f) = factor_direction(self%workspace%definition, study%factors(f)%name, self%paths(f))
          end if
       end do
       allocate (self%cases(size(designer%options)))
@@ -83,7 +85,7 @@ contains
             if (allocated(error)) cycle
             if (designer%increments > 0) workspace%cases(k)%case%increments = designer%increments
             if (designer%increments > 0 .and. workspace%cases(k)%number > 0) &
-               workspace%design%cases(workspace%cases(k)%number)%increments = designer%increments
+               workspace%deck_cases(workspace%cases(k)%number)%increments = designer%increments
             this%options = designer%options(c)
          end associate
       end do
@@ -138,7 +140,7 @@ contains
       real(wp) :: y(self%responses, 4), errors(self%responses), x(size(self%workspace%x)), h
       integer :: c, f, k
 
-      associate (parameters => self%workspace%design%parameters)
+      associate (parameters => self%workspace%definition%parameters)
          x = parameters%x(:parameters%used)
          do f = 1, size(values)
             call put_factor(self%paths(f), values(f), parameters, x)

@@ -59,7 +59,7 @@ contains
       allocate (tolerance%factors(size(study%factors)))
       do f = 1, size(study%factors)
          call define_factor(study%factors(f), study%kind, &
-            deck_value(designer%workspace%design%parameters, designer%paths(f)), factor, error)
+            deck_value(designer%workspace%definition%parameters, designer%paths(f)), factor, error)
          if (allocated(error)) return
          call new_standard_factor(factor, tolerance%factors(f))
       end do

@@ -5,6 +5,7 @@ module ek_designer
    use ek_error, only: error_t, message_list_t, fail, exit_deck
    use ek_text, only: quoted
    use ek_deck, only: deck_t
+   use ek_reader, only: definition_t
    use ek_case_result, only: solve_options_t, solve_case, add_remarks, failure_of, test_of
    use ek_sweep_table, only: sweep_columns
    use ek_table, only: column_index, name_length
@@ -41,9 +42,10 @@ module ek_designer
 contains
 
    !> Reads the deck and finds the numbers that the factors change. No case is solved.
-   subroutine begin_designer(study, deck, designer, error)
+   subroutine begin_designer(study, deck, definition, designer, error)
       type(study_t), intent(in) :: study
       type(deck_t), intent(in) :: deck
+      type(definition_t), target, intent(inout) :: definition !! replaced; must outlive the designer and its copies
       type(designer_t), intent(out) :: designer
       type(error_t), allocatable, intent(out) :: error     !! exit_deck: all errors of the paths
       integer :: k
@@ -53,30 +55,31 @@ contains
       if (allocated(error)) return
       if (allocated(study%increments)) designer%increments = sum(study%increments)       ! one or none
       allocate (designer%workspace)
-      call open_cases(deck, designer%case_names, designer%workspace, error, designer%increments)
+      call open_cases(deck, designer%case_names, definition, designer%workspace, error, designer%increments)
       if (allocated(error)) return
-      call find_paths(study, designer%workspace%design, designer%paths, error)
+      call find_paths(study, designer%workspace%definition, designer%paths, error)
       if (allocated(error)) return
       allocate (designer%units(size(study%factors)), designer%heads(size(study%factors)))
       do k = 1, size(study%factors)
-         designer%units(k) = factor_unit(designer%workspace%design, designer%paths(k))
+         designer%units(k) = factor_unit(designer%workspace%definition, designer%paths(k))
          designer%heads(k) = head_with_unit(study%factors(k)%name, unit_ending(trim(designer%units(k))))
       end do
-      call check_planes(study, designer%workspace%design, designer%paths, error)
+      call check_planes(study, designer%workspace%definition, designer%paths, error)
    end subroutine begin_designer
 
    !> Reads the deck, and checks all paths, columns and responses of the study against the deck. All cases must be solvable in the
    !> design of the deck.
-   subroutine new_designer(study, deck, home, designer, error)
+   subroutine new_designer(study, deck, home, definition, designer, error)
       type(study_t), intent(in) :: study
       type(deck_t), intent(in) :: deck
       character(*), intent(in) :: home                     !! folder of the study with its slash
+      type(definition_t), target, intent(inout) :: definition !! replaced; must outlive the designer and its copies
       type(designer_t), intent(inout) :: designer          !! replaced
       type(error_t), allocatable, intent(out) :: error     !! exit_deck: errors of the study; otherwise the deck or its first case
                                                            !! that cannot be run
       integer :: k
 
-      call begin_designer(study, deck, designer, error)
+      call begin_designer(study, deck, definition, designer, error)
       if (allocated(error)) return
       allocate (designer%options(size(designer%case_names)))
       do k = 1, size(designer%case_names)

@@ -30,7 +30,7 @@ contains
       integer :: f
 
       is_done = .true.
-      associate (parameters => workspace%design%parameters)
+      associate (parameters => workspace%definition%parameters)
          x = parameters%x(:parameters%used)
          do f = 1, size(factors)
             is_done = is_done .and. size(factors(f)%found) > 0

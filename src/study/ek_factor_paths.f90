@@ -9,7 +9,7 @@ module ek_factor_paths
    use ek_deck, only: deck_t, set_value
    use ek_matched_numbers, only: matches_t, match_t, claims_t, new_claims, claim, match_paths, match_name, choices_of, &
       separate_settings
-   use ek_reader, only: design_t
+   use ek_reader, only: definition_t
    use ek_sampler_kind, only: list_kind
    use ek_study, only: study_t, by_value, by_delta, by_scale
    use ek_factor_numbers, only: factor_paths_t
@@ -55,7 +55,7 @@ contains
    !> rows of the list may have zeros.
    subroutine check_planes(study, design, paths, error)
       type(study_t), intent(in) :: study
-      type(design_t), intent(in) :: design
+      type(definition_t), intent(in) :: design
       type(factor_paths_t), intent(in) :: paths(:)         !! paths of each factor
       type(error_t), allocatable, intent(out) :: error     !! exit_deck
       type(message_list_t) :: mistakes
@@ -84,7 +84,7 @@ contains
 
    !> Whether a number is the y coordinate of a point in the centre plane of a mirrored deck that `shared` does not name.
    pure logical function is_held_in_plane(design, number)
-      type(design_t), intent(in) :: design
+      type(definition_t), intent(in) :: design
       integer, intent(in) :: number               !! index of the parameter
       integer :: k, j
 
@@ -108,7 +108,7 @@ contains
    !> Two factors that change one number are an error, because the later one would replace the value of the earlier one.
    subroutine find_paths(study, design, paths, error)
       type(study_t), intent(in) :: study
-      type(design_t), intent(in) :: design
+      type(definition_t), intent(in) :: design
       type(factor_paths_t), allocatable, intent(out) :: paths(:)       !! paths of each factor
       type(error_t), allocatable, intent(out) :: error                 !! exit_deck
       type(matches_t) :: matches

@@ -6,7 +6,7 @@ module ek_factor_remark
    use ek_text, only: str, quoted
    use ek_record, only: record_t, element
    use ek_group, only: group_names, point_group, spring_group, wheel_group, model_group
-   use ek_reader, only: design_t
+   use ek_reader, only: definition_t
    use ek_study, only: study_t
    use ek_sampler_kind, only: sobol_kind, saltelli_kind
    use ek_factor_numbers, only: factor_paths_t
@@ -23,7 +23,7 @@ contains
    !> `each = .true.` creates many factors.
    subroutine factor_remarks(study, design, paths, words)
       type(study_t), intent(in) :: study
-      type(design_t), intent(in) :: design                 !! design of the deck
+      type(definition_t), intent(in) :: design                 !! design of the deck
       type(factor_paths_t), intent(in) :: paths(:)         !! paths of each factor
       type(message_list_t), intent(inout) :: words
       logical :: is_moved(size(design%records)), is_new(3)
@@ -63,7 +63,7 @@ contains
    !> '' if there is none. With more springs than wheels the trim distributes the load according to the given preloads, so that they
    !> have an effect.
    function replaced_key(design, paths) result(text)
-      type(design_t), intent(in) :: design
+      type(definition_t), intent(in) :: design
       type(factor_paths_t), intent(in) :: paths
       character(:), allocatable :: text
       integer :: j
@@ -85,7 +85,7 @@ contains
 
    !> A word of &model; '' if the deck does not give it.
    function setting_of_model(design, key) result(word)
-      type(design_t), intent(in) :: design
+      type(definition_t), intent(in) :: design
       character(*), intent(in) :: key
       character(:), allocatable :: word
       integer :: k
@@ -98,7 +98,7 @@ contains
 
    !> Number of records of a group in the mirrored deck.
    integer function count_of(design, group) result(number)
-      type(design_t), intent(in) :: design
+      type(definition_t), intent(in) :: design
       character(*), intent(in) :: group
       integer :: k
 
@@ -127,7 +127,7 @@ contains
 
    !> Marks the points that a factor moves, by one or more coordinates.
    subroutine find_moved(design, paths, is_moved)
-      type(design_t), intent(in) :: design
+      type(definition_t), intent(in) :: design
       type(factor_paths_t), intent(in) :: paths
       logical, intent(out) :: is_moved(:)                  !! whether each record is a point that the factor moves
       integer :: j
@@ -142,7 +142,7 @@ contains
 
    !> Lists the moved points of wheels, for instance "'contact_patch', 'wheel_centre'"; '' if no such point is moved.
    subroutine wheel_points(design, is_moved, list)
-      type(design_t), intent(in) :: design
+      type(definition_t), intent(in) :: design
       logical, intent(in) :: is_moved(:)
       character(:), allocatable, intent(out) :: list
       integer :: k, found
@@ -161,7 +161,7 @@ contains
 
    !> Whether a wheel names a point as its centre or its contact point.
    logical function is_of_wheel(design, name)
-      type(design_t), intent(in) :: design
+      type(definition_t), intent(in) :: design
       character(*), intent(in) :: name
       integer :: k
 
@@ -176,7 +176,7 @@ contains
    !> Lists moved points that coincide with a point that is not moved: "'strut_top', but not 'spring_upper_seat'". '' if there is no
    !> such point.
    subroutine parted_points(design, is_moved, list)
-      type(design_t), intent(in) :: design
+      type(definition_t), intent(in) :: design
       logical, intent(in) :: is_moved(:)
       character(:), allocatable, intent(out) :: list
       real(wp) :: at(3, size(is_moved))
@@ -203,7 +203,7 @@ contains
 
    !> Finds the locations of all points whose three coordinates are numbers of the deck.
    subroutine place_points(design, at, is_point)
-      type(design_t), intent(in) :: design
+      type(definition_t), intent(in) :: design
       real(wp), intent(out) :: at(:, :)                    !! location of each record [m]
       logical, intent(out) :: is_point(:)
       integer :: k, given(size(is_point))

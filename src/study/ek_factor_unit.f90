@@ -5,7 +5,7 @@
 module ek_factor_unit
    use ek_kinds, only: wp, millimetre, degree
    use ek_record, only: is_given
-   use ek_reader, only: design_t
+   use ek_reader, only: definition_t
    use ek_study, only: by_scale
    use ek_factor_numbers, only: factor_paths_t
    implicit none(type, external)
@@ -35,7 +35,7 @@ contains
    !> The unit of a factor, for instance 'N/mm'. The unit is '' for a multiple of the deck's number, for numbers without a known
    !> unit, and for numbers of different units.
    function factor_unit(design, paths) result(unit)
-      type(design_t), intent(in) :: design
+      type(definition_t), intent(in) :: design
       type(factor_paths_t), intent(in) :: paths
       character(:), allocatable :: unit
       integer :: k
@@ -52,7 +52,7 @@ contains
 
    !> The unit of a number of the deck; '' if the unit is not known.
    function parameter_unit(design, number) result(unit)
-      type(design_t), intent(in) :: design
+      type(definition_t), intent(in) :: design
       integer, intent(in) :: number
       character(:), allocatable :: unit, path
       integer :: k

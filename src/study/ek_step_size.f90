@@ -10,6 +10,7 @@ module ek_step_size
    use ek_text, only: quoted
    use ek_clock, only: seconds
    use ek_deck, only: deck_t
+   use ek_reader, only: definition_t
    use ek_suspension, only: suspension_t
    use ek_schedule, only: new_schedule, inputs_at
    use ek_case, only: case_t
@@ -43,6 +44,7 @@ contains
       type(error_t), allocatable, intent(out) :: error
       type(writer_t), intent(inout), optional :: writer
       class(workspace_t), allocatable :: workspace
+      type(definition_t), target :: definition
       type(suspension_t) :: suspension
       type(case_t) :: case
       type(kkt_t) :: kkt
@@ -52,7 +54,7 @@ contains
       integer :: m, k
 
       allocate (workspace)
-      call open_cases(deck, [study%case], workspace, error)
+      call open_cases(deck, [study%case], definition, workspace, error)
       if (allocated(error)) return
       call mount(workspace%suspension, workspace%cases(1)%case, suspension, case)
       kkt = new_kkt(suspension)

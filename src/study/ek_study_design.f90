@@ -10,6 +10,7 @@ module ek_study_design
    use ek_error, only: error_t, exit_deck, exit_file
    use ek_text, only: quoted, replace
    use ek_deck, only: deck_t, set_value
+   use ek_reader, only: definition_t
    use ek_case_result, only: case_result_t, solve_case, solve_mounted, add_remarks, solved
    use ek_table, only: table_t, column_index
    use ek_study, only: study_t, not_given, by_scale
@@ -122,6 +123,7 @@ contains
       type(chunk_t), intent(inout) :: chunk
       type(deck_t) :: changed
       class(workspace_t), allocatable :: workspace
+      type(definition_t), target :: definition
       type(error_t), allocatable :: error
       type(cause_t) :: cause
       integer :: faults(size(designer%readings)), f, j, case
@@ -135,7 +137,7 @@ contains
             end associate
          end do
       end do
-      if (.not. allocated(error)) call open_cases(changed, designer%case_names, workspace, error, designer%increments)
+      if (.not. allocated(error)) call open_cases(changed, designer%case_names, definition, workspace, error, designer%increments)
       if (allocated(error)) then
          if (error%code == exit_file) call put_error(chunk, error)
          chunk%status(k) = merge(design_invalid, design_unsolvable, error%code == exit_deck)

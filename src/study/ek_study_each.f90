@@ -7,7 +7,7 @@ module ek_study_each
    use ek_record, only: own_name, right_side
    use ek_deck, only: deck_t
    use ek_parameter, only: choice_t, path_t, find_parameters, split_path, parameter_path
-   use ek_reader, only: design_t, read_design
+   use ek_reader, only: definition_t, read_design
    use ek_study, only: study_t, study_factor_t, surplus_factors, by_scale
    use ek_factor_paths, only: is_held_in_plane
    use ek_workspace, only: workspace_t
@@ -30,7 +30,7 @@ contains
       type(study_t), intent(inout) :: study
       type(deck_t), intent(in) :: deck
       type(error_t), allocatable, intent(out) :: error     !! exit_deck
-      type(design_t) :: design
+      type(definition_t) :: design
       type(study_factor_t), allocatable :: factors(:)
       integer :: place(size(study%factors)), f, k, before
 
@@ -66,6 +66,7 @@ contains
       type(deck_t), intent(in) :: deck
       type(error_t), allocatable, intent(out) :: error     !! exit_deck, or as open_cases
       class(workspace_t), allocatable :: workspace
+      type(definition_t), target :: definition
       type(suspension_t) :: suspension
       type(case_t) :: case
       character(name_length), parameter :: never(3) = [character(name_length) :: 'state', 'factor', 'converged']
@@ -76,7 +77,7 @@ contains
 
       allocate (workspace)
       if (.not. any(index(study%columns, '*') > 0)) return
-      call open_cases(deck, [study%case], workspace, error)
+      call open_cases(deck, [study%case], definition, workspace, error)
       if (allocated(error)) return
       call mount(workspace%suspension, workspace%cases(1)%case, suspension, case)
       call sweep_columns(suspension, case, heads)
@@ -109,7 +110,7 @@ contains
 
    !> Adds one factor for each number to which a path leads, with the omissions of expand_factors.
    subroutine add_each(design, given, path_text, before, factors)
-      type(design_t), intent(in) :: design
+      type(definition_t), intent(in) :: design
       type(study_factor_t), intent(in) :: given
       character(*), intent(in) :: path_text
       integer, intent(in) :: before              !! number of factors of the former lines

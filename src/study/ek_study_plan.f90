@@ -121,7 +121,7 @@ contains
       if (study%kind == list_kind) call read_list(study, home, designer, settings%rows, error)
       do f = 1, size(factors)
          if (.not. allocated(error)) call define_factor(study%factors(f), study%kind, &
-            deck_value(designer%workspace%design%parameters, designer%paths(f)), factors(f), error)
+            deck_value(designer%workspace%definition%parameters, designer%paths(f)), factors(f), error)
       end do
       if (.not. allocated(error)) then
          call new_sampler(settings, factors, sampler, error)

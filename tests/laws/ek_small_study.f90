@@ -2,6 +2,7 @@
 module ek_small_study
    use ek_error, only: error_t
    use ek_deck, only: deck_t
+   use ek_reader, only: definition_t
    use ek_file, only: make_folder, join_path, folder_exists
    use ek_table, only: table_t, read_csv
    use ek_study, only: study_t, study_factor_t, not_given, by_value
@@ -47,6 +48,7 @@ contains
       integer, intent(in), optional :: jobs              !! usually 1
       character(*), parameter :: this_build = 'test'
       type(designer_t) :: designer
+      type(definition_t), target :: definition
       type(study_plan_t) :: plan
       type(run_options_t) :: options
       type(ranks_t) :: ranks
@@ -60,7 +62,7 @@ contains
          folder = folder//'_'
       end do
       call make_folder(folder, error)
-      if (.not. allocated(error)) call new_designer(study, deck, '', designer, error)
+      if (.not. allocated(error)) call new_designer(study, deck, '', definition, designer, error)
       if (.not. allocated(error)) call new_plan(study, deck, '', designer, plan, error, 1, 0, this_build)
       if (.not. allocated(error)) call open_parts(study, plan, folder, hold, error)
       if (.not. allocated(error)) call run_chunks(study, plan, deck, folder, hold, options, designer, ranks, state, &
