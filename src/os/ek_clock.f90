@@ -1,4 +1,4 @@
-!> Wall-clock time for reports, time of the processor for benchmarks, and the date stamp of output files.
+!> Wall-clock time for reports, and the date stamp of output files.
 module ek_clock
    use, intrinsic :: iso_c_binding, only: c_char, c_long, c_null_char, c_null_ptr, c_ptr, c_size_t
    use ek_kinds, only: wp, i8
@@ -6,7 +6,7 @@ module ek_clock
    use ek_posix, only: c_time, c_gmtime, c_localtime, c_strftime
    implicit none(type, external)
    private
-   public :: seconds, processor_seconds, seconds_since_1970, date_text, universal_time, check_set_date
+   public :: seconds, seconds_since_1970, date_text, universal_time, check_set_date
 
 contains
 
@@ -18,12 +18,6 @@ contains
       call system_clock(ticks, rate)
       seconds = real(ticks, wp)/real(rate, wp)
    end function seconds
-
-   !> Processor time of this process in all its threads [s]. Waiting for a busy processor does not count. The resolution is 1 us
-   !> with gfortran on Linux.
-   real(wp) function processor_seconds()
-      call cpu_time(processor_seconds)
-   end function processor_seconds
 
    !> Seconds since 1970-01-01 00:00 UTC, from the system clock.
    integer(i8) function seconds_since_1970()
