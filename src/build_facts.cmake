@@ -18,6 +18,7 @@ endif()
 
 string(TOUPPER "${CMAKE_BUILD_TYPE}" ek_type)
 get_directory_property(ek_options COMPILE_OPTIONS)
+string(REGEX REPLACE "\\$<\\$<COMPILE_LANGUAGE:Fortran>:([^>]*)>" "\\1" ek_options "${ek_options}")
 string(JOIN " " ek_options ${CMAKE_Fortran_FLAGS} ${CMAKE_Fortran_FLAGS_${ek_type}} ${ek_options})
 set(ek_options "${CMAKE_BUILD_TYPE} (${ek_options})")
 string(REPLACE "'" "\"" ek_options "${ek_options}")

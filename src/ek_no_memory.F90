@@ -4,9 +4,9 @@
 !> itself, so that the loader does not use the procedure of the library. Other compilers do not call it. The libraries of elastokin
 !> do not contain it: a program that calls them decides for itself.
 module ek_no_memory
-   use, intrinsic :: iso_c_binding, only: c_int
+   use, intrinsic :: iso_c_binding, only: c_int, c_int32_t
    use ek_error, only: exit_file
-   use ek_posix, only: c_exit_now
+   use ek_system_call, only: c_exit_now
    use ek_system, only: write_bytes
    implicit none(type, external)
    private
@@ -18,9 +18,9 @@ contains
    !> a message of gfortran; they are not used, as are temporary files, which the next run in their folder removes.
    subroutine end_without_memory() bind(c, name='_gfortran_os_error_at')
       character(*), parameter :: text = 'error: not enough memory (a limit of the machine or of ulimit -v)'
-      logical :: is_written
+      integer :: ignored
 
-      is_written = write_bytes(2_c_int, text//new_line('a'))
+      call write_bytes(2_c_int32_t, text//new_line('a'), ignored)
       call c_exit_now(int(exit_file, c_int))
    end subroutine end_without_memory
 #endif

@@ -260,7 +260,7 @@ if [ $# -eq 0 ]; then
   cd "$top" || exit 1
   mapfile -t page < <(pages)
   sentences "${page[@]}" || status=1
-  mapfile -t source < <(git ls-files -- 'src/*.f90' 'src/*.F90')
+  mapfile -t source < <(git ls-files -- 'src/*.f90' 'src/*.F90' 'tools/bench/*.f90')
   docstrings "${source[@]}" || status=1
   if git grep -nEi 'subroutine +([a-z0-9_]*_)?(told|tells?)(_[a-z0-9_]*)?\(' -- 'tests/*.pf' | grep -v 'end subroutine'; then
     echo 'the names of tests: use: is_reported, prints, lists, gives'

@@ -52,7 +52,7 @@ LIST=$list perl -e '
     }
   }
 
-  for my $source (glob "src/*.f90 src/*/*.f90 src/*/*.F90") {
+  for my $source (glob "src/*.f90 src/*/*.f90 src/*/*.F90 tools/bench/*.f90") {
     open(my $in, "<", $source) or die;
     my @above;                             # the comment so far: [line, text]
     while (my $line = <$in>) {

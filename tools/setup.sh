@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # setup.sh [PACKAGE...]: installs what is missing to build elastokin and draw its figures.
 #
-# Checks for gfortran 12 or newer, CMake 3.25 or newer, make, Ninja, a LAPACK, and gnuplot with a font. Missing packages
+# Checks for gfortran 12 or newer, a C compiler, CMake 3.25 or newer, make, Ninja, a LAPACK, and gnuplot with a font. Missing packages
 # are installed with apt-get, as root or through sudo without a password; if neither
 # is possible, the command is printed and the status is 1. PACKAGE: further Debian or Ubuntu packages.
 # Quick when nothing is missing. FC selects another compiler than gfortran.
@@ -20,6 +20,10 @@ at_least() { # at_least WANTED FOUND: version numbers
 
 has_compiler() {
   command -v "${FC:-gfortran}" >/dev/null && at_least 12 "$("${FC:-gfortran}" -dumpversion)"
+}
+
+has_c_compiler() { # with the headers of the C library
+  printf '#include <unistd.h>\n' | "${CC:-cc}" -fsyntax-only -x c - 2>/dev/null
 }
 
 has_cmake() {
@@ -50,6 +54,10 @@ check_all() {
   missing=()
   reasons=()
   has_compiler || lacks gfortran 'gfortran 12 or newer'
+  if has_compiler && ! has_c_compiler; then     # gfortran brings both
+    lacks gcc 'a C compiler'
+    lacks libc6-dev 'the headers of the C library'
+  fi
   has_cmake || lacks cmake 'CMake 3.25 or newer'
   command -v make >/dev/null || lacks make make
   command -v ninja >/dev/null || lacks ninja-build Ninja

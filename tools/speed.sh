@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
 # speed.sh [PROGRAM]: measures the figures of docs/performance.md, as a table in Markdown on standard output.
 #
-# PROGRAM: default build/release/bin/elastokin, which is compiled if it is missing. Takes some minutes. A busy machine changes the
+# PROGRAM: default build/release/bin/elastokin; it is compiled. With a PROGRAM, PROGRAM-bench is used too. Takes some minutes. A busy machine changes the
 # times more than the ratios; its processor and load are printed below the table.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 export LC_ALL=C.UTF-8
 
 elastokin=${1:-build/release/bin/elastokin}
-[ -n "${1:-}" ] || tools/build.sh release elastokin
+[ -n "${1:-}" ] || { tools/build.sh release elastokin && tools/build.sh release elastokin-bench; }
 elastokin=$(realpath "$elastokin")
 load=$(cut -d ' ' -f 1-3 /proc/loadavg 2>/dev/null || echo unknown)
 samples=20000                # designs of the study
@@ -16,7 +16,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
 # bench FILE DECK CASE INCREMENTS
-bench() { "$elastokin" bench "input/$2/$2.nml" --case "$3" --increments "$4" --json >"$work/$1"; }
+bench() { "$elastokin-bench" "input/$2/$2.nml" --case "$3" --increments "$4" --json >"$work/$1"; }
 # the value of a key; with a size, that of the chain with this matrix
 value() { awk -v key="\"$2\":" -v n="${3:-}" '$1 == "\"n\":" {here = $2 + 0 == n} $1 == key && (n == "" || here) {print $2 + 0; exit}' "$work/$1"; }
 figure() { printf "%.${2}f" "$1"; }
@@ -29,7 +29,7 @@ bench axle mcpherson_axle parallel_travel 600
 bench five five_link_axle parallel_travel 600
 bench short_corner mcpherson vertical_sweep 60
 bench short_axle mcpherson_axle parallel_travel 100
-"$elastokin" bench --growth 2000 --json >"$work/growth"
+"$elastokin-bench" --growth 2000 --json >"$work/growth"
 
 cat >"$work/study.nml" <<END
 &study name = 'speed', kind = 'monte_carlo', samples = $samples, increments = 60,

@@ -142,11 +142,12 @@ get_support() {
   export EK_WASM_RUNTIME=$support
   mkdir -p "$support"
   ln -sfn "$runtime" "$support/libfortran_runtime.a"
-  for name in entry missing posix room; do     # all warnings: these files are ours
-    clang-22 "${c_flags[@]}" -Wall -Wextra -Werror -c "$kit/system/$name.c" -o "$support/$name.o" >>"$log" 2>&1 ||
-      { tail -n 30 "$log" >&2; fail "system/$name.c was not compiled"; }
+  # all warnings: these files are ours. CMake compiles elastokin_system.c again, here it is for its signatures
+  for name in "$kit"/system/{entry,missing,room}.c src/os/elastokin_system.c; do
+    clang-22 "${c_flags[@]}" -Wall -Wextra -Wpedantic -Werror -c "$name" -o "$support/$(basename "$name" .c).o" >>"$log" 2>&1 ||
+      { tail -n 30 "$log" >&2; fail "$name was not compiled"; }
   done
-  "$kit/signatures.py" /usr/lib/wasm32-wasi/libc.a "$runtime" "$support"/{missing,posix,room}.o >"$support/signatures.json"
+  "$kit/signatures.py" /usr/lib/wasm32-wasi/libc.a "$runtime" "$support"/{missing,room,elastokin_system}.o >"$support/signatures.json"
   # make does not know that the compiler is a script
   key=$(cat "$kit"/{fortran.py,retarget.py} "$support/signatures.json" | sum_of)
   if [ "$(cat "$support/key.txt" 2>/dev/null)" != "$key" ]; then

@@ -120,7 +120,7 @@ memcheck() {
 
 # The number of heap allocations does not depend on the number of increments
 allocations() { # allocations DECK CASE INCREMENTS
-  valgrind build/ci/reference_lapack/bin/elastokin bench "$1" --case "$2" --increments "$3" --quiet 2>&1 |
+  valgrind build/ci/reference_lapack/bin/elastokin-bench "$1" --case "$2" --increments "$3" --quiet 2>&1 |
     tee -a "$logs/valgrind_bench.txt" | sed -n 's/.*total heap usage: \([0-9,]*\) allocs.*/\1/p' | tr -d ,
 }
 
@@ -186,7 +186,7 @@ packs_on_instruction_sets() {
     LD_LIBRARY_PATH=${!copy} "$program" --version | grep '^packs'
     LD_LIBRARY_PATH=${!copy} "$program" study studies/hardpoint_tolerance/study.nml --samples 40 --no-plots --quiet --out "$logs/instructions/$copy.out" || wrong=1
     for _ in 1 2 3; do     # the best of three: the machine has other work
-      LD_LIBRARY_PATH=${!copy} "$program" bench input/mcpherson/mcpherson.nml --case vertical_sweep --increments 60 --json
+      LD_LIBRARY_PATH=${!copy} "$program-bench" input/mcpherson/mcpherson.nml --case vertical_sweep --increments 60 --json
     done | sed -n 's/.*"pack_states_per_s": *\([0-9]*\).*/\1/p' | sort -n | tail -n 1 >"$logs/instructions/$copy.speed"
     [ -s "$logs/instructions/$copy.speed" ] || { echo "bench failed"; wrong=1; }
   done

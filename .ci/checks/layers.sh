@@ -47,7 +47,7 @@ numbers/ek_key_numbers.f90 ek_page ek_numbers
 api/ek_named_numbers.f90 ek_page ek_api
 sensitivity/ek_fit_problem.f90 ek_page ek_sensitivity
 api/ek_named_numbers.f90 ek_load_deck ek_api
-base/ek_text.f90 ek_posix ek_base
+base/ek_text.f90 ek_system ek_base
 base/ek_decimal.f90 ek_quantity ek_base
 os/ek_file.f90 ek_quantity ek_os
 vocabulary/ek_noise.f90 ek_file ek_vocabulary

@@ -145,7 +145,7 @@ solve_and_fit_laws() {
 
 # Time of an increment of a whole axle, in units of LAPACK's solution alone; reported without a limit, as the machine may be busy
 bench_of_an_axle() {
-  build/release/bin/elastokin bench input/mcpherson_axle/mcpherson_axle.nml --case parallel_travel --quiet \
+  build/release/bin/elastokin-bench input/mcpherson_axle/mcpherson_axle.nml --case parallel_travel --quiet \
     >"$logs/bench_axle.txt" || return 1
   cat "$logs/bench_axle.txt"
   awk '/^LAPACK dsysv/ {unit = $4 " " $5} / increment .* units/ {list = list ", " $1 " " $5}
@@ -156,7 +156,7 @@ bench_of_an_axle() {
 # takes a part of the numbers), and what they cost; the ratios are reported without a limit
 derivatives_of_every_number() {
   EK_EVERY_NUMBER=1 build/release/tests/test_derivatives || return 1
-  build/release/bin/elastokin bench input/five_link_axle/five_link_axle.nml --case parallel_travel --derivatives \
+  build/release/bin/elastokin-bench input/five_link_axle/five_link_axle.nml --case parallel_travel --derivatives \
     >"$logs/bench_derivatives.txt" || return 1
   cat "$logs/bench_derivatives.txt"
   awk '/ sweeps$/ {list = list ", " $(NF - 1)} END {if (list == "") exit 1; print "remark: in sweeps by LAPACK" list}' \

@@ -22,7 +22,7 @@ fortran_is_tidy() {
     fi
   fi
   "$tools/bin/fortitude" check --output-format concise \
-    --select C001,C003,C021,C022,C051,C061,C081,C091,C092,C121,C122,C131,C161,C191,E,S101 src
+    --select C001,C003,C021,C022,C051,C061,C081,C091,C092,C121,C122,C131,C161,C191,E,S101 src tools/bench
 }
 
 # Links, the numbers of README.md (those of the library as the program prints them) and the terms that users look for

@@ -89,7 +89,7 @@ def main(words):
         compile_file(arguments, source, target, signatures)
         objects.append(target)
     if not arguments.only_compile:
-        own = [str(runtime / name) for name in ("entry.o", "missing.o", "posix.o", "room.o", "libfortran_runtime.a")]
+        own = [str(runtime / name) for name in ("entry.o", "missing.o", "room.o", "libfortran_runtime.a")]
         run(*link, *objects, *arguments.for_link, *own, *emulated, *strict, "-o", arguments.output or "a.out")
 
 

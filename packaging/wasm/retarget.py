@@ -9,7 +9,7 @@ at a multiple of 8, so an address of 32 bits leaves four bytes unused. Converted
   - initial values of type(c_ptr) and type(c_funptr), which flang writes as integers of 64 bits,
   - temporary values of unknown size inside loops: flang requests stack for them in each pass and returns none before the end of the
     procedure. They get room that the next pass uses again (system/room.c),
-  - the name of the main program, and of functions that system/posix.c defines.
+  - the name of the main program.
 Rejected is a derived type with a procedure pointer: its components would be elsewhere than where flang has them.
 """
 import re
@@ -19,7 +19,6 @@ triple = "wasm32-unknown-wasi"
 # letters as in signatures.py
 letter = {"ptr": "i", "i1": "i", "i8": "i", "i16": "i", "i32": "i", "i64": "l", "float": "f", "double": "d", "void": ""}
 type_of = {"i": "i32", "l": "i64", "f": "float", "d": "double", "": "void"}
-own_prefix = "ekw_"                 # of the functions in system/posix.c
 adapter_prefix = "ek64."
 
 processor = re.compile(
@@ -207,11 +206,9 @@ define internal void @{adapter_prefix}{old}(ptr %a, {second} %b, i64 %n, i1 %v) 
 
 
 def retarget(text, signatures):
-    """The IR `text` for wasm32. `signatures`: those of the C library, the Fortran runtime and system/posix.c, by name."""
+    """The IR `text` for wasm32. `signatures`: those of the C library, the Fortran runtime and elastokin_system.c, by name."""
     text = place_addresses(set_target(text)).replace("@main(", "@ek_fortran_main(")
     reject_procedure_pointers(text)
-    own = [name.removeprefix(own_prefix) for name in signatures if name.startswith(own_prefix)]
-    text = re.sub(rf"(?<=@)({'|'.join(own)})(?=\()", rf"{own_prefix}\1", text)
     lines = reuse_rooms(text.split("\n"))
     definitions, names = [], []
     for part in (adapt_calls(lines, signatures), adapt_copies(lines)):

@@ -3,6 +3,9 @@
 set(CMAKE_SYSTEM_NAME Generic)
 set(CMAKE_SYSTEM_PROCESSOR wasm32)
 set(CMAKE_Fortran_COMPILER ${CMAKE_CURRENT_LIST_DIR}/fortran.py)
+find_program(CMAKE_C_COMPILER clang-22 REQUIRED)
+set(CMAKE_C_COMPILER_TARGET wasm32-wasi)
+set(CMAKE_C_FLAGS_INIT -Wno-deprecated)     # as in versions.sh
 set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)
 find_program(CMAKE_AR llvm-ar-22 REQUIRED)
 find_program(CMAKE_RANLIB llvm-ranlib-22 REQUIRED)

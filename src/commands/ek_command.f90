@@ -4,6 +4,7 @@
 module ek_command
    use ek_error, only: error_t
    use ek_command_line, only: command_t, option_t, command_line_t
+   use ek_option_help, only: command_help
    use ek_run, only: run
    use ek_check, only: check
    use ek_report, only: report
@@ -13,7 +14,6 @@ module ek_command
    use ek_derivatives_command, only: derive
    use ek_solve_command, only: solve_for
    use ek_fit_command, only: run_fit
-   use ek_bench, only: bench
    use ek_import, only: import
    use ek_export, only: export
    use ek_explain, only: explain
@@ -114,15 +114,7 @@ module ek_command
       'Prints and draws the start, the target and the result. Also prints the 95 % confidence interval of each factor,'//nl// &
       'the factors at a bound, and the undetermined factors. Writes DIR/<fit>_factors.csv, <fit>_points.csv, <fit>.set'//nl// &
       'for --set-file, and the figure <fit>.png and .svg.', &
-      exit_status_text), &
-      command_t('bench', 'bench DECK   or   elastokin bench --growth N', 'bench DECK', &
-      'measure the time of increments, relative to LAPACK', &
-      'Measures the time of a complete increment and of its parts, for each method and each solver (lapack, plan). The unit'//nl// &
-      'is the time of LAPACK''s dsysv (factorisation and solution) on the same matrices in the same run. Also measures:'//nl// &
-      '  packs of four designs,'//nl// &
-      '  the compliance matrix at one state,'//nl// &
-      '  a complete design of 20 increments (as in a study), and its time minus the time of its states and one column,'//nl// &
-      '  all steps from deck to CSV (omitted with --quiet).', '', alone='--growth')]
+      exit_status_text)]
 
    ! In the order of the help; neighbours with the same help share a line
    type(option_t), parameter :: options(*) = [ &
@@ -267,12 +259,6 @@ module ek_command
       option_t('derivatives', '--out DIR', 'output folder (default: out); --out - writes the CSV to standard output'), &
       option_t('derivatives', '--set path=value', 'as for run'), option_t('derivatives', '--set-file FILE', 'as for run'), &
       option_t('derivatives', '--quiet', quiet_help), &
-      option_t('bench', '--case NAME', ''), option_t('bench', '--increments N', ''), option_t('bench', '--set path=value', ''), &
-      option_t('bench', '--growth N', &
-      'measure chains of bodies instead of a deck, with matrices of 100 to N rows (at most 2000)'), &
-      option_t('bench', '--derivatives', &
-      'measure the cost of derivatives instead; the unit is one sweep of the same states by LAPACK'), &
-      option_t('bench', '--json', 'print one JSON object'), option_t('bench', '--quiet', ''), &
       ! of every command
       option_t('', '--log FILE', 'append a record of this run (one line of JSON: arguments, messages, results, exit status)'), &
       option_t('', '--help', 'print this description'), &
@@ -313,8 +299,6 @@ contains
          call solve_for(line, error)
       case ('fit')
          call run_fit(line, error)
-      case ('bench')
-         call bench(line, error)
       end select
    end subroutine obey
 
@@ -322,7 +306,6 @@ contains
    pure function help_text(name) result(text)
       character(*), intent(in) :: name
       character(:), allocatable :: text
-      character(:), allocatable :: lines, label, shared
       integer :: k, n
 
       n = findloc(commands%name == name, .true., dim=1)
@@ -336,26 +319,7 @@ contains
             'elastokin --version prints the version.'
          return
       end if
-      text = 'elastokin '//trim(commands(n)%usage)
-      lines = ''
-      shared = ''
-      do k = 1, size(options) - 1             ! the last is not described
-         if (options(k)%command /= name .and. options(k)%command /= '') cycle
-         label = trim(options(k)%label)
-         if (options(k)%help == '') then
-            text = text//' ['//label//']'
-            if (index(label, '=') > 0) text = text//'…'
-         else if (options(k + 1)%command == options(k)%command .and. options(k + 1)%help == options(k)%help) then
-            shared = shared//label//', '
-         else
-            shared = shared//label
-            lines = lines//nl//'  '//shared//repeat(' ', merge(19 - len(shared), 3, len(shared) < 19))//trim(options(k)%help)
-            shared = ''
-         end if
-      end do
-      text = text//nl//nl//trim(commands(n)%text)
-      if (len(lines) > 0) text = text//nl//lines
-      if (len_trim(commands(n)%ending) > 0) text = text//nl//nl//trim(commands(n)%ending)
+      text = command_help(commands, options, n)
    end function help_text
 
 end module ek_command

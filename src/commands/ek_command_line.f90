@@ -8,8 +8,8 @@ module ek_command_line
    use ek_gradient_definition, only: windows_t, set_window
    implicit none(type, external)
    private
-   public :: command_t, option_t, option_name, command_line_t, read_command_line, refuse_stream, read_windows, argument
-   public :: read_threshold
+   public :: command_t, option_t, option_name, program_prefix, command_line_t, read_command_line, refuse_stream, read_windows
+   public :: read_threshold, argument
 
    !> A command, as --help describes it.
    type :: command_t
@@ -106,8 +106,18 @@ contains
       name = option%label(:index(option%label, ' ') - 1)
    end function option_name
 
-   !> Reads the command line of this process. Without arguments, or if help or the version is requested, the files and options are
-   !> not checked against the command.
+   !> The beginning of a command line before the name of the command. A program with one command is named after its command:
+   !> 'elastokin-bench DECK'.
+   pure function program_prefix(commands) result(prefix)
+      type(command_t), intent(in) :: commands(:)
+      character(:), allocatable :: prefix
+
+      prefix = 'elastokin '
+      if (size(commands) == 1) prefix = 'elastokin-'
+   end function program_prefix
+
+   !> Reads the command line of this process. In a program with one command, the name of the command is not an argument. Without
+   !> arguments, or if help or the version is requested, the files and options are not checked against the command.
    subroutine read_command_line(commands, options, line, error)
       type(command_t), intent(in) :: commands(:)
       type(option_t), intent(in) :: options(:)
@@ -118,6 +128,8 @@ contains
 
       line%command = ''
       n = 0
+      if (size(commands) == 1) n = 1
+      if (n == 1) line%command = trim(commands(1)%name)
       k = 0
       do while (k < command_argument_count())
          k = k + 1
@@ -129,8 +141,13 @@ contains
          else if (n == 0) then
             line%command = word
             n = findloc(commands%name == word, .true., dim=1)
-            if (n == 0) call fail(error, exit_usage, 'unknown command '//quoted(word)//suggestion(word, commands%name)// &
-               '; expected '//names_of(commands))
+            if (word == 'bench') then
+               call fail(error, exit_usage, 'bench is a program of its own: elastokin-bench, built with the sources'// &
+                  ' (docs/performance.md)')
+            else if (n == 0) then
+               call fail(error, exit_usage, 'unknown command '//quoted(word)//suggestion(word, commands%name)// &
+                  '; expected '//names_of(commands))
+            end if
          else if (line%files%count() > 0 .and. commands(n)%files == 1) then
             call fail(error, exit_usage, 'expected one file, found '//quoted(line%files%line(1))//' and '//quoted(word))
          else
@@ -143,7 +160,7 @@ contains
          call fail(error, exit_usage, 'no command: expected '//names_of(commands))
       else if (line%files%count() < max(commands(n)%files, 1) .and. .not. line%has(trim(commands(n)%alone))) then
          call fail(error, exit_usage, line%command//' needs '//trim(merge('a file              ', 'at least two results', &
-            commands(n)%files < 2))//': elastokin '//trim(commands(n)%brief))
+            commands(n)%files < 2))//': '//program_prefix(commands)//trim(commands(n)%brief))
       end if
       do k = 1, line%names%count()
          word = line%names%line(k)
@@ -261,7 +278,7 @@ contains
       end if
    end subroutine read_threshold
 
-   !> The names of all commands as a phrase: 'run, check, … or bench'.
+   !> The names of all commands as a phrase: 'run, check, … or fit'.
    pure function names_of(commands) result(text)
       type(command_t), intent(in) :: commands(:)
       character(:), allocatable :: text

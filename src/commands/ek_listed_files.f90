@@ -1,12 +1,12 @@
 !> A list of the files of a report or of a study, with a checksum of each file. The next report or study in the folder removes every
 !> listed file that it does not write itself, unless the file has been changed since. A note names each changed file.
 module ek_listed_files
-   use, intrinsic :: iso_c_binding, only: c_char, c_int, c_null_char, c_size_t
+   use, intrinsic :: iso_c_binding, only: c_char, c_int32_t, c_null_char
    use ek_error, only: error_t, message_list_t, fail, exit_file
    use ek_text, only: quoted
    use ek_checksum, only: checksum_t, include, digits_of
-   use ek_posix, only: c_open, c_read, c_close
-   use ek_system, only: facts_t, facts_of, regular_file, unknown_file, error_number, interrupted
+   use ek_system_call, only: c_open, c_read, c_close, to_read
+   use ek_system, only: facts_t, facts_of, regular_file, unknown_file
    use ek_file, only: write_whole, join_path, file_exists, folder_exists, remove_file
    use ek_text_table, only: text_table_t, new_text_table, add_row, text_table_csv, read_text_table, cell_of
    use ek_console, only: print_note
@@ -127,23 +127,18 @@ contains
       type(checksum_t) :: sum
       type(facts_t) :: facts
       character(kind=c_char, len=room) :: bytes
-      integer(c_size_t) :: got
-      integer(c_int) :: file
-      integer :: ignored
+      integer(c_int32_t) :: file
+      integer :: got, ignored
 
       digits = ''
       facts = facts_of(path, follow=.true.)
       if (folder_exists(path) .or. .not. (facts%kind == regular_file .or. facts%kind == unknown_file)) return
-      file = c_open(path//c_null_char, 0_c_int)
+      file = c_open(path//c_null_char, to_read)
       if (file < 0) return
       do
-         got = c_read(file, bytes, int(room, c_size_t))
-         if (got > 0) call include(sum, bytes(:int(got)))
-         if (got == 0) exit
-         if (got < 0) then
-            if (error_number() == interrupted) cycle
-            exit
-         end if
+         got = c_read(file, bytes, room)
+         if (got <= 0) exit
+         call include(sum, bytes(:got))
       end do
       ignored = c_close(file)
       if (got == 0) digits = digits_of(sum)

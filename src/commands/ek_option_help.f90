@@ -1,14 +1,48 @@
-!> The entry of one option in the table of options, for man pages and completion: name, value and description. The description may
-!> be in the row of another command.
+!> Help from the tables of commands and options: the help of a command, and the entry of one option (name, value and description)
+!> for man pages and completion. The description of an option may be in the row of another command.
 module ek_option_help
-   use ek_command_line, only: option_t, option_name
+   use ek_command_line, only: command_t, option_t, option_name, program_prefix
    implicit none(type, external)
    private
-   public :: belongs, is_repeatable, value_name, description, first_line, choices, on_one_line
+   public :: command_help, belongs, is_repeatable, value_name, description, first_line, choices, on_one_line
 
    character(*), parameter :: nl = new_line('a'), bar = ' | '
 
 contains
+
+   !> The help of command n. Neighbouring options with the same description share a line.
+   pure function command_help(commands, options, n) result(text)
+      type(command_t), intent(in) :: commands(:)
+      type(option_t), intent(in) :: options(:)
+      integer, intent(in) :: n
+      character(:), allocatable :: text, lines, label, shared
+      logical :: is_shared
+      integer :: k
+
+      text = program_prefix(commands)//trim(commands(n)%usage)
+      lines = ''
+      shared = ''
+      do k = 1, size(options)
+         if (.not. belongs(options(k), trim(commands(n)%name))) cycle
+         label = trim(options(k)%label)
+         is_shared = .false.
+         if (k < size(options)) is_shared = options(k + 1)%command == options(k)%command .and. &
+            options(k + 1)%help == options(k)%help
+         if (options(k)%help == '') then
+            text = text//' ['//label//']'
+            if (index(label, '=') > 0) text = text//'…'
+         else if (is_shared) then
+            shared = shared//label//', '
+         else
+            shared = shared//label
+            lines = lines//nl//'  '//shared//repeat(' ', merge(19 - len(shared), 3, len(shared) < 19))//trim(options(k)%help)
+            shared = ''
+         end if
+      end do
+      text = text//nl//nl//trim(commands(n)%text)
+      if (len(lines) > 0) text = text//nl//lines
+      if (len_trim(commands(n)%ending) > 0) text = text//nl//nl//trim(commands(n)%ending)
+   end function command_help
 
    !> Whether an option belongs to a command. An option that every command accepts belongs to each command and to the command '';
    !> without a help string, such an option belongs to no command.

@@ -2,11 +2,9 @@
 !> complete. If gnuplot fails, hangs or draws nothing, earlier pictures are not replaced and an error is returned. gnuplot
 !> runs with -d and without the environment variables of gnuplot: no settings of the user or of the machine affect a picture.
 module ek_drawing
-   use, intrinsic :: iso_c_binding, only: c_null_char
    use ek_error, only: error_t, message_list_t, fail, exit_file
    use ek_text, only: str, printable, plural
-   use ek_posix, only: c_symlink
-   use ek_system, only: facts_of, regular_file, unknown_file, facts_t, folder_names, working_folder, system_reason
+   use ek_system, only: facts_of, regular_file, unknown_file, facts_t, folder_names, working_folder, system_reason, make_link
    use ek_writer, only: scratch_t, begin_scratch, end_scratch, move_file
    use ek_process, only: run_program
    use ek_interrupt, only: obey_stop
@@ -60,14 +58,15 @@ contains
       type(message_list_t) :: scripts, names, pictures
       type(facts_t) :: facts
       character(:), allocatable :: trouble
+      logical :: is_made
       integer :: k
 
       call begin_scratch(folder, scratch, error)
       if (allocated(error)) return
       trouble = ''
       do k = 1, tables%count()
-         if (c_symlink('../'//tables%line(k)//c_null_char, &
-            join_path(scratch%path, tables%line(k))//c_null_char) /= 0) trouble = 'no link to a table: '//system_reason()
+         call make_link('../'//tables%line(k), join_path(scratch%path, tables%line(k)), is_made)
+         if (.not. is_made) trouble = 'no link to a table: '//system_reason()
       end do
       if (len(trouble) == 0) then
          call scripts%add(script)

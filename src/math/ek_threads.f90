@@ -1,10 +1,10 @@
 !> One thread for the linear algebra: matrices of this size gain nothing from more threads, and a second thread of OpenBLAS,
 !> once active, occupies a processor that another job of a batch queue could use. See also src/ek_one_thread.F90.
 module ek_threads
-   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_procpointer, c_funptr, c_int, c_null_char, c_null_ptr, c_ptr
    use ek_kinds, only: i8
    use ek_error, only: error_t
    use ek_system, only: ask_memory, blocks_in_memory
+   use ek_loaded_library, only: has_symbol, call_library
    implicit none(type, external)
    private
    public :: use_one_thread, processor_count, threads_in_memory
@@ -16,23 +16,7 @@ module ek_threads
    !> Bytes that a further thread requires in addition: its heap (an arena of glibc) and its stack.
    integer(i8), parameter :: heap_and_stack = 2_i8**26 + 2_i8**23
 
-   abstract interface
-      subroutine set_threads(count) bind(c)
-         import :: c_int
-         implicit none(type, external)
-         integer(c_int), value :: count
-      end subroutine set_threads
-   end interface
-
-   interface
-      !> Address of a loaded symbol (null handle: search everywhere).
-      type(c_funptr) function dlsym(handle, name) bind(c, name='dlsym')
-         import :: c_char, c_funptr, c_ptr
-         implicit none(type, external)
-         type(c_ptr), value :: handle
-         character(kind=c_char), intent(in) :: name(*)
-      end function dlsym
-   end interface
+   character(*), parameter :: setter = 'openblas_set_num_threads'
 
 contains
 
@@ -55,7 +39,7 @@ contains
       threads = wanted
       if (wanted < 2) return
       further = 2*bytes + heap_and_stack                      ! and the bytes of the first thread
-      if (c_associated(dlsym(c_null_ptr, 'openblas_set_num_threads'//c_null_char))) further = further + work_space
+      if (has_symbol(setter)) further = further + work_space
       threads = 1 + blocks_in_memory(wanted - 1, further)
    end function threads_in_memory
 
@@ -63,15 +47,10 @@ contains
    !> space.
    subroutine use_one_thread(error)
       type(error_t), allocatable, intent(out) :: error        !! exit_file: too little memory for the work space
-      type(c_funptr) :: address
-      procedure(set_threads), pointer :: openblas_set_num_threads
 
-      address = dlsym(c_null_ptr, 'openblas_set_num_threads'//c_null_char)
-      if (.not. c_associated(address)) return
+      if (.not. has_symbol(setter)) return
       call ask_memory(work_space, 'the library for linear algebra', error)
-      if (allocated(error)) return
-      call c_f_procpointer(address, openblas_set_num_threads)
-      call openblas_set_num_threads(1_c_int)
+      if (.not. allocated(error)) call call_library(setter, 1)
    end subroutine use_one_thread
 
 end module ek_threads

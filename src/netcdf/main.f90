@@ -8,7 +8,7 @@ program elastokin_netcdf
    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
    use, intrinsic :: iso_c_binding, only: c_int
    use ek_error, only: error_t, fail, exit_usage
-   use ek_posix, only: c_exit_now
+   use ek_system_call, only: c_exit_now
    use ek_file, only: join_path
    use ek_version, only: version
    use ek_store_description, only: store_t, read_description, description_name

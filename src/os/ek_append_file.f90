@@ -4,10 +4,10 @@
 !> systems guarantee this only under a lock. The first write takes the lock, which is held until the file is closed. If the lock is
 !> not free within 5 s, the string is written without it.
 module ek_append_file
-   use, intrinsic :: iso_c_binding, only: c_associated, c_int, c_long, c_null_char, c_null_ptr, c_ptr
+   use, intrinsic :: iso_c_binding, only: c_int32_t, c_null_char
    use ek_error, only: error_t, fail, exit_file
-   use ek_posix, only: c_open, c_close, c_fopen, c_fclose, c_fileno, c_poll
-   use ek_system, only: facts_t, facts_of, regular_file, other_file, folder_exists, try_lock, write_bytes, system_reason
+   use ek_system_call, only: c_open, c_close, c_lock, c_sleep, to_append, to_try_pipe, done
+   use ek_system, only: facts_t, facts_of, regular_file, other_file, folder_exists, write_bytes, system_reason
    implicit none(type, external)
    private
    public :: append_file_t, open_append_file
@@ -17,7 +17,7 @@ module ek_append_file
    type :: append_file_t
       private
       character(:), allocatable :: path
-      type(c_ptr) :: stream = c_null_ptr
+      integer(c_int32_t) :: file = -1       !! descriptor; −1: not open
    contains
       procedure :: is_open, add => append_text, close => close_file
    end type append_file_t
@@ -33,11 +33,10 @@ contains
       type(error_t), allocatable, intent(out) :: error       !! exit_file
       type(facts_t) :: facts
       character(1) :: byte
-      integer(c_int), parameter :: write_at_once = 2049      ! O_WRONLY and O_NONBLOCK of open(2)
-      integer(c_int) :: descriptor
+      integer(c_int32_t) :: pipe
       integer :: unit, status, ignored
 
-      descriptor = -1
+      pipe = -1
       facts = facts_of(path, follow=.true.)
       if (facts%kind == regular_file) then
          byte = first
@@ -55,22 +54,22 @@ contains
          call fail(error, exit_file, "cannot append to '"//path//"': it is a folder")
          return
       end if
-      if (facts%kind == other_file) then                     ! fopen would wait for a reader
-         descriptor = c_open(path//c_null_char, write_at_once)
-         if (descriptor < 0) then
+      if (facts%kind == other_file) then                     ! to open it for appending would wait for a reader
+         pipe = c_open(path//c_null_char, to_try_pipe)
+         if (pipe < 0) then
             call fail(error, exit_file, "cannot append to '"//path//"': it is a pipe from which no program reads")
             return
          end if
       end if
-      file%stream = c_fopen(path//c_null_char, 'a'//c_null_char)
-      if (.not. c_associated(file%stream)) call fail(error, exit_file, "cannot append to '"//path//"': "//system_reason())
+      file%file = c_open(path//c_null_char, to_append)
+      if (file%file < 0) call fail(error, exit_file, "cannot append to '"//path//"': "//system_reason())
       file%path = path
-      if (descriptor >= 0) ignored = c_close(descriptor)
+      if (pipe >= 0) ignored = c_close(pipe)
    end subroutine open_append_file
 
    logical function is_open(self)
       class(append_file_t), intent(in) :: self
-      is_open = c_associated(self%stream)
+      is_open = self%file >= 0
    end function is_open
 
    !> Appends a string by one write.
@@ -78,24 +77,22 @@ contains
       class(append_file_t), intent(in) :: self
       character(*), intent(in) :: text                       !! whole lines
       type(error_t), allocatable, intent(out) :: error       !! exit_file
-      integer(c_int) :: descriptor
-      integer :: k, ignored
+      integer :: k, outcome
 
-      descriptor = c_fileno(self%stream)
       do k = 1, attempts
-         if (try_lock(descriptor)) exit                      ! ends when the file is closed
-         ignored = c_poll(c_null_ptr, 0_c_long, 10_c_int)
+         if (c_lock(self%file) == done) exit                 ! ends when the file is closed
+         call c_sleep(10_c_int32_t)
       end do
-      if (.not. write_bytes(descriptor, text)) &
-         call fail(error, exit_file, "cannot append to '"//self%path//"': "//system_reason())
+      call write_bytes(self%file, text, outcome)
+      if (outcome /= done) call fail(error, exit_file, "cannot append to '"//self%path//"': "//system_reason())
    end subroutine append_text
 
    subroutine close_file(self)
       class(append_file_t), intent(inout) :: self
       integer :: ignored
 
-      if (c_associated(self%stream)) ignored = c_fclose(self%stream)
-      self%stream = c_null_ptr
+      if (self%file >= 0) ignored = c_close(self%file)
+      self%file = -1
    end subroutine close_file
 
 end module ek_append_file

@@ -1,12 +1,12 @@
-!> Wall-clock time for reports, time of the processor for benchmarks, and the date stamp of output files.
+!> Wall-clock time for reports, and the date stamp of output files.
 module ek_clock
-   use, intrinsic :: iso_c_binding, only: c_char, c_long, c_null_char, c_null_ptr, c_ptr, c_size_t
+   use, intrinsic :: iso_c_binding, only: c_char, c_int32_t, c_null_char
    use ek_kinds, only: wp, i8
    use ek_error, only: error_t, fail, exit_usage
-   use ek_posix, only: c_time, c_gmtime, c_localtime, c_strftime
+   use ek_system_call, only: c_time, c_date, text_of
    implicit none(type, external)
    private
-   public :: seconds, processor_seconds, seconds_since_1970, date_text, universal_time, check_set_date
+   public :: seconds, seconds_since_1970, date_text, universal_time, check_set_date
 
 contains
 
@@ -19,55 +19,42 @@ contains
       seconds = real(ticks, wp)/real(rate, wp)
    end function seconds
 
-   !> Processor time of this process in all its threads [s]. Waiting for a busy processor does not count. The resolution is 1 us
-   !> with gfortran on Linux.
-   real(wp) function processor_seconds()
-      call cpu_time(processor_seconds)
-   end function processor_seconds
-
    !> Seconds since 1970-01-01 00:00 UTC, from the system clock.
    integer(i8) function seconds_since_1970()
-      seconds_since_1970 = c_time(c_null_ptr)
+      seconds_since_1970 = c_time()
    end function seconds_since_1970
 
    !> The local time now with its distance from UTC: '2026-01-31 17:05 +0100'. If the environment variable SOURCE_DATE_EPOCH gives a
    !> time, the result is this time in UTC ('2026-01-31 16:05 UTC'), so that equal input gives equal bytes (https://reproducible-builds.org/specs/source-date-epoch/).
    function date_text() result(words)
       character(:), allocatable :: words
-      character(kind=c_char) :: letters(32)
-      integer(c_long) :: fields(16)             ! room for a struct tm, which has 56 bytes
       integer(i8) :: epoch
-      type(c_ptr) :: ignored
-      integer(c_size_t) :: length
-      integer :: k
       logical :: is_set
 
       call read_set_date(epoch, is_set)
-      if (is_set) then
-         ignored = c_gmtime(int(epoch, c_long), fields)
-      else
-         ignored = c_localtime(c_time(c_null_ptr), fields)
-      end if
-      length = c_strftime(letters, size(letters, kind=c_size_t), '%Y-%m-%d %H:%M %z'//c_null_char, fields)
-      words = ''
-      do k = 1, int(length)
-         words = words//letters(k)
-      end do
+      if (.not. is_set) epoch = c_time()
+      words = date_of(epoch, .not. is_set, '%Y-%m-%d %H:%M %z')
       if (is_set) words = words(:16)//' UTC'
    end function date_text
 
    !> The time now in UTC as '2026-01-31T16:05:09Z' (ISO 8601), to compare records of several machines.
    function universal_time() result(words)
       character(20) :: words
-      character(kind=c_char) :: letters(21)
-      integer(c_long) :: fields(16)
-      type(c_ptr) :: ignored
-      integer(c_size_t) :: length
-
-      ignored = c_gmtime(c_time(c_null_ptr), fields)
-      length = c_strftime(letters, size(letters, kind=c_size_t), '%Y-%m-%dT%H:%M:%SZ'//c_null_char, fields)
-      words = transfer(letters(:length), words)
+      words = date_of(seconds_since_1970(), .false., '%Y-%m-%dT%H:%M:%SZ')
    end function universal_time
+
+   !> A moment, in seconds since 1970, as local time or UTC in a form of strftime.
+   function date_of(moment, is_local, form) result(words)
+      integer(i8), intent(in) :: moment
+      logical, intent(in) :: is_local
+      character(*), intent(in) :: form
+      character(:), allocatable :: words
+      character(kind=c_char) :: letters(32)
+      integer :: length
+
+      length = c_date(moment, merge(1_c_int32_t, 0_c_int32_t, is_local), form//c_null_char, letters, size(letters, kind=c_int32_t))
+      words = text_of(letters, length)
+   end function date_of
 
    !> Checks that SOURCE_DATE_EPOCH is not set or is a date. With another text, files would contain the current date without a
    !> message.

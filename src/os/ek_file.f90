@@ -3,14 +3,14 @@
 !> than 100 MB.
 module ek_file
    use, intrinsic :: iso_fortran_env, only: output_unit
-   use, intrinsic :: iso_c_binding, only: c_int, c_null_char, c_char, c_long, c_null_ptr, c_size_t
+   use, intrinsic :: iso_c_binding, only: c_int, c_int32_t, c_null_char, c_char
    use ek_kinds, only: i8, wp
    use ek_buffer, only: buffer_t
    use ek_error, only: error_t, fail, exit_file
    use ek_text, only: str
-   use ek_posix, only: c_mkdir, c_remove, c_access, c_isatty, c_open, c_read, c_close, c_poll
-   use ek_system, only: facts_t, facts_of, device_file, other_file, error_number, system_reason, broken_pipe, folder_exists, &
-      write_bytes, interrupted
+   use ek_system_call, only: c_make_folder, c_remove, c_exists, c_can_start, c_isatty, c_open, c_read, c_close, c_sleep, to_read, &
+      done, try_again, broken_pipe, text_of
+   use ek_system, only: facts_t, facts_of, device_file, other_file, system_reason, folder_exists, write_bytes
    use ek_writer, only: writer_t, begin_file, remove_stale
    use ek_clock, only: seconds
    implicit none(type, external)
@@ -20,14 +20,9 @@ module ek_file
 
    integer, parameter :: max_streamed = 100000000        !! limit of the bytes read; the largest known deck has half a percent
    real(wp), parameter :: patience = 10.0_wp             !! time for a program to open the pipe for writing [s]
-   integer(c_int), parameter :: no_wait = 2048           !! O_NONBLOCK of open(2); O_RDONLY is 0
-   integer, parameter :: try_again = 11                  !! EAGAIN: a program has opened the pipe and has not written yet
-   integer(c_int), parameter :: nap = 10                 !! time before the next read of an empty pipe [ms]
+   integer(c_int32_t), parameter :: nap = 10             !! time before the next read of an empty pipe [ms]
 
    integer, parameter :: most_of_input = 50000000   !! limit of the bytes of a deck and of the files that it names
-   integer(c_int), parameter :: may_exist = 0    !! F_OK of access(2)
-   integer(c_int), parameter :: may_execute = 1  !! X_OK of access(2)
-   integer(c_int), parameter :: all_may = 511    !! mode 0777 of a new folder, reduced by the umask
 
 contains
 
@@ -50,13 +45,13 @@ contains
    subroutine write_standard_output(text, error)
       character(*), intent(in) :: text                       !! bytes, written as they are
       type(error_t), allocatable, intent(out) :: error       !! exit_file, with the reason
-      integer :: ignored
+      integer :: outcome
 
-      flush (output_unit, iostat=ignored)
-      if (write_bytes(1_c_int, text)) return
-      if (error_number() == broken_pipe) then
+      flush (output_unit, iostat=outcome)
+      call write_bytes(1_c_int32_t, text, outcome)
+      if (outcome == broken_pipe) then
          call fail(error, exit_file, '')
-      else
+      else if (outcome /= done) then
          call fail(error, exit_file, 'cannot write to standard output: '//system_reason())
       end if
    end subroutine write_standard_output
@@ -64,9 +59,9 @@ contains
    !> Writes bytes to standard error. A failure here cannot be reported anywhere and is ignored.
    subroutine write_standard_error(text)
       character(*), intent(in) :: text
-      logical :: ignored
+      integer :: ignored
 
-      ignored = write_bytes(2_c_int, text)
+      call write_bytes(2_c_int32_t, text, ignored)
    end subroutine write_standard_error
 
    !> Reads the whole content of a file, byte for byte.
@@ -167,7 +162,7 @@ contains
       character(*), intent(in) :: path
       type(error_t), allocatable, intent(out) :: error       !! exit_file, with path and reason
       character(:), allocatable :: reason
-      integer :: k, ignored
+      integer :: k
 
       reason = 'no name is given'
       do k = 1, len(path)
@@ -175,8 +170,7 @@ contains
             if (path(k + 1:k + 1) /= '/' .or. path(k:k) == '/') cycle
          end if
          if (folder_exists(path(:k))) cycle
-         ignored = c_mkdir(path(:k)//c_null_char, all_may)
-         if (ignored /= 0) reason = system_reason()
+         if (c_make_folder(path(:k)//c_null_char, 0_c_int32_t) /= done) reason = system_reason()
          if (.not. folder_exists(path(:k))) exit
       end do
       if (.not. folder_exists(path)) then
@@ -197,7 +191,7 @@ contains
    !> Whether a file or folder with this name exists.
    logical function file_exists(path)
       character(*), intent(in) :: path
-      file_exists = c_access(path//c_null_char, may_exist) == 0
+      file_exists = c_exists(path//c_null_char) /= 0
    end function file_exists
 
    !> Whether a program with this name can be started. The program must be in PATH, or exist at its path if the name contains a
@@ -228,7 +222,7 @@ contains
       character(*), intent(in) :: path
 
       is_program = .not. folder_exists(path)
-      if (is_program) is_program = c_access(path//c_null_char, may_execute) == 0
+      if (is_program) is_program = c_can_start(path//c_null_char) /= 0
    end function is_program
 
    !> Whether standard output (1) or standard error (2) is a terminal.
@@ -280,40 +274,35 @@ contains
       character(:), allocatable, intent(out) :: reason       !! reason why the pipe cannot be read; '' if it was read
       type(buffer_t) :: bytes
       character(kind=c_char) :: chunk(65536)
-      character(len=size(chunk)) :: letters
-      integer(c_size_t) :: got
-      integer(c_int) :: descriptor, ignored
+      integer(c_int32_t) :: file
       real(wp) :: start
       logical :: has_writer
-      integer :: k
+      integer :: got, ignored
 
       text = ''
       reason = ''
       start = seconds()
       has_writer = .false.
-      descriptor = c_open(path//c_null_char, no_wait)
-      if (descriptor < 0) reason = system_reason()
+      file = c_open(path//c_null_char, to_read)
+      if (file < 0) reason = system_reason()
       do while (reason == '')
-         got = c_read(descriptor, chunk, size(chunk, kind=c_size_t))
+         got = c_read(file, chunk, size(chunk, kind=c_int32_t))
          if (got > 0) then
             has_writer = .true.
-            do k = 1, int(got)
-               letters(k:k) = chunk(k)
-            end do
-            call bytes%add(letters(:int(got)))
+            call bytes%add(text_of(chunk, got))
             if (bytes%length() > max_streamed) reason = 'it is longer than 100 MB'
             cycle
          else if (got == 0) then
             if (has_writer) exit
             if (seconds() - start > patience) reason = 'it is a pipe into which no program writes'
-         else if (error_number() == try_again) then
+         else if (got == try_again) then                     ! a program has opened the pipe and has not written yet
             has_writer = .true.
-         else if (error_number() /= interrupted) then
+         else
             reason = system_reason()
          end if
-         if (reason == '') ignored = c_poll(c_null_ptr, 0_c_long, nap)
+         if (reason == '') call c_sleep(nap)
       end do
-      if (descriptor >= 0) ignored = c_close(descriptor)
+      if (file >= 0) ignored = c_close(file)
       if (reason == '') text = bytes%text()
    end subroutine read_stream
 

@@ -15,15 +15,15 @@
 !> A part is the temporary file of a long run: `<path>.<machine>-<random>.part`. If the run is killed it remains, with
 !> everything that was flushed, until a later run finishes the same file.
 module ek_writer
-   use, intrinsic :: iso_c_binding, only: c_int, c_null_char, c_null_ptr, c_ptr, c_associated
+   use, intrinsic :: iso_c_binding, only: c_int32_t, c_null_char
    use ek_kinds, only: i8
    use ek_error, only: error_t, fail, exit_file, message_list_t
    use ek_buffer, only: buffer_t
    use ek_clock, only: seconds_since_1970
-   use ek_posix, only: c_fopen, c_fileno, c_fsync, c_fclose, c_rename, c_remove, c_mkdir, c_rmdir, &
-      c_access, c_opendir, c_dirfd, c_closedir
+   use ek_system_call, only: c_open, c_sync, c_lock, c_close, c_rename, c_remove, c_make_folder, c_rmdir, c_exists, to_write, &
+      to_update, to_create, to_hold_folder, done, already_there, try_again
    use ek_system, only: facts_t, facts_of, no_file, regular_file, folder_file, device_file, unknown_file, folder_names, &
-      try_lock, random_tag, machine_tag, system_reason, error_number, folder_exists, write_bytes, already_there, not_for_this_kind
+      random_tag, machine_tag, system_reason, folder_exists, write_bytes
    implicit none(type, external)
    private
    public :: writer_t, begin_file, move_file, remove_stale, remove_empty_folder, find_users
@@ -34,13 +34,12 @@ module ek_writer
    integer(i8), parameter :: a_day = 86400                  !! a day [s]
    integer, parameter :: max_held = 60000                  !! characters that are held before they are written
    integer, parameter :: max_attempts = 100                !! attempts to create a file under a free name and to lock it
-   integer(c_int), parameter :: may_exist = 0               !! F_OK of access(2)
-   integer(c_int), parameter :: mine_alone = 448            !! mode 0700 of a scratch folder
+   integer(c_int32_t), parameter :: mine_alone = 1          !! a scratch folder is for its owner only
 
    !> A file being written.
    type :: writer_t
       private
-      type(c_ptr) :: stream = c_null_ptr
+      integer(c_int32_t) :: file = -1                   !! descriptor; −1: not open
       character(:), allocatable :: path, temporary      !! temporary: '' for a device, which is written directly
       character(:), allocatable :: reason               !! reason of the first failure; '' if there was none
       logical :: is_part = .false., is_empty = .true.
@@ -54,7 +53,7 @@ module ek_writer
    !> A private folder of this run, for other programs to write into.
    type :: scratch_t
       character(:), allocatable :: path
-      type(c_ptr) :: lock = c_null_ptr
+      integer(c_int32_t) :: lock = -1                   !! descriptor of the folder; −1: not open
    end type scratch_t
 
 contains
@@ -77,8 +76,8 @@ contains
       if (folder_exists(path)) then
          writer%reason = 'it is a folder'
       else if (facts%kind == device_file .or. is_device_name(path)) then
-         writer%stream = c_fopen(path//c_null_char, 'wbe'//c_null_char)
-         if (.not. c_associated(writer%stream)) writer%reason = system_reason()
+         writer%file = c_open(path//c_null_char, to_write)
+         if (writer%file < 0) writer%reason = system_reason()
       else if (facts%kind /= regular_file .and. facts%kind /= no_file .and. facts%kind /= unknown_file) then
          writer%reason = 'it is neither a file nor a device'
       else if (writer%is_part) then
@@ -96,7 +95,7 @@ contains
       is_device_name = (index(path, '/dev/') == 1 .and. index(path, '/dev/shm/') /= 1) .or. index(path, '/proc/') == 1
    end function is_device_name
 
-   !> Creates a new file and locks it. O_EXCL (the x of the mode) ensures that a link planted under the name is not followed.
+   !> Creates a new file and locks it. A link planted under the name is not followed.
    subroutine open_temporary(writer, begin, end)
       type(writer_t), intent(inout) :: writer
       character(*), intent(in) :: begin, end                 !! of the path of the new file
@@ -104,50 +103,51 @@ contains
 
       do attempt = 1, max_attempts
          writer%temporary = begin//machine_tag()//'-'//random_tag(attempt)//end
-         writer%stream = c_fopen(writer%temporary//c_null_char, 'wbxe'//c_null_char)
-         if (.not. c_associated(writer%stream)) then
-            if (error_number() == already_there) cycle
-            exit
-         end if
+         writer%file = c_open(writer%temporary//c_null_char, to_create)
+         if (writer%file == already_there) cycle
+         if (writer%file < 0) exit
          ! meanwhile another run may have removed it as a dead run's file
-         if (is_ours(c_fileno(writer%stream), writer%temporary)) return
-         ignored = c_fclose(writer%stream)
+         if (is_ours(writer%file, writer%temporary)) return
+         ignored = c_close(writer%file)
       end do
       writer%reason = system_reason()
+      writer%file = -1
       writer%temporary = ''
    end subroutine open_temporary
 
    !> Whether a file just created still exists and no other run holds its lock. Without lock support, no other run removes it.
-   logical function is_ours(descriptor, path)
-      integer(c_int), intent(in) :: descriptor
+   logical function is_ours(file, path)
+      integer(c_int32_t), intent(in) :: file
       character(*), intent(in) :: path
-      integer, parameter :: held_by_another = 11             ! EWOULDBLOCK
 
-      is_ours = .true.
-      if (.not. try_lock(descriptor)) is_ours = error_number() /= held_by_another
-      if (is_ours) is_ours = c_access(path//c_null_char, may_exist) == 0
+      is_ours = c_lock(file) /= try_again
+      if (is_ours) is_ours = c_exists(path//c_null_char) /= 0
    end function is_ours
 
    !> Adds bytes unchanged.
    subroutine writer_add(self, text)
       class(writer_t), intent(inout) :: self
       character(*), intent(in) :: text
+      integer :: outcome
 
-      if (len(self%reason) > 0 .or. .not. c_associated(self%stream)) return
+      if (len(self%reason) > 0 .or. self%file < 0) return
       self%is_empty = .false.
       if (len(text) <= max_held .or. self%is_part) call self%rows%add(text)
       if (max(self%rows%length(), len(text)) > max_held .and. .not. self%is_part) call self%flush()
       if (len(text) <= max_held .or. self%is_part .or. len(self%reason) > 0) return
-      if (.not. write_bytes(c_fileno(self%stream), text)) self%reason = system_reason()      ! not copied: a page has megabytes
+      call write_bytes(self%file, text, outcome)             ! not copied: a page has megabytes
+      if (outcome /= done) self%reason = system_reason()
    end subroutine writer_add
 
    !> Passes the added bytes to the system, so that they survive the end of this process. The bytes added to a part since the last
    !> flush are written in one call, so that a remaining part always ends at a flush.
    subroutine writer_flush(self)
       class(writer_t), intent(inout) :: self
+      integer :: outcome
 
-      if (len(self%reason) > 0 .or. .not. c_associated(self%stream)) return
-      if (.not. write_bytes(c_fileno(self%stream), self%rows%text())) self%reason = system_reason()
+      if (len(self%reason) > 0 .or. self%file < 0) return
+      call write_bytes(self%file, self%rows%text(), outcome)
+      if (outcome /= done) self%reason = system_reason()
       call self%rows%clear()
    end subroutine writer_flush
 
@@ -158,19 +158,17 @@ contains
       type(error_t), allocatable, intent(out) :: error       !! exit_file, with path and reason
       character(:), allocatable :: words
 
-      if (.not. c_associated(self%stream)) return
+      if (self%file < 0) return
       call self%flush()
       if (len(self%reason) == 0 .and. self%is_awaited) then
-         if (c_fsync(c_fileno(self%stream)) /= 0 .and. len(self%temporary) > 0) then
-            if (error_number() /= not_for_this_kind) self%reason = system_reason()    ! not every file system knows fsync
-         end if
+         if (c_sync(self%file) /= done .and. len(self%temporary) > 0) self%reason = system_reason()
       end if
       if (len(self%reason) == 0 .and. len(self%temporary) > 0) then                   ! still locked
          if (c_rename(self%temporary//c_null_char, self%path//c_null_char) /= 0) self%reason = system_reason()
       end if
       if (len(self%reason) == 0) then
-         if (c_fclose(self%stream) /= 0 .and. len(self%temporary) == 0) self%reason = system_reason()
-         self%stream = c_null_ptr
+         if (c_close(self%file) /= 0 .and. len(self%temporary) == 0) self%reason = system_reason()
+         self%file = -1
          if (len(self%temporary) > 0 .and. self%is_awaited) call keep_name(folder_of(self%path))
       end if
       if (len(self%reason) == 0) then
@@ -188,10 +186,10 @@ contains
       class(writer_t), intent(inout) :: self
       integer :: ignored
 
-      if (.not. c_associated(self%stream)) return
+      if (self%file < 0) return
       if (len(self%temporary) > 0 .and. (self%is_empty .or. .not. self%is_part)) ignored = c_remove(self%temporary//c_null_char)
-      ignored = c_fclose(self%stream)
-      self%stream = c_null_ptr
+      ignored = c_close(self%file)
+      self%file = -1
    end subroutine writer_abandon
 
    !> The temporary path, at which the bytes are stored until the file is finished.
@@ -230,30 +228,28 @@ contains
    subroutine await(path, reason)
       character(*), intent(in) :: path
       character(:), allocatable, intent(inout) :: reason     !! set if the disk failed
-      type(c_ptr) :: stream
+      integer(c_int32_t) :: file
       integer :: ignored
 
-      stream = c_fopen(path//c_null_char, 'r+be'//c_null_char)
-      if (.not. c_associated(stream)) then
+      file = c_open(path//c_null_char, to_update)
+      if (file < 0) then
          reason = system_reason()
          return
       end if
-      if (c_fsync(c_fileno(stream)) /= 0) then
-         if (error_number() /= not_for_this_kind) reason = system_reason()
-      end if
-      ignored = c_fclose(stream)
+      if (c_sync(file) /= done) reason = system_reason()
+      ignored = c_close(file)
    end subroutine await
 
    !> Writes the entries of a folder to the disk. Some file systems do not support this; the file is complete nevertheless.
    subroutine keep_name(folder)
       character(*), intent(in) :: folder
-      type(c_ptr) :: handle
+      integer(c_int32_t) :: file
       integer :: ignored
 
-      handle = c_opendir(folder//'.'//c_null_char)
-      if (.not. c_associated(handle)) return
-      ignored = c_fsync(c_dirfd(handle))
-      ignored = c_closedir(handle)
+      file = c_open(folder//'.'//c_null_char, to_hold_folder)
+      if (file < 0) return
+      ignored = c_sync(file)
+      ignored = c_close(file)
    end subroutine keep_name
 
    !> Creates a folder in the existing `folder`, accessible by its owner only.
@@ -261,19 +257,18 @@ contains
       character(*), intent(in) :: folder
       type(scratch_t), intent(out) :: scratch
       type(error_t), allocatable, intent(out) :: error       !! exit_file, with path and reason
-      integer :: attempt, ignored
+      integer :: attempt, outcome
 
       do attempt = 1, max_attempts
          scratch%path = folder_of(folder//'/')//front//machine_tag()//'-'//random_tag(attempt)//tail
-         if (c_mkdir(scratch%path//c_null_char, mine_alone) /= 0) then
-            if (error_number() == already_there) cycle
-            exit
-         end if
-         scratch%lock = c_opendir(scratch%path//c_null_char)
-         if (.not. c_associated(scratch%lock)) cycle
-         if (is_ours(c_dirfd(scratch%lock), scratch%path)) return
-         ignored = c_closedir(scratch%lock)
-         scratch%lock = c_null_ptr
+         outcome = c_make_folder(scratch%path//c_null_char, mine_alone)
+         if (outcome == already_there) cycle
+         if (outcome /= done) exit
+         scratch%lock = c_open(scratch%path//c_null_char, to_hold_folder)
+         if (scratch%lock < 0) cycle
+         if (is_ours(scratch%lock, scratch%path)) return
+         outcome = c_close(scratch%lock)
+         scratch%lock = -1
       end do
       call fail(error, exit_file, "cannot create a folder in '"//folder//"': "//system_reason())
    end subroutine begin_scratch
@@ -283,8 +278,8 @@ contains
       type(scratch_t), intent(in) :: scratch
       integer :: ignored
 
-      if (.not. c_associated(scratch%lock)) return
-      ignored = c_mkdir(scratch%path//'/alive'//c_null_char, mine_alone)
+      if (scratch%lock < 0) return
+      ignored = c_make_folder(scratch%path//'/alive'//c_null_char, mine_alone)
       ignored = c_rmdir(scratch%path//'/alive'//c_null_char)
    end subroutine renew_scratch
 
@@ -293,10 +288,10 @@ contains
       type(scratch_t), intent(inout) :: scratch
       integer :: ignored
 
-      if (.not. c_associated(scratch%lock)) return
+      if (scratch%lock < 0) return
       call remove_folder(scratch%path)
-      ignored = c_closedir(scratch%lock)
-      scratch%lock = c_null_ptr
+      ignored = c_close(scratch%lock)
+      scratch%lock = -1
    end subroutine end_scratch
 
    !> Removes a folder with its files. Links are removed, but not their targets. A folder with subfolders remains.
@@ -365,7 +360,7 @@ contains
    subroutine remove_dead(path, tag)
       character(*), intent(in) :: path, tag                  !! tag: begins with the tag of its machine
       type(facts_t) :: facts, opened
-      type(c_ptr) :: handle
+      integer(c_int32_t) :: file
       integer :: ignored
 
       facts = facts_of(path, follow=.false.)
@@ -374,19 +369,19 @@ contains
          if (facts%changed + a_day > seconds_since_1970()) return
       end if
       if (facts%kind == regular_file) then
-         handle = c_fopen(path//c_null_char, 'r+be'//c_null_char)
-         if (.not. c_associated(handle)) return
-         if (try_lock(c_fileno(handle))) ignored = c_remove(path//c_null_char)
-         ignored = c_fclose(handle)
+         file = c_open(path//c_null_char, to_update)
+         if (file < 0) return
+         if (c_lock(file) == done) ignored = c_remove(path//c_null_char)
+         ignored = c_close(file)
       else
-         handle = c_opendir(path//c_null_char)
-         if (.not. c_associated(handle)) return
-         if (try_lock(c_dirfd(handle))) then
+         file = c_open(path//c_null_char, to_hold_folder)
+         if (file < 0) return
+         if (c_lock(file) == done) then
             opened = facts_of(path, follow=.false.)          ! it must not have been replaced by a link
             if (opened%kind == folder_file .and. opened%inode == facts%inode .and. opened%device == facts%device) &
                call remove_folder(path)
          end if
-         ignored = c_closedir(handle)
+         ignored = c_close(file)
       end if
    end subroutine remove_dead
 

@@ -220,7 +220,7 @@ END
 }
 endless_files() { # a device, a pipe into which nobody writes or that never ends, and endless standard input
   local command
-  for command in check run report 'export --to csv' bench study plot merge import 'run '"$tiny"' --set-file'; do
+  for command in check run report 'export --to csv' study plot merge import 'run '"$tiny"' --set-file'; do
     # shellcheck disable=SC2086
     run 5 "$program" $command /dev/zero && says 'not a regular file or a pipe' || return 1
   done

@@ -26,9 +26,10 @@ module ek_program
 contains
 
    !> elastokin ARGUMENTS, read by a shell. Status −1: there is no such program.
-   type(outcome_t) function elastokin(arguments, before) result(run)
+   type(outcome_t) function elastokin(arguments, before, tool) result(run)
       character(*), intent(in) :: arguments
       character(*), intent(in), optional :: before      !! words for the shell ahead of the program
+      character(*), intent(in), optional :: tool        !! end of the name of a tool in the same folder: '-bench'
       character(:), allocatable :: path, prefix
       integer :: length, started
 
@@ -38,6 +39,7 @@ contains
          path = repeat(' ', length)
          call get_environment_variable('EK_PROGRAM', value=path)
       end if
+      if (present(tool)) path = path//tool
       prefix = ''
       if (present(before)) prefix = before//' '
       call execute_command_line(prefix//shell_quoted(path)//' '//arguments//' </dev/null >'//shell_quoted(scratch('stdout'))// &

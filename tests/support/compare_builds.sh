@@ -38,7 +38,7 @@ times() { # times BUILD OTHER DECK CASE
   local build
   for _ in 1 2 3 4 5; do
     for build in "$1" "$2"; do
-      "$build/bin/elastokin" bench "input/$3/$3.nml" --case "$4" --quiet | awk -v b="$build" '/ increment .* us/ {print b, $1, $3}'
+      "$build/bin/elastokin-bench" "input/$3/$3.nml" --case "$4" --quiet | awk -v b="$build" '/ increment .* us/ {print b, $1, $3}'
     done
   done
 }

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""run_commands.py PAGE.md...: every `elastokin` command in the blocks of these pages ends with status 0, with `elastokin` from the PATH.
+"""run_commands.py PAGE.md...: every `elastokin` or `elastokin-bench` command in the blocks of these pages ends with status 0, with `elastokin` from the PATH.
 
 The commands run in a temporary folder, where `input` and `tests` are those of the repository. DECK, axle.nml and front.nml are the deck of
 the McPherson front axle, params.in has one setting. Commands with files that a user writes (STUDY.nml, FIT.nml) or with another
@@ -21,10 +21,10 @@ def commands(page):
     k = 0
     while k < len(lines):
         first, text = k + 1, lines[k]
-        while text.startswith("    elastokin ") and text.rstrip().endswith(("\\", "|")):
+        while text.startswith(("    elastokin ", "    elastokin-bench ")) and text.rstrip().endswith(("\\", "|")):
             k += 1
             text = text.rstrip().rstrip("\\") + " " + lines[k].strip()
-        if text.startswith("    elastokin "):
+        if text.startswith(("    elastokin ", "    elastokin-bench ")):
             yield first, text.strip()
         k += 1
 

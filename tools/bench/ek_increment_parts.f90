@@ -2,7 +2,6 @@
 !> that the step stays on the branch).
 module ek_increment_parts
    use ek_kinds, only: wp
-   use ek_clock, only: processor_seconds
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t
    use ek_state, only: state_t, inputs_t, design_state, unpack_state
@@ -11,7 +10,7 @@ module ek_increment_parts
    use ek_path, only: path_t, new_path, walk
    implicit none(type, external)
    private
-   public :: parts_t, time_walk, time_parts
+   public :: parts_t, time_walk, time_parts, processor_seconds
 
    integer, parameter :: rounds = 30             !! rounds of a measurement; the minimum counts
    integer, parameter :: most = 20               !! largest number of states at which the parts are timed
@@ -27,6 +26,12 @@ module ek_increment_parts
    end type parts_t
 
 contains
+
+   !> Processor time of this process in all its threads [s]. Waiting for a busy processor does not count. The resolution is 1 us
+   !> with gfortran on Linux.
+   real(wp) function processor_seconds()
+      call cpu_time(processor_seconds)
+   end function processor_seconds
 
    !> Walks the path of a case and stores the shortest time of an increment so far.
    subroutine time_walk(suspension, case, path, kkt, parts)

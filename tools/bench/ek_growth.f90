@@ -1,4 +1,4 @@
-!> elastokin bench --growth N: growth of the time of an increment and of the memory with the size of the model.
+!> elastokin-bench --growth N: growth of the time of an increment and of the memory with the size of the model.
 !>
 !> Chains with matrices of about 100, 200, 400, 1000 and 2000 rows, but at most N, are lifted at their end. All chains
 !> are solved by plan first and then by LAPACK, so that the peak memory of the process shows the memory of each solver. The models
@@ -11,14 +11,14 @@ module ek_growth
    use ek_kinds, only: wp, i8
    use ek_error, only: error_t, fail, exit_usage, exit_convergence
    use ek_text, only: str
-   use ek_clock, only: seconds, processor_seconds
+   use ek_clock, only: seconds
    use ek_buffer, only: buffer_t
    use ek_json, only: json_t, json_string, json_number
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t
    use ek_kkt, only: kkt_t, new_kkt
    use ek_path, only: path_t
-   use ek_increment_parts, only: parts_t, time_walk, time_parts
+   use ek_increment_parts, only: parts_t, time_walk, time_parts, processor_seconds
    use ek_command_line, only: command_line_t
    use ek_console, only: print_text
    use ek_deck, only: deck_t, parse_deck

@@ -1,4 +1,4 @@
-!> The measurements of `bench` on a deck, as lines and as a JSON object.
+!> The measurements of elastokin-bench on a deck, as lines and as a JSON object.
 module ek_bench_figures
    use ek_kinds, only: wp
    use ek_text, only: str

@@ -1,4 +1,4 @@
-!> elastokin bench DECK --derivatives: time of derivatives, relative to the sweep of the same states. For the entries of the
+!> elastokin-bench DECK --derivatives: time of derivatives, relative to the sweep of the same states. For the entries of the
 !> compliance matrix, the time is relative to the time of the matrix itself.
 !>
 !> The sweep is solved by LAPACK. All measurements are made in turn in the same run, in processor time, and the minimum of several

@@ -1,4 +1,4 @@
-!> elastokin bench: time per increment, relative to LAPACK's factorisation and solution alone.
+!> elastokin-bench: time per increment, relative to LAPACK's factorisation and solution alone.
 !>
 !> The unit is the time of dsysv for the matrices of the sweep (scaled KKT matrices of its equilibrium states) with one right-hand
 !> side. dsysv and the methods are timed in turn in the same run, so that the ratios do not depend on the speed of the machine. All
@@ -8,7 +8,6 @@ module ek_bench
    use ek_kinds, only: wp
    use ek_error, only: error_t, fail, exit_convergence, exit_file
    use ek_text, only: quoted
-   use ek_clock, only: processor_seconds
    use ek_rig_test, only: is_scattered
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t, is_mountable, method_names
@@ -22,7 +21,7 @@ module ek_bench
    use ek_table, only: table_t, csv_text
    use ek_command_line, only: command_line_t
    use ek_load_deck, only: deck_settings_t, read_deck_settings, load_deck, chosen_cases, examine_chosen, read_changed
-   use ek_increment_parts, only: parts_t, time_walk, time_parts
+   use ek_increment_parts, only: parts_t, time_walk, time_parts, processor_seconds
    use ek_bench_figures, only: figures_t, table_of, json_of, short_sweep
    use ek_growth, only: bench_growth
    use ek_bench_derivatives, only: bench_derivatives
