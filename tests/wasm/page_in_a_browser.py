@@ -5,7 +5,8 @@
 A deck of the library is opened, checked, run and reported; a mistake is typed, located and undone; files are dropped; a deck that
 does not parse, an empty file, a mechanism and a wrong command are reported in the page; a run is stopped; the page is closed and
 opened again. Points are dragged, moved by keys and typed: the curves are those of a run with the settings that the page saves, to
-the last bit; undo gives the text as it was. FOLDER receives downloads. Requires playwright (PyPI) and a Chromium in the path. Exit status 1 with a line per failure.
+1e-9 of the largest value of the column; 2,000 moves of a point leave the memory as it is; undo gives the text as it was. FOLDER
+receives downloads. Requires playwright (PyPI) and a Chromium in the path. Exit status 1 with a line per failure.
 """
 import random
 import shutil
@@ -141,8 +142,10 @@ with sync_playwright() as tool:
         for name, values in drawn["columns"].items():
             column = table[0].index(name)
             wanted = [row[column] for row in table[1:]]
-            same = len(wanted) == len(values) and all(float(text or "nan") == value or (text in ("", "nan") and value != value)
-                                                      for text, value in zip(wanted, values))
+            numbers = [float(text or "nan") for text in wanted]      # written with 15 digits, from another order of elimination
+            near = 1e-9 * max([1.0, *(abs(number) for number in numbers if number == number)])
+            same = len(numbers) == len(values) and all(abs(number - value) <= near or (number != number and value != value)
+                                                       for number, value in zip(numbers, values))
             require(same, f"{what}: {name} is not that of the run with {settings.split()}")
         return settings
 
@@ -170,6 +173,38 @@ with sync_playwright() as tool:
     require(runs >= 10, "curves do not follow a drag")
     require("Δ at most" in page.locator("#charts figcaption").first.inner_text(), "there is no difference from the baseline")
     shot("points")
+
+    # one long drag: a move in every frame of the browser, and the memory of the program
+    moved = page.evaluate("""async () => {
+      const dot = document.querySelector("circle[aria-label='tie_rod_outer, Side view']"), box = dot.getBoundingClientRect();
+      const event = (kind, x, y) => new PointerEvent(kind, { clientX: box.x + x, clientY: box.y + y, bubbles: true, cancelable: true });
+      const durations = [], start = performance.now(), { runs } = elastokin.curves();
+      let early = 0;
+      dot.dispatchEvent(event("pointerdown", 0, 0));
+      for (let k = 0; k < 2000; k++) {
+        dispatchEvent(event("pointermove", 6 * Math.sin(k), 6 * Math.cos(1.3 * k)));
+        await new Promise(requestAnimationFrame);
+        durations.push(elastokin.curves().duration);
+        if (k === 200) early = elastokin.curves().bytes;
+      }
+      dispatchEvent(event("pointermove", 0, 0));
+      dispatchEvent(event("pointerup", 0, 0));
+      return { early, late: elastokin.curves().bytes, runs: elastokin.curves().runs - runs, seconds: (performance.now() - start) / 1000,
+        duration: durations.sort((a, b) => a - b)[1000] };
+    }""")
+    rate = moved["runs"] / moved["seconds"]
+    print(f"2,000 moves of a point: {rate:.1f} redraws a second; a solution {moved['duration']:.1f} ms, half of them less; "
+          f"memory {moved['early']} bytes after 200 moves, {moved['late']} after all")
+    require(rate >= 20, f"{rate:.1f} redraws a second, fewer than 20")
+    require(moved["late"] == moved["early"], f"the memory grew from {moved['early']} to {moved['late']} bytes")
+    agrees("after 2,000 moves")
+    before = page.evaluate("elastokin.curves().runs")
+    page.evaluate("program.worker.postMessage({ id: -1, solve: null })")     # an error in the worker, as a trap of the program
+    page.locator("circle[aria-label='lca_rear, Side view']").focus()
+    page.keyboard.press("ArrowDown")
+    agrees("in a new instance")
+    require(page.evaluate("elastokin.curves().runs") > before, "nothing was solved in a new instance")
+    page.keyboard.press("ArrowUp")
     page.click("[data-tab=points]")
     page.fill("[aria-label='tie_rod_outer z']", "-60")
     page.press("[aria-label='tie_rod_outer z']", "Enter")
