@@ -1,16 +1,11 @@
 // The curves of elastokin.html, behind workbench.js: a test of the document solved in the worker, and its charts.
 // Numbers that the worker sets, as [path, value], and the document without them: another frame is another model.
 function settable() {
-  const numbers = [], rest = new Map(files);
-  for (const { file, name, at } of [...bench.points].reverse()) {
-    let text = rest.get(file);
-    for (let k = 2; k >= 0; k--) {
-      text = `${text.slice(0, at[k].start)}#${text.slice(at[k].start + at[k].text.length)}`;
-      numbers.push([`point.${name}.${"xyz"[k]}`, at[k].value]);
-    }
-    rest.set(file, text);
+  const numbers = numbersOf(bench), rest = new Map(files);
+  for (const file of new Set(numbers.map((one) => one.file))) {
+    rest.set(file, replaceNumbers(rest.get(file), numbers.filter((one) => one.file === file).map((one) => [one, "#"])));
   }
-  return { numbers, frame: JSON.stringify([...rest]) };
+  return { numbers: numbers.map(({ path, value }) => [path, value]), frame: JSON.stringify([...rest]) };
 }
 
 // Solves the chosen test; while one solution runs, only the last change waits.
@@ -28,6 +23,10 @@ async function solve() {
     const result = await program.solve({ ...settable(), files: [...files], deck, test, increments: 20, columns: wanted });
     if (result === null) continue;
     bench.runs++;
+    if (result.units) {
+      bench.units = new Map(result.units);
+      fillRates();
+    }
     const { columns } = result;
     if (!columns) {
       if (!isWhole) {      // another deck has other columns
@@ -40,7 +39,8 @@ async function solve() {
       continue;
     }
     if (isWhole) setColumns(Object.keys(columns));
-    bench.curves = { test, columns, x: abscissaOf(columns), duration: result.duration, bytes: result.bytes };
+    const { duration, bytes, openings } = result;
+    bench.curves = { test, columns, x: abscissaOf(columns), duration, bytes, openings };
     element("charts").classList.remove("stale");
     drawCharts();
     const bad = columns.converged?.filter((one) => one === 0).length ?? 0;

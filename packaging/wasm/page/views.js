@@ -1,4 +1,4 @@
-// The views of elastokin.html, behind workbench.js: the points from three sides, which are dragged, and the table of coordinates.
+// The views of elastokin.html, behind workbench.js: the points from three sides, which are dragged.
 // Horizontal and vertical axis of each view with their sign on the screen; front to the left, right side to the right from behind
 function viewsOf() {
   const forward = bench.axes === "x-rear" ? 1 : -1;
@@ -19,7 +19,7 @@ function drawViews(isNew = false) {
   const box = element("views");
   if (bench.points.length === 0) {
     box.replaceChildren("This deck has no points with three numbers.");
-    return fillPoints();
+    return fillTables();
   }
   if (isNew || !bench.view) {     // a view keeps its scale while points are moved
     const span = [0, 1, 2].map((k) => bench.points.map(({ at }) => at[k].value)).map((v) => [Math.min(...v), Math.max(...v)]);
@@ -54,7 +54,7 @@ function drawViews(isNew = false) {
   box.replaceChildren(...drawn);
   if (active) [...box.querySelectorAll("circle")].find((dot) => dot.getAttribute("aria-label") === label)?.focus({ preventScroll: true });
   bench.isDrawing = false;
-  fillPoints();
+  fillTables();
 }
 
 function choose(name) {
@@ -97,55 +97,4 @@ function nudge(event, name, { h, hs, v, vs }) {
   values[way[0]] += way[1] * stepOf();
   movePoint(name, values);
   remember();
-}
-
-// The table of points. Cells that exist are only given their values, so that typing is not interrupted.
-function fillPoints() {
-  const table = element("coordinates"), names = bench.points.map(({ name }) => name).join("\n");
-  if (table.dataset.names !== names) {
-    table.dataset.names = names;
-    const head = document.createElement("tr");
-    for (const word of ["Point", "x", "y", "z"]) {
-      const cell = document.createElement("th");
-      cell.textContent = word;
-      head.append(cell);
-    }
-    table.replaceChildren(head, ...bench.points.map(({ name }) => {
-      const row = document.createElement("tr"), first = document.createElement("th");
-      first.textContent = name;
-      row.append(first);
-      ["x", "y", "z"].forEach((axis, k) => {
-        const cell = row.insertCell(), input = document.createElement("input");
-        input.setAttribute("aria-label", `${name} ${axis}`);
-        input.addEventListener("focus", () => choose(name));
-        input.addEventListener("change", () => {
-          const value = Number(input.value.replace(",", ".").replace("−", "-"));
-          if (input.value.trim() === "" || !Number.isFinite(value)) return fillPoints();
-          const values = [];
-          values[k] = value;
-          movePoint(name, values);
-          return remember();
-        });
-        input.addEventListener("keydown", (event) => {
-          if (event.key !== "ArrowUp" && event.key !== "ArrowDown") return;
-          event.preventDefault();
-          const values = [];
-          values[k] = pointOf(name).at[k].value + (event.key === "ArrowUp" ? 1 : -1) * stepOf();
-          movePoint(name, values);
-          input.value = pointOf(name).at[k].text;
-          remember();
-        });
-        cell.append(input);
-      });
-      return row;
-    }));
-  }
-  bench.points.forEach(({ name, at }, k) => {
-    const row = table.rows[k + 1];
-    row.className = name === bench.chosen ? "chosen" : "";
-    at.forEach(({ text }, m) => {
-      const input = row.cells[m + 1].firstChild;
-      if (input !== document.activeElement || !input.matches(":focus") || bench.isReset) input.value = text;
-    });
-  });
 }

@@ -7,136 +7,26 @@ const wanted = ["toe_deg", "camber_deg", "caster_deg", "track_change_mm", "wheel
 const colours = ["#b5651d", "#7a4fa3", "#1d8a6b", "#a8201a"];
 const drawing = "http://www.w3.org/2000/svg";
 const bench = {
-  points: [], links: [], axes: "x-rear", chosen: "", view: null,       // what is drawn
+  points: [], rows: [], links: [], axes: "x-rear", units: new Map(),    // readDocument; units of the paths that the program lists
+  chosen: "", view: null,                                               // what is drawn
   opened: new Map(), past: [], future: [], kept: "",                    // the document as opened, and its former texts
   curves: null, baselines: [], shown: null, headings: [],               // { columns: name -> numbers, x: name }
   isRunning: false, isWaiting: false, runs: 0,
 };
 
-// ---- the points in the text -----------------------------------------------------------------------
+// ---- the document ---------------------------------------------------------------------------------
 
-// The groups of a deck: { name, keys: key -> { start, end } }, positions in the text. In `masked`, strings are ×, comments blank.
-function groupsOf(text) {
-  let masked = "", quote = "";
-  for (let k = 0; k < text.length; k++) {
-    const c = text[k];
-    if (quote) {
-      masked += c === quote ? c : c === "\n" ? c : "×";
-      if (c === quote || c === "\n") quote = "";
-    } else if (c === "!") {
-      const end = text.indexOf("\n", k), stop = end < 0 ? text.length : end;
-      masked += " ".repeat(stop - k);
-      k = stop - 1;
-    } else {
-      if (c === "'" || c === '"') quote = c;
-      masked += c;
-    }
-  }
-  return [...masked.matchAll(/^[ \t]*&(\w+)([^/]*)\//gm)].map((found) => {
-    const start = found.index + found[0].length - found[2].length - 1, keys = {};
-    const heads = [...found[2].matchAll(/([a-z_]\w*)[ \t]*=/gi)];
-    heads.forEach((head, k) => {
-      keys[head[1].toLowerCase()] = { start: start + head.index + head[0].length,
-        end: start + (k + 1 < heads.length ? heads[k + 1].index : found[2].length) };
-    });
-    return { name: found[1].toLowerCase(), keys };
-  });
-}
-
-const stringsOf = (text, key) => key === undefined ? [] :
-  [...text.slice(key.start, key.end).matchAll(/'((?:[^']|'')*)'|"([^"]*)"/g)].map((m) => m[1] ?? m[2]);
-
-// The points of a deck with three numbers: { name, at: [{ start, text, value }, …] }, each number with its position in the text.
-function pointsOf(text, groups) {
-  const points = [];
-  for (const { name, keys } of groups) {
-    if (name !== "point" || !keys.name || !keys.at) continue;
-    const at = numbersOf(text, keys.at);
-    if (at.length === 3) points.push({ name: stringsOf(text, keys.name)[0], at });
-  }
-  return points;
-}
-
-// The numbers of a key: { start, text, value }; none if one stands for several (3*0.0)
-function numbersOf(text, key) {
-  const part = text.slice(key.start, key.end);
-  if (part.includes("*")) return [];
-  return [...part.matchAll(/[-+]?(?:\d+\.?\d*|\.\d+)(?:[ed][-+]?\d+)?/gi)]
-    .map((m) => ({ start: key.start + m.index, text: m[0], value: Number(m[0].replace(/d/i, "e")) }));
-}
-
-// The deck and the files that it includes
-function filesOfDeck() {
-  const found = [], add = (file) => {
-    if (found.includes(file) || !files.has(file)) return;
-    found.push(file);
-    const text = files.get(file);
-    for (const { name, keys } of groupsOf(text)) {
-      if (name === "include" && keys.file) add(pathFrom(file, stringsOf(text, keys.file)[0] ?? ""));
-    }
-  };
-  add(deck);
-  return found;
-}
-
-// A path that a file gives relative to its own folder
-function pathFrom(file, path) {
-  const parts = file.split("/").slice(0, -1);
-  for (const part of path.split("/")) {
-    if (part === "..") parts.pop();
-    else if (part !== ".") parts.push(part);
-  }
-  return parts.join("/");
-}
-
-// Reads the points of the deck, and the lines between the points of each body.
-function readPoints() {
-  bench.points = [];
-  const of = new Map(), pairs = [];
-  const add = (body, point) => {
-    if (!body || body === "chassis" || !point) return;
-    if (!of.has(body)) of.set(body, new Set());
-    of.get(body).add(point);
-  };
-  for (const file of filesOfDeck()) {
-    const text = files.get(file), groups = groupsOf(text);
-    bench.points.push(...pointsOf(text, groups).map((point) => ({ file, ...point })));
-    for (const { name, keys } of groups) {
-      if (name === "model" && keys.axes) bench.axes = stringsOf(text, keys.axes)[0] ?? "x-rear";
-      const bodies = stringsOf(text, keys.bodies), ends = stringsOf(text, keys.at);
-      if (bodies.length === 2) {
-        add(bodies[0], ends[0]);
-        add(bodies[1], ends[1] ?? ends[0]);
-        if (ends.length === 2) pairs.push([ends[0], ends[1], name]);
-      }
-      if (name === "wheel") for (const key of ["centre", "contact"]) add(stringsOf(text, keys.body)[0], stringsOf(text, keys[key])[0]);
-    }
-  }
-  const known = new Map(bench.points.map((point) => [point.name, point]));
-  bench.links = [...pairs];
-  for (const points of of.values()) {
-    const list = [...points];
-    for (let k = 0; k < list.length; k++) for (let m = k + 1; m < list.length; m++) bench.links.push([list[k], list[m], "body"]);
-  }
-  bench.links = bench.links.filter(([a, b]) => known.has(a) && known.has(b));
-}
-
+const readPoints = () => Object.assign(bench, readDocument(files));
 const pointOf = (name) => bench.points.find((point) => point.name === name);
 
-// Writes coordinates of a point into the text of its file; undo takes the text before `remember`.
-function movePoint(name, values) {
-  const point = pointOf(name);
-  let text = files.get(point.file);
-  for (let k = 2; k >= 0; k--) {
-    const { start, text: old, value } = point.at[k];
-    if (values[k] === undefined || values[k] === value) continue;
-    const number = String(Number(values[k].toPrecision(12))), form = /\.|e/i.test(number) ? number : `${number}.0`;
-    text = text.slice(0, start) + form + text.slice(start + old.length);
-  }
-  if (text === files.get(point.file)) return;
-  files.set(point.file, text);
+// Writes numbers, [number, value] of one file, into its text; undo takes the text before `remember`.
+function setNumbers(list) {
+  const changed = list.filter(([{ value }, now]) => now !== value);
+  if (changed.length === 0) return;
+  const { file } = changed[0][0], text = replaceNumbers(files.get(file), changed.map(([number, now]) => [number, textOfNumber(now)]));
+  files.set(file, text);
   isEdited = true;
-  if (point.file === shown) {
+  if (file === shown) {
     const at = element("text").scrollTop;
     element("text").value = text;
     element("text").scrollTop = at;
@@ -145,6 +35,17 @@ function movePoint(name, values) {
   readPoints();
   drawViews();
   solve();
+}
+
+function textOfNumber(value) {
+  const text = String(Number(value.toPrecision(12)));
+  return /\.|e/i.test(text) ? text : `${text}.0`;
+}
+
+// Writes coordinates of a point; those that are undefined stay.
+function movePoint(name, values) {
+  const { at } = pointOf(name);
+  setNumbers(at.map((one, k) => [one, values[k] ?? one.value]));
 }
 
 const snapshot = () => JSON.stringify([...files]);
@@ -170,7 +71,9 @@ function goBack(from, to) {
   showFile(shown);
   keep();
   setButtons();
+  bench.isReset = true;      // also the field that has the focus
   renew();
+  bench.isReset = false;
 }
 
 function setButtons() {
@@ -179,19 +82,13 @@ function setButtons() {
   element("changes").disabled = changes() === "";
 }
 
-// The coordinates that differ from the document as opened, as settings for --set-file
+// The coordinates, rates and lengths that differ from the document as opened, as settings for --set-file
 function changes() {
-  const lines = [];
-  for (const [file, text] of bench.opened) {
-    if (!/\.nml$/i.test(file)) continue;
-    for (const { name, at } of pointsOf(text, groupsOf(text))) {
-      const now = pointOf(name);
-      ["x", "y", "z"].forEach((axis, k) => {
-        if (now?.file === file && now.at[k].value !== at[k].value) lines.push(`point.${name}.${axis} = ${now.at[k].text}\n`);
-      });
-    }
-  }
-  return lines.join("");
+  const now = new Map(numbersOf(bench).map((one) => [`${one.file} ${one.path}`, one]));
+  return numbersOf(readDocument(bench.opened)).map(({ file, path, value }) => {
+    const found = now.get(`${file} ${path}`);
+    return found && found.value !== value && (/^point\./.test(path) || bench.units.has(path)) ? `${path} = ${found.text}\n` : "";
+  }).join("");
 }
 
 // ---- controls -------------------------------------------------------------------------------------

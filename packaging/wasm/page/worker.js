@@ -1,6 +1,6 @@
 // The worker of elastokin.html, behind wasi.mjs and library.js: compiles the program once, runs command lines, and solves cases of
 // a model that it keeps open.
-let program, library = null, opened = {};
+let program, library = null, opened = {}, openings = 0;
 
 async function unpack(text) {
   const packed = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
@@ -33,9 +33,11 @@ async function openModel({ files, deck, frame, numbers }) {
     if (status !== wrongUse) return library.message();
   }
   opened = {};
+  openings++;
   if (library.open(files, deck) !== success) return library.message();
   const cases = library.list("case", ["name", "is_of_deck"]).filter(([, isOfDeck]) => isOfDeck === 1).map(([name]) => name);
-  opened = { frame, deck, numbers: new Map(numbers), cases };
+  opened = { frame, deck, numbers: new Map(numbers), cases, isNew: true };
+  if (opened.numbers.size < numbers.length) opened.frame = null;       // a path with two numbers: each change opens the model
   return null;
 }
 
@@ -54,7 +56,15 @@ async function solve({ solve: asked }) {
     ({ status, messages } = result);
     found = columnsOf(result.written);
   }
-  return { columns: found, status, messages, trap: null, duration: performance.now() - start, bytes: library.bytes };
+  const units = opened.isNew ? unitsOf(asked.numbers) : null;
+  opened.isNew = false;
+  return { columns: found, status, messages, trap: null, units, duration: performance.now() - start, bytes: library.bytes, openings };
+}
+
+// [path, unit] of the numbers that the program lists. On a mirrored axle the program lists each side, with the name of the side
+function unitsOf(numbers) {
+  const listed = new Map(library.list("parameter", ["path", "unit"]));
+  return numbers.map(([path]) => [path, listed.get(path) ?? listed.get(path.replace(".", ".left_"))]).filter(([, unit]) => unit !== undefined);
 }
 
 // The columns of the first table among files
