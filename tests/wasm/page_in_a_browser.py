@@ -5,8 +5,9 @@
 A deck of the library is opened, checked, run and reported; a mistake is typed, located and undone; files are dropped; a deck that
 does not parse, an empty file, a mechanism and a wrong command are reported in the page; a run is stopped; the page is closed and
 opened again. Points are dragged, moved by keys and typed: the curves are those of a run with the settings that the page saves, to
-1e-9 of the largest value of the column; 2,000 moves of a point leave the memory as it is; undo gives the text as it was. FOLDER
-receives downloads. Requires playwright (PyPI) and a Chromium in the path. Exit status 1 with a line per failure.
+1e-9 of the largest value of the column; 2,000 moves of a point leave the memory as it is; undo gives the text as it was. A number
+is asked for: what moves it, what it consists of, and numbers that solve a condition. FOLDER receives downloads. Requires playwright
+(PyPI) and a Chromium in the path. Exit status 1 with a line per failure.
 """
 import random
 import shutil
@@ -152,6 +153,63 @@ with sync_playwright() as tool:
     page.click("[data-tab=points]")
     expect(page.locator("#charts figure")).to_have_count(6, timeout=patient)
     require(agrees("as opened") == "", "a document that was not changed has changes")
+    # a state, and what moves a number there
+    page.locator("#state").focus()
+    for _ in range(5):
+        page.keyboard.press("ArrowRight")
+    expect(page.locator("#state-text")).to_have_text("at wheel_travel_mm 40")
+    require(page.locator("#charts line.state").count() == 6, "the charts do not show the state")
+    page.select_option("#asked", "left_toe_deg")
+    page.click("#movers")
+    expect(page.locator("#answer table")).to_have_count(2, timeout=patient)
+    listed = page.locator("#answer table").first.locator("tr").nth(1).locator("th, td").all_inner_texts()
+    arrow = page.locator("#views svg").first.locator(".arrow").first.get_attribute("data-arrow")
+    require(listed[0] == "lower_ball_joint", f"toe is moved most by {listed}")
+    require(arrow == listed[0], f"the first arrow is at {arrow}, the list begins with {listed[0]}")
+    row = curves()["columns"]["factor"].index(40)
+    before = curves()["columns"]["left_toe_deg"][row]
+    slope = float(listed[4].replace("−", "-"))
+    page.fill(f"[aria-label='{listed[0]} z']", str(float(page.input_value(f"[aria-label='{listed[0]} z']")) + 0.1))
+    page.press(f"[aria-label='{listed[0]} z']", "Enter")
+    moved = (curves()["columns"]["left_toe_deg"][row] - before) / 0.1
+    require(abs(moved - slope) < 0.02 * abs(slope), f"0.1 mm of {listed[0]} in z change toe by {moved} deg per mm, the derivative is {slope}")
+    require(page.locator("#views .arrow").count() == 0, "arrows of a former document are drawn")
+    expect(page.locator("#answer")).to_have_class("bar top stale")
+    page.click("#undo")
+    page.click("#parts")
+    expect(page.locator("#answer")).to_contain_text("responses to loads", timeout=patient)
+    page.select_option("#quantity", "lateral_in_load_held_steer_deg_per_kn")
+    curves()
+    page.select_option("#asked", "left_lateral_in_load_held_steer_deg_per_kn")
+    page.click("#parts")
+    expect(page.locator("#answer table tr")).to_have_count(16, timeout=patient)
+    require("rack_drive.stiffness" in page.inner_text("#answer"), "the stiffness of the rack is no part of the lateral force steer")
+    # numbers that give toe at this state another value, and leave the caster
+    page.select_option("#asked", "left_toe_deg")
+    page.click("#condition")
+    page.fill("[aria-label='wanted value of parallel_travel:left_toe_deg@40']", "0.1")
+    page.select_option("#key-number", "left_caster_deg")
+    page.click("[data-free='point.tie_rod_inner.z']")
+    page.click("[data-free='bushing.lca_front.kt(2)']")
+    page.click("#solve")
+    expect(page.locator("#accept")).to_be_enabled(timeout=patient)
+    shot("ask")
+    require("reached: left_toe_deg" in page.inner_text("#answer"), f"solve: {page.inner_text('#answer')}")
+    require("not reached" not in page.inner_text("#answer"), f"solve: {page.inner_text('#answer')}")
+    caster = curves()["columns"]["left_caster_deg"][10]
+    page.click("#accept")
+    agrees("numbers of solve")
+    found = curves()["columns"]
+    require(abs(found["left_toe_deg"][row] - 0.1) < 1e-6, f"the numbers of solve give {found['left_toe_deg'][row]}")
+    require(abs(found["left_caster_deg"][10] - caster) < 1e-6, "the caster did not stay")
+    while page.is_enabled("#undo"):
+        page.click("#undo")
+    page.click("[aria-label='Remove the chart of lateral_in_load_held_steer_deg_per_kn']")
+    page.locator("#state").focus()
+    for _ in range(5):
+        page.keyboard.press("ArrowLeft")
+    expect(page.locator("#state-text")).to_have_text("at design")
+
     page.click("#baseline")
     chance, started, runs = random.Random(51), time.monotonic(), curves()["runs"]
     dots = page.locator("#views circle").count()

@@ -26,6 +26,7 @@ async function solve() {
     if (result.units) {
       bench.units = new Map(result.units);
       fillRates();
+      fill(element("key-number"), ["key number …", ...result.keyNumbers], "key number …");
     }
     const { columns } = result;
     if (!columns) {
@@ -98,37 +99,53 @@ const shortly = (value) => Number.isFinite(value) ? String(Number(value.toPrecis
 // The difference of two values; 0 if it is rounding
 const difference = (a, b) => Math.abs(a - b) <= 1e-9 * Math.max(1, Math.abs(b)) ? 0 : a - b;
 
-function valueAtDesign(solution, values) {
-  const xs = solution.columns[solution.x];
-  let best = 0;
-  xs.forEach((x, k) => { if (Math.abs(x) < Math.abs(xs[best])) best = k; });
-  return values[best];
+// The row of the design, where the abscissa is least
+function rowOfDesign({ columns, x }) {
+  const xs = columns[x].map(Math.abs);
+  return xs.reduce((best, value, k) => value < xs[best] ? k : best, 0);
+}
+
+// The row of a solution with the swept value of the slider; without one, that of the design
+function rowOf(solution) {
+  const row = bench.at === null ? -1 : solution.columns.factor.findIndex((value) => Math.abs(value - bench.at) <= 1e-9 * Math.max(1, Math.abs(value)));
+  return row < 0 ? rowOfDesign(solution) : row;
+}
+
+const stateText = () => bench.row === rowOfDesign(bench.curves) ? "at design" :
+  `at ${bench.curves.x.replace(/^left_/, "")} ${shortly(bench.curves.columns[bench.curves.x][bench.row])}`;
+
+// Moves to a state of the test: row `row` of the solution
+function setState(row) {
+  bench.at = row === rowOfDesign(bench.curves) ? null : bench.curves.columns.factor[row];
+  drawCharts();
 }
 
 function drawCharts() {
-  const now = bench.curves, boxes = bench.shown.map((quantity) => {
+  const now = bench.curves, slider = element("state");
+  bench.row = rowOf(now);
+  slider.max = now.columns.factor.length - 1;
+  slider.value = bench.row;
+  element("state-text").textContent = stateText();
+  slider.setAttribute("aria-valuetext", stateText());
+  fillAsked();
+  const boxes = bench.shown.map((quantity) => {
     const figure = document.createElement("figure"), caption = document.createElement("figcaption");
     const before = bench.baselines.filter(({ solution }) => solution.test === now.test);
     const lines = [...before.flatMap(({ solution, colour, name }) => curvesOf(solution, quantity).map(([side, values]) =>
       ({ xs: solution.columns[solution.x], values, colour, side, name }))),
       ...curvesOf(now, quantity).map(([side, values], k) => ({ xs: now.columns[now.x], values, colour: k ? "#c2185b" : "var(--link)", side, name: "" }))];
     const current = lines.filter(({ name }) => name === ""), last = lines.filter(({ name }) => name !== "" && name === before.at(-1)?.name);
-    const value = current.map((line) => valueAtDesign(now, line.values)), old = last.map((line) => valueAtDesign(before.at(-1).solution, line.values));
-    caption.textContent = `${quantity}: ${value.map(shortly).join(", ")} at design`;
+    const value = current.map((line) => line.values[bench.row]), old = last.map((line) => line.values[rowOf(before.at(-1).solution)]);
+    caption.textContent = `${quantity}: ${value.map(shortly).join(", ")} ${stateText()}`;
     if (old.length === value.length && old.length > 0) {
       caption.textContent += `, Δ ${value.map((one, k) => shortly(difference(one, old[k]))).join(", ")}; Δ at most ${shortly(largestChange(current, last))}`;
     }
-    const remove = document.createElement("button");
-    remove.type = "button";
-    remove.textContent = "×";
-    remove.setAttribute("aria-label", `Remove the chart of ${quantity}`);
-    remove.addEventListener("click", () => {
+    caption.append(buttonOf("×", `Remove the chart of ${quantity}`, () => {
       bench.shown = bench.shown.filter((name) => name !== quantity);
       askFor();
       drawCharts();
-    });
-    caption.append(remove);
-    figure.append(caption, chartOf(lines, now.x));
+    }));
+    figure.append(caption, chartOf(lines, now.x, (x) => pointAt(quantity, x), now.columns[now.x][bench.row]));
     return figure;
   });
   element("charts").replaceChildren(...boxes);
@@ -146,7 +163,16 @@ function largestChange(current, last) {
   return most;
 }
 
-function chartOf(lines, x) {
+// A click on a chart points at its quantity, in the state whose abscissa is nearest
+function pointAt(quantity, x) {
+  const { columns, x: name } = bench.curves, gaps = columns[name].map((value) => Number.isFinite(value) ? Math.abs(value - x) : Infinity);
+  const side = [quantity, `left_${quantity}`, `right_${quantity}`].find((one) => one in columns);
+  setState(gaps.indexOf(Math.min(...gaps)));
+  if (side) element("asked").value = side;
+}
+
+// A chart; `take` receives the abscissa of a click, `marked` is the abscissa of the state
+function chartOf(lines, x, take, marked) {
   const svg = make("svg", { viewBox: "0 0 300 170", role: "img" }), left = 46, right = 292, top = 8, bottom = 144;
   const xs = finite(lines.flatMap((line) => line.xs)), ys = finite(lines.flatMap((line) => line.values));
   if (ys.length === 0) {
@@ -164,6 +190,11 @@ function chartOf(lines, x) {
     make("text", { x: left - 4, y: py(tick) + 4, "text-anchor": "end" }, svg, shortly(tick));
   }
   make("text", { x: (left + right) / 2, y: 168, "text-anchor": "middle" }, svg, x);
+  if (Number.isFinite(marked)) make("line", { x1: px(marked), x2: px(marked), y1: top, y2: bottom, class: "state" }, svg);
+  svg.addEventListener("click", (event) => {
+    const box = svg.getBoundingClientRect();
+    take(x0 + (x1 - x0) * ((event.clientX - box.x) * 300 / box.width - left) / (right - left));
+  });
   for (const { xs: across, values, colour, side, name } of lines) {
     let path = "", isOpen = false;
     values.forEach((value, k) => {

@@ -1,7 +1,8 @@
 // The tables of elastokin.html with numbers of the deck, behind workbench.js. Cells that exist are only given their values, so that
 // typing is not interrupted.
 
-// A field for a number of the document: `find` returns the number as it is now, `step` its change by an arrow key.
+// A field for a number of the document, with a button that lets `solve` change it: `find` returns the number as it is now, `step` its
+// change by an arrow key.
 function fieldOf(label, find, step) {
   const input = document.createElement("input");
   input.setAttribute("aria-label", label);
@@ -18,7 +19,14 @@ function fieldOf(label, find, step) {
     input.value = find().text;
     remember();
   });
-  return input;
+  const field = document.createElement("span"), { path } = find(), free = buttonOf("◦", `Let ${path} change`, () =>
+    setFree(path, !question.unknowns.has(path)));
+  free.dataset.free = path;
+  free.title = "Let “Solve” change this number";
+  free.setAttribute("aria-pressed", String(question.unknowns.has(path)));
+  field.className = "field";
+  field.append(input, free);
+  return field;
 }
 
 const put = (input, text) => { if (bench.isReset || !input.matches(":focus")) input.value = text; };
@@ -48,9 +56,9 @@ function fillPoints() {
       const row = document.createElement("tr");
       row.append(cellOf(name));
       ["x", "y", "z"].forEach((axis, k) => {
-        const input = fieldOf(`${name} ${axis}`, () => pointOf(name).at[k], stepOf);
-        input.addEventListener("focus", () => choose(name));
-        row.insertCell().append(input);
+        const field = fieldOf(`${name} ${axis}`, () => pointOf(name).at[k], stepOf);
+        field.addEventListener("focusin", () => choose(name));
+        row.insertCell().append(field);
       });
       return row;
     }));
@@ -58,7 +66,7 @@ function fillPoints() {
   bench.points.forEach(({ name, at }, k) => {
     const row = table.rows[k + 1];
     row.className = name === bench.chosen ? "chosen" : "";
-    at.forEach(({ text }, m) => put(row.cells[m + 1].firstChild, text));
+    at.forEach(({ text }, m) => put(row.cells[m + 1].querySelector("input"), text));
   });
 }
 
@@ -77,7 +85,7 @@ function fillRates() {
       return row;
     }));
   }
-  rows.forEach(({ numbers }, k) => numbers.forEach(({ text }, m) => put(table.rows[k + 1].cells[1].children[m], text)));
+  rows.forEach(({ numbers }, k) => numbers.forEach(({ text }, m) => put(table.rows[k + 1].cells[1].children[m].firstChild, text)));
 }
 
 const percentOf = (value) => value === 0 ? stepOf() : Number((0.01 * Math.abs(value)).toPrecision(1));

@@ -34,6 +34,9 @@ function drawViews(isNew = false) {
       const [x1, y1] = place(known.get(a)), [x2, y2] = place(known.get(b));
       make("line", { x1, y1, x2, y2, class: /spring|damper|stop/.test(kind) ? "spring" : kind === "body" ? "body" : "link" }, svg);
     }
+    for (const { name, vector } of question.arrows.filter((one) => known.has(one.name))) {
+      drawArrow(svg, place(known.get(name)), [44 * hs * vector[h], -44 * vs * vector[v]], name);
+    }
     for (const point of bench.points) {
       const [cx, cy] = place(point);
       const dot = make("circle", { cx, cy, r: 5, tabindex: 0, role: "button", "data-point": point.name, "aria-label": `${point.name}, ${title} view` }, svg);
@@ -55,6 +58,14 @@ function drawViews(isNew = false) {
   if (active) [...box.querySelectorAll("circle")].find((dot) => dot.getAttribute("aria-label") === label)?.focus({ preventScroll: true });
   bench.isDrawing = false;
   fillTables();
+}
+
+// An arrow of some length, from a place; one that is too short to be seen, or along the view, is left out
+function drawArrow(svg, [x, y], [dx, dy], name) {
+  const length = Math.hypot(dx, dy), [ux, uy] = [dx / length, dy / length], [tx, ty] = [x + dx, y + dy];
+  if (!(length > 7)) return;
+  const head = [[-6, 3], [-6, -3]].map(([along, across]) => `L${tx + along * ux - across * uy} ${ty + along * uy + across * ux}`).join("");
+  make("path", { d: `M${x} ${y}L${tx} ${ty}M${tx} ${ty}${head}Z`, class: "arrow", "data-arrow": name }, svg);
 }
 
 function choose(name) {

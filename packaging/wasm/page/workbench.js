@@ -11,6 +11,7 @@ const bench = {
   chosen: "", view: null,                                               // what is drawn
   opened: new Map(), past: [], future: [], kept: "",                    // the document as opened, and its former texts
   curves: null, baselines: [], shown: null, headings: [],               // { columns: name -> numbers, x: name }
+  at: null, row: 0,                                                     // the state: its swept value, null at design; its row
   isRunning: false, isWaiting: false, runs: 0,
 };
 
@@ -32,6 +33,7 @@ function setNumbers(list) {
     element("text").scrollTop = at;
     number();
   }
+  outdate();
   readPoints();
   drawViews();
   solve();
@@ -94,6 +96,8 @@ function changes() {
 // ---- controls -------------------------------------------------------------------------------------
 
 function renew() {
+  outdate();
+  outdate();
   readPoints();
   drawViews();
   solve();
@@ -101,7 +105,7 @@ function renew() {
 
 document.addEventListener("opened", ({ detail }) => {
   bench.opened = new Map(files);
-  Object.assign(bench, { past: [], future: [], kept: snapshot(), chosen: "", headings: [], columns: [], view: null });
+  Object.assign(bench, { past: [], future: [], kept: snapshot(), chosen: "", headings: [], columns: [], view: null, at: null });
   if (detail.isNew) bench.baselines = [];
   element("test").value = tests[0];
   setButtons();
@@ -118,8 +122,10 @@ document.addEventListener("edited", () => {
 element("test").append(...tests.map((name) => new Option(name.replaceAll("_", " "), name)));
 element("test").addEventListener("change", () => {
   bench.columns = [];
+  bench.at = null;
   solve();
 });
+element("state").addEventListener("input", ({ target }) => setState(Number(target.value)));
 element("quantity").addEventListener("change", ({ target }) => {
   if (!bench.shown.includes(target.value)) bench.shown.push(target.value);
   target.selectedIndex = 0;

@@ -41,8 +41,9 @@ async function openModel({ files, deck, frame, numbers }) {
   return null;
 }
 
-// Solves a case: { columns: name -> numbers, or null, status, messages, trap, duration [ms], bytes of memory }. A test that the
-// deck does not have is solved by the command line, because its range follows from the numbers.
+// Solves a case: { columns: name -> numbers, or null, status, messages, trap, duration [ms], bytes of memory, openings }, and for a
+// model that was opened { units, keyNumbers }. A test that the deck does not have is solved by the command line, because its range
+// follows from the numbers.
 async function solve({ solve: asked }) {
   const start = performance.now(), { deck, test, increments, columns } = asked;
   let messages = await openModel(asked), found = null, status = wrongUse;
@@ -56,9 +57,9 @@ async function solve({ solve: asked }) {
     ({ status, messages } = result);
     found = columnsOf(result.written);
   }
-  const units = opened.isNew ? unitsOf(asked.numbers) : null;
+  const lists = opened.isNew ? { units: unitsOf(asked.numbers), keyNumbers: library.list("number", ["name"]).flat() } : {};
   opened.isNew = false;
-  return { columns: found, status, messages, trap: null, units, duration: performance.now() - start, bytes: library.bytes, openings };
+  return { columns: found, status, messages, trap: null, duration: performance.now() - start, bytes: library.bytes, openings, ...lists };
 }
 
 // [path, unit] of the numbers that the program lists. On a mirrored axle the program lists each side, with the name of the side
