@@ -174,11 +174,12 @@ function addCondition(name, wanted) {
   fillQuestion();
 }
 
-element("movers").addEventListener("click", showMovers);
-element("parts").addEventListener("click", showParts);
-element("condition").addEventListener("click", () => {
+const onceSolved = (act) => () => element("asked").value === "" ? undefined : act();
+element("movers").addEventListener("click", onceSolved(showMovers));
+element("parts").addEventListener("click", onceSolved(showParts));
+element("condition").addEventListener("click", onceSolved(() => {
   addCondition(askedNumber(), String(Number(bench.curves.columns[element("asked").value][bench.row].toPrecision(6))));
-});
+}));
 element("key-number").addEventListener("change", ({ target }) => {
   addCondition(target.value, "");
   target.selectedIndex = 0;

@@ -40,10 +40,11 @@ async function solve() {
       continue;
     }
     if (isWhole) setColumns(Object.keys(columns));
-    const { duration, bytes, openings } = result;
-    bench.curves = { test, columns, x: abscissaOf(columns), duration, bytes, openings };
+    const { duration, bytes, openings, poses, bodies } = result;
+    bench.curves = { test, columns, x: abscissaOf(columns), duration, bytes, openings, poses, bodies };
     element("charts").classList.remove("stale");
     drawCharts();
+    if (bench.at !== null) drawViews();
     const bad = columns.converged?.filter((one) => one === 0).length ?? 0;
     tell(`${head}: solved in ${result.duration.toFixed(1)} ms${result.status === 0 ? "" : `; ${firstLine(result)}`}` +
       `${bad > 0 ? ` ${bad} states have no solution.` : ""}`, result.status !== 0);
@@ -116,8 +117,10 @@ const stateText = () => bench.row === rowOfDesign(bench.curves) ? "at design" :
 
 // Moves to a state of the test: row `row` of the solution
 function setState(row) {
+  if (!bench.curves) return;
   bench.at = row === rowOfDesign(bench.curves) ? null : bench.curves.columns.factor[row];
   drawCharts();
+  drawViews();
 }
 
 function drawCharts() {

@@ -65,11 +65,12 @@ function pathFrom(file, path) {
 const single = ["axle", "steering"];      // groups without a name in a path
 const unlisted = ["point", "case", "model", "include", "hardpoints", "target_band"];
 
-// Reads a document: { points, rows, links, axes }. A point is { name, at: three numbers }, a row { path, numbers } another key with
-// numbers; every number is { path, file, start, text, value }. A link is [point, point, group, or "body" for points of one body].
+// Reads a document: { points, rows, links, axes, length: unit in m }. A point is { name, at: three numbers, body }, a row
+// { path, numbers } another key with numbers; every number is { path, file, start, text, value }. A link is { ends: two points, kind:
+// group, or "body" for points of one body, bodies of the ends }.
 function readDocument(given) {
   const points = [], rows = [], of = new Map(), pairs = [];
-  let axes = "x-rear";
+  let axes = "x-rear", length = 0.001;
   const add = (body, point) => {
     if (!body || body === "chassis" || !point) return;
     if (!of.has(body)) of.set(body, new Set());
@@ -82,12 +83,15 @@ function readDocument(given) {
       if (group === "point" && keys.at?.numbers.length === 3) {
         points.push({ name, at: keys.at.numbers.map((one, k) => ({ ...one, file, path: `point.${name}.${"xyz"[k]}` })) });
       }
-      if (group === "model" && keys.axes) axes = stringsOf(text, keys.axes)[0] ?? axes;
+      if (group === "model") {
+        axes = stringsOf(text, keys.axes)[0]?.toLowerCase() ?? axes;
+        if (stringsOf(text, keys.length)[0]?.toLowerCase() === "m") length = 1;
+      }
       const bodies = stringsOf(text, keys.bodies), ends = stringsOf(text, keys.at);
       if (bodies.length === 2) {
         add(bodies[0], ends[0]);
         add(bodies[1], ends[1] ?? ends[0]);
-        if (ends.length === 2) pairs.push([ends[0], ends[1], group]);
+        if (ends.length === 2) pairs.push({ ends: ends.slice(0, 2), kind: group, bodies });
       }
       if (group === "wheel") for (const key of ["centre", "contact"]) add(stringsOf(text, keys.body)[0], stringsOf(text, keys[key])[0]);
       if (unlisted.includes(group) || name === undefined && !single.includes(group)) continue;
@@ -99,10 +103,14 @@ function readDocument(given) {
     }
   }
   const known = new Set(points.map(({ name }) => name)), links = [...pairs];
-  for (const list of [...of.values()].map((set) => [...set])) {
-    for (let k = 0; k < list.length; k++) for (let m = k + 1; m < list.length; m++) links.push([list[k], list[m], "body"]);
+  for (const [body, set] of of) {
+    const list = [...set];
+    for (const point of points) if (set.has(point.name)) point.body ??= body;
+    for (let m = 0; m < list.length; m++) {
+      for (const other of list.slice(m + 1)) links.push({ ends: [list[m], other], kind: "body", bodies: [body, body] });
+    }
   }
-  return { points, rows, axes, links: links.filter(([one, other]) => known.has(one) && known.has(other)) };
+  return { points, rows, axes, length, links: links.filter(({ ends }) => ends.every((end) => known.has(end))) };
 }
 
 const numbersOf = ({ points, rows }) => [...points.flatMap(({ at }) => at), ...rows.flatMap(({ numbers }) => numbers)];

@@ -65,6 +65,7 @@ class Library {
     for (const [path, text] of files) this.disk.addFile(path, text);
     const handle = new Float64Array(1), status = this.call("ek_open_file", deck, handle);
     this.model = new Uint32Array(handle.buffer)[0];
+    this.bodies = status === success ? this.list("body", ["name"]).flat() : [];
     this.known = new Map();       // path -> number, of paths that were set
     this.prepared = new Map();    // case -> its number of increments
     return status;
@@ -92,7 +93,7 @@ class Library {
     return success;
   }
 
-  // { status, columns: name -> numbers }; no columns without a solution. `wanted` empty: all
+  // { status, columns: name -> numbers, poses of each row }; no columns without a solution. `wanted` empty: all
   solve(test, increments, wanted) {
     if (this.prepared.get(test) !== increments) {
       const status = this.call("ek_set_text", this.model, `case.${test}.increments`, String(increments));
@@ -105,6 +106,12 @@ class Library {
     const heads = this.list("column", ["name"]).flat(), values = new Float64Array(rows * heads.length), columns = {};
     this.call("ek_values", this.model, values.length, values);
     heads.forEach((head, k) => { columns[head] = Array.from({ length: rows }, (_, row) => values[row * heads.length + k]); });
-    return { status, columns };
+    return { status, columns, poses: Array.from({ length: rows }, (_, row) => this.poses(row)) };
+  }
+  // The motion of the bodies from design to a state of the solution, 12 numbers each (ek_poses)
+  poses(row) {
+    const values = new Float64Array(12 * this.bodies.length);
+    this.call("ek_poses", this.model, row, values.length, values);
+    return values;
   }
 }

@@ -29,9 +29,12 @@ function drawViews(isNew = false) {
   const drawn = viewsOf().map(([title, h, hs, v, vs]) => {
     const svg = make("svg", { viewBox: `0 0 ${width} ${height}`, role: "group", "aria-label": `${title} view` });
     make("text", { x: 8, y: 16, class: "title" }, svg, title);
-    const place = ({ at }) => [width / 2 + hs * (at[h].value - middle[h]) * scale, height / 2 - vs * (at[v].value - middle[v]) * scale];
-    for (const [a, b, kind] of bench.links) {
-      const [x1, y1] = place(known.get(a)), [x2, y2] = place(known.get(b));
+    const place = (point, body = point.body) => {
+      const at = positionOf(point, body);
+      return [width / 2 + hs * (at[h] - middle[h]) * scale, height / 2 - vs * (at[v] - middle[v]) * scale];
+    };
+    for (const { ends, kind, bodies } of bench.links) {
+      const [[x1, y1], [x2, y2]] = ends.map((end, k) => place(known.get(end), bodies[k]));
       make("line", { x1, y1, x2, y2, class: /spring|damper|stop/.test(kind) ? "spring" : kind === "body" ? "body" : "link" }, svg);
     }
     for (const { name, vector } of question.arrows.filter((one) => known.has(one.name))) {
@@ -58,6 +61,16 @@ function drawViews(isNew = false) {
   if (active) [...box.querySelectorAll("circle")].find((dot) => dot.getAttribute("aria-label") === label)?.focus({ preventScroll: true });
   bench.isDrawing = false;
   fillTables();
+}
+
+// A point of a body in the state of the slider, in the unit of the deck; at design, and where no pose is known, as in the deck. A body of
+// the half deck of an axle is the left one.
+function positionOf({ at }, body) {
+  const p = at.map(({ value }) => value), { poses, bodies } = bench.curves ?? {};
+  const k = poses && bench.at !== null ? Math.max(bodies.indexOf(body), bodies.indexOf(`left_${body}`)) : -1;
+  if (k < 0 || !(bench.row < poses.length) || !Number.isFinite(poses[bench.row][12 * k])) return p;
+  const m = poses[bench.row].subarray(12 * k, 12 * k + 12);
+  return [0, 1, 2].map((i) => m[3 * i] * p[0] + m[3 * i + 1] * p[1] + m[3 * i + 2] * p[2] + m[9 + i] / bench.length);
 }
 
 // An arrow of some length, from a place; one that is too short to be seen, or along the view, is left out

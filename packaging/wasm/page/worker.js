@@ -41,14 +41,14 @@ async function openModel({ files, deck, frame, numbers }) {
   return null;
 }
 
-// Solves a case: { columns: name -> numbers, or null, status, messages, trap, duration [ms], bytes of memory, openings }, and for a
-// model that was opened { units, keyNumbers }. A test that the deck does not have is solved by the command line, because its range
+// Solves a case: { columns: name -> numbers, or null, poses of each row, names of the bodies, status, messages, trap, duration [ms],
+// bytes of memory, openings }, and for a model that was opened { units, keyNumbers }. A test that the deck does not have is solved by the command line, because its range
 // follows from the numbers.
 async function solve({ solve: asked }) {
   const start = performance.now(), { deck, test, increments, columns } = asked;
-  let messages = await openModel(asked), found = null, status = wrongUse;
+  let messages = await openModel(asked), found = null, status = wrongUse, poses = null;
   if (messages === null && opened.cases.includes(test)) {
-    ({ status, columns: found = null } = library.solve(test, increments, columns));
+    ({ status, columns: found = null, poses } = library.solve(test, increments, columns));
     messages = library.message();
   } else if (messages === null) {
     const words = ["run", deck, "--case", test, "--increments", String(increments), "--quiet", "--out", "/curves"];
@@ -59,7 +59,8 @@ async function solve({ solve: asked }) {
   }
   const lists = opened.isNew ? { units: unitsOf(asked.numbers), keyNumbers: library.list("number", ["name"]).flat() } : {};
   opened.isNew = false;
-  return { columns: found, status, messages, trap: null, duration: performance.now() - start, bytes: library.bytes, openings, ...lists };
+  const { bodies } = library;
+  return { columns: found, poses, bodies, status, messages, trap: null, duration: performance.now() - start, bytes: library.bytes, openings, ...lists };
 }
 
 // [path, unit] of the numbers that the program lists. On a mirrored axle the program lists each side, with the name of the side
