@@ -16,8 +16,8 @@ module ek_session_poses
 
 contains
 
-   !> Returns the motion of each body from design to a state of the last solution, in the axes of the deck. A point of body b that is
-   !> at p at design [m] is at rotation(:, :, b) p + shift(:, b) in the state. All values are NaN if the state was not reached.
+   !> Returns the motion of each body from design to a state of the last solution, in the axes of the deck. A point of body b that
+   !> is at p at design [m] is at rotation(:, :, b) p + shift(:, b) in the state. All values are NaN if the state was not reached.
    subroutine poses_at(session, row, rotation, shift, error)
       type(session_t), intent(inout), target :: session
       integer, intent(in) :: row                           !! row of the table of the last solution
