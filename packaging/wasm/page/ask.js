@@ -1,5 +1,5 @@
-// Questions about a number of elastokin.html, behind curves.js: what moves it most (derivatives, drawn as arrows at the points), what it
-// consists of (explain), and which numbers of the deck give it another value (solve). The command line answers, with the document.
+// Questions about a number of elastokin.html, behind curves.js: what moves it most (derivatives, drawn as arrows at the points), what
+// it consists of (explain), and which numbers of the deck give it another value (solve). The command line answers, with the document.
 const question = { conditions: [], unknowns: new Map(), arrows: [], found: [] };      // unknowns: path -> [low, high]
 
 // The number pointed at: a column of the test at the state of the slider, as `solve` names it
@@ -52,21 +52,24 @@ function rowsOf({ written }, ending) {
 }
 
 // A small change of a number other than a coordinate, with its words, as `derivatives` sorts by
-const smallChange = ({ unit, at }) => unit === "mm" ? [1, "1 mm"] : unit === "deg" ? [0.06, "0.06 deg"] : [Math.abs(Number(at)) / 100, "1 %"];
+const smallChange = ({ unit, at }) => ({ mm: [1, "1 mm"], deg: [0.06, "0.06 deg"] })[unit] ?? [Math.abs(Number(at)) / 100, "1 %"];
 
 async function showMovers() {
   const column = element("asked").value, head = `Change of ${column} ${stateText()}`, result = await consult(["derivatives", ...ofTest()]);
   if (!result) return;
   const points = new Map(), others = [];
   for (const row of rowsOf(result, "_derivatives.csv").filter(({ derivative }) => Number.isFinite(parseFloat(derivative)))) {
-    const slope = Number(row.derivative), [, name, axis] = /^point\.(.+)\.([xyz])$/.exec(row.number) ?? [], [size, words] = smallChange(row);
+    const slope = Number(row.derivative), [size, words] = smallChange(row);
+    const [, name, axis] = /^point\.(.+)\.([xyz])$/.exec(row.number) ?? [];
     if (!name && !/^case\./.test(row.number)) others.push([row.number, words, slope * size]);
     if (!name) continue;
     if (!points.has(name)) points.set(name, { name, unit: row.unit, slopes: [0, 0, 0] });
     points.get(name).slopes["xyz".indexOf(axis)] = slope;
   }
-  const sorted = [...points.values()].map((one) => ({ ...one, size: Math.hypot(...one.slopes) })).sort((a, b) => b.size - a.size).slice(0, 10);
-  question.arrows = sorted.filter(({ size }) => size > 0).map(({ name, slopes }) => ({ name, vector: slopes.map((slope) => slope / sorted[0].size) }));
+  const sorted = [...points.values()].map((one) => ({ ...one, size: Math.hypot(...one.slopes) }))
+    .sort((a, b) => b.size - a.size).slice(0, 10);
+  question.arrows = sorted.filter(({ size }) => size > 0)
+    .map(({ name, slopes }) => ({ name, vector: slopes.map((slope) => slope / sorted[0].size) }));
   drawViews();
   answerWith(result,
     tableWith(`${head}, by 1 ${sorted[0]?.unit} of a point; the arrows point to where it grows`, ["Point", "at most", "x", "y", "z"],
@@ -84,13 +87,14 @@ async function showParts() {
     return;
   }
   const rows = rowsOf(result, "_contributions.csv");
-  answerWith(result, tableWith(`${column} ${stateText()} = ${shortly(Number(rows[0].column_value))} consists of`, ["Part", "value", "share, %"],
+  const head = `${column} ${stateText()} = ${shortly(Number(rows[0].column_value))} consists of`;
+  answerWith(result, tableWith(head, ["Part", "value", "share, %"],
     rows.map(({ row, part, value, share }) => [`${row}.${part}`, Number(value), 100 * Number(share)])
       .sort((a, b) => Math.abs(b[1]) - Math.abs(a[1])).slice(0, 15)));
 }
 
 async function solveConditions() {
-  const conditions = question.conditions.flatMap(({ name, wanted }) => ["--for", `${name}=${wanted.trim() === "" ? "keep" : wanted.trim()}`]);
+  const conditions = question.conditions.flatMap(({ name, wanted }) => ["--for", `${name}=${wanted.trim() || "keep"}`]);
   const unknowns = [...question.unknowns].flatMap(([path, [low, high]]) => ["--vary", `${path}=${low}:${high}`]);
   const result = await consult(["solve", ...unknowns, ...conditions]);
   if (!result) return;
@@ -105,7 +109,8 @@ async function solveConditions() {
 function accept() {
   const found = new Map(question.found), missing = question.found.filter(([path]) => !numbersOf(bench).some((one) => one.path === path));
   for (const file of filesOfDeck(files)) {
-    setNumbers(numbersOf(bench).filter((one) => one.file === file && found.has(one.path)).map((one) => [one, Number(found.get(one.path))]));
+    const list = numbersOf(bench).filter((one) => one.file === file && found.has(one.path));
+    setNumbers(list.map((one) => [one, Number(found.get(one.path))]));
   }
   remember();
   if (missing.length > 0) element("answer").append(`Not in the text of the deck: ${missing.map(([path]) => path).join(", ")}`);
@@ -153,10 +158,13 @@ function fillQuestion() {
       question.conditions = conditions.filter((other) => other !== one);
       fillQuestion();
     })])));
-  element("unknowns").replaceChildren(tableWith("Numbers that may change", ["Number", "from", "to", ""], [...unknowns].map(([path, bounds]) => [path,
+  const rows = [...unknowns].map(([path, bounds]) => [path,
     ...[0, 1].map((k) => plainField(`${path} ${["from", "to"][k]}`, bounds[k], (value) => { bounds[k] = value; })),
-    buttonOf("×", `Keep ${path}`, () => setFree(path, false))])));
-  for (const button of document.querySelectorAll("[data-free]")) button.setAttribute("aria-pressed", String(unknowns.has(button.dataset.free)));
+    buttonOf("×", `Keep ${path}`, () => setFree(path, false))]);
+  element("unknowns").replaceChildren(tableWith("Numbers that may change", ["Number", "from", "to", ""], rows));
+  for (const button of document.querySelectorAll("[data-free]")) {
+    button.setAttribute("aria-pressed", String(unknowns.has(button.dataset.free)));
+  }
   element("solve").disabled = conditions.length === 0 || unknowns.size === 0;
 }
 

@@ -41,9 +41,9 @@ async function openModel({ files, deck, frame, numbers }) {
   return null;
 }
 
-// Solves a case: { columns: name -> numbers, or null, poses of each row, names of the bodies, status, messages, trap, duration [ms],
-// bytes of memory, openings }, and for a model that was opened { units, keyNumbers }. A test that the deck does not have is solved by the command line, because its range
-// follows from the numbers.
+// Solves a case: { columns: name -> numbers, or null, poses of each row, names of the bodies, status, messages, trap, duration
+// [ms], bytes of memory, openings }, and for a model that was opened { units, keyNumbers }. A test that the deck does not have is
+// solved by the command line, because its range follows from the numbers; it has no poses.
 async function solve({ solve: asked }) {
   const start = performance.now(), { deck, test, increments, columns } = asked;
   let messages = await openModel(asked), found = null, status = wrongUse, poses = null;
@@ -59,14 +59,15 @@ async function solve({ solve: asked }) {
   }
   const lists = opened.isNew ? { units: unitsOf(asked.numbers), keyNumbers: library.list("number", ["name"]).flat() } : {};
   opened.isNew = false;
-  const { bodies } = library;
-  return { columns: found, poses, bodies, status, messages, trap: null, duration: performance.now() - start, bytes: library.bytes, openings, ...lists };
+  const { bodies, bytes } = library, duration = performance.now() - start;
+  return { columns: found, poses, bodies, status, messages, trap: null, duration, bytes, openings, ...lists };
 }
 
 // [path, unit] of the numbers that the program lists. On a mirrored axle the program lists each side, with the name of the side
 function unitsOf(numbers) {
   const listed = new Map(library.list("parameter", ["path", "unit"]));
-  return numbers.map(([path]) => [path, listed.get(path) ?? listed.get(path.replace(".", ".left_"))]).filter(([, unit]) => unit !== undefined);
+  const unitOf = (path) => listed.get(path) ?? listed.get(path.replace(".", ".left_"));
+  return numbers.map(([path]) => [path, unitOf(path)]).filter(([, unit]) => unit !== undefined);
 }
 
 // The columns of the first table among files
