@@ -169,9 +169,18 @@ const char *ek_remark_severity(ek_model *model, int k);      /* "note", "warning
  * forces of the ground on the wheels stay constant (`load_held` in input/QUANTITIES.md). All entries are NaN if the
  * state was not reached or the matrix is singular.
  *
- * ek_compliance and ek_derivatives return EK_USAGE if numbers were changed after the solution and ek_numbers or
- * ek_model_remarks was called after the change. Call ek_solve again before ek_compliance or ek_derivatives. */
+ * ek_compliance, ek_poses and ek_derivatives return EK_USAGE if numbers were changed after the solution and ek_numbers
+ * or ek_model_remarks was called after the change. Call ek_solve again before these functions. */
 int ek_compliance(ek_model *model, int row, int n, double *values);
+
+/* Motion of all bodies from design to one state of the last solution. row is the position of the state in the result
+ * table. The bodies are those of the model without the chassis; in a mirrored deck, both sides are listed. values
+ * contains 12 numbers for each body, and n must be 12 x ek_body_count: the rotation R, one row of the matrix after the
+ * other, then the shift t [m]. In the axes of the deck, a point of the body that is at p at design [m] is at R p + t in
+ * the state. All values are NaN if the state was not reached. */
+int ek_body_count(ek_model *model);
+const char *ek_body_name(ek_model *model, int k);   /* NULL outside the list */
+int ek_poses(ek_model *model, int row, int n, double *values);
 
 /* Computes derivatives of columns with respect to numbers of the deck, at one state of the last solution. The unit is
  * the unit of the column per unit of the number. The derivative of the state is exact; each column is differenced

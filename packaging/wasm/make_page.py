@@ -71,8 +71,8 @@ parts = {
     "DECKS": in_script(json.dumps(decks(), ensure_ascii=False)),
     "PROGRAM": program,
     # one script: a worker of a page without a server loads no other
-    "WORKER": re.sub(r"(?m)^export ", "", source("wasi.mjs")) + source("worker.js"),
-    "SCRIPT": source("page.js") + source("workbench.js") + source("start.js"),
+    "WORKER": re.sub(r"(?m)^export ", "", source("wasi.mjs")) + source("library.js") + source("worker.js"),
+    "SCRIPT": "".join(source(f"{name}.js") for name in ("page", "deck", "workbench", "views", "tables", "curves", "ask", "start")),
 }
 page = re.sub(r"@([A-Z]+)@", lambda found: parts[found.group(1)], source("page.html"))
 size = len(page.encode())

@@ -13,7 +13,7 @@ module ek_c_results
    implicit none(type, external)
    private
    public :: ek_solve, ek_row_count, ek_column_count, ek_column_name, ek_column_unit, ek_column_title, ek_column_sign, ek_values, &
-      ek_column_values, ek_remark_count, ek_remark_text, ek_remark_severity, ek_compliance, ek_derivatives
+      ek_column_values, ek_remark_count, ek_remark_text, ek_remark_severity, ek_compliance, ek_derivatives, take_solution
 
    character(*), parameter :: no_solution = 'there is no solution'
 

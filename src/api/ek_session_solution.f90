@@ -234,7 +234,7 @@ contains
       end if
       if (is_other) call fail(error, exit_usage, &
          'numbers were changed after the last solution, and key numbers or messages on the model were requested with them: '// &
-         'solve again before the compliance matrix or derivatives are requested')
+         'solve again before the compliance matrix, poses or derivatives are requested')
    end subroutine refuse_other_numbers
 
    !> Computes the compliance matrix at the wheel centres in one row of the last solution: displacements x y z [m] and rotations

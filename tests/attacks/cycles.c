@@ -38,6 +38,7 @@ static void cycle(const char *deck, const char *name, double *values, int room) 
   require(n > 0 && n <= room && ek_values(model, n, values) == EK_OK, "values", model);
   for (k = 0; k < ek_column_count(model); k++) require(ek_column_name(model, k) && ek_column_unit(model, k), "column", model);
   require(ek_compliance(model, 0, 36 * ek_wheel_count(model) * ek_wheel_count(model), values) == EK_OK, "compliance", model);
+  require(ek_body_name(model, 0) && ek_poses(model, 0, 12 * ek_body_count(model), values) == EK_OK, "poses", model);
   number = ek_parameter_path(model, 0);
   column = ek_column_name(model, 2);
   require(ek_derivatives(model, 0, 1, &column, 1, &number, &value, NULL) != EK_FILE, "derivatives", model);

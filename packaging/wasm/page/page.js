@@ -40,17 +40,23 @@ class Program {
   }
 
   // files: [path, content] pairs; resolves to the result (worker.js), or to null if it was stopped
-  async run(words, files) {
+  run(words, files) { return this.ask({ words, files: onDisk(files) }); }
+
+  // A case solved in the instance that the worker keeps (`solve` of worker.js); null if it was stopped
+  solve(asked) { return this.ask({ solve: { ...asked, files: onDisk(asked.files) } }); }
+
+  async ask(question) {
     await this.ready;
     const id = ++this.count;
     return new Promise((resolve) => {
       this.waiting.set(id, resolve);
-      this.worker.postMessage({ id, words, files: files.map(([path, content]) => [absolute(path), content]) });
+      this.worker.postMessage({ id, ...question });
     });
   }
 }
 
 const absolute = (path) => path.startsWith("/") ? path : `/${path}`;
+const onDisk = (list) => list.map(([path, content]) => [absolute(path), content]);
 const relative = (path) => path.replace(/^\//, "");
 
 // The words of a command line; quotes keep blanks.

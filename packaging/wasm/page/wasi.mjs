@@ -332,21 +332,26 @@ function systemOf(disk, words, environment, say) {
   return { system, attach(instance) { memory = instance.exports.memory; } };
 }
 
+// An instance of the compiled program with the files of `disk`. `say(stream, bytes)` receives what it prints.
+export async function makeInstance(module, words, disk, environment, say) {
+  const { system, attach } = systemOf(disk, ["elastokin", ...words], { PWD: "/", ...environment }, say), imported = {};
+  for (const { module: from, name } of WebAssembly.Module.imports(module)) {
+    (imported[from] ??= {})[name] = system[name] ?? (() => errors.notSupported);
+  }
+  const instance = await WebAssembly.instantiate(module, imported);
+  attach(instance);
+  return instance.exports;
+}
+
 // Runs one command line: resolves to { status, output, messages, trap }. The files are those of `disk`, before and after. `trap`
 // is null, or the reason why WebAssembly stopped the program; then status is 70.
 export async function runCommand(module, words, disk, environment = {}) {
   const streams = ["", "", ""], decoders = [0, 1, 2].map(() => new TextDecoder());
-  const { system, attach } = systemOf(disk, ["elastokin", ...words], { PWD: "/", ...environment },
-    (stream, part) => { streams[stream] += decoders[stream].decode(part, { stream: true }); });
-  const imported = {};
-  for (const { module: from, name } of WebAssembly.Module.imports(module)) {
-    (imported[from] ??= {})[name] = system[name] ?? (() => errors.notSupported);
-  }
   let status = 0, trap = null;
   try {
-    const instance = await WebAssembly.instantiate(module, imported);
-    attach(instance);
-    instance.exports._start();
+    const program = await makeInstance(module, words, disk, environment,
+      (stream, part) => { streams[stream] += decoders[stream].decode(part, { stream: true }); });
+    program._start();
   } catch (error) {
     if (error instanceof Exit) status = error.status;
     else {

@@ -1,5 +1,6 @@
-// The worker of elastokin.html, behind wasi.mjs: compiles the program once and runs command lines, one after the other.
-let program;
+// The worker of elastokin.html, behind wasi.mjs and library.js: compiles the program once, runs command lines, and solves cases of
+// a model that it keeps open.
+let program, library = null, opened = {}, openings = 0;
 
 async function unpack(text) {
   const packed = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
@@ -22,14 +23,73 @@ async function run({ words, files }) {
   return { ...result, written };
 }
 
+// Opens the model unless only numbers differ from the document that was opened last: `frame` is the document without these numbers.
+// Answers with the message of an error, or null.
+async function openModel({ files, deck, frame, numbers }) {
+  library ??= await Library.start(await program);
+  if (opened.frame === frame && opened.deck === deck) {
+    const status = library.set(numbers, opened.numbers);
+    if (status === success) return null;
+    if (status !== wrongUse) return library.message();
+  }
+  opened = {};
+  openings++;
+  if (library.open(files, deck) !== success) return library.message();
+  const cases = library.list("case", ["name", "is_of_deck"]).filter(([, isOfDeck]) => isOfDeck === 1).map(([name]) => name);
+  opened = { frame, deck, numbers: new Map(numbers), cases, isNew: true };
+  if (opened.numbers.size < numbers.length) opened.frame = null;       // a path with two numbers: each change opens the model
+  return null;
+}
+
+// Solves a case: { columns: name -> numbers, or null, poses of each row, names of the bodies, status, messages, trap, duration
+// [ms], bytes of memory, openings }, and for a model that was opened { units, keyNumbers }. A test that the deck does not have is
+// solved by the command line, because its range follows from the numbers; it has no poses.
+async function solve({ solve: asked }) {
+  const start = performance.now(), { deck, test, increments, columns } = asked;
+  let messages = await openModel(asked), found = null, status = wrongUse, poses = null;
+  if (messages === null && opened.cases.includes(test)) {
+    ({ status, columns: found = null, poses } = library.solve(test, increments, columns));
+    messages = library.message();
+  } else if (messages === null) {
+    const words = ["run", deck, "--case", test, "--increments", String(increments), "--quiet", "--out", "/curves"];
+    const result = await run({ words: columns.length > 0 ? [...words, "--columns", columns.join(",")] : words, files: asked.files });
+    if (result.trap) return { ...result, columns: null };
+    ({ status, messages } = result);
+    found = columnsOf(result.written);
+  }
+  const lists = opened.isNew ? { units: unitsOf(asked.numbers), keyNumbers: library.list("number", ["name"]).flat() } : {};
+  opened.isNew = false;
+  const { bodies, bytes } = library, duration = performance.now() - start;
+  return { columns: found, poses, bodies, status, messages, trap: null, duration, bytes, openings, ...lists };
+}
+
+// [path, unit] of the numbers that the program lists. On a mirrored axle the program lists each side, with the name of the side
+function unitsOf(numbers) {
+  const listed = new Map(library.list("parameter", ["path", "unit"]));
+  const unitOf = (path) => listed.get(path) ?? listed.get(path.replace(".", ".left_"));
+  return numbers.map(([path]) => [path, unitOf(path)]).filter(([, unit]) => unit !== undefined);
+}
+
+// The columns of the first table among files
+function columnsOf(written) {
+  const table = written.find(([path]) => /\.csv$/.test(path)), columns = {};
+  if (!table) return null;
+  const lines = new TextDecoder().decode(table[1]).split("\n").filter((line) => line !== "" && !line.startsWith("#"));
+  const rows = lines.map((line) => line.split(","));
+  rows[0].forEach((name, k) => { columns[name] = rows.slice(1).map((row) => row[k] === "" ? NaN : Number(row[k])); });
+  return columns;
+}
+
 addEventListener("message", async ({ data }) => {
   if (data.program) {
     program = unpack(data.program).then((bytes) => WebAssembly.compile(bytes));
     program.then(() => postMessage({ ready: true }), (error) => postMessage({ failure: String(error.message ?? error) }));
     return;
   }
-  const answer = await run(data).catch((error) => {
-    return { status: 70, output: "", messages: "", trap: String(error.message ?? error), written: [] };
+  const answer = await (data.solve ? solve(data) : run(data)).catch((error) => {
+    if (data.solve) library = null;       // the instance is lost: the next solution begins in a new one
+    opened = {};
+    return { status: 70, output: "", messages: "", trap: String(error.message ?? error), written: [], columns: null };
   });
-  postMessage({ id: data.id, ...answer }, answer.written.map(([, content]) => content.buffer));
+  postMessage({ id: data.id, ...answer }, (answer.written ?? []).map(([, content]) => content.buffer));
 });
