@@ -12,7 +12,7 @@ module ek_listed_files
    use ek_console, only: print_note
    implicit none(type, external)
    private
-   public :: renew_file_list, check_listed
+   public :: renew_file_list, check_listed, is_among
 
 contains
 
@@ -108,6 +108,7 @@ contains
       if (is_inside) is_inside = scan(name(first:), '/\') == 0 .and. name(first:first) /= '.'
    end function is_inside
 
+   !> Whether a name is in a list.
    pure logical function is_among(name, files)
       character(*), intent(in) :: name
       type(message_list_t), intent(in) :: files

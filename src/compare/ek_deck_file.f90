@@ -2,12 +2,12 @@
 !> report was made (deck, settings, checksum). Rows of kind `value` contain the values of the deck by their paths.
 module ek_deck_file
    use ek_error, only: error_t, message_list_t
-   use ek_file, only: write_whole, file_exists
+   use ek_file, only: file_exists
    use ek_table, only: table_t
    use ek_text_table, only: text_table_t, new_text_table, add_row, text_table_csv, read_text_table, cell_of
    implicit none(type, external)
    private
-   public :: deck_record_t, write_deck_file, read_deck_file, facts_of_table
+   public :: deck_record_t, deck_csv, read_deck_file, facts_of_table
 
    character(*), parameter :: fact = 'fact', value = 'value'
    !> Facts of the page that deck.csv omits: the report contains them elsewhere, or no result depends on them.
@@ -21,12 +21,11 @@ module ek_deck_file
 
 contains
 
-   !> Writes deck.csv: the facts and the values of the deck.
-   subroutine write_deck_file(path, names, facts, paths, texts, error)
-      character(*), intent(in) :: path
+   !> deck.csv: the facts and the values of the deck.
+   function deck_csv(names, facts, paths, texts) result(csv)
       type(message_list_t), intent(in) :: names, facts     !! facts at the top of the page
       type(message_list_t), intent(in) :: paths, texts     !! values of the deck by their paths (ek_deck_values)
-      type(error_t), allocatable, intent(out) :: error
+      character(:), allocatable :: csv
       type(text_table_t) :: table
       integer :: k
 
@@ -37,7 +36,7 @@ contains
       do k = 1, paths%count()
          call add(value, paths%line(k), texts%line(k))
       end do
-      call write_whole(path, text_table_csv(table), error)
+      csv = text_table_csv(table)
 
    contains
 
@@ -50,7 +49,7 @@ contains
          table%cells(3, table%rows)%text = text
       end subroutine add
 
-   end subroutine write_deck_file
+   end function deck_csv
 
    !> Reads deck.csv. Without the file, the record is empty and is_known is .false.; this is not an error, because reports of
    !> earlier versions do not have the file.

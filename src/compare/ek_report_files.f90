@@ -4,7 +4,7 @@ module ek_report_files
    use ek_kinds, only: wp
    use ek_error, only: error_t, fail, exit_file
    use ek_text, only: str, quoted, lower
-   use ek_file, only: write_whole, join_path, base_name, file_exists, folder_exists
+   use ek_file, only: join_path, base_name, file_exists, folder_exists
    use ek_table, only: read_csv, name_length
    use ek_decimal, only: get_decimal
    use ek_gnuplot_text, only: one_line
@@ -16,7 +16,7 @@ module ek_report_files
    use ek_deck_file, only: deck_record_t, read_deck_file, facts_of_table
    implicit none(type, external)
    private
-   public :: results_t, read_results, read_test, write_contents, test_line, name_files, table_file, envelope_file, &
+   public :: results_t, read_results, read_test, contents_csv, test_line, name_files, table_file, envelope_file, &
       test_number
 
    character(*), parameter :: mark = 'test ', size_mark = 'factor size ', anti_mark = '(anti phase)'
@@ -84,11 +84,10 @@ contains
       end do
    end function envelope_file
 
-   !> Writes tests.csv: the tests of a report that were run, and the files of their tables.
-   subroutine write_contents(tests, path, error)
+   !> tests.csv: the tests of a report that were run, and the files of their tables.
+   pure function contents_csv(tests) result(text)
       type(test_result_t), intent(in) :: tests(:)
-      character(*), intent(in) :: path
-      type(error_t), allocatable, intent(out) :: error
+      character(:), allocatable :: text
       type(text_table_t) :: table
       integer :: k
 
@@ -101,8 +100,8 @@ contains
          table%cells(3, table%rows)%text = tests(k)%title
          table%cells(4, table%rows)%text = tests(k)%file
       end do
-      call write_whole(path, text_table_csv(table), error)
-   end subroutine write_contents
+      text = text_table_csv(table)
+   end function contents_csv
 
    !> Reads a report folder, or one CSV file. The gradients of a CSV file are computed. All files listed in the contents of a folder
    !> must be in the folder itself.

@@ -1,9 +1,7 @@
 !> key_numbers.csv and key_numbers.json: the key numbers of a report for programs, one row per name.
 module ek_key_number_table
    use ek_kinds, only: wp
-   use ek_error, only: error_t
    use ek_decimal, only: decimal
-   use ek_file, only: write_whole
    use ek_json, only: json_t, json_string, json_number
    use ek_table, only: name_length
    use ek_text_table, only: text_table_t, new_text_table, add_row, text_table_csv
@@ -11,25 +9,13 @@ module ek_key_number_table
    use ek_key_numbers, only: number_heads
    implicit none(type, external)
    private
-   public :: write_key_numbers, key_numbers_csv, key_numbers_json
+   public :: key_numbers_csv, key_numbers_json
 
    character(*), parameter :: columns(8) = [character(10) :: 'name', 'value', 'unit', 'side', 'group', 'quantity', 'condition', &
       'definition']
    character(*), parameter :: sides(2) = [character(5) :: 'left', 'right']
 
 contains
-
-   !> Writes key_numbers.csv and key_numbers.json.
-   subroutine write_key_numbers(numbers, is_pair, model, checksum, csv_path, json_path, error)
-      type(key_number_t), intent(in) :: numbers(:)
-      logical, intent(in) :: is_pair                   !! the model has two wheels
-      character(*), intent(in) :: model, checksum, csv_path, json_path
-      type(error_t), allocatable, intent(out) :: error
-
-      call write_whole(csv_path, key_numbers_csv(numbers, is_pair), error)
-      if (allocated(error)) return
-      call write_whole(json_path, key_numbers_json(numbers, is_pair, model, checksum), error)
-   end subroutine write_key_numbers
 
    !> The key numbers as CSV, one line per name; `nan` for a missing value.
    function key_numbers_csv(numbers, is_pair) result(text)

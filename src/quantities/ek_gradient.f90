@@ -24,13 +24,12 @@ module ek_gradient
    use ek_gradient_definition, only: definition_t, definitions_of, windows_t, window_of
    use ek_error, only: error_t, fail, exit_file
    use ek_decimal, only: decimal, get_decimal
-   use ek_file, only: write_whole
    use ek_json, only: json_t, json_string, json_number, json_numbers
    use ek_text_table, only: text_table_t, new_text_table, add_row, text_table_csv, read_text_table, cell_of
    implicit none(type, external)
    private
    public :: gradient_t, test_gradients, fit_slope, slope_note, slope_over_window, gradient_noise
-   public :: gradients_csv, gradients_json, write_gradients, read_gradients
+   public :: gradients_csv, gradients_json, read_gradients
 
    integer, parameter :: min_points = 3     !! fewer points do not define a fit
 
@@ -219,17 +218,6 @@ contains
       spread = sum((x - mean(1))**2, mask=is_inside)
       slope = sum((x - mean(1))*(y - mean(2)), mask=is_inside)/spread
    end subroutine slope_over_window
-
-   !> Writes gradients.csv and gradients.json. Each value has its window, unit and sign convention.
-   subroutine write_gradients(gradients, model, checksum, csv_path, json_path, error)
-      type(gradient_t), intent(in) :: gradients(:)
-      character(*), intent(in) :: model, checksum, csv_path, json_path
-      type(error_t), allocatable, intent(out) :: error
-
-      call write_whole(csv_path, gradients_csv(gradients), error)
-      if (allocated(error)) return
-      call write_whole(json_path, gradients_json(gradients, model, checksum), error)
-   end subroutine write_gradients
 
    !> The gradients as CSV, one line per gradient; `nan` for a missing value.
    pure function gradients_csv(gradients) result(text)

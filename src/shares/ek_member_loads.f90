@@ -284,10 +284,11 @@ contains
       end associate
    end function own_force
 
-   !> Writes the peak of every component at every end, with its test and state, as comma-separated values.
-   subroutine peak_loads(record, buffer)
+   !> The peak of every component at every end, with its test and state, as comma-separated values.
+   function peak_loads(record) result(text)
       type(load_record_t), intent(in) :: record
-      type(buffer_t), intent(out) :: buffer
+      character(:), allocatable :: text
+      type(buffer_t) :: buffer
       integer :: e, i
 
       call buffer%line('element,hardpoint,body,component,value,unit,test,state,factor')
@@ -312,6 +313,7 @@ contains
             call buffer%add(nl)
          end do
       end do
-   end subroutine peak_loads
+      text = buffer%text()
+   end function peak_loads
 
 end module ek_member_loads
