@@ -100,18 +100,27 @@ contains
       end do
    end subroutine remove
 
-   !> Writes a gnuplot script that draws NAME.png and NAME.svg at the next call of `draw`. A failure is a failure to draw.
-   subroutine add_script(self, name, text)
+   !> Writes a gnuplot script that draws NAME.png and NAME.svg, or other pictures, at the next call of `draw`. A failure is a failure
+   !> to draw.
+   subroutine add_script(self, name, text, pictures)
       class(outbox_t), intent(inout) :: self
       character(*), intent(in) :: name, text                !! name: without extension
+      type(message_list_t), intent(in), optional :: pictures     !! paths relative to the folder
+      integer :: k
 
       if (self%has_failed() .or. allocated(self%undrawn)) return
       call write_whole(join_path(self%folder, name//'.gp'), text, self%undrawn, can_be_redrawn=.true.)
       if (allocated(self%undrawn)) return
       call list_once(self%files, name//'.gp')
       call self%scripts%add(name//'.gp')
-      call self%pictures%add(name//'.png')
-      call self%pictures%add(name//'.svg')
+      if (present(pictures)) then
+         do k = 1, pictures%count()
+            call self%pictures%add(pictures%line(k))
+         end do
+      else
+         call self%pictures%add(name//'.png')
+         call self%pictures%add(name//'.svg')
+      end if
    end subroutine add_script
 
    !> Runs gnuplot on the scripts added since the last call. Prints a note if gnuplot is not installed.
