@@ -22,7 +22,8 @@ module ek_derivatives_command
    use ek_command_line, only: command_line_t
    use ek_load_deck, only: deck_settings_t, read_deck_settings, load_session, spare_results
    use ek_run_columns, only: choose_columns
-   use ek_console, only: print_note, print_path, print_remarks, print_text
+   use ek_outbox, only: outbox_t, outbox_in
+   use ek_console, only: print_note, print_remarks, print_text
    implicit none(type, external)
    private
    public :: derive
@@ -248,9 +249,9 @@ contains
       type(workspace_t), intent(in) :: workspace
       type(derivatives_t), intent(in) :: found
       type(error_t), allocatable, intent(out) :: error
-      type(error_t), allocatable :: unprinted
+      type(outbox_t) :: box
       type(buffer_t) :: list
-      character(:), allocatable :: path
+      character(:), allocatable :: name
       integer :: c, s
 
       if (settings%out == '-') then
@@ -258,12 +259,13 @@ contains
          return
       end if
       associate (result => workspace%cases(found%case)%result)
-         path = join_path(settings%out, result%suspension%name//'_'//result%case%name//'_derivatives.csv')
+         box = outbox_in(settings%out)
+         name = result%suspension%name//'_'//result%case%name//'_derivatives.csv'
          call make_folder(settings%out, error)
-         if (.not. allocated(error)) call write_csv(found, path, error)
+         if (.not. allocated(error)) call write_csv(found, join_path(settings%out, name), error)
          if (allocated(error)) return
-         call print_path(path, unprinted)
-         if (allocated(unprinted)) call move_alloc(unprinted, error)
+         call box%announce(name)
+         call box%finish(error)
          if (allocated(error) .or. .not. line%has('--of') .or. size(found%columns) > max_columns) return
          do s = 1, size(found%states)
             do c = 1, size(found%columns)

@@ -3,14 +3,12 @@
 module ek_fit_files
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
-   use ek_error, only: error_t, message_list_t
+   use ek_error, only: error_t
    use ek_text, only: str
    use ek_decimal, only: decimal
    use ek_buffer, only: buffer_t
-   use ek_file, only: join_path, write_whole
    use ek_version, only: version
    use ek_workspace, only: workspace_t
-   use ek_drawing, only: run_gnuplot
    use ek_gnuplot_text, only: gnuplot_text, gnuplot_comment
    use ek_parameter, only: choice_t, parameter_path
    use ek_study, only: is_given
@@ -18,7 +16,7 @@ module ek_fit_files
    use ek_fit_problem, only: fit_problem_t
    use ek_fit_solver, only: fit_result_t, difference_of
    use ek_fit_statistics, only: fit_statistics_t
-   use ek_console, only: print_path
+   use ek_outbox, only: outbox_t, outbox_in
    implicit none(type, external)
    private
    public :: write_fit_files, changed_numbers, note_of
@@ -30,7 +28,7 @@ module ek_fit_files
 contains
 
    !> Writes all files and prints their paths. Of the pictures, only the path of the PNG file is printed.
-   subroutine write_fit_files(fit, workspace, problem, found, statistics, out, draws, message, error)
+   subroutine write_fit_files(fit, workspace, problem, found, statistics, out, draws, is_quiet, error)
       type(fit_t), intent(in) :: fit
       type(workspace_t), intent(in) :: workspace          !! workspace with the numbers found
       type(fit_problem_t), intent(in) :: problem
@@ -38,35 +36,22 @@ contains
       type(fit_statistics_t), intent(in) :: statistics
       character(*), intent(in) :: out                      !! folder
       logical, intent(in) :: draws                         !! whether gnuplot is run
-      character(:), allocatable, intent(out) :: message    !! reason for a missing picture; '' otherwise
+      logical, intent(in) :: is_quiet
       type(error_t), allocatable, intent(out) :: error
-      type(error_t), allocatable :: unprinted
-      type(message_list_t) :: scripts, pictures
+      type(outbox_t) :: box
+      character(:), allocatable :: reason
 
-      message = ''
-      call write_one('_factors.csv', factors_csv(problem, found, statistics))
-      call write_one('_points.csv', points_csv(fit, workspace, problem, found))
-      call write_one('.set', settings(fit, workspace, problem))
-      call write_one('.gp', script(fit, workspace, problem))
-      if (draws .and. .not. allocated(error)) then
-         call scripts%add(fit%name//'.gp')
-         call pictures%add(fit%name//'.png')
-         call pictures%add(fit%name//'.svg')
-         call run_gnuplot(scripts, pictures, out, message, error)
-         if (message == '' .and. .not. allocated(error)) call print_path(join_path(out, fit%name//'.png'), unprinted)
+      box = outbox_in(out)
+      call box%put(fit%name//'_factors.csv', factors_csv(problem, found, statistics))
+      call box%put(fit%name//'_points.csv', points_csv(fit, workspace, problem, found))
+      call box%put(fit%name//'.set', settings(fit, workspace, problem))
+      call box%add_script(fit%name, script(fit, workspace, problem))
+      if (.not. allocated(box%undrawn)) call box%announce(fit%name//'.gp')
+      if (draws) then
+         call box%draw(is_quiet, reason)
+         if (reason == '') call box%announce(fit%name//'.png')
       end if
-      if (allocated(unprinted) .and. .not. allocated(error)) call move_alloc(unprinted, error)
-
-   contains
-
-      !> Writes one file and prints its path; does nothing after an error.
-      subroutine write_one(ending, text)
-         character(*), intent(in) :: ending, text
-         if (allocated(error)) return
-         call write_whole(join_path(out, fit%name//ending), text, error)
-         if (.not. allocated(error)) call print_path(join_path(out, fit%name//ending), unprinted)
-      end subroutine write_one
-
+      call box%finish(error)
    end subroutine write_fit_files
 
    !> The table of factors as CSV, one row per factor.
