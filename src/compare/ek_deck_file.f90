@@ -4,7 +4,8 @@ module ek_deck_file
    use ek_error, only: error_t, message_list_t
    use ek_file, only: file_exists
    use ek_table, only: table_t
-   use ek_text_table, only: text_table_t, new_text_table, add_row, text_table_csv, read_text_table, cell_of
+   use ek_frame, only: frame_t, new_frame
+   use ek_text_table, only: text_table_t, read_text_table, cell_of
    implicit none(type, external)
    private
    public :: deck_record_t, deck_csv, read_deck_file, facts_of_table
@@ -26,29 +27,22 @@ contains
       type(message_list_t), intent(in) :: names, facts     !! facts at the top of the page
       type(message_list_t), intent(in) :: paths, texts     !! values of the deck by their paths (ek_deck_values)
       character(:), allocatable :: csv
-      type(text_table_t) :: table
+      type(frame_t) :: frame
       integer :: k
 
-      table = new_text_table([character(5) :: 'kind', 'path', 'value'])
+      frame = new_frame('kind,path,value')
       do k = 1, names%count()
-         if (.not. any(not_kept == names%line(k))) call add(fact, names%line(k), facts%line(k))
+         if (any(not_kept == names%line(k))) cycle
+         call frame%put(fact)
+         call frame%put(names%line(k))
+         call frame%put(facts%line(k))
       end do
       do k = 1, paths%count()
-         call add(value, paths%line(k), texts%line(k))
+         call frame%put(value)
+         call frame%put(paths%line(k))
+         call frame%put(texts%line(k))
       end do
-      csv = text_table_csv(table)
-
-   contains
-
-      subroutine add(kind, name, text)
-         character(*), intent(in) :: kind, name, text
-
-         call add_row(table)
-         table%cells(1, table%rows)%text = kind
-         table%cells(2, table%rows)%text = name
-         table%cells(3, table%rows)%text = text
-      end subroutine add
-
+      csv = frame%csv()
    end function deck_csv
 
    !> Reads deck.csv. Without the file, the record is empty and is_known is .false.; this is not an error, because reports of

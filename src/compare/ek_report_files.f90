@@ -8,7 +8,8 @@ module ek_report_files
    use ek_table, only: read_csv, name_length
    use ek_decimal, only: get_decimal
    use ek_gnuplot_text, only: one_line
-   use ek_text_table, only: text_table_t, new_text_table, add_row, text_table_csv, read_text_table, cell_of
+   use ek_frame, only: frame_t, new_frame
+   use ek_text_table, only: text_table_t, read_text_table, cell_of
    use ek_test_result, only: test_result_t, find_wheels, choose_abscissa, read_frame_line
    use ek_gradient, only: gradient_t, test_gradients, read_gradients
    use ek_gradient_definition, only: windows_t
@@ -88,19 +89,18 @@ contains
    pure function contents_csv(tests) result(text)
       type(test_result_t), intent(in) :: tests(:)
       character(:), allocatable :: text
-      type(text_table_t) :: table
+      type(frame_t) :: frame
       integer :: k
 
-      table = new_text_table([character(8) :: 'test', 'kind', 'title', 'file'])
+      frame = new_frame('test,kind,title,file')
       do k = 1, size(tests)
          if (.not. tests(k)%is_run) cycle
-         call add_row(table)
-         table%cells(1, table%rows)%text = tests(k)%name
-         table%cells(2, table%rows)%text = tests(k)%kind
-         table%cells(3, table%rows)%text = tests(k)%title
-         table%cells(4, table%rows)%text = tests(k)%file
+         call frame%put(tests(k)%name)
+         call frame%put(tests(k)%kind)
+         call frame%put(tests(k)%title)
+         call frame%put(tests(k)%file)
       end do
-      text = text_table_csv(table)
+      text = frame%csv()
    end function contents_csv
 
    !> Reads a report folder, or one CSV file. The gradients of a CSV file are computed. All files listed in the contents of a folder
