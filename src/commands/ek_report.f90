@@ -120,7 +120,7 @@ contains
       end if
       call run_tests(settings%windows, workspace%suspension, chosen, found, checksum, page, box, incomplete)
       if (allocated(page%loads)) then
-         call box%put(loads_file, page%loads%text%text())
+         call box%put(loads_file, page%loads%rows%csv())
          call box%put(peaks_file, peak_loads(page%loads))
       end if
       call box%take(error)

@@ -109,7 +109,7 @@ contains
          end if
       end do
       if (.not. allocated(error) .and. allocated(loads)) then
-         call box%put(loads_file, loads%text%text())
+         call box%put(loads_file, loads%rows%csv())
          call box%put(peaks_file, peak_loads(loads))
          call box%take(error)
       end if
