@@ -291,17 +291,19 @@ contains
       frame = new_frame('state,factor,column,value,number,unit,at,derivative,error')
       do s = 1, size(found%states)
          do c = 1, size(found%columns)
+            call frame%put(found%states(s) - 1)
+            call frame%put(found%factor(s))
+            call frame%put(trim(found%columns(c)))
+            call frame%put(found%values(c, s))
+            call frame%hold()
             do p = 1, size(found%directions)
-               call frame%put(found%states(s) - 1)
-               call frame%put(found%factor(s))
-               call frame%put(trim(found%columns(c)))
-               call frame%put(found%values(c, s))
                call frame%put(found%directions(p)%path)
                call frame%put(found%directions(p)%unit)
                call frame%put([found%directions(p)%value, found%slopes(c, p, s), found%errors(c, p, s)])
                if (frame%length() > held) call pass()
                if (allocated(error)) return
             end do
+            call frame%release()
          end do
       end do
       call pass()

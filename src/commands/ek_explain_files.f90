@@ -61,27 +61,30 @@ contains
       real(wp), intent(in) :: factor                   !! swept value in the unit of the case
       type(contribution_table_t), intent(in) :: table
       type(explain_files_t), intent(inout) :: self
-      character(:), allocatable :: name
+      character(:), allocatable :: name, unit
       integer :: c, e
 
       do c = 1, size(table%values)
          name = trim(table%columns%names(table%columns%asked(c)))
-         do e = 1, size(table%row)
-            if (.not. abs(table%parts(c, e)) > 0.0_wp) cycle
-            associate (rows => self%share_rows)
-               call rows%put(self%case)
-               call rows%put(state)
-               call rows%put(factor)
-               call rows%put(name)
-               call rows%put(table%values(c))
+         unit = unit_text(unit_of(name))
+         associate (rows => self%share_rows)
+            call rows%put(self%case)
+            call rows%put(state)
+            call rows%put(factor)
+            call rows%put(name)
+            call rows%put(table%values(c))
+            call rows%hold()
+            do e = 1, size(table%row)
+               if (.not. abs(table%parts(c, e)) > 0.0_wp) cycle
                call rows%put(trim(table%row(e)%row))
                call rows%put(trim(table%row(e)%kind))
                call rows%put(trim(table%row(e)%part))
                call rows%put(table%parts(c, e))
-               call rows%put(unit_text(unit_of(name)))
+               call rows%put(unit)
                call rows%put(share_of(table%parts(c, e), table%values(c)))
-            end associate
-         end do
+            end do
+            call rows%release()
+         end associate
       end do
       call add_paths(suspension, self%case, state, factor, table, self%path_rows)
       call pass_rows(self)
@@ -111,6 +114,10 @@ contains
       real(wp) :: frame(3), energy
       integer :: j, k, elements, item, sort
 
+      call rows%put(case)
+      call rows%put(state)
+      call rows%put(factor)
+      call rows%hold()
       frame = deck_frame(suspension)
       elements = size(suspension%elements)
       do j = 1, size(table%energy, 1)
@@ -126,9 +133,6 @@ contains
                kind = suspension%joints(item)%kind
             end if
             energy = sum(table%energy(j, :), mask=table%shares%share%kind == sort .and. table%shares%share%item == item)
-            call rows%put(case)
-            call rows%put(state)
-            call rows%put(factor)
             call rows%put(load)
             call rows%put(name)
             call rows%put(kind)
@@ -137,6 +141,7 @@ contains
             call rows%put(energy)
          end do
       end do
+      call rows%release()
    end subroutine add_paths
 
    !> Ends both tables. The complete files then exist; after an error, no temporary file remains.

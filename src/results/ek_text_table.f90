@@ -6,7 +6,7 @@ module ek_text_table
    use ek_error, only: error_t, message_list_t, fail, exit_file
    use ek_text, only: str, quoted, plural
    use ek_buffer, only: buffer_t
-   use ek_frame, only: is_formula
+   use ek_frame, only: bare_cell
    use ek_file, only: read_whole
    use ek_letters, only: with_line_ends
    implicit none(type, external)
@@ -73,16 +73,6 @@ contains
          if (table%columns(k) == column) text = table%cells(k, row)%text
       end do
    end function cell_of
-
-   !> A cell as it was before it was written: without the blank that precedes a formula.
-   pure function bare_cell(cell) result(text)
-      character(*), intent(in) :: cell
-      character(:), allocatable :: text
-
-      text = cell
-      if (index(cell, ' ') /= 1) return
-      if (is_formula(cell(2:))) text = cell(2:)
-   end function bare_cell
 
    !> Reads a table from a CSV file, as written by ek_frame, also after a spreadsheet has saved it with semicolons or tabs.
    subroutine read_text_table(path, table, error)

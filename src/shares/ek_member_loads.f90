@@ -212,10 +212,11 @@ contains
          call inputs_at(schedule, path%value(k), inputs)
          call assemble(suspension, state, inputs, residual_only, kkt)
          call end_loads(suspension, state, kkt%gradients, record%ends, loads)
+         call record%rows%put(case%name)
+         call record%rows%put(k - 1)
+         call record%rows%put(path%value(k)/case%unit, 9)
+         call record%rows%hold()
          do e = 1, size(record%ends)
-            call record%rows%put(case%name)
-            call record%rows%put(k - 1)
-            call record%rows%put(path%value(k)/case%unit, 9)
             call record%rows%put(record%ends(e)%member)
             call record%rows%put(record%ends(e)%point)
             call record%rows%put(record%ends(e)%body)
@@ -224,6 +225,7 @@ contains
             call keep(e, k - 1, path%value(k)/case%unit, [loads(1:3, e), norm2(loads(1:3, e)), loads(4:6, e), &
                norm2(loads(4:6, e)), own])
          end do
+         call record%rows%release()
       end do
 
    contains
