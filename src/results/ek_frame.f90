@@ -181,7 +181,7 @@ contains
       end if
    end subroutine end_cell
 
-   !> Holds the cells of the incomplete row: they begin all following rows until `release`.
+   !> Moves the cells of the incomplete row to the beginning of all following rows, until `release`.
    pure subroutine hold(self)
       class(frame_t), intent(inout) :: self
 
