@@ -1,5 +1,5 @@
-!> The delivery of the files of a command: writes each file into one folder, prints its path and lists its name. Failures are stored,
-!> so that a command writes all its files and then asks once:
+!> The delivery of the files of a command: writes each file into one folder, prints its path and lists its name. Failures are
+!> stored, so that a command writes all its files and then asks once:
 !>
 !>     box%folder = settings%out
 !>     call box%put('bump.csv', table)
@@ -73,7 +73,7 @@ contains
       if (.not. self%has_failed()) call list_once(self%files, name)
    end subroutine write_file
 
-   !> Prints the path of a file to standard output and adds it to the log. A reader that closes the pipe (`| head`) is not a failure.
+   !> Prints the path of a file to standard output and adds it to the log. A reader that closes the pipe (`| head`) is no failure.
    subroutine announce(self, name)
       class(outbox_t), intent(inout) :: self
       character(*), intent(in) :: name
@@ -100,8 +100,8 @@ contains
       end do
    end subroutine remove
 
-   !> Writes a gnuplot script that draws NAME.png and NAME.svg, or other pictures, at the next call of `draw`. A failure is a failure
-   !> to draw.
+   !> Writes a gnuplot script that draws NAME.png and NAME.svg, or other pictures, at the next call of `draw`. A failure is a
+   !> failure to draw.
    subroutine add_script(self, name, text, pictures)
       class(outbox_t), intent(inout) :: self
       character(*), intent(in) :: name, text                !! name: without extension

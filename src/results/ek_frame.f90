@@ -9,8 +9,8 @@
 !> `hold` repeats the first cells of a row in all following rows. As CSV (RFC 4180), a frame has its header lines after `# `, a line
 !> of column names, and one line per row. Numbers have 15 significant digits; `nan` is a missing value. A cell of text is quoted if
 !> it contains a comma, a quote or a line end, or begins with #. A blank precedes text that a spreadsheet would read as a formula:
-!> text that begins with =, +, - or @. read_text_table (ek_text_table) removes this blank. As JSON, a frame is a list of objects, one
-!> per row.
+!> text that begins with =, +, - or @. read_text_table (ek_text_table) removes this blank. As JSON, a frame is a list of objects,
+!> one per row.
 module ek_frame
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
@@ -225,8 +225,8 @@ contains
       call self%rows%copy(1, text(k + 1:))
    end function csv
 
-   !> Takes the rows out of the frame as CSV; the first time, after the header and the column names. For a table that is written piece
-   !> by piece: every row is complete.
+   !> Takes the rows out of the frame as CSV; the first time, after the header and the column names. For a table that is written
+   !> piece by piece: every row is complete.
    pure subroutine next_csv(self, text)
       class(frame_t), intent(inout) :: self
       character(:), allocatable, intent(out) :: text
