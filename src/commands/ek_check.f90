@@ -6,6 +6,7 @@ module ek_check
    use ek_error, only: error_t, message_list_t, fail, exit_model
    use ek_text, only: str, quoted, plural
    use ek_buffer, only: buffer_t
+   use ek_outbox, only: keep_first
    use ek_console, only: print_text
    use ek_deck, only: deck_t
    use ek_deck_writer, only: write_deck_as_used
@@ -65,7 +66,7 @@ contains
          end if
          call print_text(findings%text(), unprinted)
       end if
-      if (allocated(unprinted) .and. .not. allocated(error)) call move_alloc(unprinted, error)
+      call keep_first(error, unprinted)
    end subroutine check
 
    !> Replaces the findings by the warnings and remarks among them, for --quiet.

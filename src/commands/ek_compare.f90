@@ -3,10 +3,10 @@ module ek_compare
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t, fail, exit_usage
    use ek_text, only: str, quoted
-   use ek_file, only: make_folder, write_whole, join_path
+   use ek_file, only: make_folder, join_path
    use ek_table, only: column_index, name_index, name_length
    use ek_chart, only: chart_t, charts_script, remove_drawn, pictures_of
-   use ek_drawing, only: run_gnuplot
+   use ek_outbox, only: outbox_t, outbox_in, keep_first
    use ek_report_files, only: results_t, read_results, test_number
    use ek_gradient_definition, only: windows_t
    use ek_command_line, only: command_line_t, refuse_stream, read_windows, read_threshold
@@ -17,12 +17,14 @@ module ek_compare
    use ek_deck_file, only: deck_record_t
    use ek_deck_difference, only: find_differences
    use ek_compare_targets, only: find_targets
-   use ek_compare_tables, only: write_tables
+   use ek_compare_tables, only: write_tables, gradient_table
    use ek_compare_text, only: text_of
    use ek_compare_page, only: page_of
    implicit none(type, external)
    private
    public :: compare
+
+   character(*), parameter :: page_name = 'compare.html'
 
 contains
 
@@ -32,8 +34,9 @@ contains
       type(error_t), allocatable, intent(out) :: error
       type(windows_t) :: windows             !! of gradients, if they are computed from CSV files
       class(comparison_t), allocatable :: this
-      type(error_t), allocatable :: undrawn, unprinted
-      character(:), allocatable :: message, path
+      type(error_t), allocatable :: unprinted
+      type(outbox_t) :: box, figures
+      character(:), allocatable :: reason
       integer :: k, l
       type(deck_record_t), allocatable :: decks(:)
       logical :: is_quiet, has_plots
@@ -87,22 +90,23 @@ contains
          call print_note(is_quiet, this%missing%line(k))
       end do
       call print_largest(is_quiet, this)
+      box = outbox_in(this%folder)
+      figures = outbox_in(join_path(this%folder, 'figures'))
       call write_tables(this, error)
       if (allocated(error)) return
       ! first without its pictures: the page then exists even if gnuplot fails or hangs
-      path = join_path(this%folder, 'compare.html')
-      message = ''
-      if (has_plots) message = 'gnuplot has not finished'
-      call write_whole(path, page_of(this, message), error)
+      reason = ''
+      if (has_plots) reason = 'gnuplot has not finished'
+      call box%write(page_name, page_of(this, reason))
+      call box%take(error)
       if (allocated(error)) return
-      call draw(has_plots, this%charts, this%folder, message, this%has_pictures, undrawn)
-      if (len(message) > 0) call print_note(is_quiet, message)
-      if (allocated(undrawn)) message = undrawn%message
-      call write_whole(path, page_of(this, message), error)
+      call draw(has_plots, is_quiet, this, figures, reason)
+      call box%write(page_name, page_of(this, reason))
+      call box%take(error)
       if (allocated(error)) return
-      call print_note(is_quiet, join_path(this%folder, 'differences.csv')//', '//path)
-      if (allocated(undrawn)) call move_alloc(undrawn, unprinted)
-      call move_alloc(unprinted, error)
+      call print_note(is_quiet, join_path(this%folder, gradient_table)//', '//join_path(this%folder, page_name))
+      call figures%finish(error)
+      call keep_first(error, unprinted)
    end subroutine compare
 
    !> Prints the largest changes to standard error, at most ten.
@@ -220,25 +224,20 @@ contains
    end function some_of
 
    !> Draws all charts in one run of gnuplot. If no charts are wanted, deletes the files of charts drawn earlier.
-   subroutine draw(is_wanted, charts, folder, message, is_drawn, error)
-      logical, intent(in) :: is_wanted
-      type(chart_t), intent(in) :: charts(:)
-      character(*), intent(in) :: folder
-      character(:), allocatable, intent(out) :: message    !! reason for missing charts; '' if drawn
-      logical, intent(out) :: is_drawn
-      type(error_t), allocatable, intent(out) :: error
-      type(message_list_t) :: scripts, pictures
+   subroutine draw(is_wanted, is_quiet, this, figures, reason)
+      logical, intent(in) :: is_wanted, is_quiet
+      type(comparison_t), intent(inout) :: this
+      type(outbox_t), intent(inout) :: figures
+      character(:), allocatable, intent(out) :: reason     !! reason for missing charts; '' if drawn
+      type(message_list_t) :: pictures
 
-      message = ''
-      is_drawn = .false.
-      if (.not. is_wanted) call remove_drawn(charts, folder)
-      if (.not. is_wanted .or. size(charts) == 0) return
-      call write_whole(join_path(folder, 'figures/compare.gp'), charts_script(charts), error, can_be_redrawn=.true.)
-      if (allocated(error)) return
-      call scripts%add('compare.gp')
-      call pictures_of(charts, pictures)
-      call run_gnuplot(scripts, pictures, join_path(folder, 'figures'), message, error)
-      is_drawn = .not. allocated(error) .and. len(message) == 0
+      reason = ''
+      if (.not. is_wanted) call remove_drawn(this%charts, this%folder)
+      if (.not. is_wanted .or. size(this%charts) == 0) return
+      call pictures_of(this%charts, pictures)
+      call figures%add_script('compare', charts_script(this%charts), pictures)
+      call figures%draw(is_quiet, reason)
+      this%has_pictures = len(reason) == 0
    end subroutine draw
 
 end module ek_compare

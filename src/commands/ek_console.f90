@@ -4,14 +4,13 @@ module ek_console
    use ek_error, only: error_t, message_list_t
    use ek_text, only: str, plural, printable
    use ek_file, only: is_terminal, write_standard_output, write_standard_error
-   use ek_table, only: table_t, write_csv
    use ek_remark, only: remark_t, remark_list_t, note, warning
    use ek_model_remark, only: model_remarks_t, doubt_mark
    use ek_run_log, only: log_message, log_output
    implicit none(type, external)
    private
-   public :: print_note, print_warning, print_error, print_text, print_path, print_model_remarks, print_remarks, &
-      write_table, show_progress, clear_progress
+   public :: print_note, print_warning, print_error, print_text, print_model_remarks, print_remarks, show_progress, &
+      clear_progress
 
 contains
 
@@ -49,31 +48,6 @@ contains
       call write_standard_output(printable(text), error)
       call log_output(printable(text))
    end subroutine print_text
-
-   !> Prints the path of a result to standard output. If standard output is full or closed, the work continues, because the result
-   !> exists. The first failure to print a path is stored. A reader that closes the pipe (`| head`) is not a failure.
-   subroutine print_path(path, unprinted)
-      character(*), intent(in) :: path
-      type(error_t), allocatable, intent(inout) :: unprinted      !! first failure to print a path (exit_file)
-      type(error_t), allocatable :: error
-
-      call log_output(path//new_line('a'))
-      if (allocated(unprinted)) return
-      call write_standard_output(path//new_line('a'), error)
-      if (.not. allocated(error)) return
-      if (len(error%message) > 0) call move_alloc(error, unprinted)
-   end subroutine print_path
-
-   !> Writes a table as CSV and prints the path of the file.
-   subroutine write_table(table, path, unprinted, error)
-      type(table_t), intent(in) :: table
-      character(*), intent(in) :: path
-      type(error_t), allocatable, intent(inout) :: unprinted    !! first failure to print a path (exit_file)
-      type(error_t), allocatable, intent(out) :: error          !! exit_file: the table is not written
-
-      call write_csv(table, path, error)
-      if (.not. allocated(error)) call print_path(path, unprinted)
-   end subroutine write_table
 
    !> Shows the progress '12 of 400 states' in a line that overwrites itself, if standard error is a terminal.
    subroutine show_progress(done, total)

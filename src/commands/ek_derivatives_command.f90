@@ -5,8 +5,9 @@ module ek_derivatives_command
    use ek_error, only: error_t, message_list_t, fail, exit_usage, exit_model
    use ek_noise, only: is_flat
    use ek_text, only: str, quoted, plural, suggestion
+   use ek_frame, only: frame_t, new_frame
    use ek_buffer, only: buffer_t
-   use ek_decimal, only: decimal, get_bounded, size_hint
+   use ek_decimal, only: get_bounded, size_hint
    use ek_file, only: make_folder, join_path, write_standard_output
    use ek_writer, only: writer_t, begin_file
    use ek_system, only: ask_memory
@@ -22,12 +23,12 @@ module ek_derivatives_command
    use ek_command_line, only: command_line_t
    use ek_load_deck, only: deck_settings_t, read_deck_settings, load_session, spare_results
    use ek_run_columns, only: choose_columns
-   use ek_console, only: print_note, print_path, print_remarks, print_text
+   use ek_outbox, only: outbox_t, outbox_in
+   use ek_console, only: print_note, print_remarks, print_text
    implicit none(type, external)
    private
    public :: derive
 
-   character(*), parameter :: nl = new_line('a')
    integer, parameter :: max_listed = 10      !! largest number of numbers listed for each column
    integer, parameter :: max_columns = 8      !! largest number of columns for which numbers are listed
 
@@ -248,9 +249,9 @@ contains
       type(workspace_t), intent(in) :: workspace
       type(derivatives_t), intent(in) :: found
       type(error_t), allocatable, intent(out) :: error
-      type(error_t), allocatable :: unprinted
+      type(outbox_t) :: box
       type(buffer_t) :: list
-      character(:), allocatable :: path
+      character(:), allocatable :: name
       integer :: c, s
 
       if (settings%out == '-') then
@@ -258,12 +259,13 @@ contains
          return
       end if
       associate (result => workspace%cases(found%case)%result)
-         path = join_path(settings%out, result%suspension%name//'_'//result%case%name//'_derivatives.csv')
+         box = outbox_in(settings%out)
+         name = result%suspension%name//'_'//result%case%name//'_derivatives.csv'
          call make_folder(settings%out, error)
-         if (.not. allocated(error)) call write_csv(found, path, error)
+         if (.not. allocated(error)) call write_csv(found, join_path(settings%out, name), error)
          if (allocated(error)) return
-         call print_path(path, unprinted)
-         if (allocated(unprinted)) call move_alloc(unprinted, error)
+         call box%announce(name)
+         call box%finish(error)
          if (allocated(error) .or. .not. line%has('--of') .or. size(found%columns) > max_columns) return
          do s = 1, size(found%states)
             do c = 1, size(found%columns)
@@ -281,36 +283,27 @@ contains
       type(error_t), allocatable, intent(out) :: error       !! exit_file
       integer, parameter :: held = 50000                     ! characters that are held before they are written
       type(writer_t) :: writer
-      type(buffer_t) :: csv
+      type(frame_t) :: frame
       integer :: c, p, s
 
       if (path /= '-') call begin_file(writer, path, error)
       if (allocated(error)) return
-      call csv%line('state,factor,column,value,number,unit,at,derivative,error')
+      frame = new_frame('state,factor,column,value,number,unit,at,derivative,error')
       do s = 1, size(found%states)
          do c = 1, size(found%columns)
+            call frame%put(found%states(s) - 1)
+            call frame%put(found%factor(s))
+            call frame%put(trim(found%columns(c)))
+            call frame%put(found%values(c, s))
+            call frame%hold()
             do p = 1, size(found%directions)
-               call csv%add(str(found%states(s) - 1))
-               call csv%add(',')
-               call csv%add(decimal(found%factor(s)))
-               call csv%add(',')
-               call csv%add(trim(found%columns(c)))
-               call csv%add(',')
-               call csv%add(decimal(found%values(c, s)))
-               call csv%add(',')
-               call csv%add(found%directions(p)%path)
-               call csv%add(',')
-               call csv%add(found%directions(p)%unit)
-               call csv%add(',')
-               call csv%add(decimal(found%directions(p)%value))
-               call csv%add(',')
-               call csv%add(decimal(found%slopes(c, p, s)))
-               call csv%add(',')
-               call csv%add(decimal(found%errors(c, p, s)))
-               call csv%add(nl)
-               if (csv%length() > held) call pass()
+               call frame%put(found%directions(p)%path)
+               call frame%put(found%directions(p)%unit)
+               call frame%put([found%directions(p)%value, found%slopes(c, p, s), found%errors(c, p, s)])
+               if (frame%length() > held) call pass()
                if (allocated(error)) return
             end do
+            call frame%release()
          end do
       end do
       call pass()
@@ -320,9 +313,11 @@ contains
 
       !> Writes the rows that are held.
       subroutine pass()
-         if (path == '-') call write_standard_output(csv%text(), error)
-         if (path /= '-') call writer%add(csv%text())
-         call csv%clear()
+         character(:), allocatable :: text
+
+         call frame%next_csv(text)
+         if (path == '-') call write_standard_output(text, error)
+         if (path /= '-') call writer%add(text)
       end subroutine pass
 
    end subroutine write_csv

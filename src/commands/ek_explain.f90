@@ -8,7 +8,7 @@ module ek_explain
    use ek_text, only: str, quoted, suggestion, is_like, plural
    use ek_decimal, only: get_bounded, size_hint
    use ek_buffer, only: buffer_t
-   use ek_file, only: make_folder, join_path, write_whole
+   use ek_file, only: make_folder, join_path
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t
    use ek_workspace, only: workspace_t, balance_or_explain
@@ -27,7 +27,8 @@ module ek_explain
    use ek_run_numbers, only: split_names
    use ek_table, only: name_length
    use ek_version, only: version
-   use ek_console, only: print_text, print_path, print_error, print_model_remarks, print_remarks, show_progress
+   use ek_outbox, only: outbox_t, outbox_in
+   use ek_console, only: print_text, print_error, print_model_remarks, print_remarks, show_progress
    use ek_quantity, only: unit_of, unit_text
    use ek_element, only: element_t
    use ek_element_part, only: is_part_of_angle
@@ -63,8 +64,9 @@ contains
       type(examination_t) :: found
       type(model_remarks_t) :: remarks
       type(explain_files_t) :: files
-      type(error_t), allocatable :: trouble, unprinted
-      character(:), allocatable :: checksum, path
+      type(error_t), allocatable :: trouble
+      type(outbox_t) :: box
+      character(:), allocatable :: checksum
       integer :: k
 
       call read_settings(line, settings, error)
@@ -81,10 +83,11 @@ contains
       if (allocated(error)) return
       call find_model_remarks(workspace%suspension, workspace%raw, workspace%deck_cases, chosen, .true., remarks)
       call print_model_remarks(settings%is_quiet, remarks)
+      box = outbox_in(settings%out)
       files%has_json = settings%has_json
       if (files%has_json) call begin_explain_json(workspace%suspension%name, checksum, files%json)
       do k = 1, size(chosen)
-         call explain_case(settings, workspace%suspension, chosen(k), found%faults%line(k), checksum, files, unprinted, trouble)
+         call explain_case(settings, workspace%suspension, chosen(k), found%faults%line(k), checksum, files, box, trouble)
          if (.not. allocated(trouble)) cycle
          if (allocated(error)) call print_error(error%message)
          call move_alloc(trouble, error)
@@ -92,12 +95,9 @@ contains
       end do
       if (files%has_json) then
          call end_explain_json(files%json)
-         path = join_path(settings%out, workspace%suspension%name//'_contributions.json')
-         call write_whole(path, files%json%text(), trouble)
-         if (.not. allocated(trouble)) call print_path(path, unprinted)
-         if (allocated(trouble) .and. .not. allocated(error)) call move_alloc(trouble, error)
+         call box%put(workspace%suspension%name//'_contributions.json', files%json%text())
       end if
-      if (allocated(unprinted) .and. .not. allocated(error)) call move_alloc(unprinted, error)
+      call box%finish(error)
    end subroutine explain
 
    subroutine read_settings(line, settings, error)
@@ -125,13 +125,13 @@ contains
    end subroutine read_settings
 
    !> Explains one case: solves the case, splits its compliances, and writes and prints the contributions.
-   subroutine explain_case(settings, base, wanted, fault, checksum, files, unprinted, error)
+   subroutine explain_case(settings, base, wanted, fault, checksum, files, box, error)
       type(settings_t), intent(in) :: settings
       type(suspension_t), intent(in) :: base
       type(case_t), intent(in) :: wanted
       character(*), intent(in) :: fault, checksum
       type(explain_files_t), intent(inout) :: files
-      type(error_t), allocatable, intent(inout) :: unprinted
+      type(outbox_t), intent(inout) :: box
       type(error_t), allocatable, intent(out) :: error
       type(error_t), allocatable :: trouble
       type(solve_options_t) :: options
@@ -157,9 +157,9 @@ contains
          do k = 1, settings%rigid%count()
             if (.not. allocated(trouble)) call find_laws(settings%rigid%line(k), table, laws, trouble)
          end do
-         name = join_path(settings%out, suspension%name//'_'//wanted%name)
-         if (.not. allocated(trouble)) call begin_explain_files(name, wanted%name, 'model '//suspension%name//', case '// &
-            wanted%name//', elastokin '//version//', deck checksum '//checksum, files, trouble)
+         name = suspension%name//'_'//wanted%name
+         if (.not. allocated(trouble)) call begin_explain_files(join_path(settings%out, name), wanted%name, 'model '// &
+            suspension%name//', case '//wanted%name//', elastokin '//version//', deck checksum '//checksum, files, trouble)
          if (.not. allocated(trouble)) then
             if (files%has_json) call begin_explain_case(wanted%name, case%unit_name, table, files%json)
             do k = 1, path%states
@@ -170,8 +170,8 @@ contains
             if (files%has_json) call end_explain_case(files%json)
             call end_explain_files(files, trouble)
          end if
-         if (.not. allocated(trouble)) call print_path(name//'_contributions.csv', unprinted)
-         if (.not. allocated(trouble)) call print_path(name//'_load_paths.csv', unprinted)
+         if (.not. allocated(trouble)) call box%announce(name//'_contributions.csv')
+         if (.not. allocated(trouble)) call box%announce(name//'_load_paths.csv')
          if (.not. allocated(trouble) .and. printed > 0) call print_state(settings, result, printed, table, trouble)
       end associate
       if (allocated(trouble)) call move_alloc(trouble, error)

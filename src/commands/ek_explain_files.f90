@@ -4,8 +4,7 @@ module ek_explain_files
    use ek_kinds, only: wp
    use ek_error, only: error_t
    use ek_text, only: str
-   use ek_decimal, only: decimal
-   use ek_buffer, only: buffer_t
+   use ek_frame, only: frame_t, new_frame
    use ek_json, only: json_t, json_string, json_number, json_numbers
    use ek_quantity, only: unit_of, unit_text
    use ek_suspension, only: suspension_t
@@ -20,11 +19,11 @@ module ek_explain_files
    public :: explain_files_t, begin_explain_files, add_explain_state, end_explain_files, begin_explain_json, begin_explain_case, &
       end_explain_case, end_explain_json
 
-   character(*), parameter :: nl = new_line('a')
    character(1), parameter :: axes(3) = ['x', 'y', 'z']
 
    type :: explain_files_t
       type(writer_t) :: shares, paths
+      type(frame_t) :: share_rows, path_rows       !! rows that are not written yet
       character(:), allocatable :: case
       logical :: has_json = .false.
       type(json_t) :: json                   !! object with the contributions of all cases
@@ -45,13 +44,14 @@ contains
       call begin_file(self%paths, name//'_load_paths.csv', error)
       if (allocated(error)) call self%shares%abandon()
       if (allocated(error)) return
-      call self%shares%add('# '//header//nl// &
-         '# the values of a column and state add up to column_value; rows of 0 are omitted'//nl// &
-         'case,state,factor,column,column_value,row,kind,part,value,unit,share'//nl)
-      call self%paths%add('# '//header//nl// &
-         '# per newton at a contact point: on the second body, at its point, frame of the deck'//nl// &
-         'case,state,factor,load,row,kind,fx_n_per_n,fy_n_per_n,fz_n_per_n,mx_nm_per_n,my_nm_per_n,mz_nm_per_n,'// &
-         'energy_share'//nl)
+      self%share_rows = new_frame('case,state,factor,column,column_value,row,kind,part,value,unit,share')
+      call self%share_rows%header%add(header)
+      call self%share_rows%header%add('the values of a column and state add up to column_value; rows of 0 are omitted')
+      self%path_rows = new_frame('case,state,factor,load,row,kind,fx_n_per_n,fy_n_per_n,fz_n_per_n,mx_nm_per_n,my_nm_per_n,'// &
+         'mz_nm_per_n,energy_share')
+      call self%path_rows%header%add(header)
+      call self%path_rows%header%add('per newton at a contact point: on the second body, at its point, frame of the deck')
+      call pass_rows(self)
    end subroutine begin_explain_files
 
    !> Adds a state to the tables, and to the JSON object.
@@ -61,41 +61,63 @@ contains
       real(wp), intent(in) :: factor                   !! swept value in the unit of the case
       type(contribution_table_t), intent(in) :: table
       type(explain_files_t), intent(inout) :: self
-      type(buffer_t) :: lines
-      character(:), allocatable :: place, head, unit
+      character(:), allocatable :: name, unit
       integer :: c, e
 
-      place = self%case//','//str(state)//','//decimal(factor)//','
       do c = 1, size(table%values)
-         head = trim(table%columns%names(table%columns%asked(c)))
-         unit = unit_text(unit_of(head))
-         head = place//head//','//decimal(table%values(c))//','
-         do e = 1, size(table%row)
-            if (.not. abs(table%parts(c, e)) > 0.0_wp) cycle
-            call lines%add(head)
-            call lines%add(trim(table%row(e)%row)//','//trim(table%row(e)%kind)//','//trim(table%row(e)%part)//',')
-            call lines%add(decimal(table%parts(c, e)))
-            call lines%add(','//unit//',')
-            call lines%line(decimal(share_of(table%parts(c, e), table%values(c))))
-         end do
+         name = trim(table%columns%names(table%columns%asked(c)))
+         unit = unit_text(unit_of(name))
+         associate (rows => self%share_rows)
+            call rows%put(self%case)
+            call rows%put(state)
+            call rows%put(factor)
+            call rows%put(name)
+            call rows%put(table%values(c))
+            call rows%hold()
+            do e = 1, size(table%row)
+               if (.not. abs(table%parts(c, e)) > 0.0_wp) cycle
+               call rows%put(trim(table%row(e)%row))
+               call rows%put(trim(table%row(e)%kind))
+               call rows%put(trim(table%row(e)%part))
+               call rows%put(table%parts(c, e))
+               call rows%put(unit)
+               call rows%put(share_of(table%parts(c, e), table%values(c)))
+            end do
+            call rows%release()
+         end associate
       end do
-      call self%shares%add(lines%text())
-      call lines%clear()
-      call add_paths(suspension, place, table, lines)
-      call self%paths%add(lines%text())
+      call add_paths(suspension, self%case, state, factor, table, self%path_rows)
+      call pass_rows(self)
       if (self%has_json) call add_json_state(state, factor, table, self%json)
    end subroutine add_explain_state
 
-   !> Adds the load paths of a state as lines.
-   subroutine add_paths(suspension, place, table, lines)
+   !> Writes the rows that were added since the last call.
+   subroutine pass_rows(self)
+      type(explain_files_t), intent(inout) :: self
+      character(:), allocatable :: text
+
+      call self%share_rows%next_csv(text)
+      call self%shares%add(text)
+      call self%path_rows%next_csv(text)
+      call self%paths%add(text)
+   end subroutine pass_rows
+
+   !> Adds the load paths of a state as rows.
+   subroutine add_paths(suspension, case, state, factor, table, rows)
       type(suspension_t), intent(in) :: suspension
-      character(*), intent(in) :: place
+      character(*), intent(in) :: case
+      integer, intent(in) :: state
+      real(wp), intent(in) :: factor                   !! swept value in the unit of the case
       type(contribution_table_t), intent(in) :: table
-      type(buffer_t), intent(inout) :: lines
+      type(frame_t), intent(inout) :: rows
       character(:), allocatable :: load, name, kind
       real(wp) :: frame(3), energy
-      integer :: j, k, x, elements, item, sort
+      integer :: j, k, elements, item, sort
 
+      call rows%put(case)
+      call rows%put(state)
+      call rows%put(factor)
+      call rows%hold()
       frame = deck_frame(suspension)
       elements = size(suspension%elements)
       do j = 1, size(table%energy, 1)
@@ -110,20 +132,16 @@ contains
                name = suspension%joints(item)%name
                kind = suspension%joints(item)%kind
             end if
-            call lines%add(place)
-            call lines%add(load//','//name//','//kind//',')
-            do x = 1, 3
-               call lines%add(decimal(frame(x)*frame(mod(j - 1, 3) + 1)*table%paths%force(x, j, k)))
-               call lines%add(',')
-            end do
-            do x = 1, 3
-               call lines%add(decimal(frame(x)*frame(mod(j - 1, 3) + 1)*table%paths%moment(x, j, k)))
-               call lines%add(',')
-            end do
             energy = sum(table%energy(j, :), mask=table%shares%share%kind == sort .and. table%shares%share%item == item)
-            call lines%line(decimal(energy))
+            call rows%put(load)
+            call rows%put(name)
+            call rows%put(kind)
+            call rows%put(frame*frame(mod(j - 1, 3) + 1)*table%paths%force(:, j, k))
+            call rows%put(frame*frame(mod(j - 1, 3) + 1)*table%paths%moment(:, j, k))
+            call rows%put(energy)
          end do
       end do
+      call rows%release()
    end subroutine add_paths
 
    !> Ends both tables. The complete files then exist; after an error, no temporary file remains.

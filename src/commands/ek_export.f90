@@ -2,7 +2,7 @@
 module ek_export
    use ek_kinds, only: wp
    use ek_error, only: error_t
-   use ek_file, only: make_folder, write_whole, join_path
+   use ek_file, only: make_folder
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t, default_tolerance
    use ek_workspace, only: workspace_t, balance_or_explain
@@ -11,7 +11,8 @@ module ek_export
    use ek_model_remark, only: model_remarks_t, find_model_remarks
    use ek_command_line, only: command_line_t
    use ek_load_deck, only: load_deck, spare_results
-   use ek_console, only: print_path, print_note, print_model_remarks, write_table
+   use ek_console, only: print_model_remarks
+   use ek_outbox, only: outbox_t, outbox_in
    use ek_export_settings, only: export_settings_t, read_export_settings, make_request, front_of
    use ek_kandc_map, only: kandc_map_t, solve_map
    use ek_map_request, only: map_request_t
@@ -22,7 +23,7 @@ module ek_export
    use ek_mathworks, only: kandc_parameters_t, find_parameters, mathworks_script, mathworks_json, corner_names
    use ek_plain_tables, only: kinematics_table, loads_table, compliance_of_map, tables_json
    use ek_export_sources, only: sources_t, solve_sources
-   use ek_export_figure, only: panel_list_t, draw_export
+   use ek_export_figure, only: panel_list_t, export_script
    use ek_export_panels, only: carmaker_panels, carsim_panels, mathworks_panels, csv_panels
    implicit none(type, external)
    private
@@ -47,10 +48,10 @@ contains
       type(error_t), allocatable, intent(out) :: error
       type(export_settings_t) :: settings
       type(axle_map_t) :: axle
-      type(error_t), allocatable :: unprinted
+      type(outbox_t) :: box
       type(panel_list_t) :: panels
       type(sources_t) :: sources
-      character(:), allocatable :: message, name
+      character(:), allocatable :: reason, name
       character(1) :: separator
 
       call read_export_settings(line, settings, error)
@@ -58,34 +59,32 @@ contains
       if (.not. allocated(error) .and. settings%has_plots) call solve_sources(axle%suspension, axle%request, axle%map, &
          settings%target /= 'carmaker', sources, error)
       if (allocated(error)) return
+      box = outbox_in(settings%out)
       separator = ','
       select case (settings%target)
       case ('carmaker')
          separator = ' '
-         call write_carmaker(settings, axle, sources, panels, unprinted, error)
+         call write_carmaker(settings, axle, sources, panels, box, error)
          name = axle%map%model//'_carmaker'
       case ('carsim')
-         call write_carsim(settings, axle, sources, panels, unprinted, error)
+         call write_carsim(settings, axle, sources, panels, box, error)
          name = axle%map%model//'_carsim'
       case ('matlab-kc')
          separator = ' '
-         call write_mathworks(settings, axle, sources, panels, unprinted, error)
+         call write_mathworks(settings, axle, sources, panels, box, error)
          name = axle%map%model//'_kandc'
       case default
-         call write_tables(settings, axle, sources, panels, unprinted, error)
+         call write_tables(settings, axle, sources, panels, box, error)
          name = axle%map%model//'_tables'
       end select
       if (allocated(error)) return
-      if (settings%has_plots) then
-         call draw_export(panels, settings%out, name, axle%map%title//': '//settings%target, separator, message, error)
-         if (allocated(error)) return
-         if (len(message) > 0) then
-            call print_note(settings%is_quiet, message)
-         else
-            call print_path(join_path(settings%out, name//'.png'), unprinted)
-         end if
+      if (settings%has_plots .and. .not. box%has_failed()) then
+         if (panels%used > 0) call box%add_script(name, export_script(panels, name, axle%map%title//': '//settings%target, &
+            separator))
+         call box%draw(settings%is_quiet, reason)
+         if (len(reason) == 0) call box%announce(name//'.png')
       end if
-      if (allocated(unprinted)) call move_alloc(unprinted, error)
+      call box%finish(error)
    end subroutine export
 
    !> Reads the deck of the settings, applies the preload trim (`balance`), and solves the map.
@@ -114,55 +113,47 @@ contains
       call solve_map(axle%suspension, axle%request, axle%map, error)
    end subroutine solve_axle
 
-   !> Writes a string to a file and prints the path of the file.
-   subroutine write_text(settings, name, text, unprinted, error)
-      type(export_settings_t), intent(in) :: settings
-      character(*), intent(in) :: name, text
-      type(error_t), allocatable, intent(inout) :: unprinted      !! a path could not be printed
-      type(error_t), allocatable, intent(out) :: error            !! exit_file
-
-      call make_folder(settings%out, error)
-      if (.not. allocated(error)) call write_whole(join_path(settings%out, name), text, error)
-      if (.not. allocated(error)) call print_path(join_path(settings%out, name), unprinted)
-   end subroutine write_text
-
-   subroutine write_carmaker(settings, axle, sources, panels, unprinted, error)
+   subroutine write_carmaker(settings, axle, sources, panels, box, error)
       type(export_settings_t), intent(in) :: settings
       type(axle_map_t), intent(in) :: axle
       type(sources_t), intent(in) :: sources
       type(panel_list_t), intent(out) :: panels
-      type(error_t), allocatable, intent(inout) :: unprinted
+      type(outbox_t), intent(inout) :: box
       type(error_t), allocatable, intent(out) :: error
       character(:), allocatable :: text
 
       call carmaker_text(axle%map, axle%is_front, axle%checksum, text, error)
-      if (.not. allocated(error)) call write_text(settings, axle%map%model//'.skc', text, unprinted, error)
-      if (allocated(error) .or. .not. settings%has_plots) return
+      if (.not. allocated(error)) call make_folder(settings%out, error)
+      if (allocated(error)) return
+      call box%put(axle%map%model//'.skc', text)
+      if (.not. settings%has_plots) return
       call carmaker_panels(axle%map, sources, axle%map%model//'.skc', text, panels)
    end subroutine write_carmaker
 
-   subroutine write_carsim(settings, axle, sources, panels, unprinted, error)
+   subroutine write_carsim(settings, axle, sources, panels, box, error)
       type(export_settings_t), intent(in) :: settings
       type(axle_map_t), intent(in) :: axle
       type(sources_t), intent(in) :: sources
       type(panel_list_t), intent(out) :: panels
-      type(error_t), allocatable, intent(inout) :: unprinted
+      type(outbox_t), intent(inout) :: box
       type(error_t), allocatable, intent(out) :: error
       character(:), allocatable :: text
 
       call carsim_text(axle%map, axle%checksum, text, error)
-      if (.not. allocated(error)) call write_text(settings, axle%map%model//'_carsim.par', text, unprinted, error)
-      if (allocated(error) .or. .not. settings%has_plots) return
+      if (.not. allocated(error)) call make_folder(settings%out, error)
+      if (allocated(error)) return
+      call box%put(axle%map%model//'_carsim.par', text)
+      if (.not. settings%has_plots) return
       call carsim_panels(axle%map, sources, axle%map%model//'_carsim.par', text, panels)
    end subroutine write_carsim
 
    !> Writes the script and the JSON file. If the deck of the other axle is given, both files contain both axles.
-   subroutine write_mathworks(settings, axle, sources, panels, unprinted, error)
+   subroutine write_mathworks(settings, axle, sources, panels, box, error)
       type(export_settings_t), intent(in) :: settings
       type(axle_map_t), intent(in) :: axle
       type(sources_t), intent(in) :: sources
       type(panel_list_t), intent(out) :: panels
-      type(error_t), allocatable, intent(inout) :: unprinted
+      type(outbox_t), intent(inout) :: box
       type(error_t), allocatable, intent(out) :: error
       type(kandc_parameters_t) :: p
       character(:), allocatable :: text
@@ -177,13 +168,13 @@ contains
          if (.not. allocated(error) .and. p%has(k)) call check_monotonic(p%maps(k), 'matlab-kc', .false., error)
          if (.not. allocated(error) .and. p%has(k)) call check_steer(p%maps(k), 'matlab-kc', error)
       end do
+      if (.not. allocated(error)) call make_folder(settings%out, error)
       if (allocated(error)) return
       call find_parameters(p)
       text = mathworks_script(p)
-      call write_text(settings, axle%map%model//'_kandc.m', text, unprinted, error)
-      if (.not. allocated(error)) &
-         call write_text(settings, axle%map%model//'_kandc.json', mathworks_json(p), unprinted, error)
-      if (allocated(error) .or. .not. settings%has_plots) return
+      call box%put(axle%map%model//'_kandc.m', text)
+      call box%put(axle%map%model//'_kandc.json', mathworks_json(p))
+      if (.not. settings%has_plots) return
       call mathworks_panels(sources, axle%map%model//'_kandc.m', text, corner_names(2*place - 2 + sources%side), &
          size(axle%map%travel), panels)
    end subroutine write_mathworks
@@ -221,12 +212,12 @@ contains
    end subroutine add_other
 
    !> Writes the tables of kinematics, loads and compliance as CSV files, and all three tables as one JSON file.
-   subroutine write_tables(settings, axle, sources, panels, unprinted, error)
+   subroutine write_tables(settings, axle, sources, panels, box, error)
       type(export_settings_t), intent(in) :: settings
       type(axle_map_t), intent(in) :: axle
       type(sources_t), intent(in) :: sources
       type(panel_list_t), intent(out) :: panels
-      type(error_t), allocatable, intent(inout) :: unprinted
+      type(outbox_t), intent(inout) :: box
       type(error_t), allocatable, intent(out) :: error
       type(table_t) :: tables(3)
       type(load_table_result_t) :: loads
@@ -249,13 +240,12 @@ contains
       tables(2) = loads_table(axle%map, loads, is_sae, axle%checksum)
       tables(3) = compliance_of_map(axle%map, is_sae, axle%checksum)
       call make_folder(settings%out, error)
+      if (allocated(error)) return
       do k = 1, 3
-         if (.not. allocated(error)) call write_table(tables(k), join_path(settings%out, axle%map%model//'_'//trim(names(k))// &
-            '.csv'), unprinted, error)
+         call box%put(axle%map%model//'_'//trim(names(k))//'.csv', tables(k))
       end do
-      if (.not. allocated(error)) call write_text(settings, axle%map%model//'_tables.json', &
-         tables_json(names, tables, axle%map, is_sae, axle%checksum), unprinted, error)
-      if (allocated(error) .or. .not. settings%has_plots) return
+      call box%put(axle%map%model//'_tables.json', tables_json(names, tables, axle%map, is_sae, axle%checksum))
+      if (.not. settings%has_plots) return
       call csv_panels(axle%map, sources, axle%map%model//'_kinematics.csv', is_sae, panels)
    end subroutine write_tables
 

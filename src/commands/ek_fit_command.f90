@@ -17,7 +17,7 @@ module ek_fit_command
    use ek_fit_files, only: write_fit_files, changed_numbers, note_of
    use ek_command_line, only: command_line_t
    use ek_load_deck, only: read_changed
-   use ek_console, only: print_text, print_path, print_note
+   use ek_console, only: print_text
    use ek_kinds, only: wp
    use ek_noise, only: is_noise, solved
    use ek_bounded_search, only: gain_is_small, step_is_small
@@ -47,7 +47,7 @@ contains
       type(fit_result_t) :: found
       type(fit_statistics_t) :: statistics
       type(buffer_t) :: text
-      character(:), allocatable :: home, out, message
+      character(:), allocatable :: home, out
 
       allocate (session)
       home = folder_name(line%files%line(1))
@@ -63,9 +63,9 @@ contains
       if (.not. allocated(error)) call make_folder(out, error)
       if (.not. allocated(error)) call fit_factors(fit, problem, session%workspace, found, statistics, error)
       if (allocated(error)) return
-      call write_fit_files(fit, session%workspace, problem, found, statistics, out, .not. line%has('--no-plots'), message, error)
+      call write_fit_files(fit, session%workspace, problem, found, statistics, out, .not. line%has('--no-plots'), &
+         line%has('--quiet'), error)
       if (allocated(error)) return
-      if (message /= '') call print_note(line%has('--quiet'), message)
       call add_fit_findings(fit, session%workspace, problem, found, statistics, text)
       call print_text(text%text(), error)
       if (.not. allocated(error) .and. found%ended == 0) call fail(error, exit_convergence, 'the fit has not ended after '// &

@@ -1,16 +1,13 @@
 !> The files of a fit: its factors, its points, settings for --set-file, and the script and pictures of a figure of start, target
 !> and result.
 module ek_fit_files
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use ek_kinds, only: wp
-   use ek_error, only: error_t, message_list_t
+   use ek_error, only: error_t
    use ek_text, only: str
    use ek_decimal, only: decimal
+   use ek_frame, only: frame_t, new_frame
    use ek_buffer, only: buffer_t
-   use ek_file, only: join_path, write_whole
    use ek_version, only: version
    use ek_workspace, only: workspace_t
-   use ek_drawing, only: run_gnuplot
    use ek_gnuplot_text, only: gnuplot_text, gnuplot_comment
    use ek_parameter, only: choice_t, parameter_path
    use ek_study, only: is_given
@@ -18,7 +15,7 @@ module ek_fit_files
    use ek_fit_problem, only: fit_problem_t
    use ek_fit_solver, only: fit_result_t, difference_of
    use ek_fit_statistics, only: fit_statistics_t
-   use ek_console, only: print_path
+   use ek_outbox, only: outbox_t, outbox_in
    implicit none(type, external)
    private
    public :: write_fit_files, changed_numbers, note_of
@@ -30,7 +27,7 @@ module ek_fit_files
 contains
 
    !> Writes all files and prints their paths. Of the pictures, only the path of the PNG file is printed.
-   subroutine write_fit_files(fit, workspace, problem, found, statistics, out, draws, message, error)
+   subroutine write_fit_files(fit, workspace, problem, found, statistics, out, draws, is_quiet, error)
       type(fit_t), intent(in) :: fit
       type(workspace_t), intent(in) :: workspace          !! workspace with the numbers found
       type(fit_problem_t), intent(in) :: problem
@@ -38,35 +35,22 @@ contains
       type(fit_statistics_t), intent(in) :: statistics
       character(*), intent(in) :: out                      !! folder
       logical, intent(in) :: draws                         !! whether gnuplot is run
-      character(:), allocatable, intent(out) :: message    !! reason for a missing picture; '' otherwise
+      logical, intent(in) :: is_quiet
       type(error_t), allocatable, intent(out) :: error
-      type(error_t), allocatable :: unprinted
-      type(message_list_t) :: scripts, pictures
+      type(outbox_t) :: box
+      character(:), allocatable :: reason
 
-      message = ''
-      call write_one('_factors.csv', factors_csv(problem, found, statistics))
-      call write_one('_points.csv', points_csv(fit, workspace, problem, found))
-      call write_one('.set', settings(fit, workspace, problem))
-      call write_one('.gp', script(fit, workspace, problem))
-      if (draws .and. .not. allocated(error)) then
-         call scripts%add(fit%name//'.gp')
-         call pictures%add(fit%name//'.png')
-         call pictures%add(fit%name//'.svg')
-         call run_gnuplot(scripts, pictures, out, message, error)
-         if (message == '' .and. .not. allocated(error)) call print_path(join_path(out, fit%name//'.png'), unprinted)
+      box = outbox_in(out)
+      call box%put(fit%name//'_factors.csv', factors_csv(problem, found, statistics))
+      call box%put(fit%name//'_points.csv', points_csv(fit, workspace, problem, found))
+      call box%put(fit%name//'.set', settings(fit, workspace, problem))
+      call box%add_script(fit%name, script(fit, workspace, problem))
+      if (.not. allocated(box%undrawn)) call box%announce(fit%name//'.gp')
+      if (draws) then
+         call box%draw(is_quiet, reason)
+         if (reason == '') call box%announce(fit%name//'.png')
       end if
-      if (allocated(unprinted) .and. .not. allocated(error)) call move_alloc(unprinted, error)
-
-   contains
-
-      !> Writes one file and prints its path; does nothing after an error.
-      subroutine write_one(ending, text)
-         character(*), intent(in) :: ending, text
-         if (allocated(error)) return
-         call write_whole(join_path(out, fit%name//ending), text, error)
-         if (.not. allocated(error)) call print_path(join_path(out, fit%name//ending), unprinted)
-      end subroutine write_one
-
+      call box%finish(error)
    end subroutine write_fit_files
 
    !> The table of factors as CSV, one row per factor.
@@ -75,27 +59,23 @@ contains
       type(fit_result_t), intent(in) :: found
       type(fit_statistics_t), intent(in) :: statistics
       character(:), allocatable :: text
-      type(buffer_t) :: csv
+      type(frame_t) :: frame
       integer :: f
 
-      call csv%line('factor,unit,start,result,lower,upper,bound,half_of_95_percent,low_95,high_95,half_by_targets_alone,'// &
+      frame = new_frame('factor,unit,start,result,lower,upper,bound,half_of_95_percent,low_95,high_95,half_by_targets_alone,'// &
          'learned,note')
       do f = 1, size(problem%variables)
          associate (this => problem%variables(f))
-            call csv%add(this%name//','//this%direction%unit)
-            call add_number(this%start, csv)
-            call add_number(found%x(f), csv)
-            call add_number(this%lower, csv)
-            call add_number(this%upper, csv)
-            call csv%add(','//trim(held_words(found%held(f))))
-            call add_number(statistics%half(f), csv)
-            call add_number(statistics%low(f), csv)
-            call add_number(statistics%high(f), csv)
-            call add_number(statistics%half_alone(f), csv)
-            call csv%line(','//trim(merge('1', '0', statistics%is_learned(f)))//','//note_of(problem, found, statistics, f))
+            call frame%put(this%name)
+            call frame%put(this%direction%unit)
+            call frame%put_known([this%start, found%x(f), this%lower, this%upper])
+            call frame%put(trim(held_words(found%held(f))))
+            call frame%put_known([statistics%half(f), statistics%low(f), statistics%high(f), statistics%half_alone(f)])
+            call frame%put(merge(1, 0, statistics%is_learned(f)))
+            call frame%put(note_of(problem, found, statistics, f))
          end associate
       end do
-      text = csv%text()
+      text = frame%csv()
    end function factors_csv
 
    !> A note on the value or the interval of a factor; '' if there is nothing to note.
@@ -121,21 +101,6 @@ contains
       end if
    end function note_of
 
-   !> Adds a cell with a number; nan for a bound that is not given and for an unknown value.
-   subroutine add_number(value, csv)
-      real(wp), intent(in) :: value
-      type(buffer_t), intent(inout) :: csv
-
-      call csv%add(',')
-      if (.not. ieee_is_finite(value)) then
-         call csv%add('nan')
-      else if (abs(value) >= huge(value)) then
-         call csv%add('nan')
-      else
-         call csv%add(decimal(value))
-      end if
-   end subroutine add_number
-
    !> The table of points as CSV, one row per point: target, case, quantity, abscissa, wanted value, limits, value at the start,
    !> value of the result, deviation, and difference.
    function points_csv(fit, workspace, problem, found) result(text)
@@ -144,27 +109,25 @@ contains
       type(fit_problem_t), intent(in) :: problem
       type(fit_result_t), intent(in) :: found
       character(:), allocatable :: text
-      type(buffer_t) :: csv
+      type(frame_t) :: frame
+      character(:), allocatable :: case
       integer :: k
 
-      call csv%line('target,case,quantity,over,at,wanted,low,high,start,result,deviation,difference,of')
+      frame = new_frame('target,case,quantity,over,at,wanted,low,high,start,result,deviation,difference,of')
       do k = 1, size(problem%points)
          associate (point => problem%points(k), wanted => problem%wanted(k), target => fit%targets(problem%points(k)%target))
-            call csv%add(target%name//',')
-            if (wanted%case > 0) call csv%add(workspace%cases(wanted%case)%case%name)
-            call csv%add(','//wanted%name//','//trim(wanted%over))
-            call add_number(wanted%at, csv)
-            call add_number(point%value, csv)
-            call add_number(point%low, csv)
-            call add_number(point%high, csv)
-            call add_number(found%before(k), csv)
-            call add_number(found%after(k), csv)
-            call add_number(point%deviation, csv)
-            call add_number(difference_of(point, found%after(k)), csv)
-            call csv%line(','//trim(of_words(merge(1, merge(2, 0, target%is_change), target%is_slope))))
+            case = ''
+            if (wanted%case > 0) case = workspace%cases(wanted%case)%case%name
+            call frame%put(target%name)
+            call frame%put(case)
+            call frame%put(wanted%name)
+            call frame%put(trim(wanted%over))
+            call frame%put_known([wanted%at, point%value, point%low, point%high, found%before(k), found%after(k), point%deviation, &
+               difference_of(point, found%after(k))])
+            call frame%put(trim(of_words(merge(1, merge(2, 0, target%is_change), target%is_slope))))
          end associate
       end do
-      text = csv%text()
+      text = frame%csv()
    end function points_csv
 
    !> Lists all numbers that the factors change.

@@ -8,11 +8,12 @@ module ek_listed_files
    use ek_system_call, only: c_open, c_read, c_close, to_read
    use ek_system, only: facts_t, facts_of, regular_file, unknown_file
    use ek_file, only: write_whole, join_path, file_exists, folder_exists, remove_file
-   use ek_text_table, only: text_table_t, new_text_table, add_row, text_table_csv, read_text_table, cell_of
+   use ek_frame, only: frame_t, new_frame
+   use ek_text_table, only: text_table_t, read_text_table, cell_of
    use ek_console, only: print_note
    implicit none(type, external)
    private
-   public :: renew_file_list, check_listed
+   public :: renew_file_list, check_listed, is_among
 
 contains
 
@@ -25,13 +26,14 @@ contains
       logical, intent(in) :: is_quiet
       type(error_t), allocatable, intent(out) :: error      !! exit_file: the list cannot be written
       type(message_list_t), intent(in), optional :: kept
-      type(text_table_t) :: table, old
+      type(frame_t) :: frame
+      type(text_table_t) :: old
       type(error_t), allocatable :: unread
       character(:), allocatable :: path
       integer :: k
 
       path = join_path(folder, list)
-      table = new_text_table([character(8) :: 'file', 'checksum'])
+      frame = new_frame('file,checksum')
       if (file_exists(path)) then
          call read_text_table(path, old, unread)
          if (allocated(unread)) call print_note(is_quiet, unread%message//': files of an earlier '//owner// &
@@ -50,15 +52,14 @@ contains
       do k = 1, files%count()
          if (file_exists(join_path(folder, files%line(k)))) call put(files%line(k), sum_of(join_path(folder, files%line(k))))
       end do
-      call write_whole(path, text_table_csv(table), error)
+      call write_whole(path, frame%csv(), error)
 
    contains
 
       subroutine put(name, sum)
          character(*), intent(in) :: name, sum
-         call add_row(table)
-         table%cells(1, table%rows)%text = name
-         table%cells(2, table%rows)%text = sum
+         call frame%put(name)
+         call frame%put(sum)
       end subroutine put
 
    end subroutine renew_file_list
@@ -108,6 +109,7 @@ contains
       if (is_inside) is_inside = scan(name(first:), '/\') == 0 .and. name(first:first) /= '.'
    end function is_inside
 
+   !> Whether a name is in a list.
    pure logical function is_among(name, files)
       character(*), intent(in) :: name
       type(message_list_t), intent(in) :: files

@@ -8,8 +8,7 @@ module ek_moment_tables
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t
-   use ek_buffer, only: buffer_t
-   use ek_decimal, only: decimal
+   use ek_frame, only: frame_t, new_frame
    use ek_file, only: join_path, write_whole, file_exists
    use ek_table, only: table_t, read_csv
    use ek_sample_statistics, only: mean_and_deviation, ascending_order, percentile, error_of_deviation
@@ -187,71 +186,59 @@ contains
       character(*), intent(in) :: out
       type(message_list_t), intent(inout) :: names
       type(error_t), allocatable, intent(out) :: error
-      type(buffer_t) :: csv
+      type(frame_t) :: frame
       integer :: c, f, m, r, s
 
-      call csv%line(moment_heads)
+      call begin(moment_heads)
       do r = 1, size(data%responses)
          do m = 1, size(methods)
-            call csv%add('"'//data%responses(r)%name//'","'//trim(methods(m))//'"')
+            call frame%put(data%responses(r)%name)
+            call frame%put(trim(methods(m)))
             associate (row => data%moments(m, r), axis => data%responses(r))
-               call add_numbers(csv, [row%mean, row%mean_half, row%deviation, row%deviation_half, row%skewness, row%low, row%high, &
+               call frame%put_known([row%mean, row%mean_half, row%deviation, row%deviation_half, row%skewness, row%low, row%high, &
                   axis%lower, axis%upper, row%within, 0.5_wp*(row%within_high - row%within_low), row%within_low, row%within_high])
             end associate
          end do
       end do
       if (size(data%responses) > 0) call write_one('_moments.csv')
-      csv = buffer_t()
-      call csv%line(share_heads)
+      call begin(share_heads)
       do r = 1, size(data%responses)
          do f = 1, size(data%factors)
-            call csv%add('"'//data%responses(r)%name//'","'//data%factors(f)%name//'"')
+            call frame%put(data%responses(r)%name)
+            call frame%put(data%factors(f)%name)
             associate (e => data%effects(r))
-               call add_numbers(csv, [data%centers(f), data%deviations(f), e%slope(f), e%effect(f), e%curvature(f), e%first(f), &
+               call frame%put_known([data%centers(f), data%deviations(f), e%slope(f), e%effect(f), e%curvature(f), e%first(f), &
                   e%total(f), e%nominal, e%at_low(f), e%at_high(f)])
             end associate
          end do
       end do
       if (size(data%responses) > 0) call write_one('_shares.csv')
-      csv = buffer_t()
-      call csv%line(band_heads)
+      call begin(band_heads)
       do c = 1, size(data%expected, 2)
          do s = 1, min(size(data%expected, 3), size(data%sweep))
-            call csv%add('"'//data%columns(c)%name//'"')
-            call add_numbers(csv, [data%sweep(s), data%expected(:, c, s)])
+            call frame%put(data%columns(c)%name)
+            call frame%put_known([data%sweep(s), data%expected(:, c, s)])
          end do
       end do
       if (size(data%expected) > 0 .and. size(data%expected, 3) == size(data%sweep)) call write_one('_bands.csv')
 
    contains
 
+      !> Begins a table with names in quotes, as in the tables of designs.
+      subroutine begin(heads)
+         character(*), intent(in) :: heads
+         frame = new_frame(heads)
+         frame%quotes_text = .true.
+      end subroutine begin
+
       subroutine write_one(ending)
          character(*), intent(in) :: ending
          if (allocated(error)) return
-         call write_whole(join_path(out, data%name//ending), csv%text(), error)
+         call write_whole(join_path(out, data%name//ending), frame%csv(), error)
          if (.not. allocated(error)) call names%add(data%name//ending)
       end subroutine write_one
 
    end subroutine write_moments
-
-   !> Adds the remaining cells of a row; nan for a limit that is not given and for an unknown value.
-   subroutine add_numbers(csv, values)
-      type(buffer_t), intent(inout) :: csv
-      real(wp), intent(in) :: values(:)
-      integer :: k
-
-      do k = 1, size(values)
-         call csv%add(',')
-         if (ieee_is_finite(values(k))) then
-            if (abs(values(k)) < huge(1.0_wp)) then
-               call csv%add(decimal(values(k)))
-               cycle
-            end if
-         end if
-         call csv%add('nan')
-      end do
-      call csv%line('')
-   end subroutine add_numbers
 
    !> Reads the tables of a finished study. If the tables of moments and shares are missing or do not match, `moments` stays
    !> unallocated, and no bands are read. If the table of bands is missing or does not match, `expected` has no columns.

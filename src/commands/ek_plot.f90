@@ -2,9 +2,8 @@
 module ek_plot
    use ek_error, only: error_t, message_list_t, fail, exit_usage
    use ek_text, only: quoted
-   use ek_file, only: make_folder, join_path, read_whole, write_whole, file_exists, remove_file
+   use ek_file, only: make_folder, join_path, read_whole, file_exists
    use ek_deck, only: deck_t
-   use ek_drawing, only: run_gnuplot
    use ek_study, only: study_t, step_size_kind
    use ek_study_data, only: study_data_t
    use ek_study_figures, only: figure_rule_t, rules, applies, script_of, figure_name, sheets
@@ -15,7 +14,8 @@ module ek_plot
    use ek_study_list, only: list_figures, check_tables
    use ek_command_line, only: command_line_t
    use ek_opened_study, only: opened_study_t, open_study
-   use ek_console, only: print_note, print_path
+   use ek_console, only: print_note
+   use ek_outbox, only: outbox_t, outbox_in
    implicit none(type, external)
    private
    public :: run_plot_command, draw_study, draw_steps
@@ -81,9 +81,9 @@ contains
       logical, intent(in) :: is_quiet
       type(error_t), allocatable, intent(out) :: error
       class(study_data_t), allocatable :: data
-      type(message_list_t) :: scripts, pictures, files
-      type(error_t), allocatable :: undrawn
-      character(:), allocatable :: folder, message, name
+      type(outbox_t) :: box, figures
+      type(message_list_t) :: files
+      character(:), allocatable :: folder, reason, name
       integer :: k, sheet
 
       allocate (data)
@@ -92,6 +92,7 @@ contains
       folder = join_path(out, 'figures')
       call make_folder(folder, error)
       if (allocated(error)) return
+      figures = outbox_in(folder)
       do k = 1, size(rules)
          do sheet = 1, 2
             name = figure_name(rules(k), data, sheet)
@@ -99,32 +100,26 @@ contains
                call remove_old(rules(k), sheet, name)
                cycle
             end if
-            call write_whole(join_path(folder, name//'.gp'), script_of(rules(k), data, sheet), error, can_be_redrawn=.true.)
+            call figures%add_script(name, script_of(rules(k), data, sheet))
+            call figures%finish(error)
             if (allocated(error)) return
-            call scripts%add(name//'.gp')
-            call pictures%add(name//'.png')
-            call pictures%add(name//'.svg')
             call add_files(name, files)
          end do
       end do
-      if (kinds%count() > 0 .and. scripts%count() == 0) then
+      if (kinds%count() > 0 .and. figures%files%count() == 0) then
          call fail(error, exit_usage, '--kind: no such figure applies to this study (kind '//data%kind//')')
          return
       end if
       ! first without pictures: the page then exists even if gnuplot fails or hangs
-      call write_whole(join_path(out, page_name(data)), study_page(data, '', 'gnuplot has not finished'), error)
+      box = outbox_in(out)
+      name = page_name(data)
+      call box%write(name, study_page(data, '', 'gnuplot has not finished'))
+      call box%take(error)
       if (allocated(error)) return
-      call run_gnuplot(scripts, pictures, folder, message, undrawn)
-      if (len(message) > 0) call print_note(is_quiet, message)
-      if (allocated(undrawn)) message = undrawn%message
-      if (len(message) > 0) folder = ''
-      call write_whole(join_path(out, page_name(data)), study_page(data, folder, message), error)
-      if (allocated(error)) return
-      call files%add(page_name(data))
-      call list_figures(study%name, out, files, is_quiet, error)
-      if (allocated(error)) return
-      call print_path(join_path(out, page_name(data)), error)
-      if (allocated(undrawn)) call move_alloc(undrawn, error)
+      call figures%draw(is_quiet, reason)
+      if (len(reason) > 0) folder = ''
+      call box%write(name, study_page(data, folder, reason))
+      call show_page(study%name, name, files, is_quiet, figures, box, error)
 
    contains
 
@@ -158,9 +153,7 @@ contains
             call add_files(name, files)
             return
          end if
-         call remove_file(join_path(folder, name//'.gp'))
-         call remove_file(join_path(folder, name//'.png'))
-         call remove_file(join_path(folder, name//'.svg'))
+         call figures%remove(files_of(name))
       end subroutine remove_old
 
    end subroutine draw_study
@@ -181,11 +174,39 @@ contains
    subroutine add_files(figure, files)
       character(*), intent(in) :: figure             !! name without extension
       type(message_list_t), intent(inout) :: files
+      character(len(figure) + 4) :: names(3)
+      integer :: k
 
-      call files%add('figures/'//figure//'.gp')
-      call files%add('figures/'//figure//'.png')
-      call files%add('figures/'//figure//'.svg')
+      names = files_of(figure)
+      do k = 1, 3
+         call files%add('figures/'//trim(names(k)))
+      end do
    end subroutine add_files
+
+   !> The names of the script and the pictures of a figure.
+   pure function files_of(figure) result(names)
+      character(*), intent(in) :: figure             !! name without extension
+      character(len(figure) + 4) :: names(3)
+      names = [figure//'.gp ', figure//'.png', figure//'.svg']
+   end function files_of
+
+   !> Lists the page and the figures of a study, and prints the path of the page.
+   subroutine show_page(study, name, files, is_quiet, figures, box, error)
+      character(*), intent(in) :: study, name               !! names of the study and of the page
+      type(message_list_t), intent(inout) :: files          !! figures, relative to the folder of the page
+      logical, intent(in) :: is_quiet
+      type(outbox_t), intent(inout) :: figures, box         !! box: of the page
+      type(error_t), allocatable, intent(out) :: error
+
+      call box%take(error)
+      if (allocated(error)) return
+      call files%add(name)
+      call list_figures(study, box%folder, files, is_quiet, error)
+      if (allocated(error)) return
+      call box%announce(name)
+      call figures%finish(error)
+      call box%finish(error)
+   end subroutine show_page
 
    !> Reads the table of a step-size study, draws its figure, and writes its page.
    subroutine draw_steps(study, out, is_quiet, error)
@@ -194,9 +215,9 @@ contains
       logical, intent(in) :: is_quiet
       type(error_t), allocatable, intent(out) :: error
       type(text_table_t) :: table
-      type(message_list_t) :: scripts, pictures, files
-      type(error_t), allocatable :: undrawn
-      character(:), allocatable :: folder, message, name, script
+      type(outbox_t) :: box, figures
+      type(message_list_t) :: files
+      character(:), allocatable :: folder, reason, name, script
 
       call check_tables(study%name, out, study%name//'.csv', error)
       if (allocated(error)) return
@@ -207,31 +228,23 @@ contains
       if (allocated(error)) return
       name = study%name//figure_ending
       script = step_script(study%name, table)
-      call pictures%add(name//'.png')
-      call pictures%add(name//'.svg')
+      figures = outbox_in(folder)
       if (script == '') then
-         message = 'no error exceeds 1e-12, so that there is no figure'
-         call remove_file(join_path(folder, name//'.gp'))
-         call remove_file(join_path(folder, pictures%line(1)))
-         call remove_file(join_path(folder, pictures%line(2)))
+         reason = 'no error exceeds 1e-12, so that there is no figure'
+         call print_note(is_quiet, reason)
+         call figures%remove(files_of(name))
       else
-         call write_whole(join_path(folder, name//'.gp'), script, error, can_be_redrawn=.true.)
+         call figures%add_script(name, script)
+         call figures%finish(error)
          if (allocated(error)) return
-         call scripts%add(name//'.gp')
          call add_files(name, files)
-         call run_gnuplot(scripts, pictures, folder, message, undrawn)
+         call figures%draw(is_quiet, reason)
       end if
-      if (len(message) > 0) call print_note(is_quiet, message)
-      if (allocated(undrawn)) message = undrawn%message
-      if (len(message) > 0) folder = ''
-      call write_whole(join_path(out, study%name//'.html'), step_page(study%title, study%name, study%deck, study%case, table, &
-         folder, message), error)
-      if (allocated(error)) return
-      call files%add(study%name//'.html')
-      call list_figures(study%name, out, files, is_quiet, error)
-      if (allocated(error)) return
-      call print_path(join_path(out, study%name//'.html'), error)
-      if (allocated(undrawn)) call move_alloc(undrawn, error)
+      if (len(reason) > 0) folder = ''
+      box = outbox_in(out)
+      name = study%name//'.html'
+      call box%write(name, step_page(study%title, study%name, study%deck, study%case, table, folder, reason))
+      call show_page(study%name, name, files, is_quiet, figures, box, error)
    end subroutine draw_steps
 
 end module ek_plot

@@ -4,7 +4,7 @@ module ek_report
    use ek_text, only: str, plural
    use ek_version, only: version
    use ek_clock, only: date_text
-   use ek_file, only: make_folder, write_whole, join_path, remove_file
+   use ek_file, only: make_folder, join_path
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t, default_tolerance
    use ek_workspace, only: workspace_t, balance_or_explain
@@ -17,17 +17,18 @@ module ek_report
    use ek_grid_figures, only: find_grid, envelope_text
    use ek_chart, only: chart_t
    use ek_scales, only: read_scales, take_scales
-   use ek_gradient, only: test_gradients, write_gradients
-   use ek_report_files, only: write_contents, test_line, name_files
+   use ek_gradient, only: test_gradients, gradients_csv, gradients_json
+   use ek_report_files, only: contents_csv, test_line, name_files
    use ek_report_names, only: contents_file, gradients_file, gradients_json_file, compliance_file, numbers_file, &
-      numbers_json_file, deck_file, used_deck_file, data_file, page_file
-   use ek_deck_file, only: write_deck_file
+      numbers_json_file, deck_file, used_deck_file, data_file, page_file, loads_file, peaks_file, list_file, files_of_reports, &
+      files_of_loads
+   use ek_deck_file, only: deck_csv
    use ek_deck, only: deck_t
    use ek_deck_values, only: list_values
    use ek_deck_writer, only: write_deck_as_used
    use ek_planned_test, only: planned_tests
    use ek_key_numbers, only: key_numbers
-   use ek_key_number_table, only: write_key_numbers
+   use ek_key_number_table, only: key_numbers_csv, key_numbers_json
    use ek_plausible_shape, only: vehicle_size
    use ek_report_content, only: report_t, add_fact
    use ek_report_data, only: report_data
@@ -43,15 +44,15 @@ module ek_report
    use ek_command_line, only: command_line_t, refuse_stream, read_windows
    use ek_number_targets, only: set_targets
    use ek_load_deck, only: deck_settings_t, read_deck_settings, load_deck, chosen_cases, examine_chosen
-   use ek_console, only: print_note, print_error, print_path, print_model_remarks, write_table
+   use ek_console, only: print_note, print_error, print_model_remarks
    use ek_kinds, only: wp, millimetre
    use ek_path, only: path_t
    use ek_case_result, only: case_result_t, solve_options_t, solve_case, add_remarks, failure_of, add_header
    use ek_remark, only: remark_t, failure, on_case, on_end, on_stability, on_settling, on_rack, on_curve, on_closure
    use ek_compliance_table, only: compliance_table
-   use ek_member_loads, only: load_record_t, begin_loads, add_loads
-   use ek_report_list, only: renew_list
-   use ek_load_files, only: write_loads, remove_loads
+   use ek_member_loads, only: load_record_t, begin_loads, add_loads, peak_loads
+   use ek_listed_files, only: renew_file_list
+   use ek_outbox, only: outbox_t, outbox_in
    use ek_test_result, only: test_result_t, find_wheels, choose_abscissa
    implicit none(type, external)
    private
@@ -81,7 +82,8 @@ contains
       type(examination_t) :: found
       type(model_remarks_t) :: remarks
       type(chart_t), allocatable :: scales(:)                           ! of another report
-      type(error_t), allocatable :: undrawn, unprinted, incomplete
+      type(error_t), allocatable :: incomplete
+      type(outbox_t) :: box
       character(:), allocatable :: checksum
 
       allocate (page)
@@ -96,6 +98,7 @@ contains
       if (.not. allocated(error)) call examine_chosen(settings%file, workspace%raw, chosen, found, error)
       if (allocated(error)) return
       page%folder = settings%out
+      box = outbox_in(page%folder)
       page%is_static = settings%is_static
       page%vehicle = vehicle_size(workspace%raw)
       if (workspace%raw%axle%has_axle) page%axle = merge(-1, 1, workspace%raw%axle%is_front)
@@ -107,12 +110,7 @@ contains
       call name_files(page%tests)
       call find_model_remarks(workspace%suspension, workspace%raw, workspace%deck_cases, chosen, .true., remarks)
       call print_model_remarks(settings%is_quiet, remarks, page%warnings)
-      call remove_file(join_path(page%folder, page_file))     ! a page of an earlier report must not be mistaken for this one
-      call remove_file(join_path(page%folder, contents_file))
-      call remove_file(join_path(page%folder, compliance_file))
-      call remove_file(join_path(page%folder, deck_file))
-      call remove_file(join_path(page%folder, used_deck_file))
-      call remove_loads(page%folder)
+      call box%remove([character(18) :: page_file, contents_file, compliance_file, deck_file, used_deck_file, files_of_loads])
 
       if (settings%has_loads) then
          allocate (page%loads)
@@ -122,96 +120,114 @@ contains
          allocate (page%live)
          page%live%most = settings%live
       end if
-      call run_tests(settings%windows, workspace%suspension, chosen, found, checksum, page, unprinted, incomplete, error)
-      if (.not. allocated(error) .and. allocated(page%loads)) call write_loads(page%loads, page%folder, unprinted, error)
+      call run_tests(settings%windows, workspace%suspension, chosen, found, checksum, page, box, incomplete)
+      if (allocated(page%loads)) then
+         call box%put(loads_file, page%loads%rows%csv())
+         call box%put(peaks_file, peak_loads(page%loads))
+      end if
+      call box%take(error)
       if (allocated(error)) return
       if (allocated(page%live)) then
          if (.not. allocated(page%live%rates)) call page%warnings%add('--live: no rate can be changed on the page: no test has '// &
             'a design state at which a bushing, spring or bar with a constant rate contributes to a key compliance')
       end if
       if (allocated(scales)) call take_scales(scales, page%charts)
-      call write_numbers(workspace, checksum, page, unprinted, error)
+      call put_numbers(workspace, checksum, page, box)
+      call box%take(error)
       if (allocated(error)) return
       if (allocated(page%live)) call measure_reruns(workspace, chosen, page%tests, page%numbers, page%live)
       if (.not. page%is_static) call make_turntable(workspace%suspension, page%tests, page%paths, page%turntable)
       call set_head(settings, workspace%suspension, checksum, page)
       call list_values(deck, page%deck_paths, page%deck_texts)
-      call write_deck_file(join_path(page%folder, deck_file), page%names, page%values, page%deck_paths, &
-         page%deck_texts, error)
+      call box%put(deck_file, deck_csv(page%names, page%values, page%deck_paths, page%deck_texts))
+      call box%take(error)
+      if (.not. allocated(error)) call write_deck_as_used(deck, join_path(page%folder, used_deck_file), error, page%copies)
       if (allocated(error)) return
-      call print_path(join_path(page%folder, deck_file), unprinted)
-      call write_deck_as_used(deck, join_path(page%folder, used_deck_file), error, page%copies)
+      call box%announce(used_deck_file)
+      call box%put(data_file, report_data(page))
+      call write_page(settings, workspace%suspension, page, box)
+      call box%take(error)
+      if (.not. allocated(error)) call list_report(page, box, settings%is_quiet, error)
       if (allocated(error)) return
-      call print_path(join_path(page%folder, used_deck_file), unprinted)
-      call write_whole(join_path(page%folder, data_file), report_data(page), error)
-      if (allocated(error)) return
-      call print_path(join_path(page%folder, data_file), unprinted)
-      call write_page(settings, workspace%suspension, page, undrawn, error)
-      if (allocated(error)) return
-      call renew_list(page, settings%is_quiet, error)
-      if (allocated(error)) return
-      call print_path(join_path(page%folder, page_file), unprinted)
+      call box%announce(page_file)
       call print_verdicts(settings%is_quiet, page)
-      if (allocated(incomplete)) then
-         call move_alloc(incomplete, error)
-      else if (allocated(undrawn)) then
-         call fail(error, undrawn%code, 'the report was written, but some of its pictures are missing')
-      else if (allocated(unprinted)) then
-         call move_alloc(unprinted, error)
-      end if
+      call move_alloc(incomplete, error)
+      call box%finish(error)
    end subroutine report
 
    !> Writes the gradients, the key numbers with their targets, and the list of tests.
-   subroutine write_numbers(workspace, checksum, page, unprinted, error)
+   subroutine put_numbers(workspace, checksum, page, box)
       type(workspace_t), intent(in) :: workspace                !! with trimmed preloads
       character(*), intent(in) :: checksum
       type(report_t), intent(inout) :: page                     !! report with the gradients; receives the key numbers
-      type(error_t), allocatable, intent(inout) :: unprinted    !! a path could not be printed
-      type(error_t), allocatable, intent(out) :: error          !! exit_file
+      type(outbox_t), intent(inout) :: box
+      logical :: is_pair
 
-      call write_gradients(page%gradients, workspace%suspension%name, checksum, join_path(page%folder, gradients_file), &
-         join_path(page%folder, gradients_json_file), error)
-      if (allocated(error)) return
-      call print_path(join_path(page%folder, gradients_file), unprinted)
-      call print_path(join_path(page%folder, gradients_json_file), unprinted)
-      call key_numbers(page%tests, page%gradients, page%numbers, page%missing)
-      call set_targets(workspace%definition%targets, page%numbers, page%warnings)
-      call write_key_numbers(page%numbers, size(workspace%suspension%wheels) > 1, workspace%suspension%name, checksum, &
-         join_path(page%folder, numbers_file), join_path(page%folder, numbers_json_file), error)
-      if (allocated(error)) return
-      call print_path(join_path(page%folder, numbers_file), unprinted)
-      call print_path(join_path(page%folder, numbers_json_file), unprinted)
-      call write_contents(page%tests, join_path(page%folder, contents_file), error)
-   end subroutine write_numbers
+      is_pair = size(workspace%suspension%wheels) > 1
+      associate (model => workspace%suspension%name)
+         call box%put(gradients_file, gradients_csv(page%gradients))
+         call box%put(gradients_json_file, gradients_json(page%gradients, model, checksum))
+         call key_numbers(page%tests, page%gradients, page%numbers, page%missing)
+         call set_targets(workspace%definition%targets, page%numbers, page%warnings)
+         call box%put(numbers_file, key_numbers_csv(page%numbers, is_pair))
+         call box%put(numbers_json_file, key_numbers_json(page%numbers, is_pair, model, checksum))
+         call box%write(contents_file, contents_csv(page%tests))
+      end associate
+   end subroutine put_numbers
 
-   !> Draws the pictures and writes the page.
-   subroutine write_page(settings, suspension, page, undrawn, error)
+   !> Lists the files of the report, and removes the files of an earlier report from the folder.
+   subroutine list_report(page, box, is_quiet, error)
+      type(report_t), intent(in) :: page
+      type(outbox_t), intent(in) :: box
+      logical, intent(in) :: is_quiet
+      type(error_t), allocatable, intent(out) :: error          !! exit_file: the list cannot be written
+      type(message_list_t) :: files
+      integer :: k
+
+      do k = 1, size(files_of_reports)
+         call files%add(trim(files_of_reports(k)))
+      end do
+      do k = 1, box%files%count()
+         if (all(files_of_reports /= box%files%line(k))) call files%add(box%files%line(k))
+      end do
+      do k = 1, page%copies%count()
+         call files%add(page%copies%line(k))
+      end do
+      do k = 1, page%drawn%count()
+         call files%add(page%drawn%line(k))
+      end do
+      call renew_file_list(page%folder, list_file, files, 'report', is_quiet, error)
+   end subroutine list_report
+
+   !> Draws the pictures and writes the page. Missing pictures are a warning of the page and a failure of the outbox.
+   subroutine write_page(settings, suspension, page, box)
       type(settings_t), intent(in) :: settings
       type(suspension_t), intent(in) :: suspension
       type(report_t), intent(inout) :: page
-      type(error_t), allocatable, intent(out) :: undrawn        !! error of missing pictures; the page reports it
-      type(error_t), allocatable, intent(out) :: error          !! exit_file
+      type(outbox_t), intent(inout) :: box
       type(message_list_t) :: warnings
+      type(error_t), allocatable :: undrawn
       character(:), allocatable :: message
 
       ! first the page without pictures: it then exists even if gnuplot fails or never ends
       if (settings%has_plots) then
          warnings = page%warnings
          call page%warnings%add('The page has no pictures: gnuplot has not finished')
-         call write_whole(join_path(page%folder, page_file), report_page(page), error, can_be_redrawn=.true.)
-         if (allocated(error)) return
+         call box%write(page_file, report_page(page), can_be_redrawn=.true.)
          page%warnings = warnings
       end if
+      if (box%has_failed()) return
       call draw_pictures(page, suspension, settings%has_plots, settings%is_animated, message, undrawn)
       if (allocated(undrawn)) then
          call print_error(undrawn%message)
          call page%warnings%add('The page lacks pictures: '//undrawn%message)
+         call fail(box%undrawn, undrawn%code, 'the report was written, but some of its pictures are missing')
       else if (len(message) > 0) then
          if (settings%has_plots) call print_note(settings%is_quiet, message)
          call page%warnings%add('The page has no pictures: '//message)
       end if
       page%has_pictures = .not. allocated(undrawn) .and. len(message) == 0
-      call write_whole(join_path(page%folder, page_file), report_page(page), error)
+      call box%write(page_file, report_page(page))
    end subroutine write_page
 
    subroutine read_settings(line, settings, error)
@@ -248,16 +264,15 @@ contains
 
    !> Runs the tests, writes their tables and the envelopes of grid tests, and collects gradients and charts. Also writes the
    !> compliance matrix at every state of the first test that was run, for a suspension with wheels.
-   subroutine run_tests(windows, suspension, chosen, found, checksum, page, unprinted, incomplete, error)
+   subroutine run_tests(windows, suspension, chosen, found, checksum, page, box, incomplete)
       type(windows_t), intent(in) :: windows
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: chosen(:)
       type(examination_t), intent(in) :: found
       character(*), intent(in) :: checksum
       type(report_t), intent(inout) :: page
-      type(error_t), allocatable, intent(inout) :: unprinted      !! a path could not be printed
+      type(outbox_t), intent(inout) :: box                        !! after a failure to write, no further test is run
       type(error_t), allocatable, intent(out) :: incomplete       !! tests that failed; the others are written
-      type(error_t), allocatable, intent(out) :: error
       type(error_t), allocatable :: trouble
       type(table_t), allocatable :: compliance
       type(explanation_t), allocatable :: explanations(:)
@@ -277,22 +292,19 @@ contains
             call page%warnings%add(page%tests(k)%title//': '//trouble%message)
          end if
          if (.not. page%tests(k)%is_run) cycle
-         call write_table(page%tests(k)%table, join_path(page%folder, page%tests(k)%file), unprinted, error)
-         if (allocated(error)) return
+         call box%put(page%tests(k)%file, page%tests(k)%table)
          if (allocated(compliance)) then
-            call write_table(compliance, join_path(page%folder, compliance_file), unprinted, error)
-            if (allocated(error)) return
+            call box%put(compliance_file, compliance)
             deallocate (compliance)
             call move_alloc(explanations, page%explanations)
          end if
          call test_gradients(page%tests(k), windows, page%gradients)
          if (.not. allocated(page%tests(k)%grid)) then
             call test_charts(page%tests(k), page%charts, k)
-            cycle
+         else
+            call box%put(page%tests(k)%envelope, envelope_text(page%tests(k), suspension))
          end if
-         call write_whole(join_path(page%folder, page%tests(k)%envelope), envelope_text(page%tests(k), suspension), error)
-         if (allocated(error)) return
-         call print_path(join_path(page%folder, page%tests(k)%envelope), unprinted)
+         if (box%has_failed()) return
       end do
       page%incomplete = failed
       if (failed > 0) call fail(incomplete, code, str(failed)//' of '//plural(size(chosen), 'test', 'tests')// &

@@ -5,7 +5,7 @@ module ek_run
    use ek_kinds, only: wp
    use ek_error, only: error_t, fail, exit_usage, exit_convergence
    use ek_text, only: str, quoted, plural
-   use ek_file, only: make_folder, join_path, base_name, write_whole, write_standard_output
+   use ek_file, only: make_folder, base_name, write_standard_output
    use ek_rig_test, only: rig_test, lifts, is_scattered
    use ek_suspension, only: suspension_t, load_number
    use ek_case, only: case_t
@@ -17,16 +17,16 @@ module ek_run
    use ek_target, only: target_t, find_target
    use ek_table, only: table_t, print_csv, name_length
    use ek_json, only: json_t, json_string, json_numbers
-   use ek_gnuplot, only: figure_t, run_figures, draw_figures
+   use ek_gnuplot, only: figure_t, figure_script, run_figures
    use ek_model_remark, only: model_remarks_t, find_model_remarks
    use ek_command_line, only: command_line_t
    use ek_load_deck, only: deck_settings_t, read_deck_settings, load_deck, chosen_cases, examine_chosen
    use ek_run_numbers, only: run_numbers
    use ek_run_columns, only: choose_columns
-   use ek_console, only: print_note, print_error, print_model_remarks, print_remarks, write_table, show_progress, clear_progress, &
-      print_path
-   use ek_member_loads, only: load_record_t, begin_loads, add_loads
-   use ek_load_files, only: write_loads, remove_loads
+   use ek_console, only: print_note, print_error, print_model_remarks, print_remarks, show_progress, clear_progress
+   use ek_member_loads, only: load_record_t, begin_loads, add_loads, peak_loads
+   use ek_report_names, only: loads_file, peaks_file, files_of_loads
+   use ek_outbox, only: outbox_t, outbox_in, keep_first
    use ek_version, only: version
    use ek_quantity, only: unit_of, unit_text
    use ek_remark, only: remark_t
@@ -57,7 +57,8 @@ contains
       class(workspace_t), allocatable :: workspace
       type(definition_t), target :: definition
       type(case_t), allocatable :: chosen(:)
-      type(error_t), allocatable :: trouble, unprinted
+      type(error_t), allocatable :: trouble
+      type(outbox_t) :: box
       type(examination_t) :: found
       type(model_remarks_t) :: remarks
       type(json_t) :: json
@@ -91,14 +92,15 @@ contains
 
       failed = 0
       code = exit_convergence
+      box = outbox_in(settings%out)
       call begin_run_json(workspace%suspension%name, checksum, json)
       if (settings%has_loads) then
-         call remove_loads(settings%out)
+         call box%remove(files_of_loads)
          allocate (loads)
          call begin_loads(workspace%suspension, workspace%suspension%name, checksum, loads)
       end if
       do k = 1, size(chosen)
-         call run_case(settings, workspace%suspension, chosen(k), found%faults%line(k), checksum, json, loads, unprinted, trouble)
+         call run_case(settings, workspace%suspension, chosen(k), found%faults%line(k), checksum, json, loads, box, trouble)
          if (.not. allocated(trouble)) cycle
          failed = failed + 1
          if (code == exit_convergence) code = trouble%code     ! the first other than lack of convergence
@@ -108,19 +110,22 @@ contains
             call print_error(trouble%message)
          end if
       end do
-      if (.not. allocated(error) .and. allocated(loads)) call write_loads(loads, settings%out, unprinted, error)
+      if (.not. allocated(error) .and. allocated(loads)) then
+         call box%put(loads_file, loads%rows%csv())
+         call box%put(peaks_file, peak_loads(loads))
+         call box%take(error)
+      end if
       words = str(failed)//' of '//plural(size(chosen), 'case', 'cases')
       if (allocated(error)) then
          continue
       else if (failed == 0) then
-         call move_alloc(unprinted, error)
+         call box%finish(error)
       else if (code == exit_convergence) then
          call fail(error, code, words//' did not converge at every state; the converged states were written')
       else
          call fail(error, code, words//' failed (see above); the others were written')
       end if
-      if (settings%has_json) call write_run_json(json, merge(code, 0, failed > 0), settings%out, &
-         workspace%suspension%name, error)
+      if (settings%has_json) call write_run_json(json, merge(code, 0, failed > 0), workspace%suspension%name, box, error)
    end subroutine run
 
    subroutine read_settings(line, settings, error)
@@ -184,7 +189,7 @@ contains
 
    !> Runs one case: solves the case, prints its messages, and writes its table. If requested, also writes its figures, its
    !> compliance matrix, and the state that meets its target, and adds its loads and its JSON object.
-   subroutine run_case(settings, base, wanted, fault, checksum, json, loads, unprinted, error)
+   subroutine run_case(settings, base, wanted, fault, checksum, json, loads, box, error)
       type(settings_t), intent(in) :: settings
       type(suspension_t), intent(in) :: base
       type(case_t), intent(in) :: wanted
@@ -192,9 +197,9 @@ contains
       character(*), intent(in) :: checksum
       type(json_t), intent(inout) :: json
       type(load_record_t), allocatable, intent(inout) :: loads   !! loads of all members; allocated if requested
-      type(error_t), allocatable, intent(inout) :: unprinted     !! a path could not be printed
+      type(outbox_t), intent(inout) :: box
       type(error_t), allocatable, intent(out) :: error
-      type(error_t), allocatable :: trouble, undrawn
+      type(error_t), allocatable :: trouble
       type(solve_options_t) :: options
       class(case_result_t), allocatable :: result
       type(table_t) :: compliance
@@ -212,21 +217,22 @@ contains
       if (settings%has_json) call add_run_json(result, wanted, json)
       if (.not. result%is_run()) return
       if (allocated(loads)) call add_loads(result%suspension, result%case, result%path, result%kkt, loads)
-      name = join_path(settings%out, result%suspension%name//'_'//wanted%name)
+      name = result%suspension%name//'_'//wanted%name
       if (settings%out == '-') then
          if (.not. settings%has_json) call print_csv(result%table, trouble)
       else
-         call write_table(result%table, name//'.csv', unprinted, trouble)
-         if (settings%has_plots .and. .not. allocated(trouble)) call draw(settings, result, name, undrawn)
-         if (settings%has_compliance .and. .not. allocated(trouble)) then
+         call box%put(name//'.csv', result%table)
+         if (settings%has_plots .and. .not. box%has_failed()) call draw(settings, result, name, box)
+         if (settings%has_compliance .and. .not. box%has_failed()) then
             call compliance_table(result%suspension, result%case, result%path, result%kkt, compliance)
             call add_header(compliance, result%suspension, result%case, checksum)
-            call write_table(compliance, name//compliance_ending, unprinted, trouble)
+            call box%put(name//compliance_ending, compliance)
          end if
       end if
+      if (.not. allocated(trouble)) call box%take(trouble)
       if (.not. allocated(trouble) .and. len(wanted%target) > 0) &
-         call aim(settings, result, checksum, name//'_target.csv', unprinted, trouble)
-      if (.not. allocated(trouble)) call move_alloc(undrawn, trouble)
+         call aim(settings, result, checksum, name//'_target.csv', box, trouble)
+      call keep_first(trouble, box%undrawn)
       if (.not. allocated(trouble)) return
       if (allocated(error)) trouble%message = error%message//new_line('a')//trouble%message
       call move_alloc(trouble, error)
@@ -234,11 +240,11 @@ contains
 
    !> Finds the swept value that meets the target of a case, prints a note, and writes the state to a separate file (unless results
    !> go to standard output). The linear methods are excluded, because their states are not equilibria.
-   subroutine aim(settings, result, checksum, path, unprinted, error)
+   subroutine aim(settings, result, checksum, name, box, error)
       type(settings_t), intent(in) :: settings
       type(case_result_t), intent(inout) :: result
-      character(*), intent(in) :: checksum, path
-      type(error_t), allocatable, intent(inout) :: unprinted     !! a path could not be printed
+      character(*), intent(in) :: checksum, name
+      type(outbox_t), intent(inout) :: box
       type(error_t), allocatable, intent(out) :: error
       type(target_t) :: found
       character(:), allocatable :: words
@@ -253,7 +259,8 @@ contains
          if (settings%out /= '-') then
             call add_header(found%table, result%suspension, case, checksum)
             call found%table%header%add('target: '//found%column//' = '//str(found%wanted))
-            call write_table(found%table, path, unprinted, error)
+            call box%put(name, found%table)
+            call box%take(error)
             if (allocated(error)) return
          end if
          words = 'case '//quoted(case%name)//': '//found%column//' = '//str(found%wanted)//' at '//case%place_name//' = '// &
@@ -264,14 +271,14 @@ contains
    end subroutine aim
 
    !> Draws the figures of a case.
-   subroutine draw(settings, result, name, error)
+   subroutine draw(settings, result, name, box)
       type(settings_t), intent(in) :: settings
       type(case_result_t), intent(in) :: result
-      character(*), intent(in) :: name              !! path of the table without its extension
-      type(error_t), allocatable, intent(out) :: error
+      character(*), intent(in) :: name              !! name of the table without its extension
+      type(outbox_t), intent(inout) :: box
       type(figure_t), allocatable :: figures(:)
       character(64), allocatable :: elements(:)
-      character(:), allocatable :: model, message, label
+      character(:), allocatable :: model, reason, label
       integer :: k
 
       associate (suspension => result%suspension, case => result%case)
@@ -287,14 +294,12 @@ contains
          call run_figures(result%table, model, case%name, base_name(name//'.csv')//'.csv', figures, label, elements, &
             is_scattered(case%test))
       end associate
-      call draw_figures(figures, settings%out, message, error)
-      if (allocated(error)) return
-      if (len(message) > 0) then
-         call print_note(settings%is_quiet, message)
-      else
-         call print_note(settings%is_quiet, 'case '//quoted(result%case%name)//': '//str(size(figures))//' figures in '// &
-            settings%out//' ('//figures(1)%name//'.png …)')
-      end if
+      do k = 1, size(figures)
+         call box%add_script(figures(k)%name, figure_script(figures(k)))
+      end do
+      call box%draw(settings%is_quiet, reason)
+      if (len(reason) == 0 .and. .not. box%has_failed()) call print_note(settings%is_quiet, 'case '//quoted(result%case%name)// &
+         ': '//str(size(figures))//' figures in '//settings%out//' ('//figures(1)%name//'.png …)')
    end subroutine draw
 
    !> Whether a case mainly moves the wheel vertically, so that its figures are plotted over the wheel travel.
@@ -361,25 +366,24 @@ contains
    end subroutine add_run_json
 
    !> Ends the JSON object and writes it.
-   subroutine write_run_json(json, status, folder, model, error)
+   subroutine write_run_json(json, status, model, box, error)
       type(json_t), intent(inout) :: json
       integer, intent(in) :: status                                !! exit status of the program
-      character(*), intent(in) :: folder, model                    !! output folder, - for standard output; model name
+      character(*), intent(in) :: model                            !! name of the model
+      type(outbox_t), intent(inout) :: box                         !! its folder: - for standard output
       type(error_t), allocatable, intent(inout) :: error           !! a failure to write; an earlier error is not replaced
       type(error_t), allocatable :: unwritten
-      character(:), allocatable :: path
 
       call json%close(']')
       call json%item('status', str(status))
       call json%close('}')
-      if (folder == '-') then
+      if (box%folder == '-') then
          call write_standard_output(json%text(), unwritten)
       else
-         path = join_path(folder, model//'_run.json')
-         call write_whole(path, json%text(), unwritten)
-         if (.not. allocated(unwritten)) call print_path(path, unwritten)
+         call box%put(model//'_run.json', json%text())
+         call box%take(unwritten)
       end if
-      if (allocated(unwritten) .and. .not. allocated(error)) call move_alloc(unwritten, error)
+      call keep_first(error, unwritten)
    end subroutine write_run_json
 
 end module ek_run

@@ -8,7 +8,7 @@ module ek_solve_command
    use ek_letters, only: visible
    use ek_decimal, only: decimal, get_bounded, size_hint
    use ek_buffer, only: buffer_t
-   use ek_file, only: make_folder, join_path, write_whole, file_exists, remove_file
+   use ek_file, only: make_folder, join_path
    use ek_system, only: facts_t, facts_of
    use ek_parameter, only: choice_t
    use ek_session, only: session_t
@@ -21,7 +21,8 @@ module ek_solve_command
    use ek_deck_fragment, only: records_with
    use ek_command_line, only: command_line_t
    use ek_load_deck, only: deck_settings_t, read_deck_settings, load_session, spare_results
-   use ek_console, only: print_path, print_text
+   use ek_console, only: print_text
+   use ek_outbox, only: outbox_t, outbox_in, keep_first
    use ek_version, only: version
    use ek_key_number, only: nothing
    use ek_target_band, only: target_band_t
@@ -67,7 +68,7 @@ contains
       call read_unknowns(line%values('--vary'), session, unknowns, error)
       call read_conditions(line, settings, session%workspace, wanted, targets, weights, origins, fault)
       if (allocated(error) .and. allocated(fault)) error%message = error%message//new_line('a')//fault%message
-      if (allocated(fault) .and. .not. allocated(error)) call move_alloc(fault, error)
+      call keep_first(error, fault)
       if (allocated(error)) return
       call solve_conditions(unknowns, wanted, targets, weights, max_sweeps, session%workspace, search, found, error)
       if (allocated(error)) return
@@ -151,10 +152,10 @@ contains
       type(message_list_t), intent(in) :: origins           !! of read_conditions
       type(compromise_t), intent(in) :: compromise
       type(error_t), allocatable, intent(out) :: error
-      type(error_t), allocatable :: unprinted
+      type(outbox_t) :: box
       type(choice_t), allocatable :: changed(:)
       type(buffer_t) :: text, file
-      character(:), allocatable :: path
+      character(:), allocatable :: name
       integer :: j
 
       allocate (changed(0))
@@ -172,37 +173,34 @@ contains
       end do
       call text%line('as records of the deck:')
       call text%line(records_with(session%workspace%definition, session%workspace%x, changed))
-      path = free_path(join_path(settings%out, session%workspace%raw%name//'_solve'), settings%set_files)
+      box = outbox_in(settings%out)
       call make_folder(settings%out, error)
-      if (.not. allocated(error)) call write_whole(path, file%text(), error)
       if (allocated(error)) return
-      call print_path(path, unprinted)
-      path = join_path(settings%out, session%workspace%raw%name//'_compromise.csv')
+      call box%put(free_name(settings%out, session%workspace%raw%name//'_solve', settings%set_files), file%text())
+      name = session%workspace%raw%name//'_compromise.csv'
       if (size(compromise%x, 2) > 0) then
-         call write_whole(path, compromise_csv(session%workspace, unknowns, search, compromise), error)
-         if (allocated(error)) return
-         if (.not. allocated(unprinted)) call print_path(path, unprinted)
-      else if (file_exists(path)) then
-         call remove_file(path)                             ! of an earlier step
+         call box%put(name, compromise_csv(session%workspace, unknowns, search, compromise))
+      else if (.not. box%has_failed()) then
+         call box%remove([name])                           ! of an earlier step
       end if
-      if (allocated(unprinted)) call move_alloc(unprinted, error)
+      call box%finish(error)
       if (.not. allocated(error)) call print_text(text%text(), error)
    end subroutine write_results
 
-   !> The path of the file of settings: STEM.set, or STEM_2.set, … if --set-file gives a file of this path: it is not overwritten.
-   function free_path(stem, given) result(path)
-      character(*), intent(in) :: stem
+   !> The name of the file of settings: STEM.set, or STEM_2.set, … if --set-file gives a file of this path: it is not overwritten.
+   function free_name(folder, stem, given) result(name)
+      character(*), intent(in) :: folder, stem
       type(message_list_t), intent(in) :: given              !! files of --set-file
-      character(:), allocatable :: path
+      character(:), allocatable :: name
       integer :: k
 
-      path = stem//'.set'
+      name = stem//'.set'
       k = 1
-      do while (is_given(path, given))
+      do while (is_given(join_path(folder, name), given))
          k = k + 1
-         path = stem//'_'//str(k)//'.set'
+         name = stem//'_'//str(k)//'.set'
       end do
-   end function free_path
+   end function free_name
 
    !> Whether a path leads to one of the given files.
    logical function is_given(path, given)

@@ -3,7 +3,7 @@ module ek_solve_text
    use ek_kinds, only: wp
    use ek_error, only: message_list_t
    use ek_text, only: str, plural
-   use ek_decimal, only: decimal
+   use ek_frame, only: frame_t, new_frame
    use ek_buffer, only: buffer_t
    use ek_workspace, only: workspace_t
    use ek_wanted_number, only: wanted_number_t
@@ -169,36 +169,30 @@ contains
       type(search_t), intent(in) :: search
       type(compromise_t), intent(in) :: compromise
       character(:), allocatable :: text
-      type(buffer_t) :: csv
+      type(frame_t) :: frame
+      character(:), allocatable :: names
       integer :: i, j, k
 
-      call csv%line('# compromise of two conditions: in each row, neither condition can be satisfied better without the other one')
+      names = 'design'
+      do j = 1, size(unknowns)
+         names = names//','//unknowns(j)%direction%path
+      end do
+      frame = new_frame(names//',value_1,value_2,deviation_1,deviation_2,sum_of_squares')
+      call frame%header%add('compromise of two conditions: in each row, neither condition can be satisfied better without the '// &
+         'other one')
       do i = 1, 2
          associate (wanted => search%values%wanted(i))
-            call csv%line('# condition '//str(i)//': '//label_of(workspace, wanted)//' = '// &
+            call frame%header%add('condition '//str(i)//': '//label_of(workspace, wanted)//' = '// &
                quantity(search%targets(i), wanted%unit)//', weight '//quantity(search%weights(i), wanted%unit)//'; deviation_'// &
                str(i)//': deviation divided by the weight')
          end associate
       end do
-      call csv%add('design')
-      do j = 1, size(unknowns)
-         call csv%add(','//unknowns(j)%direction%path)
-      end do
-      call csv%line(',value_1,value_2,deviation_1,deviation_2,sum_of_squares')
       do k = 1, size(compromise%x, 2)
-         call csv%add(str(k))
-         do j = 1, size(unknowns)
-            call csv%add(','//decimal(compromise%x(j, k)))
-         end do
-         do i = 1, 2
-            call csv%add(','//decimal(compromise%values(i, k)))
-         end do
-         do i = 1, 2
-            call csv%add(','//decimal(compromise%deviations(i, k)))
-         end do
-         call csv%line(','//decimal(sum(compromise%deviations(:, k)**2)))
+         call frame%put(k)
+         call frame%put([compromise%x(:, k), compromise%values(:2, k), compromise%deviations(:2, k), &
+            sum(compromise%deviations(:, k)**2)])
       end do
-      text = csv%text()
+      text = frame%csv()
    end function compromise_csv
 
    !> The cosine between the effects of the unknowns on two conditions; 0 if there are no effects.

@@ -19,7 +19,8 @@ module ek_study_outcome
    use ek_tolerance_outcome, only: write_tolerance
    use ek_study_list, only: list_tables, list_figures
    use ek_plot, only: draw_study, draw_steps
-   use ek_console, only: print_note, print_warning, print_error, print_path
+   use ek_console, only: print_note, print_warning, print_error
+   use ek_outbox, only: outbox_t, outbox_in, keep_first
    implicit none(type, external)
    private
    public :: write_results, write_step_size, show_results
@@ -109,34 +110,35 @@ contains
       type(opened_study_t), intent(in) :: this
       type(message_list_t), intent(in) :: tables
       type(error_t), allocatable, intent(inout) :: error
-      type(error_t), allocatable :: unprinted, undrawn
+      type(error_t), allocatable :: trouble
+      type(outbox_t) :: box
+      logical :: is_quiet
       integer :: k
 
       if (tables%count() == 0) return
+      box = outbox_in(this%out)
       do k = 1, tables%count()
-         call print_path(join_path(this%out, tables%line(k)), unprinted)
+         call box%announce(tables%line(k))
       end do
+      is_quiet = line%has('--quiet')
       if (allocated(this%tolerance)) then
-         call write_tolerance(this, line%has('--quiet'), undrawn)
-         if (allocated(undrawn) .and. .not. allocated(error)) call move_alloc(undrawn, error)
-         if (allocated(undrawn)) deallocate (undrawn)
+         call write_tolerance(this, is_quiet, trouble)
+         call keep_first(error, trouble)
       end if
       if (line%has('--no-plots')) then
-         call list_figures(this%study%name, this%out, message_list_t(), line%has('--quiet'), undrawn)     ! none
-         if (allocated(undrawn) .and. .not. allocated(error)) call move_alloc(undrawn, error)
-         if (allocated(unprinted) .and. .not. allocated(error)) call move_alloc(unprinted, error)
+         call list_figures(this%study%name, this%out, message_list_t(), is_quiet, trouble)     ! none
+         call keep_first(error, trouble)
+         call box%finish(error)
          return
       end if
       if (this%study%kind /= step_size_kind) call draw_study(this%study, this%deck, join_path(this%home, ''), this%out, &
-         message_list_t(), line%has('--quiet'), undrawn)
-      if (this%study%kind == step_size_kind) call draw_steps(this%study, this%out, line%has('--quiet'), undrawn)
-      if (.not. allocated(undrawn) .and. .not. this%has_store) &          ! the script reads CSV
-         call draw(line%has('--quiet'), join_path(this%home, this%study%plot), tables, this%out, undrawn)
-      if (allocated(undrawn)) then
-         if (allocated(error)) call print_error(undrawn%message)
-         if (.not. allocated(error)) call move_alloc(undrawn, error)
-      end if
-      if (allocated(unprinted) .and. .not. allocated(error)) call move_alloc(unprinted, error)
+         message_list_t(), is_quiet, trouble)
+      if (this%study%kind == step_size_kind) call draw_steps(this%study, this%out, is_quiet, trouble)
+      if (.not. allocated(trouble) .and. .not. this%has_store) &          ! the script reads CSV
+         call draw(is_quiet, join_path(this%home, this%study%plot), tables, this%out, trouble)
+      if (allocated(trouble) .and. allocated(error)) call print_error(trouble%message)
+      call keep_first(error, trouble)
+      call box%finish(error)
    end subroutine show_results
 
    !> Runs the study's plot script on the tables.

@@ -14,7 +14,8 @@ module ek_tolerance_outcome
    use ek_moment_tables, only: take_tolerance, take_sample, write_moments
    use ek_study_list, only: list_tables
    use ek_opened_study, only: opened_study_t
-   use ek_console, only: print_path, print_text, print_warning
+   use ek_console, only: print_text, print_warning
+   use ek_outbox, only: outbox_t, outbox_in
    implicit none(type, external)
    private
    public :: expand_study, write_tolerance
@@ -49,6 +50,7 @@ contains
       type(error_t), allocatable, intent(out) :: error     !! exit_file
       class(study_data_t), allocatable :: data
       type(message_list_t) :: names
+      type(outbox_t) :: box
       type(buffer_t) :: text
       integer :: k
 
@@ -61,9 +63,11 @@ contains
       call take_sample(data)
       call write_moments(data, this%out, names, error)
       if (.not. allocated(error)) call list_tables(this%study%name, this%out, names, is_quiet, error, is_more=.true.)
+      box = outbox_in(this%out)
       do k = 1, names%count()
-         if (.not. allocated(error)) call print_path(join_path(this%out, names%line(k)), error)
+         if (.not. allocated(error)) call box%announce(names%line(k))
       end do
+      call box%finish(error)
       do k = 1, size(data%responses)
          call add_response(data, k, text)
       end do

@@ -5,9 +5,8 @@
 module ek_compare_tables
    use ek_kinds, only: wp
    use ek_error, only: error_t
-   use ek_decimal, only: decimal
    use ek_file, only: write_whole, join_path
-   use ek_text_table, only: text_table_t, new_text_table, add_row, text_table_csv
+   use ek_frame, only: frame_t, new_frame
    use ek_change, only: change_of, verdict_of, letter_of
    use ek_comparison, only: comparison_t, difference_t, difference, percent
    use ek_deck_difference, only: deck_difference_t, step_text
@@ -16,8 +15,7 @@ module ek_compare_tables
    public :: write_tables, gradient_table
 
    character(*), parameter :: gradient_table = 'differences.csv'
-   character(*), parameter :: value_columns(8) = [character(10) :: 'a_file', 'b_file', 'a', 'b', 'difference', 'percent', &
-      'change', 'verdict']
+   character(*), parameter :: value_names = 'a_file,b_file,a,b,difference,percent,change,verdict'
 
 contains
 
@@ -40,39 +38,34 @@ contains
       type(difference_t), intent(in) :: rows(:)
       logical, intent(in) :: is_by_name            !! the rows are key numbers
       character(:), allocatable :: text
-      type(text_table_t) :: table
+      type(frame_t) :: frame
       real(wp) :: change
-      integer :: k, r, first
+      integer :: k, r
 
-      if (is_by_name) then
-         table = new_text_table([character(10) :: 'name', 'group', 'quantity', 'side', 'unit', 'condition', value_columns])
-      else
-         table = new_text_table([character(10) :: 'test', 'quantity', 'side', 'unit', 'window', value_columns])
-      end if
-      first = merge(6, 5, is_by_name)
+      frame = new_frame('test,quantity,side,unit,window,'//value_names)
+      if (is_by_name) frame = new_frame('name,group,quantity,side,unit,condition,'//value_names)
       do k = 1, size(rows)
          do r = 2, size(this%results)
-            call add_row(table)
             associate (row => rows(k))
-               if (is_by_name) call put(table, 1, row%column)
-               call put(table, first - 4, row%test)
-               call put(table, first - 3, row%quantity)
-               call put(table, first - 2, row%side)
-               call put(table, first - 1, row%unit)
-               call put(table, first, row%window)
-               call put(table, first + 1, this%results(1)%path)
-               call put(table, first + 2, this%results(r)%path)
-               call put(table, first + 3, decimal(row%values(1)))
-               call put(table, first + 4, decimal(row%values(r)))
-               call put(table, first + 5, decimal(difference(row%values(1), row%values(r))))
-               call put(table, first + 6, decimal(percent(row%values(1), row%values(r), row%unit)))
+               if (is_by_name) call frame%put(row%column)
+               call frame%put(row%test)
+               call frame%put(row%quantity)
+               call frame%put(row%side)
+               call frame%put(row%unit)
+               call frame%put(row%window)
+               call frame%put(this%results(1)%path)
+               call frame%put(this%results(r)%path)
+               call frame%put(row%values(1))
+               call frame%put(row%values(r))
+               call frame%put(difference(row%values(1), row%values(r)))
+               call frame%put(percent(row%values(1), row%values(r), row%unit))
                change = change_of(row%values(1), row%values(r), row%least, row%unit)
-               call put(table, first + 7, decimal(100*change))
-               call put(table, first + 8, trim(verdict_of(change, this%threshold, row%is_there(1), row%is_there(r), r)))
+               call frame%put(100*change)
+               call frame%put(trim(verdict_of(change, this%threshold, row%is_there(1), row%is_there(r), r)))
             end associate
          end do
       end do
-      text = text_table_csv(table)
+      text = frame%csv()
    end function differences_csv
 
    !> The table of curves as CSV, one row per curve and per result compared with the first. A row gives the largest
@@ -80,28 +73,26 @@ contains
    function curves_csv(this) result(text)
       type(comparison_t), intent(in) :: this
       character(:), allocatable :: text
-      type(text_table_t) :: table
+      type(frame_t) :: frame
       integer :: k
 
-      table = new_text_table([character(18) :: 'test', 'quantity', 'title', 'curve', 'label', 'a_file', 'b_file', &
-         'largest_difference', 'at', 'change', 'verdict'])
+      frame = new_frame('test,quantity,title,curve,label,a_file,b_file,largest_difference,at,change,verdict')
       do k = 1, size(this%curves)
-         call add_row(table)
          associate (curve => this%curves(k))
-            call put(table, 1, curve%test)
-            call put(table, 2, curve%chart)
-            call put(table, 3, curve%title)
-            call put(table, 4, curve%curve)
-            call put(table, 5, curve%label)
-            call put(table, 6, this%results(1)%path)
-            call put(table, 7, this%results(curve%result)%path)
-            call put(table, 8, decimal(curve%largest))
-            call put(table, 9, decimal(curve%at))
-            call put(table, 10, decimal(100*curve%change))
-            call put(table, 11, trim(curve%verdict))
+            call frame%put(curve%test)
+            call frame%put(curve%chart)
+            call frame%put(curve%title)
+            call frame%put(curve%curve)
+            call frame%put(curve%label)
+            call frame%put(this%results(1)%path)
+            call frame%put(this%results(curve%result)%path)
+            call frame%put(curve%largest)
+            call frame%put(curve%at)
+            call frame%put(100*curve%change)
+            call frame%put(trim(curve%verdict))
          end associate
       end do
-      text = text_table_csv(table)
+      text = frame%csv()
    end function curves_csv
 
    !> The table of decks as CSV, one row per value or fact that differs: the strings of all results; for two results, also the
@@ -110,16 +101,16 @@ contains
       type(comparison_t), intent(in) :: this
       character(:), allocatable :: text
       character(10) :: heads(size(this%results))
-      type(text_table_t) :: table
+      type(frame_t) :: frame
       integer :: r
 
       do r = 1, size(heads)
          heads(r) = achar(iachar(letter_of(r)) + 32)        ! a, b, …
       end do
-      table = new_text_table([character(10) :: 'kind', 'path', 'sides', heads, 'difference'])
+      frame = new_frame([character(10) :: 'kind', 'path', 'sides', heads, 'difference'])
       call add_rows('fact', this%facts)
       call add_rows('value', this%deck)
-      text = text_table_csv(table)
+      text = frame%csv()
 
    contains
 
@@ -129,25 +120,17 @@ contains
          integer :: k, j
 
          do k = 1, size(list)
-            call add_row(table)
-            call put(table, 1, kind)
-            call put(table, 2, list(k)%path)
-            call put(table, 3, list(k)%sides)
+            call frame%put(kind)
+            call frame%put(list(k)%path)
+            call frame%put(list(k)%sides)
             do j = 1, size(heads)
-               call put(table, 3 + j, list(k)%texts%line(j))
+               call frame%put(list(k)%texts%line(j))
             end do
-            if (size(heads) == 2) call put(table, 6, step_text(list(k)%texts%line(1), list(k)%texts%line(2)))
+            if (size(heads) == 2) call frame%put(step_text(list(k)%texts%line(1), list(k)%texts%line(2)))
+            if (size(heads) /= 2) call frame%put('')
          end do
       end subroutine add_rows
 
    end function deck_csv
-
-   !> Writes a cell of the last row.
-   subroutine put(table, column, text)
-      type(text_table_t), intent(inout) :: table
-      integer, intent(in) :: column
-      character(*), intent(in) :: text
-      table%cells(column, table%rows)%text = text
-   end subroutine put
 
 end module ek_compare_tables

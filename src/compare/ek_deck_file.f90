@@ -2,12 +2,13 @@
 !> report was made (deck, settings, checksum). Rows of kind `value` contain the values of the deck by their paths.
 module ek_deck_file
    use ek_error, only: error_t, message_list_t
-   use ek_file, only: write_whole, file_exists
+   use ek_file, only: file_exists
    use ek_table, only: table_t
-   use ek_text_table, only: text_table_t, new_text_table, add_row, text_table_csv, read_text_table, cell_of
+   use ek_frame, only: frame_t, new_frame
+   use ek_text_table, only: text_table_t, read_text_table, cell_of
    implicit none(type, external)
    private
-   public :: deck_record_t, write_deck_file, read_deck_file, facts_of_table
+   public :: deck_record_t, deck_csv, read_deck_file, facts_of_table
 
    character(*), parameter :: fact = 'fact', value = 'value'
    !> Facts of the page that deck.csv omits: the report contains them elsewhere, or no result depends on them.
@@ -21,36 +22,28 @@ module ek_deck_file
 
 contains
 
-   !> Writes deck.csv: the facts and the values of the deck.
-   subroutine write_deck_file(path, names, facts, paths, texts, error)
-      character(*), intent(in) :: path
+   !> deck.csv: the facts and the values of the deck.
+   function deck_csv(names, facts, paths, texts) result(csv)
       type(message_list_t), intent(in) :: names, facts     !! facts at the top of the page
       type(message_list_t), intent(in) :: paths, texts     !! values of the deck by their paths (ek_deck_values)
-      type(error_t), allocatable, intent(out) :: error
-      type(text_table_t) :: table
+      character(:), allocatable :: csv
+      type(frame_t) :: frame
       integer :: k
 
-      table = new_text_table([character(5) :: 'kind', 'path', 'value'])
+      frame = new_frame('kind,path,value')
       do k = 1, names%count()
-         if (.not. any(not_kept == names%line(k))) call add(fact, names%line(k), facts%line(k))
+         if (any(not_kept == names%line(k))) cycle
+         call frame%put(fact)
+         call frame%put(names%line(k))
+         call frame%put(facts%line(k))
       end do
       do k = 1, paths%count()
-         call add(value, paths%line(k), texts%line(k))
+         call frame%put(value)
+         call frame%put(paths%line(k))
+         call frame%put(texts%line(k))
       end do
-      call write_whole(path, text_table_csv(table), error)
-
-   contains
-
-      subroutine add(kind, name, text)
-         character(*), intent(in) :: kind, name, text
-
-         call add_row(table)
-         table%cells(1, table%rows)%text = kind
-         table%cells(2, table%rows)%text = name
-         table%cells(3, table%rows)%text = text
-      end subroutine add
-
-   end subroutine write_deck_file
+      csv = frame%csv()
+   end function deck_csv
 
    !> Reads deck.csv. Without the file, the record is empty and is_known is .false.; this is not an error, because reports of
    !> earlier versions do not have the file.

@@ -4,11 +4,12 @@ module ek_report_files
    use ek_kinds, only: wp
    use ek_error, only: error_t, fail, exit_file
    use ek_text, only: str, quoted, lower
-   use ek_file, only: write_whole, join_path, base_name, file_exists, folder_exists
+   use ek_file, only: join_path, base_name, file_exists, folder_exists
    use ek_table, only: read_csv, name_length
    use ek_decimal, only: get_decimal
    use ek_gnuplot_text, only: one_line
-   use ek_text_table, only: text_table_t, new_text_table, add_row, text_table_csv, read_text_table, cell_of
+   use ek_frame, only: frame_t, new_frame
+   use ek_text_table, only: text_table_t, read_text_table, cell_of
    use ek_test_result, only: test_result_t, find_wheels, choose_abscissa, read_frame_line
    use ek_gradient, only: gradient_t, test_gradients, read_gradients
    use ek_gradient_definition, only: windows_t
@@ -16,7 +17,7 @@ module ek_report_files
    use ek_deck_file, only: deck_record_t, read_deck_file, facts_of_table
    implicit none(type, external)
    private
-   public :: results_t, read_results, read_test, write_contents, test_line, name_files, table_file, envelope_file, &
+   public :: results_t, read_results, read_test, contents_csv, test_line, name_files, table_file, envelope_file, &
       test_number
 
    character(*), parameter :: mark = 'test ', size_mark = 'factor size ', anti_mark = '(anti phase)'
@@ -84,25 +85,23 @@ contains
       end do
    end function envelope_file
 
-   !> Writes tests.csv: the tests of a report that were run, and the files of their tables.
-   subroutine write_contents(tests, path, error)
+   !> tests.csv: the tests of a report that were run, and the files of their tables.
+   pure function contents_csv(tests) result(text)
       type(test_result_t), intent(in) :: tests(:)
-      character(*), intent(in) :: path
-      type(error_t), allocatable, intent(out) :: error
-      type(text_table_t) :: table
+      character(:), allocatable :: text
+      type(frame_t) :: frame
       integer :: k
 
-      table = new_text_table([character(8) :: 'test', 'kind', 'title', 'file'])
+      frame = new_frame('test,kind,title,file')
       do k = 1, size(tests)
          if (.not. tests(k)%is_run) cycle
-         call add_row(table)
-         table%cells(1, table%rows)%text = tests(k)%name
-         table%cells(2, table%rows)%text = tests(k)%kind
-         table%cells(3, table%rows)%text = tests(k)%title
-         table%cells(4, table%rows)%text = tests(k)%file
+         call frame%put(tests(k)%name)
+         call frame%put(tests(k)%kind)
+         call frame%put(tests(k)%title)
+         call frame%put(tests(k)%file)
       end do
-      call write_whole(path, text_table_csv(table), error)
-   end subroutine write_contents
+      text = frame%csv()
+   end function contents_csv
 
    !> Reads a report folder, or one CSV file. The gradients of a CSV file are computed. All files listed in the contents of a folder
    !> must be in the folder itself.

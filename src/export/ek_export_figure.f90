@@ -2,16 +2,13 @@
 !> separately.
 module ek_export_figure
    use ek_kinds, only: wp
-   use ek_error, only: error_t, message_list_t
    use ek_text, only: str
-   use ek_file, only: write_whole, join_path
    use ek_buffer, only: buffer_t
    use ek_decimal, only: decimal
-   use ek_drawing, only: run_gnuplot
    use ek_gnuplot_text, only: gnuplot_text, gnuplot_comment
    implicit none(type, external)
    private
-   public :: panel_t, panel_list_t, add_panel, draw_export
+   public :: panel_t, panel_list_t, add_panel, export_script
 
    !> A panel: points of a file over a curve.
    type :: panel_t
@@ -48,30 +45,11 @@ contains
       end associate
    end subroutine add_panel
 
-   !> Writes the script folder/name.gp and draws name.png and name.svg. If gnuplot is missing, `message` reports the missing
-   !> program.
-   subroutine draw_export(list, folder, name, title, separator, message, error)
-      type(panel_list_t), intent(in) :: list
-      character(*), intent(in) :: folder, name, title
-      character(1), intent(in) :: separator                !! separator of the columns of the file: ',' or ' '
-      character(:), allocatable, intent(out) :: message    !! '' if the pictures were drawn
-      type(error_t), allocatable, intent(out) :: error     !! exit_file
-      type(message_list_t) :: scripts, pictures
-
-      message = ''
-      if (list%used == 0) return
-      call write_whole(join_path(folder, name//'.gp'), script_of(list, name, title, separator), error, can_be_redrawn=.true.)
-      if (allocated(error)) return
-      call scripts%add(name//'.gp')
-      call pictures%add(name//'.png')
-      call pictures%add(name//'.svg')
-      call run_gnuplot(scripts, pictures, folder, message, error)
-   end subroutine draw_export
-
-   function script_of(list, name, title, separator) result(text)
+   !> The script NAME.gp, which draws NAME.png and NAME.svg.
+   function export_script(list, name, title, separator) result(text)
       type(panel_list_t), intent(in) :: list
       character(*), intent(in) :: name, title
-      character(1), intent(in) :: separator
+      character(1), intent(in) :: separator                !! separator of the columns of the file: ',' or ' '
       character(:), allocatable :: text
       type(buffer_t) :: script
       integer :: k, i, rows
@@ -113,7 +91,7 @@ contains
       call script%line('   unset output')
       call script%line('}')
       text = script%text()
-   end function script_of
+   end function export_script
 
    !> The range of an axis: chosen by gnuplot, unless the values differ by rounding errors only.
    pure function range_of(values) result(range)

@@ -2,19 +2,18 @@
 !> draws name.png and name.svg from the data files in this folder. This module also lists the standard figures of one run.
 module ek_gnuplot
    use ek_kinds, only: wp
-   use ek_error, only: error_t, message_list_t
+   use ek_error, only: message_list_t
    use ek_text, only: str
-   use ek_file, only: write_whole, join_path, base_name
+   use ek_file, only: base_name
    use ek_chart, only: chart_t, palette, axes_style, range_of
    use ek_gnuplot_text, only: gnuplot_text, gnuplot_name, gnuplot_comment
-   use ek_drawing, only: run_gnuplot
    use ek_quantity, only: quantity_named
    use ek_table, only: table_t
    use ek_test_result, only: test_result_t, find_wheels, choose_abscissa, travel_column
    use ek_test_charts, only: quantity_chart, ending_chart, bushing_chart
    implicit none(type, external)
    private
-   public :: figure_t, figure_script, draw_figures, run_figures
+   public :: figure_t, figure_script, run_figures
 
    integer, parameter :: width = 1200        !! width of a picture [pixels]
    integer, parameter :: legend_on_top = 3   !! most entries of a legend above the panel; a longer legend is at the right
@@ -35,26 +34,6 @@ module ek_gnuplot
    end type figure_t
 
 contains
-
-   !> Writes folder/name.gp for every figure and runs gnuplot once on all scripts. Without gnuplot, only the scripts are written;
-   !> `message` reports this, and it is not an error.
-   subroutine draw_figures(figures, folder, message, error)
-      type(figure_t), intent(in) :: figures(:)
-      character(*), intent(in) :: folder
-      character(:), allocatable, intent(out) :: message   !! '' if the pictures were drawn
-      type(error_t), allocatable, intent(out) :: error    !! exit_file, with gnuplot's message
-      type(message_list_t) :: scripts, pictures
-      integer :: k
-
-      do k = 1, size(figures)
-         call write_whole(join_path(folder, figures(k)%name//'.gp'), figure_script(figures(k)), error, can_be_redrawn=.true.)
-         if (allocated(error)) return
-         call scripts%add(figures(k)%name//'.gp')
-         call pictures%add(figures(k)%name//'.png')
-         call pictures%add(figures(k)%name//'.svg')
-      end do
-      call run_gnuplot(scripts, pictures, folder, message, error)
-   end subroutine draw_figures
 
    !> The gnuplot script of a figure.
    pure function figure_script(figure) result(text)

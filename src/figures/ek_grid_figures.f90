@@ -4,7 +4,7 @@ module ek_grid_figures
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan, ieee_is_finite
    use ek_kinds, only: wp, millimetre
    use ek_text, only: str
-   use ek_buffer, only: buffer_t
+   use ek_frame, only: frame_t, new_frame
    use ek_noise, only: is_noise, solved
    use ek_quantity, only: quantity_named, label_of, head_with_unit
    use ek_rig_test, only: swept_unit
@@ -12,7 +12,7 @@ module ek_grid_figures
    use ek_case, only: case_t
    use ek_wheel_side, only: left_and_right
    use ek_grid, only: is_grid, grid_size, grid_levels, grid_place
-   use ek_table, only: column_index, csv_row, row_count
+   use ek_table, only: column_index, row_count
    use ek_test_result, only: test_result_t, converged_rows, wheel_word
    use ek_study_data, only: range_of_values, tic_step
    use ek_study_sheet, only: sheet_t, new_sheet, begin_data, add_numbers, end_data, begin_panels, begin_panel, end_panels
@@ -275,37 +275,34 @@ contains
       type(test_result_t), intent(in) :: test        !! with a grid
       type(suspension_t), intent(in) :: suspension
       character(:), allocatable :: text
-      logical, parameter :: is_whole(size(envelope_columns)) = .false.
-      type(buffer_t) :: buffer
-      character(:), allocatable :: place
+      type(frame_t) :: frame
       real(wp) :: values(size(envelope_columns)), design(3, 2)
       integer :: columns(size(envelope_columns), size(test%prefixes)), wheel, i, j, k
 
       design = design_centres(suspension)
-      do k = 1, test%table%header%count()
-         call buffer%line('# '//test%table%header%line(k))
-      end do
-      text = 'travel_mm,'//head_with_unit(test%grid%driver, trim(merge('   ', test%grid%unit, test%grid%unit == '-')))// &
-         ',side,centre_x_mm,centre_y_mm,centre_z_mm,spin_axis_x,spin_axis_y,spin_axis_z'
+      frame = new_frame('travel_mm,'//head_with_unit(test%grid%driver, trim(merge('   ', test%grid%unit, &
+         test%grid%unit == '-')))//',side,centre_x_mm,centre_y_mm,centre_z_mm,spin_axis_x,spin_axis_y,spin_axis_z')
+      frame%header = test%table%header
       do k = 1, size(envelope_columns)
          do wheel = 1, size(test%prefixes)
             columns(k, wheel) = column_index(test%table, trim(test%prefixes(wheel))//envelope_columns(k))
          end do
       end do
-      call buffer%line(text)
       do j = 1, size(test%grid%steer)
          do i = 1, size(test%grid%travel)
             if (test%grid%row(i, j) == 0) cycle
-            place = csv_row([test%grid%travel(i), test%grid%steer(j)], is_whole(:2))
+            call frame%put([test%grid%travel(i), test%grid%steer(j)])
+            call frame%hold()
             do wheel = 1, size(test%prefixes)
-               call buffer%add(place(:len(place) - 1)//','//trim(merge('right', 'left ', test%sides(wheel) > 0))//',')
                values = test%table%values(columns(:, wheel), test%grid%row(i, j))
                values(:3) = values(:3) + design(:, wheel)
-               call buffer%add(csv_row(values, is_whole))
+               call frame%put(trim(merge('right', 'left ', test%sides(wheel) > 0)))
+               call frame%put(values)
             end do
+            call frame%release()
          end do
       end do
-      text = buffer%text()
+      text = frame%csv()
    end function envelope_text
 
 end module ek_grid_figures

@@ -1,64 +1,27 @@
 !> key_numbers.csv and key_numbers.json: the key numbers of a report for programs, one row per name.
 module ek_key_number_table
-   use ek_kinds, only: wp
-   use ek_error, only: error_t
-   use ek_decimal, only: decimal
-   use ek_file, only: write_whole
-   use ek_json, only: json_t, json_string, json_number
+   use ek_json, only: json_t, json_string
    use ek_table, only: name_length
-   use ek_text_table, only: text_table_t, new_text_table, add_row, text_table_csv
+   use ek_frame, only: frame_t, new_frame
    use ek_key_number, only: key_number_t
    use ek_key_numbers, only: number_heads
    implicit none(type, external)
    private
-   public :: write_key_numbers, key_numbers_csv, key_numbers_json
+   public :: key_numbers_csv, key_numbers_json
 
-   character(*), parameter :: columns(8) = [character(10) :: 'name', 'value', 'unit', 'side', 'group', 'quantity', 'condition', &
-      'definition']
    character(*), parameter :: sides(2) = [character(5) :: 'left', 'right']
 
 contains
 
-   !> Writes key_numbers.csv and key_numbers.json.
-   subroutine write_key_numbers(numbers, is_pair, model, checksum, csv_path, json_path, error)
-      type(key_number_t), intent(in) :: numbers(:)
-      logical, intent(in) :: is_pair                   !! the model has two wheels
-      character(*), intent(in) :: model, checksum, csv_path, json_path
-      type(error_t), allocatable, intent(out) :: error
-
-      call write_whole(csv_path, key_numbers_csv(numbers, is_pair), error)
-      if (allocated(error)) return
-      call write_whole(json_path, key_numbers_json(numbers, is_pair, model, checksum), error)
-   end subroutine write_key_numbers
-
    !> The key numbers as CSV, one line per name; `nan` for a missing value.
    function key_numbers_csv(numbers, is_pair) result(text)
       type(key_number_t), intent(in) :: numbers(:)
-      logical, intent(in) :: is_pair
+      logical, intent(in) :: is_pair                   !! the model has two wheels
       character(:), allocatable :: text
-      character(name_length) :: heads(2)
-      type(text_table_t) :: table
-      integer :: k, wheel
+      type(frame_t) :: frame
 
-      table = new_text_table(columns)
-      do k = 1, size(numbers)
-         call number_heads(numbers(k), is_pair, heads)
-         do wheel = 1, 2
-            if (heads(wheel) == '') cycle
-            call add_row(table)
-            associate (row => table%rows, n => numbers(k))
-               table%cells(1, row)%text = trim(heads(wheel))
-               table%cells(2, row)%text = decimal(value_of(n, wheel))
-               table%cells(3, row)%text = n%unit
-               table%cells(4, row)%text = side_of(n, is_pair, wheel)
-               table%cells(5, row)%text = n%group
-               table%cells(6, row)%text = n%quantity
-               table%cells(7, row)%text = n%condition
-               table%cells(8, row)%text = n%definition
-            end associate
-         end do
-      end do
-      text = text_table_csv(table)
+      frame = frame_of(numbers, is_pair)
+      text = frame%csv()
    end function key_numbers_csv
 
    !> The key numbers as JSON: { "model", "checksum", "key_numbers": [ { … } ] }.
@@ -67,42 +30,43 @@ contains
       logical, intent(in) :: is_pair
       character(*), intent(in) :: model, checksum
       character(:), allocatable :: text
-      character(name_length) :: heads(2)
+      type(frame_t) :: frame
       type(json_t) :: json
-      integer :: k, wheel
 
       call json%open('{')
       call json%item('model', json_string(model))
       call json%item('checksum', json_string(checksum))
-      call json%open('[', 'key_numbers')
+      frame = frame_of(numbers, is_pair)
+      call frame%add_json('key_numbers', json)
+      call json%close('}')
+      text = json%text()
+   end function key_numbers_json
+
+   !> One row per name.
+   type(frame_t) function frame_of(numbers, is_pair) result(frame)
+      type(key_number_t), intent(in) :: numbers(:)
+      logical, intent(in) :: is_pair
+      character(name_length) :: heads(2)
+      integer :: k, wheel
+
+      frame = new_frame('name,value,unit,side,group,quantity,condition,definition')
       do k = 1, size(numbers)
          call number_heads(numbers(k), is_pair, heads)
          do wheel = 1, 2
             if (heads(wheel) == '') cycle
             associate (n => numbers(k))
-               call json%open('{')
-               call json%item('name', json_string(trim(heads(wheel))))
-               call json%item('value', json_number(value_of(n, wheel)))
-               call json%item('unit', json_string(n%unit))
-               call json%item('side', json_string(side_of(n, is_pair, wheel)))
-               call json%item('group', json_string(n%group))
-               call json%item('quantity', json_string(n%quantity))
-               call json%item('condition', json_string(n%condition))
-               call json%item('definition', json_string(n%definition))
-               call json%close('}')
+               call frame%put(trim(heads(wheel)))
+               call frame%put(merge(n%left, n%right, wheel == 1))
+               call frame%put(n%unit)
+               call frame%put(side_of(n, is_pair, wheel))
+               call frame%put(n%group)
+               call frame%put(n%quantity)
+               call frame%put(n%condition)
+               call frame%put(n%definition)
             end associate
          end do
       end do
-      call json%close(']')
-      call json%close('}')
-      text = json%text()
-   end function key_numbers_json
-
-   pure real(wp) function value_of(number, wheel) result(value)
-      type(key_number_t), intent(in) :: number
-      integer, intent(in) :: wheel
-      value = merge(number%left, number%right, wheel == 1)
-   end function value_of
+   end function frame_of
 
    !> Side of a key number: 'left', 'right', or '' for the axle and for a single wheel.
    function side_of(number, is_pair, wheel) result(side)

@@ -23,14 +23,14 @@ module ek_gradient
    use ek_test_result, only: test_result_t, unfolded_rows, wheel_column
    use ek_gradient_definition, only: definition_t, definitions_of, windows_t, window_of
    use ek_error, only: error_t, fail, exit_file
-   use ek_decimal, only: decimal, get_decimal
-   use ek_file, only: write_whole
+   use ek_decimal, only: get_decimal
    use ek_json, only: json_t, json_string, json_number, json_numbers
-   use ek_text_table, only: text_table_t, new_text_table, add_row, text_table_csv, read_text_table, cell_of
+   use ek_frame, only: frame_t, new_frame
+   use ek_text_table, only: text_table_t, read_text_table, cell_of
    implicit none(type, external)
    private
    public :: gradient_t, test_gradients, fit_slope, slope_note, slope_over_window, gradient_noise
-   public :: gradients_csv, gradients_json, write_gradients, read_gradients
+   public :: gradients_csv, gradients_json, read_gradients
 
    integer, parameter :: min_points = 3     !! fewer points do not define a fit
 
@@ -220,40 +220,30 @@ contains
       slope = sum((x - mean(1))*(y - mean(2)), mask=is_inside)/spread
    end subroutine slope_over_window
 
-   !> Writes gradients.csv and gradients.json. Each value has its window, unit and sign convention.
-   subroutine write_gradients(gradients, model, checksum, csv_path, json_path, error)
-      type(gradient_t), intent(in) :: gradients(:)
-      character(*), intent(in) :: model, checksum, csv_path, json_path
-      type(error_t), allocatable, intent(out) :: error
-
-      call write_whole(csv_path, gradients_csv(gradients), error)
-      if (allocated(error)) return
-      call write_whole(json_path, gradients_json(gradients, model, checksum), error)
-   end subroutine write_gradients
-
    !> The gradients as CSV, one line per gradient; `nan` for a missing value.
    pure function gradients_csv(gradients) result(text)
       type(gradient_t), intent(in) :: gradients(:)
       character(:), allocatable :: text
-      type(text_table_t) :: table
+      type(frame_t) :: frame
       integer :: k
 
-      table = new_text_table(columns)
+      frame = new_frame(columns)
       do k = 1, size(gradients)
-         call add_row(table)
-         table%cells(1, k)%text = gradients(k)%test
-         table%cells(2, k)%text = gradients(k)%quantity
-         table%cells(3, k)%text = gradients(k)%side
-         table%cells(4, k)%text = decimal(gradients(k)%value)
-         table%cells(5, k)%text = gradients(k)%unit
-         table%cells(6, k)%text = gradients(k)%window
-         table%cells(7, k)%text = str(gradients(k)%points)
-         table%cells(8, k)%text = gradients(k)%sign
-         table%cells(9, k)%text = gradients(k)%column
-         table%cells(10, k)%text = gradients(k)%over
-         table%cells(11, k)%text = gradients(k)%note
+         associate (g => gradients(k))
+            call frame%put(g%test)
+            call frame%put(g%quantity)
+            call frame%put(g%side)
+            call frame%put(g%value)
+            call frame%put(g%unit)
+            call frame%put(g%window)
+            call frame%put(g%points)
+            call frame%put(g%sign)
+            call frame%put(g%column)
+            call frame%put(g%over)
+            call frame%put(g%note)
+         end associate
       end do
-      text = text_table_csv(table)
+      text = frame%csv()
    end function gradients_csv
 
    !> The gradients as JSON: { "model", "checksum", "gradients": [ { … } ] }.

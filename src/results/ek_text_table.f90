@@ -1,19 +1,17 @@
-!> A table of strings as comma-separated values (RFC 4180): a line of column names, then one line per row.
+!> A table of strings that is read from comma-separated values (RFC 4180): a line of column names, then one line per row.
 !>
-!> A cell is quoted if it contains a comma, a quote or a line end, or begins with #. Lines of a file that begin with # are
-!> skipped, and so are empty lines. A blank precedes a cell that a spreadsheet would read as a formula: text that begins with =, +,
-!> - or @. The reader removes this blank.
+!> Cells may be quoted. Lines of a file that begin with # are skipped, and so are empty lines. The blank that precedes text that a
+!> spreadsheet would read as a formula (ek_frame) is removed.
 module ek_text_table
    use ek_error, only: error_t, message_list_t, fail, exit_file
    use ek_text, only: str, quoted, plural
    use ek_buffer, only: buffer_t
-   use ek_decimal, only: get_decimal
-   use ek_kinds, only: wp
+   use ek_frame, only: bare_cell
    use ek_file, only: read_whole
    use ek_letters, only: with_line_ends
    implicit none(type, external)
    private
-   public :: text_table_t, new_text_table, add_row, text_table_csv, read_text_table, cell_of
+   public :: text_table_t, new_text_table, add_row, read_text_table, cell_of
 
    character(*), parameter :: line_end = new_line('a')
 
@@ -76,73 +74,7 @@ contains
       end do
    end function cell_of
 
-   !> The table as a CSV string.
-   pure function text_table_csv(table) result(text)
-      type(text_table_t), intent(in) :: table
-      character(:), allocatable :: text
-      type(buffer_t) :: buffer
-      integer :: k, row
-
-      do k = 1, size(table%columns)
-         if (k > 1) call buffer%add(',')
-         call buffer%add(protected_cell(trim(table%columns(k))))
-      end do
-      call buffer%add(line_end)
-      do row = 1, table%rows
-         do k = 1, size(table%columns)
-            if (k > 1) call buffer%add(',')
-            call buffer%add(protected_cell(table%cells(k, row)%text))
-         end do
-         call buffer%add(line_end)
-      end do
-      text = buffer%text()
-   end function text_table_csv
-
-   !> A cell as written, in quotes if necessary.
-   pure function protected_cell(text) result(cell)
-      character(*), intent(in) :: text
-      character(:), allocatable :: cell
-      integer :: k
-
-      cell = text
-      if (is_formula(text)) cell = ' '//text
-      if (scan(text, ',"'//line_end//achar(13)) == 0 .and. index(text, '#') /= 1) return
-      cell = '"'
-      if (is_formula(text)) cell = '" '
-      do k = 1, len(text)
-         if (text(k:k) == '"') cell = cell//'"'
-         cell = cell//text(k:k)
-      end do
-      cell = cell//'"'
-   end function protected_cell
-
-   !> Whether a spreadsheet reads a cell as a formula: the cell begins with =, +, - or @, and is neither a number, a percentage nor
-   !> this sign alone.
-   pure logical function is_formula(text)
-      character(*), intent(in) :: text
-      real(wp) :: value
-      integer :: last
-      logical :: is_number
-
-      is_formula = .false.
-      last = len_trim(text)
-      if (scan(text, '=+-@') /= 1 .or. last == 1) return
-      if (text(last:last) == '%') last = max(1, len_trim(text(:last - 1)))
-      call get_decimal(text(:last), value, is_number)
-      is_formula = .not. is_number
-   end function is_formula
-
-   !> A cell as it was before it was written: without the blank that precedes a formula.
-   pure function bare_cell(cell) result(text)
-      character(*), intent(in) :: cell
-      character(:), allocatable :: text
-
-      text = cell
-      if (index(cell, ' ') /= 1) return
-      if (is_formula(cell(2:))) text = cell(2:)
-   end function bare_cell
-
-   !> Reads a table from a CSV file, as written by text_table_csv, also after a spreadsheet has saved it with semicolons or tabs.
+   !> Reads a table from a CSV file, as written by ek_frame, also after a spreadsheet has saved it with semicolons or tabs.
    subroutine read_text_table(path, table, error)
       character(*), intent(in) :: path
       type(text_table_t), intent(out) :: table

@@ -6,8 +6,7 @@
 !> A member without points (a torsion spring, a `parallel` joint) has moments only, and no hardpoint.
 module ek_member_loads
    use ek_kinds, only: wp
-   use ek_text, only: str
-   use ek_buffer, only: buffer_t
+   use ek_frame, only: frame_t, new_frame
    use ek_block, only: rotated
    use ek_rotation, only: cross
    use ek_measure, only: measure_t, axis_axis, rotation
@@ -40,7 +39,7 @@ module ek_member_loads
    !> `factor`) and case.
    type :: load_record_t
       type(member_end_t), allocatable :: ends(:)
-      type(buffer_t) :: text                       !! content of loads.csv
+      type(frame_t) :: rows                        !! content of loads.csv
       real(wp), allocatable :: peaks(:, :)         !! (component, end): value of largest magnitude [N, N m]; see `components`
       integer, allocatable :: state(:, :)
       real(wp), allocatable :: factor(:, :)
@@ -56,7 +55,6 @@ module ek_member_loads
       'own_fz']
    integer, parameter :: of_all = 8           !! number of components that every member has
    integer, parameter :: resultants(2) = [4, 8]
-   character(*), parameter :: nl = new_line('a')
 
 contains
 
@@ -182,9 +180,9 @@ contains
          source=0.0_wp)
       allocate (record%state(size(components), size(record%ends)), record%case(size(components), size(record%ends)), source=0)
       allocate (record%cases(0))
-      call record%text%line('# model '//model//', deck checksum '//checksum//', axes '// &
+      record%rows = new_frame('test,state,factor,element,hardpoint,body,fx_n,fy_n,fz_n,mx_nm,my_nm,mz_nm')
+      call record%rows%header%add('model '//model//', deck checksum '//checksum//', axes '// &
          trim(merge('iso   ', 'x-rear', suspension%is_iso))//'. Force and moment on the body, at the hardpoint')
-      call record%text%line('test,state,factor,element,hardpoint,body,fx_n,fy_n,fz_n,mx_nm,my_nm,mz_nm')
    end subroutine begin_loads
 
    !> Adds the loads at the converged states of a case: rows of the table, and peaks.
@@ -200,8 +198,7 @@ contains
       type(inputs_t) :: inputs
       real(wp), allocatable :: loads(:, :)
       real(wp) :: own(3)
-      character(:), allocatable :: start
-      integer :: k, e, c
+      integer :: k, e
 
       allocate (names(size(record%cases) + 1), loads(6, size(record%ends)))
       names(:size(record%cases)) = record%cases
@@ -215,23 +212,20 @@ contains
          call inputs_at(schedule, path%value(k), inputs)
          call assemble(suspension, state, inputs, residual_only, kkt)
          call end_loads(suspension, state, kkt%gradients, record%ends, loads)
-         start = case%name//','//str(k - 1)//','//str(path%value(k)/case%unit, 9)//','
+         call record%rows%put(case%name)
+         call record%rows%put(k - 1)
+         call record%rows%put(path%value(k)/case%unit, 9)
+         call record%rows%hold()
          do e = 1, size(record%ends)
-            call record%text%add(start)
-            call record%text%add(record%ends(e)%member)
-            call record%text%add(',')
-            call record%text%add(record%ends(e)%point)
-            call record%text%add(',')
-            call record%text%add(record%ends(e)%body)
-            do c = 1, 6
-               call record%text%add(',')
-               call record%text%add(str(loads(c, e), 9))
-            end do
-            call record%text%add(nl)
+            call record%rows%put(record%ends(e)%member)
+            call record%rows%put(record%ends(e)%point)
+            call record%rows%put(record%ends(e)%body)
+            call record%rows%put(loads(:, e), 9)
             own = own_force(suspension, state, record%ends(e), loads(1:3, e))
             call keep(e, k - 1, path%value(k)/case%unit, [loads(1:3, e), norm2(loads(1:3, e)), loads(4:6, e), &
                norm2(loads(4:6, e)), own])
          end do
+         call record%rows%release()
       end do
 
    contains
@@ -284,34 +278,29 @@ contains
       end associate
    end function own_force
 
-   !> Writes the peak of every component at every end, with its test and state, as comma-separated values.
-   subroutine peak_loads(record, buffer)
+   !> The peak of every component at every end, with its test and state, as comma-separated values.
+   function peak_loads(record) result(text)
       type(load_record_t), intent(in) :: record
-      type(buffer_t), intent(out) :: buffer
+      character(:), allocatable :: text
+      type(frame_t) :: frame
       integer :: e, i
 
-      call buffer%line('element,hardpoint,body,component,value,unit,test,state,factor')
+      frame = new_frame('element,hardpoint,body,component,value,unit,test,state,factor')
       do e = 1, size(record%ends)
          do i = 1, size(components)
             if (record%case(i, e) == 0) cycle
-            call buffer%add(record%ends(e)%member)
-            call buffer%add(',')
-            call buffer%add(record%ends(e)%point)
-            call buffer%add(',')
-            call buffer%add(record%ends(e)%body)
-            call buffer%add(',')
-            call buffer%add(trim(components(i)))
-            call buffer%add(',')
-            call buffer%add(str(record%peaks(i, e), 9))
-            call buffer%add(trim(merge(',N,  ', ',N m,', i <= resultants(1) .or. i > of_all)))
-            call buffer%add(trim(record%cases(record%case(i, e))))
-            call buffer%add(',')
-            call buffer%add(str(record%state(i, e)))
-            call buffer%add(',')
-            call buffer%add(str(record%factor(i, e), 9))
-            call buffer%add(nl)
+            call frame%put(record%ends(e)%member)
+            call frame%put(record%ends(e)%point)
+            call frame%put(record%ends(e)%body)
+            call frame%put(trim(components(i)))
+            call frame%put(record%peaks(i, e), 9)
+            call frame%put(trim(merge('N  ', 'N m', i <= resultants(1) .or. i > of_all)))
+            call frame%put(trim(record%cases(record%case(i, e))))
+            call frame%put(record%state(i, e))
+            call frame%put(record%factor(i, e), 9)
          end do
       end do
-   end subroutine peak_loads
+      text = frame%csv()
+   end function peak_loads
 
 end module ek_member_loads
