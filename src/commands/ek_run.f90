@@ -93,7 +93,7 @@ contains
       if (settings%has_loads) then
          call remove_loads(settings%out)
          allocate (loads)
-         call begin_loads(workspace%suspension, workspace%suspension%name, checksum, loads)
+         call begin_loads(workspace%suspension, workspace%suspension%name, checksum, loads, chosen)
       end if
       do k = 1, size(chosen)
          call run_case(settings, workspace%suspension, chosen(k), found%faults%line(k), checksum, json, loads, unprinted, trouble)

@@ -20,6 +20,7 @@ module ek_workspace
    use ek_realise, only: realise, realise_cases
    use ek_suspension, only: suspension_t, copy_numbers
    use ek_case, only: is_mountable, default_tolerance
+   use ek_manoeuvre, only: can_drive
    use ek_balance, only: balance_failure_t, set_preloads, fail_balance
    use ek_preload_problem, only: preload_problem_t
    use ek_diagnosis, only: diagnosis_t
@@ -74,12 +75,16 @@ contains
    subroutine take_numbers(workspace, is_done)
       type(workspace_t), intent(inout) :: workspace
       logical, intent(out) :: is_done
+      integer :: k
 
       is_done = .true.
       if (workspace%stage >= realised) return
       is_done = all_in_range(workspace%design%parameters, workspace%x)
       if (is_done) call realise(workspace%design%plan, workspace%x, workspace%raw, is_done)
       if (is_done) call realise_cases(workspace%design%plan, workspace%x, workspace%design%cases, is_done)
+      do k = 1, size(workspace%design%cases)
+         if (is_done) is_done = can_drive(workspace%raw, workspace%design%cases(k))
+      end do
       if (is_done) workspace%stage = realised
    end subroutine take_numbers
 
