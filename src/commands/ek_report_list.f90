@@ -2,7 +2,7 @@
 module ek_report_list
    use ek_error, only: error_t, message_list_t
    use ek_report_content, only: report_t
-   use ek_report_names, only: list_file, files_of_reports, files_of_loads
+   use ek_report_names, only: list_file, files_of_reports, files_of_loads, envelope_file, loads_json_file, part_file
    use ek_listed_files, only: renew_file_list
    implicit none(type, external)
    private
@@ -39,6 +39,7 @@ contains
          do k = 1, size(files_of_loads)
             call files%add(trim(files_of_loads(k)))
          end do
+         if (allocated(report%parts)) call list_parts(report, files)
       end if
       do k = 1, report%copies%count()
          call files%add(report%copies%line(k))
@@ -47,5 +48,18 @@ contains
          call files%add(report%drawn%line(k))
       end do
    end subroutine list_files
+
+   !> Lists the files of the loads on parts.
+   subroutine list_parts(report, files)
+      type(report_t), intent(in) :: report
+      type(message_list_t), intent(inout) :: files
+      integer :: k
+
+      call files%add(envelope_file)
+      call files%add(loads_json_file)
+      do k = 1, report%parts%names%count()
+         call files%add(part_file(report%parts%names%line(k)))
+      end do
+   end subroutine list_parts
 
 end module ek_report_list
