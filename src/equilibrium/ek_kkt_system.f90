@@ -81,14 +81,15 @@ contains
             size(kkt%factor) == size(suspension%loads), 'assemble: the system is of another model')
          call require(size(state%poses) == size(suspension%bodies) + 1 .and. size(state%reaction) == kkt%nc, &
             'assemble: the state is of another model')
-         call require(inputs%loads <= size(inputs%load) .and. all(inputs%last(:inputs%loads) <= size(suspension%loads)) .and. &
+         call require(inputs%loads <= size(inputs%load) .and. all(inputs%load(:inputs%loads) + inputs%further(:inputs%loads) <= &
+            size(suspension%loads)) .and. &
             all(inputs%row(:inputs%rows) <= kkt%nc), 'assemble: the inputs are of another model')
       end if
       kkt%is_at_design = .false.
       kkt%factor = 1.0_wp
       where (suspension%loads%is_case) kkt%factor = 0.0_wp
       do k = 1, inputs%loads
-         do l = inputs%load(k), inputs%last(k)
+         do l = inputs%load(k), inputs%load(k) + inputs%further(k)
             if (suspension%loads(l)%is_case) kkt%factor(l) = kkt%factor(l) + inputs%factor(k)
          end do
       end do
@@ -164,7 +165,7 @@ contains
       kkt%is_at_design = .false.
       kkt%factor = 0.0_wp
       do k = 1, rate%loads
-         do l = rate%load(k), rate%last(k)
+         do l = rate%load(k), rate%load(k) + rate%further(k)
             kkt%factor(l) = kkt%factor(l) + rate%factor(k)
          end do
       end do
@@ -178,7 +179,7 @@ contains
       type(inputs_t), intent(in) :: inputs
       integer, intent(in) :: load      !! index of the load
       load_factor = sum(inputs%factor(:inputs%loads), mask=inputs%load(:inputs%loads) <= load .and. &
-         load <= inputs%last(:inputs%loads))
+         load <= inputs%load(:inputs%loads) + inputs%further(:inputs%loads))
    end function load_factor
 
    !> Removes a row of Φ from an assembled matrix. The diagonal of the row becomes −1 in the scaled matrix.

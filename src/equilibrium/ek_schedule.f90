@@ -24,7 +24,7 @@ module ek_schedule
       logical :: is_settling = .false.  !! no case: the swept value is the share of the imbalance at design that acts
       integer :: rest = 0               !! table row at which all inputs count as zero: the next row is reached from there
       integer :: load(max_driven) = 0, row(max_driven) = 0     !! indices of the loads and rows in the suspension
-      integer :: last(max_driven) = 0   !! index of the last load of each load actuator, which scales load to last
+      integer :: further(max_driven) = 0   !! number of loads after the load of each actuator that it scales, too
       type(actuator_t), allocatable :: load_actuator(:), row_actuator(:)
    end type schedule_t
 
@@ -81,8 +81,8 @@ contains
          if (number > 0 .and. schedule%loads < most) then
             schedule%loads = schedule%loads + 1
             schedule%load(schedule%loads) = number
-            schedule%last(schedule%loads) = number
-            if (present(loads)) schedule%last(schedule%loads) = number + loads - 1
+            schedule%further(schedule%loads) = 0
+            if (present(loads)) schedule%further(schedule%loads) = loads - 1
             call put(schedule%load_actuator(schedule%loads), law, share, values)
          end if
          number = driver_row(suspension, drive)
@@ -116,7 +116,7 @@ contains
       same_schedule = a%loads == b%loads .and. a%rows == b%rows
       if (.not. same_schedule) return
       do k = 1, a%loads
-         same_schedule = same_schedule .and. a%load(k) == b%load(k) .and. a%last(k) == b%last(k) .and. &
+         same_schedule = same_schedule .and. a%load(k) == b%load(k) .and. a%further(k) == b%further(k) .and. &
             same_law(a%load_actuator(k), b%load_actuator(k))
       end do
       do k = 1, a%rows
@@ -145,7 +145,7 @@ contains
       inputs%loads = schedule%loads
       do k = 1, schedule%loads
          inputs%load(k) = schedule%load(k)
-         inputs%last(k) = schedule%last(k)
+         inputs%further(k) = schedule%further(k)
          inputs%factor(k) = value_at(schedule%load_actuator(k), place, schedule%rest)
       end do
       inputs%rows = schedule%rows

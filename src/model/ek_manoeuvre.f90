@@ -12,7 +12,7 @@
 !> mirror image. The masses of the deck carry m (n − 1) g downward and m g a against the acceleration, in addition to their weights.
 module ek_manoeuvre
    use ek_kinds, only: wp
-   use ek_text, only: str, quoted
+   use ek_text, only: str
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t, manoeuvre_t
    use ek_wheel_side, only: left_and_right, design_track, share_on_wheel

@@ -71,7 +71,7 @@ contains
             pack%factor(k)%v(l) = merge(0.0_wp, 1.0_wp, pack%loads(k)%is_case)
          end do
          do k = 1, inputs%loads
-            do j = inputs%load(k), inputs%last(k)
+            do j = inputs%load(k), inputs%load(k) + inputs%further(k)
                if (pack%loads(j)%is_case) pack%factor(j)%v(l) = pack%factor(j)%v(l) + inputs%factor(k)
             end do
          end do

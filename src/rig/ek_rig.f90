@@ -22,16 +22,14 @@ module ek_rig
    use ek_rig_test, only: rig_test_t, rig_test, of_one_wheel, swept_unit, moves_heights, rolls, steers, loads_wheels, takes_table, &
       covers_grid, drives_car, of_braking
    use ek_wheel_side, only: side_name, left_and_right, design_track
-   use ek_joint, only: joint_t, row_t, term_t, joint_kinds
-   use ek_suspension, only: suspension_t, load_t, driver_unit, copy_numbers
+   use ek_suspension, only: suspension_t, driver_unit, copy_numbers
    use ek_kkt, only: kkt_t, renew_kkt
    use ek_path, only: walk_t, empty_walk
    use ek_grid, only: is_grid, grid_size, set_grid_values
    use ek_manoeuvre, only: has_manoeuvres, set_manoeuvre_values
    use ek_manoeuvre_loads, only: load_wheel, load_masses
    use ek_rig_parts, only: rig_t, acting_t, new_rig, add_height, add_load
-   use ek_case, only: case_t, append_actuation, copy_case_numbers, is_mountable, follows_place, follows_tangent, follows_table, &
-      actuation_t
+   use ek_case, only: case_t, append_actuation, copy_case_numbers, is_mountable, follows_place, follows_tangent, follows_table
    use ek_measure, only: measure_t, global_gap
    implicit none(type, external)
    private

@@ -263,7 +263,7 @@ contains
       integer :: k, l, at
 
       do k = 1, rates%loads
-         do l = rates%load(k), rates%last(k)
+         do l = rates%load(k), rates%load(k) + rates%further(k)
             associate (load => suspension%loads(l))
                if (.not. load%is_case) cycle
                call wrench(load, state%poses(load%body + 1), f, moment, arm)
