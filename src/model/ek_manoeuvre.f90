@@ -63,7 +63,7 @@ contains
       end do
    end function standing_load
 
-   !> The load of the axle when the car stands, and its share on each side.
+   !> Computes the load of the axle when the car stands, and its share on each side.
    pure subroutine standing_axle(suspension, axle_load, shares)
       type(suspension_t), intent(in) :: suspension
       real(wp), intent(out) :: axle_load     !! key axle_load of &axle; without this key, the wheel loads at design [N]

@@ -191,7 +191,7 @@ contains
       text = json%text()
    end subroutine parts_json
 
-   !> Extends tension and compression of the rods by a state.
+   !> Updates the largest tension and compression of the rods with a state.
    subroutine add_rods(suspension, state, kkt, name, rods)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
@@ -261,7 +261,7 @@ contains
       call buffer%add(','//name//nl)
    end subroutine add_line
 
-   !> Extends the envelope of a load, or adds a new envelope.
+   !> Updates the envelope of a load, or adds a new envelope.
    subroutine extend(envelopes, load, name)
       type(envelope_t), allocatable, intent(inout) :: envelopes(:)
       type(part_load_t), intent(in) :: load
