@@ -149,6 +149,7 @@ json_fits_the_schemas() {
   "$program" check tests/decks/bad_many.nml --json >"$folder/check.json" 2>/dev/null      # errors of a deck
   "$program" check "$axle" --json --set spring.coil.rate=30000 >"$folder/out/axle_check.json" || return 1
   "$program" explain "$axle" --json --quiet --case parallel_travel --increments 4 --out "$folder/out" >"$folder/explained" || return 1
+  "$program" loads tests/decks/truss_corner_loads.nml --json --quiet --out "$folder/out" >"$folder/listed" || return 1
   "$program-bench" "$axle" --increments 20 --json >"$folder/bench.json" && "$program-bench" --growth 200 --json >"$folder/growth.json" || return 1
   if "$program" --help | grep '^  export ' >/dev/null; then
     "$program" export "$axle" --to matlab-kc --out "$folder/export" && "$program" export "$axle" --to csv --out "$folder/export" || return 1

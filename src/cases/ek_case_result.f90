@@ -9,7 +9,7 @@ module ek_case_result
    use ek_version, only: version
    use ek_system, only: has_memory, memory_remarks
    use ek_suspension, only: suspension_t
-   use ek_case, only: case_t, is_mountable
+   use ek_case, only: case_t, is_mountable, row_name
    use ek_path, only: path_t, sweep, progress_procedure
    use ek_rig, only: mounted_case_t, mount_case
    use ek_wheel_side, only: single_side
@@ -17,7 +17,7 @@ module ek_case_result
    use ek_failure_text, only: failure_text, stability_remarks
    use ek_case_remarks, only: settling_remarks, drift_remarks, travel_remarks, rack_remarks, closure_remarks, curve_reach_remarks
    use ek_remark, only: remark_list_t, failure, on_case, on_end
-   use ek_table, only: table_t, name_length
+   use ek_table, only: table_t, name_length, column
    use ek_test_result, only: frame_line, test_result_t, find_wheels
    implicit none(type, external)
    private
@@ -199,13 +199,28 @@ contains
       if (result%outcome /= solved) call fail(error, codes(result%outcome), result%remarks%failures())
    end subroutine failure_of
 
-   !> Adds the header lines of the table of a case.
+   !> Gives each row of a table the name of its row in the load table, or of its manoeuvre; 'design' for the design state.
+   subroutine name_rows(case, table)
+      type(case_t), intent(in) :: case
+      type(table_t), intent(inout) :: table
+      real(wp), allocatable :: places(:)
+      integer :: k
+
+      if (row_name(case, 1) == '' .or. table%names%count() > 0) return
+      places = column(table, 'factor')
+      do k = 1, size(places)
+         call table%names%add(row_name(case, nint(places(k))))
+      end do
+   end subroutine name_rows
+
+   !> Adds the header lines of the table of a case. The rows of a table with names receive their names.
    subroutine add_header(table, suspension, case, checksum)
       type(table_t), intent(inout) :: table
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case              !! on the rig
       character(*), intent(in) :: checksum          !! of the deck
 
+      call name_rows(case, table)
       call table%header%add('model '//suspension%name//', case '//case%name//', method '//case%method// &
          trim(merge(', follow arc', '            ', case%follows_arc))// &
          trim(merge(', solver plan', '             ', case%uses_plan))//', tolerance '//str(case%tolerance/millimetre)//' mm')

@@ -8,7 +8,8 @@ module ek_failure_text
    use ek_element_force, only: spring_tension
    use ek_suspension, only: suspension_t, body_name, driver_unit
    use ek_rig_test, only: swept_unit
-   use ek_case, only: case_t, scales_loads
+   use ek_case, only: case_t, scales_loads, row_name
+   use ek_manoeuvre, only: has_manoeuvres
    use ek_grid, only: is_grid
    use ek_state, only: state_t, inputs_t, design_state, unpack_state
    use ek_schedule, only: new_schedule, inputs_at
@@ -42,7 +43,7 @@ contains
       if (.not. path%is_settled) then
          text = 'no equilibrium under the constant loads'
       else if (path%is_table) then
-         text = row_text(path, failure)
+         text = row_text(case, path, failure)
          if (is_grid(case)) text = grid_text(suspension, case, path)
       else if (failure%ending /= arrived) then
          text = arc_text(case, path, failure)
@@ -206,25 +207,45 @@ contains
 
    !> Phrase about the rows of a load table that did not converge: 'row 3 of the table did not converge; …', or 'rows 3, 4, 7 … of
    !> the table, 12 in all, did not converge; …'.
-   function row_text(path, failure) result(text)
+   function row_text(case, path, failure) result(text)
+      type(case_t), intent(in) :: case
       type(path_t), intent(in) :: path
       type(failure_t), intent(in) :: failure
       character(:), allocatable :: text
       integer, parameter :: max_named = 10
+      character(:), allocatable :: of_table, noun
       integer :: lost(count(.not. path%is_reached)), k, row
 
+      of_table = ' of the table'
+      noun = 'row'
+      if (has_manoeuvres(case)) then
+         of_table = ''
+         noun = 'manoeuvre'
+      end if
       lost = nint(pack(path%value, .not. path%is_reached))
-      text = trim(merge('rows', 'row ', size(lost) > 1))
+      text = noun//trim(merge('s', ' ', size(lost) > 1))
       do k = 1, min(size(lost), max_named)
-         text = text//trim(merge(', ', '  ', k > 1))//' '//str(lost(k))
+         text = text//trim(merge(', ', '  ', k > 1))//' '//word_of(lost(k))
       end do
-      if (size(lost) <= max_named) text = text//' of the table'
-      if (size(lost) > max_named) text = text//' … of the table, '//str(size(lost))//' in all,'
+      if (size(lost) <= max_named) text = text//of_table
+      if (size(lost) > max_named) text = text//' …'//of_table//', '//str(size(lost))//' in all,'
       row = nint(path%value(failure%state))
       text = text//' did not converge; the last equilibrium on the way from '
       if (row == 1) text = text//'design'
-      if (row > 1) text = text//'row '//str(row - 1)
-      text = text//' to row '//str(row)//' is at '//str(100.0_wp*(failure%reached - row + 1), 4)//' %'
+      if (row > 1) text = text//noun//' '//word_of(row - 1)
+      text = text//' to '//noun//' '//word_of(row)//' is at '//str(100.0_wp*(failure%reached - row + 1), 4)//' %'
+
+   contains
+
+      !> The index of a row of a table; the name of a manoeuvre.
+      function word_of(row) result(word)
+         integer, intent(in) :: row
+         character(:), allocatable :: word
+
+         word = str(row)
+         if (has_manoeuvres(case)) word = quoted(row_name(case, row))
+      end function word_of
+
    end function row_text
 
    !> Phrase about the states of a grid that did not converge: their number, and travel and driver value of the first six.

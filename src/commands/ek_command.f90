@@ -50,6 +50,12 @@ module ek_command
       '  picture.png and .svg; figures/: every chart (SVG and gnuplot script), views.svg with hardpoint names;'//nl// &
       '  deck.csv: every value of the deck; deck_as_used.nml: one deck with the same results;'//nl// &
       '  report-files.csv: list of all files of the report.', ''), &
+      command_t('loads', 'loads DECK [options]', 'loads DECK', 'write the loads on every part in load cases, for FEA', &
+      'Solves the manoeuvres of a deck (&manoeuvre), and its load tables with a column `name`. Writes into DIR:'//nl// &
+      '  <model>_<case>.csv: the results, one row per manoeuvre;'//nl// &
+      '  parts/<part>.csv: all forces and moments on each part, which are in equilibrium, with weight and inertia;'//nl// &
+      '  load-envelope.csv: smallest and largest value of each load, with the names of the manoeuvres;'//nl// &
+      '  loads.csv and peak-loads.csv, as run --loads; loads.json: the loads on all parts and in all rods.', exit_status_text), &
       command_t('explain', 'explain DECK [options]', 'explain DECK', 'list contributions to each compliance, and load paths', &
       'Splits each column that is linear in the compliance matrix into exact contributions, at every state.'//nl// &
       'Contributions come from each axis of a bushing, each spring, bar, stop and preload, and each driver with a'//nl// &
@@ -137,9 +143,16 @@ module ek_command
       option_t('run', '--json', 'also write DIR/<model>_run.json: tables, messages and status;'//indent// &
       'with "--out -", print only this JSON object'), &
       option_t('run', '--compliance', 'also write DIR/<model>_<case>_compliance.csv: the compliance matrix at every state'), &
-      option_t('run', '--loads', 'also write loads.csv (loads of every member at every state) and peak-loads.csv, for all cases'), &
+      option_t('run', '--loads', &
+      'also write loads.csv (loads of every member at every state) and peak-loads.csv, for all cases;'//indent// &
+      'of states with names (manoeuvres) also the files of the command loads'), &
       option_t('run', '--plot', 'also write gnuplot scripts, and PNG and SVG figures if gnuplot is installed'), &
       option_t('run', '--quiet', quiet_help), &
+      option_t('loads', '--out DIR', 'output folder (default: out)'), &
+      option_t('loads', '--case NAME', 'solve only this case; without names of states, no parts, envelope and JSON'), &
+      option_t('loads', '--solver S', 'as for run'), &
+      option_t('loads', '--set path=value', 'as for run'), option_t('loads', '--set-file FILE', 'as for run'), &
+      option_t('loads', '--json', 'as for run'), option_t('loads', '--quiet', quiet_help), &
       option_t('check', '--case NAME', 'check only this case or standard test'), &
       option_t('check', '--set path=value', 'as for run'), &
       option_t('check', '--set-file FILE', 'as for run'), &
@@ -273,7 +286,7 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       select case (line%command)
-      case ('run')
+      case ('run', 'loads')
          call run(line, error)
       case ('check')
          call check(line, error)

@@ -10,7 +10,7 @@
 !> draw, or to print a path, does not stop the delivery, because the files exist.
 module ek_outbox
    use ek_error, only: error_t, message_list_t
-   use ek_file, only: join_path, write_whole, remove_file, write_standard_output
+   use ek_file, only: join_path, write_whole, remove_file, write_standard_output, make_folder_of => make_folder
    use ek_table, only: table_t, write_csv
    use ek_drawing, only: run_gnuplot
    use ek_console, only: print_note
@@ -30,7 +30,7 @@ module ek_outbox
    contains
       procedure, private :: put_text, put_table
       generic :: put => put_text, put_table
-      procedure :: write => write_file, announce, remove, add_script, draw, has_failed, take, finish
+      procedure :: make_folder, write => write_file, announce, remove, add_script, draw, has_failed, take, finish
    end type outbox_t
 
 contains
@@ -40,6 +40,13 @@ contains
       character(*), intent(in) :: folder
       box%folder = folder
    end function outbox_in
+
+   !> Makes a folder in the folder of the outbox, unless it exists.
+   subroutine make_folder(self, name)
+      class(outbox_t), intent(inout) :: self
+      character(*), intent(in) :: name
+      if (.not. self%has_failed()) call make_folder_of(join_path(self%folder, name), self%unwritten)
+   end subroutine make_folder
 
    !> Writes a string as a file, and prints its path.
    subroutine put_text(self, name, text)

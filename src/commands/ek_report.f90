@@ -51,6 +51,8 @@ module ek_report
    use ek_remark, only: remark_t, failure, on_case, on_end, on_stability, on_settling, on_rack, on_curve, on_closure
    use ek_compliance_table, only: compliance_table
    use ek_member_loads, only: load_record_t, begin_loads, add_loads, peak_loads
+   use ek_part_record, only: part_record_t, has_names, begin_parts, add_parts
+   use ek_part_files, only: put_parts, remove_parts
    use ek_listed_files, only: renew_file_list
    use ek_outbox, only: outbox_t, outbox_in
    use ek_test_result, only: test_result_t, find_wheels, choose_abscissa
@@ -111,10 +113,15 @@ contains
       call find_model_remarks(workspace%suspension, workspace%raw, workspace%deck_cases, chosen, .true., remarks)
       call print_model_remarks(settings%is_quiet, remarks, page%warnings)
       call box%remove([character(18) :: page_file, contents_file, compliance_file, deck_file, used_deck_file, files_of_loads])
+      call remove_parts(workspace%suspension, page%folder)
 
       if (settings%has_loads) then
          allocate (page%loads)
-         call begin_loads(workspace%suspension, workspace%suspension%name, checksum, page%loads)
+         call begin_loads(workspace%suspension, workspace%suspension%name, checksum, page%loads, chosen)
+      end if
+      if (has_names(chosen)) then
+         allocate (page%parts)
+         call begin_parts(workspace%suspension, workspace%suspension%name, 'elastokin '//version, checksum, page%parts)
       end if
       if (settings%live > 0) then
          allocate (page%live)
@@ -124,6 +131,7 @@ contains
       if (allocated(page%loads)) then
          call box%put(loads_file, page%loads%rows%csv())
          call box%put(peaks_file, peak_loads(page%loads))
+         if (allocated(page%parts)) call put_parts(workspace%suspension, page%parts, box)
       end if
       call box%take(error)
       if (allocated(error)) return
@@ -284,7 +292,7 @@ contains
       code = exit_convergence
       do k = 1, size(chosen)
          call run_planned(suspension, chosen(k), found%faults%line(k), checksum, page%tests(k), page%paths(k), trouble, &
-            compliance, page%loads, explanations, page%live)
+            compliance, page%loads, explanations, page%live, page%parts)
          if (allocated(trouble)) then
             call print_error(trouble%message)
             failed = failed + 1
@@ -357,7 +365,8 @@ contains
    !> Runs one test. If the test does not converge at every state, `error` has the code exit_convergence, the messages of the test
    !> contain each failure, and the table has the converged states. If the test cannot be run, the table is empty; `error` has the
    !> code exit_model if the model cannot be solved.
-   subroutine run_planned(base, case, fault, checksum, test, path, error, compliance, loads, explanations, live)
+   subroutine run_planned(base, case, fault, checksum, test, path, error, compliance, loads, explanations, live, &
+      parts)
       type(suspension_t), intent(in) :: base
       type(case_t), intent(in) :: case
       character(*), intent(in) :: fault            !! defect of the model in this test, which is then not run; '' for none
@@ -369,6 +378,7 @@ contains
       type(load_record_t), intent(inout), optional :: loads !! receives the loads of the members
       type(explanation_t), allocatable, intent(out), optional :: explanations(:)      !! explanations of the test, with compliance
       type(live_t), intent(inout), optional :: live         !! receives the data for the sliders of --live
+      type(part_record_t), intent(inout), optional :: parts !! receives the loads on the parts
       integer, parameter :: topics(7) = [on_case, on_end, on_stability, on_settling, on_rack, on_curve, on_closure]
       type(solve_options_t) :: options
       class(case_result_t), allocatable :: result
@@ -402,6 +412,7 @@ contains
          if (present(explanations)) call find_explanations(result, explanations)
       end if
       if (present(loads)) call add_loads(result%suspension, result%case, result%path, result%kkt, loads)
+      if (present(parts)) call add_parts(result%suspension, result%case, result%path, result%kkt, parts)
       if (present(live) .and. .not. is_grid(case)) call add_live(result, test, live)
       test%table = result%table
       call find_grid(base, case, test)

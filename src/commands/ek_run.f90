@@ -16,7 +16,7 @@ module ek_run
    use ek_compliance_table, only: compliance_table
    use ek_target, only: target_t, find_target
    use ek_table, only: table_t, print_csv, name_length
-   use ek_json, only: json_t, json_string, json_numbers
+   use ek_json, only: json_t, json_string, json_strings, json_numbers
    use ek_gnuplot, only: figure_t, figure_script, run_figures
    use ek_model_remark, only: model_remarks_t, find_model_remarks
    use ek_command_line, only: command_line_t
@@ -27,6 +27,8 @@ module ek_run
    use ek_member_loads, only: load_record_t, begin_loads, add_loads, peak_loads
    use ek_report_names, only: loads_file, peaks_file, files_of_loads
    use ek_outbox, only: outbox_t, outbox_in, keep_first
+   use ek_part_record, only: part_record_t, has_names, begin_parts, add_parts
+   use ek_part_files, only: put_parts, remove_parts
    use ek_version, only: version
    use ek_quantity, only: unit_of, unit_text
    use ek_remark, only: remark_t
@@ -40,6 +42,7 @@ module ek_run
 
    type, extends(deck_settings_t) :: settings_t
       logical :: has_plots = .false., has_compliance = .false., has_json = .false., has_loads = .false.
+      logical :: is_named_only = .false.                    !! only the cases whose states have names
       character(name_length), allocatable :: columns(:)     !! columns of the tables; not allocated: all
    end type settings_t
 
@@ -63,6 +66,7 @@ contains
       type(model_remarks_t) :: remarks
       type(json_t) :: json
       type(load_record_t), allocatable :: loads
+      type(part_record_t), allocatable :: parts
       character(:), allocatable :: checksum, words
       integer :: k, failed, code
 
@@ -74,6 +78,7 @@ contains
       if (.not. allocated(error)) call load_deck(settings, definition, workspace, checksum, error)
       if (allocated(error)) return
       call chosen_cases(settings, workspace%raw, workspace%deck_cases, chosen, error)
+      if (settings%is_named_only .and. .not. allocated(error)) call keep_named(settings%file, chosen, error)
       if (.not. allocated(error) .and. line%has('--columns')) &
          call choose_columns(line%value('--columns'), workspace%raw, chosen, settings%columns, error)
       if (allocated(error)) return
@@ -97,10 +102,16 @@ contains
       if (settings%has_loads) then
          call box%remove(files_of_loads)
          allocate (loads)
-         call begin_loads(workspace%suspension, workspace%suspension%name, checksum, loads)
+         call begin_loads(workspace%suspension, workspace%suspension%name, checksum, loads, chosen)
+         call remove_parts(workspace%suspension, settings%out)
+      end if
+      if (settings%has_loads .and. has_names(chosen)) then
+         allocate (parts)
+         call begin_parts(workspace%suspension, workspace%suspension%name, 'elastokin '//version, checksum, parts)
       end if
       do k = 1, size(chosen)
-         call run_case(settings, workspace%suspension, chosen(k), found%faults%line(k), checksum, json, loads, box, trouble)
+         call run_case(settings, workspace%suspension, chosen(k), found%faults%line(k), checksum, json, loads, parts, box, &
+            trouble)
          if (.not. allocated(trouble)) cycle
          failed = failed + 1
          if (code == exit_convergence) code = trouble%code     ! the first other than lack of convergence
@@ -113,6 +124,7 @@ contains
       if (.not. allocated(error) .and. allocated(loads)) then
          call box%put(loads_file, loads%rows%csv())
          call box%put(peaks_file, peak_loads(loads))
+         if (allocated(parts)) call put_parts(workspace%suspension, parts, box)
          call box%take(error)
       end if
       words = str(failed)//' of '//plural(size(chosen), 'case', 'cases')
@@ -128,6 +140,18 @@ contains
       if (settings%has_json) call write_run_json(json, merge(code, 0, failed > 0), workspace%suspension%name, box, error)
    end subroutine run
 
+   !> Selects the cases whose states have names: the manoeuvres, and load tables with a column `name`.
+   subroutine keep_named(file, chosen, error)
+      character(*), intent(in) :: file                        !! the deck, for the message
+      type(case_t), allocatable, intent(inout) :: chosen(:)
+      type(error_t), allocatable, intent(out) :: error        !! exit_usage: no such case
+      integer :: k
+
+      chosen = pack(chosen, [(has_names(chosen(k:k)), k=1, size(chosen))])
+      if (size(chosen) == 0) call fail(error, exit_usage, file//': expected a &manoeuvre, or a load table with a column '// &
+         '''name'', found neither: add &manoeuvre set = ''durability'' / to the deck, or name a case with --case')
+   end subroutine keep_named
+
    subroutine read_settings(line, settings, error)
       type(command_line_t), intent(in) :: line
       type(settings_t), intent(out) :: settings
@@ -137,7 +161,8 @@ contains
       settings%has_plots = line%has('--plot')
       settings%has_compliance = line%has('--compliance')
       settings%has_json = line%has('--json')
-      settings%has_loads = line%has('--loads')
+      settings%has_loads = line%has('--loads') .or. line%command == 'loads'
+      settings%is_named_only = line%command == 'loads' .and. settings%case == ''
       if (settings%has_plots .and. line%has('--columns')) then
          call fail(error, exit_usage, '--plot draws all columns and cannot be used with --columns')
          return
@@ -189,7 +214,7 @@ contains
 
    !> Runs one case: solves the case, prints its messages, and writes its table. If requested, also writes its figures, its
    !> compliance matrix, and the state that meets its target, and adds its loads and its JSON object.
-   subroutine run_case(settings, base, wanted, fault, checksum, json, loads, box, error)
+   subroutine run_case(settings, base, wanted, fault, checksum, json, loads, parts, box, error)
       type(settings_t), intent(in) :: settings
       type(suspension_t), intent(in) :: base
       type(case_t), intent(in) :: wanted
@@ -197,6 +222,7 @@ contains
       character(*), intent(in) :: checksum
       type(json_t), intent(inout) :: json
       type(load_record_t), allocatable, intent(inout) :: loads   !! loads of all members; allocated if requested
+      type(part_record_t), allocatable, intent(inout) :: parts   !! loads on the parts; allocated if requested
       type(outbox_t), intent(inout) :: box
       type(error_t), allocatable, intent(out) :: error
       type(error_t), allocatable :: trouble
@@ -217,6 +243,7 @@ contains
       if (settings%has_json) call add_run_json(result, wanted, json)
       if (.not. result%is_run()) return
       if (allocated(loads)) call add_loads(result%suspension, result%case, result%path, result%kkt, loads)
+      if (allocated(parts)) call add_parts(result%suspension, result%case, result%path, result%kkt, parts)
       name = result%suspension%name//'_'//wanted%name
       if (settings%out == '-') then
          if (.not. settings%has_json) call print_csv(result%table, trouble)
@@ -351,6 +378,7 @@ contains
       end do
       call json%close(']')
       if (result%is_run()) then
+         if (result%table%names%count() > 0) call json%item('names', json_strings(result%table%names))
          call json%item('factor_unit', json_string(result%case%unit_name))
          call json%open('[', 'columns')
          do k = 1, size(result%table%columns)

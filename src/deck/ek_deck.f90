@@ -4,8 +4,8 @@
 !> `build_model` reports it together with all other errors. Therefore the argument `error` of `read_deck` and `parse_deck` is set
 !> only if the file cannot be read (exit_file) or is empty (exit_deck).
 !>
-!> Order of processing: records of the file or string, included files, &hardpoints, settings of records in the deck, property files,
-!> &mirror, settings of records that property files and &mirror have created.
+!> Order of processing: records of the file or string, included files, &hardpoints, sets of &manoeuvre, settings of records in the
+!> deck, property files, &mirror, settings of records that property files and &mirror have created.
 module ek_deck
    use, intrinsic :: iso_fortran_env, only: input_unit, iostat_eor
    use ek_buffer, only: buffer_t
@@ -21,6 +21,7 @@ module ek_deck
    use ek_mirror, only: mirror_records
    use ek_hardpoint_records, only: attach_hardpoints
    use ek_property_records, only: attach_properties
+   use ek_manoeuvre_records, only: attach_manoeuvres
    use ek_attachment, only: text_of, path_of
    use ek_setting, only: apply_setting, split_setting
    implicit none(type, external)
@@ -104,6 +105,7 @@ contains
          call add_file(deck%kept, deck%file, text)
          call take_text(text, 0, files, deck)
          call attach_hardpoints(deck%kept, deck%records, deck%used, deck%deck_errors)
+         call attach_manoeuvres(deck%records, deck%used)
          call keep_named(deck)
       end if
       call name_tests(deck)

@@ -14,11 +14,12 @@ module ek_group
       bushing_group = 6, spring_group = 7, wheel_group = 8, load_group = 9, case_group = 10, &
       study_group = 11, factor_group = 12, response_group = 13, include_group = 14, mirror_group = 15, &
       curve_group = 16, damper_group = 17, stop_group = 18, torsion_group = 19, axle_group = 20, steering_group = 21, &
-      mass_group = 22, correlation_group = 23, hardpoints_group = 24, target_group = 25, fit_group = 26, fit_target_group = 27
+      mass_group = 22, correlation_group = 23, hardpoints_group = 24, target_group = 25, fit_group = 26, fit_target_group = 27, &
+      manoeuvre_group = 28
    character(*), parameter :: group_names(*) = [character(11) :: 'model', 'point', 'body', 'measure', 'joint', &
       'bushing', 'spring', 'wheel', 'load', 'case', 'study', 'factor', 'response', 'include', 'mirror', 'curve', 'damper', &
       'stop', 'torsion', 'axle', 'steering', 'mass', 'correlation', 'hardpoints', 'target_band', &
-      'fit', 'target']
+      'fit', 'target', 'manoeuvre']
 
    integer, parameter :: every_group = 0      !! group, in the table of keys, of a key that every group has
    integer, parameter :: spring_groups(*) = [spring_group, damper_group, stop_group, torsion_group]   ! elements of one measure
@@ -173,6 +174,8 @@ module ek_group
       key_t(axle_group, 'wheelbase', number, 1, 1, .true., positive), &
       key_t(axle_group, 'cg_height', number, 1, 1, .true., positive), &
       key_t(axle_group, 'mass', number, 1, 1, .false., positive), &
+      key_t(axle_group, 'axle_load', number, 1, 1, .false., positive), &
+      key_t(axle_group, 'roll_share', number, 1, 1, .false., share), &
       key_t(axle_group, 'brake_share', number, 1, 1, .true., share), &
       key_t(axle_group, 'drive_share', number, 1, 1, .false., share), &
       key_t(axle_group, 'drive_reaction', word, 1, 1, .false.), &
@@ -189,6 +192,12 @@ module ek_group
       key_t(load_group, 'moment', number, 3, 3, .false., role=axial, has_zeros=.true.), &
       key_t(load_group, 'follows', switch, 1, 1, .false.), &
       key_t(load_group, 'factor', word, 1, 1, .false.), &
+      key_t(manoeuvre_group, 'name', word, 1, 1, .false.), &
+      key_t(manoeuvre_group, 'set', word, 1, 1, .false.), &
+      key_t(manoeuvre_group, 'vertical', number, 1, 1, .false., not_negative), &
+      key_t(manoeuvre_group, 'longitudinal', number, 1, 1, .false.), &
+      key_t(manoeuvre_group, 'lateral', number, 1, 1, .false.), &
+      key_t(manoeuvre_group, 'longitudinal_by', word, 1, 1, .false.), &
       key_t(case_group, 'load', word, 1, max_loads, .false., role=load_group), &
       key_t(case_group, 'drive', word, 1, 1, .false., role=joint_group), &
       key_t(case_group, 'wheel', word, 1, 1, .false., role=wheel_group), &
@@ -324,10 +333,12 @@ contains
       if (.not. of_deck) names = group_names(study_groups)
    end function names_of_groups
 
-   !> Whether --set addresses a group without a record name: &model, and every group whose name is optional or does not exist.
+   !> Whether --set addresses a group without a record name: &model, and every group whose name is optional or does not exist, except
+   !> &manoeuvre, whose records other than sets have names.
    pure logical function is_single(group)
       integer, intent(in) :: group
-      is_single = group == model_group .or. .not. any(keys%group == group .and. keys%name == 'name' .and. keys%is_required)
+      is_single = group == model_group .or. .not. (group == manoeuvre_group .or. any(keys%group == group .and. &
+         keys%name == 'name' .and. keys%is_required))
    end function is_single
 
    !> Finds the row of a key; is_known is .false. if the group has no such key.

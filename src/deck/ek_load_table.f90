@@ -7,18 +7,19 @@
 !> | centre_fx_n, centre_fy_n, centre_fz_n | force at the wheel centre                                |
 !> | travel_mm                             | height of the wheel centre above design, held            |
 !> | <driver>_mm, <driver>_deg             | change of the value prescribed by a driver joint         |
+!> | name                                  | name of the state in the results, as a string            |
 !>
 !> The loads of the table act in addition to the constant loads of the deck. Loads and drivers without a column stay constant.
 module ek_load_table
    use ek_kinds, only: wp, degree, millimetre
    use ek_error, only: error_t
-   use ek_text, only: str, quoted, suggestion, plural
+   use ek_text, only: str, quoted, suggestion, plural, lower
    use ek_kept_files, only: kept_files_t
    use ek_case, only: case_t, load_table_t, table_column_t, max_driven
    use ek_measure, only: rotation
    use ek_suspension, only: suspension_t, driver_row
    use ek_quantity, only: name_length
-   use ek_sheet, only: sheet_t, read_sheet, mistakes_of, head_place
+   use ek_sheet, only: sheet_t, read_sheet, mistakes_of, head_place, cell_of
    use ek_sheet_columns, only: take_columns, has_numbers
    use ek_unit_row, only: unit_of_heading
    use ek_wheel_side, only: prefix_of, left_and_right
@@ -73,7 +74,7 @@ contains
       character(16), allocatable :: units(:)
       logical, allocatable :: is_kept(:), is_number(:)
       integer, allocatable :: places(:)
-      integer :: wheels(2), k
+      integer :: wheels(2), k, name_place
 
       call read_sheet(file, sheet, error, files)
       if (allocated(error)) then
@@ -84,6 +85,8 @@ contains
       allocate (columns(size(sheet%heads)), unit(size(sheet%heads)))
       is_number = has_numbers(sheet)
       is_kept = [(sheet%heads(k) /= '' .and. .not. any(sheet%heads(k) == passed_over), k=1, size(sheet%heads))]
+      name_place = findloc([(lower(trim(sheet%heads(k))) == 'name', k=1, size(sheet%heads))], .true., dim=1)
+      if (name_place > 0) is_kept(name_place) = .false.
       do k = 2, size(sheet%heads)                          ! the first one is the index that other programs write
          if (sheet%heads(k) == '' .and. is_number(k)) call sheet%head_mistakes%add(head_place(sheet)//'column '//str(k)// &
             ' has no name')
@@ -107,6 +110,9 @@ contains
       call mistakes_of(sheet, table%mistakes)
       if (table%mistakes%count() > 0 .or. .not. is_whole) return
       table%rows = size(values, 2)
+      do k = 1, merge(table%rows, 0, name_place > 0)
+         call table%names%add(cell_of(sheet, k + max(sheet%unit_row, 0), name_place))
+      end do
       do k = 1, size(places)
          columns(places(k))%values = values(k, :)*unit(places(k))
       end do

@@ -5,11 +5,11 @@
 module ek_reader
    use ek_kinds, only: wp, i8, units_t, millimetre, degree
    use ek_text, only: str, quoted, lower, did_you_mean
-   use ek_error, only: error_t, fail, exit_deck
+   use ek_error, only: error_t, message_list_t, fail, exit_deck
    use ek_record, only: single, record_t, hand_over, element, place_of, own_name
    use ek_group, only: group_names, group_number, is_deck_group, names_of_groups, model_group, point_group, body_group, &
       measure_group, joint_group, bushing_group, spring_groups, case_group, curve_group, mass_group, wheel_group, axle_group, &
-      steering_group, load_group, target_group, word_length, record_head, has_results
+      steering_group, load_group, manoeuvre_group, target_group, word_length, record_head, has_results
    use ek_namelist, only: check_record, name_fault
    use ek_deck, only: deck_t, finish_deck
    use ek_deck_reading, only: deck_reading_t, complain, complain_of_all, where_of, line_of, choice, text_of, switch_of, &
@@ -17,6 +17,8 @@ module ek_reader
    use ek_parameter, only: parameters_t
    use ek_reader_bodies, only: read_point, read_body, read_mass, read_load, read_wheel, read_axle, read_steering
    use ek_reader_joints, only: read_measure, read_joint
+   use ek_reader_manoeuvres, only: read_manoeuvre
+   use ek_manoeuvre, only: has_manoeuvres, axle_fault, manoeuvre_fault
    use ek_reader_elements, only: read_curve, read_element
    use ek_target_band, only: target_band_t, read_target_band
    use ek_reader_cases, only: read_case, refuse_one_file_for_two
@@ -25,14 +27,14 @@ module ek_reader
    use ek_assembly, only: add_gravity
    use ek_blueprint, only: blueprint_t, new_blueprint
    use ek_realise, only: new_design, realise
-   use ek_case, only: case_t
+   use ek_case, only: case_t, manoeuvre_t
    implicit none(type, external)
    private
    public :: definition_t, read_design, build_design, build_model
 
    !> The order of reading: groups to which others refer come first.
    integer, parameter :: reading_order(*) = [model_group, point_group, curve_group, body_group, mass_group, measure_group, &
-      joint_group, bushing_group, spring_groups, wheel_group, axle_group, steering_group, load_group]
+      joint_group, bushing_group, spring_groups, wheel_group, axle_group, steering_group, load_group, manoeuvre_group]
 
    !> A deck as a design space: realise(plan, x) is a suspension.
    type :: definition_t
@@ -76,7 +78,42 @@ contains
       if (.not. (is_whole .or. allocated(error))) call fail(error, exit_deck, deck%file//': its numbers give no model (an axis '// &
          'without length, a point on the wrong side, or a number outside its range); please report this deck, as a message '// &
          'should name the line')
+      if (is_whole) call check_manoeuvres(suspension, design%cases, error)
    end subroutine build_design
+
+   !> Adds an error for each manoeuvre whose forces the axle cannot carry at the numbers of the deck.
+   subroutine check_manoeuvres(suspension, cases, error)
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: cases(:)
+      type(error_t), allocatable, intent(inout) :: error     !! exit_deck; earlier errors are kept
+      type(message_list_t) :: faults
+      character(:), allocatable :: words
+      integer :: k, j
+
+      k = findloc([(has_manoeuvres(cases(k)), k=1, size(cases))], .true., dim=1)
+      if (k == 0) return
+      if (.not. (cases(k)%is_good .and. allocated(cases(k)%manoeuvres))) return
+      words = axle_fault(suspension)
+      if (words /= '') call add_fault(cases(k)%manoeuvres(1))
+      do j = 1, merge(size(cases(k)%manoeuvres), 0, words == '')
+         words = manoeuvre_fault(suspension, cases(k)%manoeuvres(j))
+         if (words /= '') call add_fault(cases(k)%manoeuvres(j))
+      end do
+      if (faults%count() == 0) return
+      words = faults%text()
+      if (allocated(error)) words = error%message//new_line('a')//words
+      if (allocated(error)) deallocate (error)
+      call fail(error, exit_deck, words)
+
+   contains
+
+      !> Adds the present fault with the location and the name of a manoeuvre.
+      subroutine add_fault(this)
+         type(manoeuvre_t), intent(in) :: this
+         call faults%add(this%where//': manoeuvre '//quoted(this%name)//': '//words)
+      end subroutine add_fault
+
+   end subroutine check_manoeuvres
 
    !> Reads the design space of a deck, or all errors of the deck.
    subroutine read_design(deck, design, error, is_whole)
@@ -218,6 +255,8 @@ contains
          call read_steering(reading)
       case (load_group)
          call read_load(reading)
+      case (manoeuvre_group)
+         call read_manoeuvre(reading)
       case default
          call read_element(reading)
       end select

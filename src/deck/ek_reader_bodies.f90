@@ -176,7 +176,7 @@ contains
    !> driving force, the points at which the driving and the braking force act, and the vehicle data.
    subroutine read_axle(reading)
       type(deck_reading_t), intent(inout) :: reading
-      integer :: c, number(7)
+      integer :: c, number(9)
 
       if (is_second(reading)) return
       if (has_key(reading, 'front_overhang') .neqv. has_key(reading, 'front_width')) call complain(reading, &
@@ -189,6 +189,8 @@ contains
       call slot(reading, 'drive_share', 1.0_wp, number(5), default=1.0_wp)
       call slot(reading, 'front_overhang', reading%units%length, number(6))
       call slot(reading, 'front_width', reading%units%length, number(7))
+      call slot(reading, 'axle_load', reading%units%force, number(8))
+      call slot(reading, 'roll_share', 1.0_wp, number(9))
       reading%plan%axle = number
       associate (this => reading%plan%prototype%axle)
          call choice(reading, 'position', [character(5) :: 'front', 'rear'], c)

@@ -3,13 +3,13 @@ module ek_reader_cases
    use ek_kinds, only: wp, millimetre
    use ek_text, only: str, lower, quoted
    use ek_rig_test, only: rig_test_t, rig_tests, needs_both, of_one_wheel, lifts, rig_test, rolls, steers, loads_wheels, &
-      takes_table, covers_grid
+      takes_table, covers_grid, drives_car
    use ek_case, only: case_t, method_names, solver_names, follow_names, max_increments
    use ek_record, only: value_t, right_side, element, is_given, own_name
    use ek_namelist, only: value_fault
    use ek_realise, only: steepest_roll
    use ek_blueprint, only: case_plan_t
-   use ek_group, only: wheel_group, case_group, load_group, steering_group, number, max_loads, word_length
+   use ek_group, only: wheel_group, case_group, load_group, steering_group, manoeuvre_group, number, max_loads, word_length
    use ek_deck_reading, only: deck_reading_t, complain, where_of, line_of, has_key, choice, text_of, texts_of, number_of, &
       whole_of, refuse, slot
    use ek_attachment, only: path_of
@@ -39,7 +39,7 @@ contains
       unit = 1.0_wp
       test = rig_test(lower(text_of(reading, 'test')))
       has_grid = test%action == covers_grid
-      has_table = test%action == takes_table
+      has_table = any(test%action == [takes_table, drives_car])
       reach = 0.0_wp
       if (has_grid) reach = test%reach*millimetre/reading%units%length
       this%test = ''
@@ -84,8 +84,8 @@ contains
       this%name = text_of(reading, 'name')
       this%where = where_of(reading)
       this%is_good = reading%cards(reading%k)%is_good
-      if (test%action /= takes_table) call slot(reading, 'from', unit, plan%from, default=-reach)
-      if (test%action /= takes_table) call slot(reading, 'to', unit, plan%to, default=reach)
+      if (.not. has_table) call slot(reading, 'from', unit, plan%from, default=-reach)
+      if (.not. has_table) call slot(reading, 'to', unit, plan%to, default=reach)
       if (test%has_trail) call slot(reading, 'offset', reading%units%length, plan%offset, default=0.0_wp)
       this%from = from*unit
       this%to = to*unit
@@ -165,9 +165,9 @@ contains
       call choice(reading, 'follow', follow_names, c)
       this%follows_arc = c == 2
       if (c /= 2) return
-      if (test%action == takes_table .or. test%action == covers_grid) then
+      if (any(test%action == [takes_table, covers_grid, drives_car])) then
          call complain(reading, 'follow', "follow = 'arc' is not allowed in test "//quoted(this%test)//': '//trim(merge( &
-            'each row of the table is one state', 'the states of a grid form no path ', test%action == takes_table)))
+            'each row of the table is one state', 'the states of a grid form no path ', test%action /= covers_grid)))
       else if (this%target /= '') then
          call complain(reading, 'follow', "follow = 'arc' is not allowed with a target: a path that turns back "// &
             'passes the same factor more than once')
@@ -288,6 +288,10 @@ contains
       call refuse_in_test('from', test%action == takes_table, 'the table sets the range')
       call refuse_in_test('to', test%action == takes_table, 'the table sets the range')
       call refuse_in_test('increments', test%action == takes_table, 'each row of the table is one state')
+      call refuse_in_test('from', test%action == drives_car, 'the &manoeuvre records give the loads')
+      call refuse_in_test('to', test%action == drives_car, 'the &manoeuvre records give the loads')
+      call refuse_in_test('increments', test%action == drives_car, 'each manoeuvre is one state')
+      call refuse_in_test('target', test%action == drives_car, 'manoeuvres form no path to search')
       call refuse_in_test('target', test%action == takes_table, 'the rows of a table form no path to search')
       call refuse_in_test('target', test%action == covers_grid, 'the states of a grid form no path to search')
 
@@ -296,8 +300,8 @@ contains
       if (c > 0) this%vertical = trim(verticals(c))
       if (any(test%action == [rolls, covers_grid])) call refuse_in_test('vertical', c == 3, &
          'the test prescribes heights: ''centre'', ''patch'' or ''road''')
-      if (test%action == loads_wheels .and. lifts(test)) call refuse_in_test('vertical', c > 0 .and. c /= 3, &
-         'the test prescribes the force')
+      if ((test%action == loads_wheels .and. lifts(test)) .or. test%action == drives_car) call refuse_in_test('vertical', &
+         c > 0 .and. c /= 3, 'the test prescribes the force')
       if (c == 4) call check_tyres(reading)
       call choice(reading, 'phase', [character(4) :: 'in', 'anti'], c)
       this%is_anti = c == 2
@@ -324,6 +328,13 @@ contains
       if (test%action == takes_table) then
          if (.not. has_key(reading, 'file')) call complain(reading, '', "'file' is missing")
          this%file = path_of(reading%records(reading%k), text_of(reading, 'file'))
+      end if
+      if (test%action == drives_car) then
+         if (.not. any(reading%cards%group == manoeuvre_group)) call complain(reading, 'test', 'there is no &manoeuvre')
+         allocate (this%manoeuvres(size(reading%plan%manoeuvres)))
+         do c = 1, size(this%manoeuvres)
+            this%manoeuvres(c) = reading%plan%manoeuvres(c)%manoeuvre
+         end do
       end if
 
    contains

@@ -20,6 +20,7 @@ module ek_workspace
    use ek_realise, only: realise, realise_cases
    use ek_suspension, only: suspension_t, copy_numbers
    use ek_case, only: case_t, is_mountable, default_tolerance
+   use ek_manoeuvre, only: can_drive
    use ek_balance, only: balance_failure_t, set_preloads, fail_balance
    use ek_preload_problem, only: preload_problem_t
    use ek_diagnosis, only: diagnosis_t
@@ -87,6 +88,7 @@ contains
    subroutine take_numbers(workspace, is_done)
       type(workspace_t), intent(inout) :: workspace
       logical, intent(out) :: is_done
+      integer :: k
 
       is_done = .true.
       if (workspace%stage >= realised) return
@@ -95,6 +97,9 @@ contains
          if (is_done) call realise(definition%plan, workspace%x, workspace%raw, is_done, workspace%keeps_origins)
          if (is_done) call realise_cases(definition%plan, workspace%x, workspace%deck_cases, is_done)
       end associate
+      do k = 1, size(workspace%deck_cases)
+         if (is_done) is_done = can_drive(workspace%raw, workspace%deck_cases(k))
+      end do
       if (is_done) workspace%stage = realised
    end subroutine take_numbers
 

@@ -74,22 +74,24 @@ contains
       type(inputs_t), intent(in) :: inputs
       integer, intent(in) :: mode                !! whole_tangent, material_only or residual_only
       type(kkt_t), intent(inout) :: kkt          !! matrix not yet scaled, rhs, gradients, values
-      integer :: k
+      integer :: k, l
 
       if (are_checked) then
          call require(kkt%nq == suspension%unknowns() .and. kkt%nc == suspension%constraints() .and. &
             size(kkt%factor) == size(suspension%loads), 'assemble: the system is of another model')
          call require(size(state%poses) == size(suspension%bodies) + 1 .and. size(state%reaction) == kkt%nc, &
             'assemble: the state is of another model')
-         call require(inputs%loads <= size(inputs%load) .and. all(inputs%load(:inputs%loads) <= size(suspension%loads)) .and. &
+         call require(inputs%loads <= size(inputs%load) .and. all(inputs%load(:inputs%loads) + inputs%further(:inputs%loads) <= &
+            size(suspension%loads)) .and. &
             all(inputs%row(:inputs%rows) <= kkt%nc), 'assemble: the inputs are of another model')
       end if
       kkt%is_at_design = .false.
       kkt%factor = 1.0_wp
       where (suspension%loads%is_case) kkt%factor = 0.0_wp
       do k = 1, inputs%loads
-         if (suspension%loads(inputs%load(k))%is_case) &
-            kkt%factor(inputs%load(k)) = kkt%factor(inputs%load(k)) + inputs%factor(k)
+         do l = inputs%load(k), inputs%load(k) + inputs%further(k)
+            if (suspension%loads(l)%is_case) kkt%factor(l) = kkt%factor(l) + inputs%factor(k)
+         end do
       end do
       call set_change(inputs, kkt%change)
       call assemble_terms(kkt%pattern, suspension%loads, suspension%elements, suspension%rows, suspension%terms, state%poses, &
@@ -158,12 +160,14 @@ contains
       type(state_t), intent(in) :: state
       type(inputs_t), intent(in) :: rate         !! derivative of the inputs with respect to the path coordinate
       type(kkt_t), intent(inout) :: kkt          !! rhs
-      integer :: k
+      integer :: k, l
 
       kkt%is_at_design = .false.
       kkt%factor = 0.0_wp
       do k = 1, rate%loads
-         kkt%factor(rate%load(k)) = kkt%factor(rate%load(k)) + rate%factor(k)
+         do l = rate%load(k), rate%load(k) + rate%further(k)
+            kkt%factor(l) = kkt%factor(l) + rate%factor(k)
+         end do
       end do
       call set_change(rate, kkt%change)
       call assemble_rate_terms(kkt%nq, suspension%loads, state%poses, kkt%factor, kkt%change, kkt%rhs)
@@ -174,7 +178,8 @@ contains
    pure real(wp) function load_factor(inputs, load)
       type(inputs_t), intent(in) :: inputs
       integer, intent(in) :: load      !! index of the load
-      load_factor = sum(inputs%factor(:inputs%loads), mask=inputs%load(:inputs%loads) == load)
+      load_factor = sum(inputs%factor(:inputs%loads), mask=inputs%load(:inputs%loads) <= load .and. &
+         load <= inputs%load(:inputs%loads) + inputs%further(:inputs%loads))
    end function load_factor
 
    !> Removes a row of Φ from an assembled matrix. The diagonal of the row becomes −1 in the scaled matrix.

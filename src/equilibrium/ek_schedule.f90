@@ -24,6 +24,7 @@ module ek_schedule
       logical :: is_settling = .false.  !! no case: the swept value is the share of the imbalance at design that acts
       integer :: rest = 0               !! table row at which all inputs count as zero: the next row is reached from there
       integer :: load(max_driven) = 0, row(max_driven) = 0     !! indices of the loads and rows in the suspension
+      integer :: further(max_driven) = 0   !! number of loads after the load of each actuator that it scales, too
       type(actuator_t), allocatable :: load_actuator(:), row_actuator(:)
    end type schedule_t
 
@@ -61,24 +62,27 @@ contains
       end if
       do k = 1, size(case%actuations)
          associate (this => case%actuations(k))
-            call include(this%load, this%drive, this%law, this%share, this%values)
+            call include(this%load, this%drive, this%law, this%share, this%values, this%loads)
          end associate
       end do
 
    contains
 
       !> Adds an actuation of the load, of the driver row, or of both, whichever have the given names.
-      subroutine include(load, drive, law, share, values)
+      subroutine include(load, drive, law, share, values, loads)
          character(*), intent(in) :: load, drive
          integer, intent(in) :: law
          real(wp), intent(in) :: share
          real(wp), allocatable, intent(in), optional :: values(:)
+         integer, intent(in), optional :: loads        !! number of consecutive loads that are scaled; default 1
          integer :: number
 
          number = load_number(suspension, load)
          if (number > 0 .and. schedule%loads < most) then
             schedule%loads = schedule%loads + 1
             schedule%load(schedule%loads) = number
+            schedule%further(schedule%loads) = 0
+            if (present(loads)) schedule%further(schedule%loads) = loads - 1
             call put(schedule%load_actuator(schedule%loads), law, share, values)
          end if
          number = driver_row(suspension, drive)
@@ -112,7 +116,8 @@ contains
       same_schedule = a%loads == b%loads .and. a%rows == b%rows
       if (.not. same_schedule) return
       do k = 1, a%loads
-         same_schedule = same_schedule .and. a%load(k) == b%load(k) .and. same_law(a%load_actuator(k), b%load_actuator(k))
+         same_schedule = same_schedule .and. a%load(k) == b%load(k) .and. a%further(k) == b%further(k) .and. &
+            same_law(a%load_actuator(k), b%load_actuator(k))
       end do
       do k = 1, a%rows
          same_schedule = same_schedule .and. a%row(k) == b%row(k) .and. same_law(a%row_actuator(k), b%row_actuator(k))
@@ -140,6 +145,7 @@ contains
       inputs%loads = schedule%loads
       do k = 1, schedule%loads
          inputs%load(k) = schedule%load(k)
+         inputs%further(k) = schedule%further(k)
          inputs%factor(k) = value_at(schedule%load_actuator(k), place, schedule%rest)
       end do
       inputs%rows = schedule%rows

@@ -24,6 +24,7 @@ module ek_state
    type :: inputs_t
       integer :: loads = 0, rows = 0               !! number of scaled loads, of driven rows
       integer :: load(max_driven) = 0             !! indices of the scaled loads
+      integer :: further(max_driven) = 0          !! number of loads after each of these loads that have the same factor
       integer :: row(max_driven) = 0              !! indices of the driven constraint rows
       real(wp) :: factor(max_driven) = 0.0_wp     !! factor of each load [-]
       real(wp) :: change(max_driven) = 0.0_wp     !! change of the value of each row [m, -, rad]

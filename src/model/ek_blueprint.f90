@@ -9,10 +9,11 @@ module ek_blueprint
    use ek_kinds, only: wp
    use ek_element, only: element_numbers
    use ek_suspension, only: suspension_t, allocate_lists
+   use ek_case, only: manoeuvre_t
    implicit none(type, external)
    private
    public :: blueprint_t, vector_t, body_plan_t, mass_plan_t, readout_plan_t, joint_plan_t, element_plan_t, bushing_plan_t
-   public :: wheel_plan_t, load_plan_t, curve_plan_t, case_plan_t
+   public :: wheel_plan_t, load_plan_t, curve_plan_t, case_plan_t, manoeuvre_plan_t
    public :: hardpoint, along, given, fixed, chosen, chosen_right, across
    public :: new_blueprint, add_vector, mark_own_elements, inward, number_at, triple_at
 
@@ -103,6 +104,12 @@ module ek_blueprint
       integer :: steer_from = 0, steer_to = 0      !! indices of parameters; 0 in a grid: ± travel of &steering
    end type case_plan_t
 
+   !> A manoeuvre with the indices of its parameters.
+   type :: manoeuvre_plan_t
+      type(manoeuvre_t) :: manoeuvre
+      integer :: vertical = 0, longitudinal = 0, lateral = 0
+   end type manoeuvre_plan_t
+
    type :: blueprint_t
       type(suspension_t) :: prototype       !! names, connections, and the numbers of the deck
       logical :: is_iso = .false.           !! the axes of the deck are ISO 8855
@@ -120,8 +127,10 @@ module ek_blueprint
       type(load_plan_t), allocatable :: loads(:)
       type(curve_plan_t), allocatable :: curves(:)
       type(case_plan_t), allocatable :: cases(:)
-      ! &axle: wheelbase, cg_height, mass, brake_share, drive_share, front_overhang, front_width; &steering: ratio, travel
-      integer :: axle(7) = 0, steering(2) = 0   !! indices of parameters
+      type(manoeuvre_plan_t), allocatable :: manoeuvres(:)
+      ! &axle: wheelbase, cg_height, mass, brake_share, drive_share, front_overhang, front_width, axle_load, roll_share;
+      ! &steering: ratio, travel
+      integer :: axle(9) = 0, steering(2) = 0   !! indices of parameters
    end type blueprint_t
 
 contains
@@ -134,6 +143,7 @@ contains
       call allocate_lists(self%prototype)
       allocate (self%points(0), self%vectors(0), self%bodies(0), self%masses(0), self%readouts(0), self%joints(0))
       allocate (self%elements(0), self%bushings(0), self%wheels(0), self%loads(0), self%curves(0), self%cases(0))
+      allocate (self%manoeuvres(0))
       call add_vector(self, vector_t(value=[0.0_wp, 0.0_wp, 1.0_wp]), number)
    end subroutine new_blueprint
 
@@ -212,6 +222,8 @@ contains
             is_used_elsewhere = is_used_elsewhere .or. is_of_triple(self%loads(j)%force) .or. is_of_triple(self%loads(j)%moment)
          end do
          if (case == 0) return
+         is_used_elsewhere = is_used_elsewhere .or. any(self%manoeuvres%vertical == number) .or. &
+            any(self%manoeuvres%longitudinal == number) .or. any(self%manoeuvres%lateral == number)
          associate (c => self%cases(case))
             is_used_elsewhere = is_used_elsewhere .or. any([c%from, c%to, c%offset, c%steer_from, c%steer_to] == number)
          end associate

@@ -5,7 +5,8 @@ module ek_case
    implicit none(type, external)
    private
    public :: case_t, actuation_t, table_column_t, load_table_t, append_actuation, scales_loads, is_mountable, prefer_plan, &
-      copy_case_numbers, method_names, solver_names
+      copy_case_numbers, method_names, solver_names, manoeuvre_t, &
+      row_name
    public :: default_tolerance, max_increments, max_driven
    public :: follow_names, follows_place, follows_tangent, follows_table
 
@@ -28,6 +29,8 @@ module ek_case
       integer :: law = follows_place
       real(wp) :: share = 1.0_wp
       real(wp), allocatable :: values(:)      !! values of the table [SI], for follows_table
+      integer :: loads = 1                    !! number of consecutive loads, from `load` on, with this actuation
+      integer :: column = 0                   !! quantity of a manoeuvre, see ek_manoeuvre; 0: none
    end type actuation_t
 
    !> A column of a load table: a load or a height of a wheel, or the value of a driver joint, in every row.
@@ -44,7 +47,17 @@ module ek_case
       type(table_column_t), allocatable :: columns(:)
       type(message_list_t) :: mistakes        !! all errors of the table, with their lines
       character(:), allocatable :: fault      !! reason why the file cannot be read, for the message when the case is run
+      type(message_list_t) :: names           !! name of each row; empty: the rows have no names
    end type load_table_t
+
+   !> A manoeuvre of the car, given by the load factor and the accelerations of the car.
+   type :: manoeuvre_t
+      character(:), allocatable :: name, where
+      real(wp) :: vertical = 1.0_wp        !! load factor: vertical force of the road per weight; 1 when the car stands [-]
+      real(wp) :: longitudinal = 0.0_wp    !! acceleration per standard gravity, positive forward [-]
+      real(wp) :: lateral = 0.0_wp         !! acceleration per standard gravity, positive to the left [-]
+      logical :: is_braked = .false.       !! the brakes give the longitudinal force; otherwise the drive
+   end type manoeuvre_t
 
    !> A case as given in the deck, in SI. Without a `test`, either `load` or `drive` is not empty.
    type :: case_t
@@ -68,6 +81,7 @@ module ek_case
       real(wp) :: offset = 0.0_wp           !! trail of a lateral force aft of the contact point [m]
       character(:), allocatable :: file     !! name of the file of a load table
       type(load_table_t) :: table           !! content of this file
+      type(manoeuvre_t), allocatable :: manoeuvres(:)   !! rows of test 'manoeuvres'
       character(:), allocatable :: target   !! target 'column=value'; '' without a target
       logical :: is_good = .true.           !! .false.: the case has an error and cannot be mounted on the rig
       logical :: has_all = .false.          !! the compliance matrix and the quantities derived from it are written at every state
@@ -86,6 +100,23 @@ contains
       is_mountable = .true.
       if (allocated(case%test)) is_mountable = case%test /= 'table' .or. case%table%rows > 0
    end function is_mountable
+
+   !> Name of a row of a load table, or of a manoeuvre; 'design' for row 0. '' for a case whose rows have no names.
+   pure function row_name(case, row) result(name)
+      type(case_t), intent(in) :: case
+      integer, intent(in) :: row
+      character(:), allocatable :: name
+
+      name = ''
+      if (allocated(case%manoeuvres)) then
+         if (row > 0) name = case%manoeuvres(row)%name
+      else if (case%table%names%count() > 0) then
+         if (row > 0) name = case%table%names%line(row)
+      else
+         return
+      end if
+      if (row == 0) name = 'design'
+   end function row_name
 
    !> Selects the plan of elimination if neither deck nor command line gives a solver. Used for many designs of one deck.
    elemental subroutine prefer_plan(case)
@@ -112,6 +143,10 @@ contains
       to%tolerance = from%tolerance
       to%offset = from%offset
       to%has_all = from%has_all
+      if (.not. allocated(from%manoeuvres)) return
+      to%manoeuvres%vertical = from%manoeuvres%vertical
+      to%manoeuvres%longitudinal = from%manoeuvres%longitudinal
+      to%manoeuvres%lateral = from%manoeuvres%lateral
    end subroutine copy_case_numbers
 
    !> Whether a case on the rig scales loads.

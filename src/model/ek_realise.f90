@@ -17,6 +17,7 @@ module ek_realise
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t
    use ek_grid, only: is_grid
+   use ek_manoeuvre, only: has_manoeuvres
    use ek_completion, only: settle_design, settle_element
    use ek_blueprint, only: blueprint_t, inward, number_at, triple_at
    use ek_design_vector, only: find_vectors, marker_axes, spin_of
@@ -87,6 +88,8 @@ contains
          axle%drive_share = number_at(x, plan%axle(5), 1.0_wp)
          axle%front_overhang = number_at(x, plan%axle(6))
          axle%front_width = number_at(x, plan%axle(7))
+         axle%load = number_at(x, plan%axle(8))
+         axle%roll_share = number_at(x, plan%axle(9), -1.0_wp)
          steering%ratio = number_at(x, plan%steering(1))
          steering%travel = number_at(x, plan%steering(2))
       end associate
@@ -322,12 +325,20 @@ contains
       type(case_t), intent(inout) :: cases(:)
       logical, intent(inout) :: is_good
       real(wp) :: travel                     ! of the rack
-      integer :: k
+      integer :: k, j
 
       do k = 1, size(cases)
          associate (this => plan%cases(k))
             cases(k)%offset = number_at(x, this%offset)
             if (cases(k)%test == 'table') cycle
+            if (has_manoeuvres(cases(k))) then
+               do j = 1, size(cases(k)%manoeuvres)
+                  cases(k)%manoeuvres(j)%vertical = number_at(x, plan%manoeuvres(j)%vertical, 1.0_wp)
+                  cases(k)%manoeuvres(j)%longitudinal = number_at(x, plan%manoeuvres(j)%longitudinal)
+                  cases(k)%manoeuvres(j)%lateral = number_at(x, plan%manoeuvres(j)%lateral)
+               end do
+               cycle
+            end if
             cases(k)%from = number_at(x, this%from)
             cases(k)%to = number_at(x, this%to)
             is_good = is_good .and. abs(cases(k)%to - cases(k)%from) > 0.0_wp

@@ -67,6 +67,8 @@ module ek_suspension
       real(wp) :: wheelbase = 0.0_wp      !! m
       real(wp) :: cg_height = 0.0_wp      !! height of the centre of gravity of the car above the ground [m]
       real(wp) :: mass = 0.0_wp           !! mass of the car [kg]; 0: not given
+      real(wp) :: load = 0.0_wp           !! force of the road on both wheels when the car stands [N]; 0: not given
+      real(wp) :: roll_share = -1.0_wp    !! share of the car's lateral load transfer on this axle, 0 to 1; negative: not given
       real(wp) :: brake_share = 0.0_wp    !! share of the car's braking force that acts on the FRONT axle, 0 to 1
       real(wp) :: drive_share = 1.0_wp    !! share of the car's driving force that acts on THIS axle, 0 to 1
       real(wp) :: front_overhang = 0.0_wp !! distance of the front corner of the car ahead of the wheels [m]; 0: not given
@@ -173,6 +175,8 @@ contains
       to%axle%wheelbase = from%axle%wheelbase
       to%axle%cg_height = from%axle%cg_height
       to%axle%mass = from%axle%mass
+      to%axle%load = from%axle%load
+      to%axle%roll_share = from%axle%roll_share
       to%axle%brake_share = from%axle%brake_share
       to%axle%drive_share = from%axle%drive_share
       to%axle%front_overhang = from%axle%front_overhang

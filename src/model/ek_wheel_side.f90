@@ -4,7 +4,7 @@ module ek_wheel_side
    use ek_suspension, only: suspension_t
    implicit none(type, external)
    private
-   public :: side_name, left_and_right, is_axle, single_side, prefix_of, design_track, deck_frame
+   public :: side_name, left_and_right, is_axle, single_side, prefix_of, design_track, deck_frame, share_on_wheel
 
 contains
 
@@ -42,6 +42,27 @@ contains
       end do
       track = abs(y(2) - y(1))
    end function design_track
+
+   !> Share of a load at a point of a body that counts for a wheel [-]: 1, 0, or ½ at equal distance from both wheels of a body.
+   pure real(wp) function share_on_wheel(suspension, wheel, body, arm) result(share)
+      type(suspension_t), intent(in) :: suspension
+      integer, intent(in) :: wheel, body
+      real(wp), intent(in) :: arm(3)      !! point from the reference point of the body, body axes [m]
+      real(wp), parameter :: middle = 1.0e-9_wp      ! m: tolerance of equal distance
+      real(wp) :: nearer
+      integer :: other
+
+      share = merge(1.0_wp, 0.0_wp, body == suspension%wheels(wheel)%body)
+      do other = 1, size(suspension%wheels)
+         if (other == wheel .or. suspension%wheels(other)%body /= body .or. .not. share > 0.0_wp) cycle
+         nearer = abs(arm(2) - suspension%wheels(other)%contact(2)) - abs(arm(2) - suspension%wheels(wheel)%contact(2))
+         if (abs(nearer) <= middle) then
+            share = 0.5_wp
+         else if (nearer < 0.0_wp) then
+            share = 0.0_wp
+         end if
+      end do
+   end function share_on_wheel
 
    !> Signs of x, y, z from the frame of the program to the frame of the deck.
    pure function deck_frame(suspension) result(frame)

@@ -61,7 +61,7 @@ contains
       real(wp), intent(in) :: value
       type(pack_t), intent(inout) :: pack
       type(inputs_t) :: inputs
-      integer :: l, k, last
+      integer :: l, k, j, last
 
       last = merge(1, lanes, is_common)
       do l = 1, last
@@ -71,8 +71,9 @@ contains
             pack%factor(k)%v(l) = merge(0.0_wp, 1.0_wp, pack%loads(k)%is_case)
          end do
          do k = 1, inputs%loads
-            if (pack%loads(inputs%load(k))%is_case) &
-               pack%factor(inputs%load(k))%v(l) = pack%factor(inputs%load(k))%v(l) + inputs%factor(k)
+            do j = inputs%load(k), inputs%load(k) + inputs%further(k)
+               if (pack%loads(j)%is_case) pack%factor(j)%v(l) = pack%factor(j)%v(l) + inputs%factor(k)
+            end do
          end do
          pack%change%v(l) = 0.0_wp
          do k = 1, inputs%rows

@@ -19,6 +19,7 @@ module ek_report_page
    use ek_page, only: page_t, begin_page, begin_section, add_text, add_markup, add_warnings, add_facts, set_data, begin_table, &
       add_cell, add_group, end_table, begin_charts, end_charts, add_picture, add_data_picture, add_legend, page_text, page_number
    use ek_member_loads, only: load_record_t
+   use ek_rod_table, only: add_rod_table
    implicit none(type, external)
    private
    public :: report_page, add_pictures, add_constants, add_peak_loads
@@ -54,6 +55,7 @@ contains
       do k = 1, size(report%tests)
          call add_test(page, report, report%tests(k), k)
       end do
+      if (allocated(report%parts)) call add_rod_table(page, report%parts)
       if (allocated(report%loads)) call add_peak_loads(page, report%loads)
       if (.not. report%is_static) call set_data(page, report_data(report), is_live, allocated(report%turntable))
       text = page_text(page)

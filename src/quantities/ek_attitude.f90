@@ -20,6 +20,7 @@ module ek_attitude
    use ek_suspension, only: suspension_t, wheel_t
    use ek_state, only: state_t, inputs_t
    use ek_kkt, only: load_factor, wrench
+   use ek_wheel_side, only: share_on_wheel
    use ek_steer_angle, only: steer_rate
    implicit none(type, external)
    private
@@ -223,7 +224,7 @@ contains
       do k = 1, size(suspension%loads)
          associate (load => suspension%loads(k))
             if (load%is_weight) cycle
-            share = share_of(load%body, load%arm)
+            share = share_on_wheel(suspension, wheel, load%body, load%arm)
             if (.not. share > 0.0_wp) cycle
             factor = 1.0_wp
             if (load%is_case) factor = load_factor(inputs, k)
@@ -234,33 +235,11 @@ contains
       do k = suspension%own_rows() + 1, suspension%constraints()
          do t = suspension%rows(k)%first, suspension%rows(k)%first + suspension%rows(k)%terms - 1
             associate (term => suspension%terms(t))
-               force = force - share_of(term%measure%body_j, term%measure%arm_j)* &
+               force = force - share_on_wheel(suspension, wheel, term%measure%body_j, term%measure%arm_j)* &
                   state%reaction(k)*term%coefficient*term%measure%u(3)
             end associate
          end do
       end do
-
-   contains
-
-      !> Share of a load at a point of a body that counts for the wheel [-]: 1, 0 or ½.
-      pure real(wp) function share_of(body, arm)
-         integer, intent(in) :: body
-         real(wp), intent(in) :: arm(3)      !! point from the reference point of the body, body axes [m]
-         real(wp), parameter :: middle = 1.0e-9_wp      ! m: tolerance of equal distance
-         real(wp) :: nearer
-         integer :: other
-
-         share_of = merge(1.0_wp, 0.0_wp, body == suspension%wheels(wheel)%body)
-         do other = 1, size(suspension%wheels)
-            if (other == wheel .or. suspension%wheels(other)%body /= body .or. .not. share_of > 0.0_wp) cycle
-            nearer = abs(arm(2) - suspension%wheels(other)%contact(2)) - abs(arm(2) - suspension%wheels(wheel)%contact(2))
-            if (abs(nearer) <= middle) then
-               share_of = 0.5_wp
-            else if (nearer < 0.0_wp) then
-               share_of = 0.0_wp
-            end if
-         end do
-      end function share_of
 
    end function vertical_force
 

@@ -17,7 +17,7 @@ module ek_table
    implicit none(type, external)
    private
    public :: table_t, new_table, column_index, name_index, column, column_range, row_count, name_length
-   public :: csv_text, csv_head, csv_row, write_csv, print_csv, read_csv
+   public :: csv_text, csv_head, csv_row, csv_cell, write_csv, print_csv, read_csv
 
    character(*), parameter :: line_end = new_line('a')
 
@@ -26,6 +26,7 @@ module ek_table
       real(wp), allocatable :: values(:, :)               !! (column, row): a row is contiguous
       logical, allocatable :: is_whole(:)                 !! the column contains integers: state, iterations, …
       type(message_list_t) :: header                      !! lines above the columns, each written after '# '
+      type(message_list_t) :: names                       !! name of each row, in a last column `name`; empty: no such column
    end type table_t
 
    character(*), parameter :: whole_names(5) = [character(13) :: 'state', 'converged', 'stable', 'near_singular', 'iterations']
@@ -115,10 +116,36 @@ contains
 
       call buffer%add(csv_head(table))
       do row = 1, size(table%values, 2)
-         call buffer%add(csv_row(table%values(:, row), table%is_whole))
+         call buffer%add(row_text(table, row))
       end do
       text = buffer%text()
    end function csv_text
+
+   !> Row k of a table as a CSV line, with the name of the row if the table has names.
+   pure function row_text(table, k) result(text)
+      type(table_t), intent(in) :: table
+      integer, intent(in) :: k
+      character(:), allocatable :: text
+
+      text = csv_row(table%values(:, k), table%is_whole)
+      if (table%names%count() > 0) text = text(:len(text) - 1)//','//csv_cell(table%names%line(k))//line_end
+   end function row_text
+
+   !> A string as a cell of a CSV file: in double quotes if it contains a comma, a quote or a line end.
+   pure function csv_cell(text) result(cell)
+      character(*), intent(in) :: text
+      character(:), allocatable :: cell
+      integer :: k
+
+      cell = text
+      if (scan(text, ',";'//line_end) == 0) return
+      cell = '"'
+      do k = 1, len(text)
+         cell = cell//text(k:k)
+         if (text(k:k) == '"') cell = cell//'"'
+      end do
+      cell = cell//'"'
+   end function csv_cell
 
    !> One row of a table as a CSV line, with line end.
    pure function csv_row(values, is_whole) result(text)
@@ -172,6 +199,7 @@ contains
          if (k > 1) call buffer%add(',')
          call buffer%add(trim(table%columns(k)))
       end do
+      if (table%names%count() > 0) call buffer%add(',name')
       text = buffer%text()//line_end
    end function csv_head
 
@@ -194,7 +222,7 @@ contains
       if (allocated(error)) return
       call writer%add(csv_head(table))
       do k = 1, size(table%values, 2)
-         call writer%add(csv_row(table%values(:, k), table%is_whole))
+         call writer%add(row_text(table, k))
       end do
       call writer%finish(error)
    end subroutine write_csv
@@ -209,7 +237,7 @@ contains
 
       call buffer%add(csv_head(table))
       do k = 1, size(table%values, 2)
-         call buffer%add(csv_row(table%values(:, k), table%is_whole))
+         call buffer%add(row_text(table, k))
          if (buffer%length() < enough) cycle
          call write_standard_output(buffer%text(), error)
          if (allocated(error)) return

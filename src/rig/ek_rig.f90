@@ -20,52 +20,22 @@ module ek_rig
    use ek_kinds, only: wp
    use ek_contract, only: are_checked, require
    use ek_rig_test, only: rig_test_t, rig_test, of_one_wheel, swept_unit, moves_heights, rolls, steers, loads_wheels, takes_table, &
-      covers_grid, of_braking
+      covers_grid, drives_car, of_braking
    use ek_wheel_side, only: side_name, left_and_right, design_track
-   use ek_joint, only: joint_t, row_t, term_t, joint_kinds
-   use ek_suspension, only: suspension_t, load_t, driver_unit, copy_numbers
+   use ek_suspension, only: suspension_t, driver_unit, copy_numbers
    use ek_kkt, only: kkt_t, renew_kkt
    use ek_path, only: walk_t, empty_walk
    use ek_grid, only: is_grid, grid_size, set_grid_values
-   use ek_case, only: case_t, append_actuation, copy_case_numbers, is_mountable, follows_place, follows_tangent, follows_table, &
-      actuation_t
+   use ek_manoeuvre, only: has_manoeuvres, set_manoeuvre_values
+   use ek_manoeuvre_loads, only: load_wheel, load_masses
+   use ek_rig_parts, only: rig_t, acting_t, new_rig, add_height, add_load
+   use ek_case, only: case_t, append_actuation, copy_case_numbers, is_mountable, follows_place, follows_tangent, follows_table
    use ek_measure, only: measure_t, global_gap
    implicit none(type, external)
    private
    public :: rig_t, mounted_case_t, new_rig, rig_of, add_height, put_on, mount, mount_case, mount_again, take_off, set_rig_numbers
 
    real(wp), parameter :: up(3) = [0.0_wp, 0.0_wp, 1.0_wp]
-
-   !> The sum that a driver prescribes: Σ sign × height of wheels, in the order of the terms of its row.
-   type :: height_t
-      integer :: wheels(2) = 0                           !! indices of the wheels; 0: none
-      real(wp) :: signs(2) = 0.0_wp
-      logical :: is_at_centre = .false.                  !! height of the wheel centre; otherwise of the contact point
-      logical :: is_road = .false.                       !! height of the road under the tyre at the contact point
-   end type height_t
-
-   !> The point of application of a load of the rig, and the force and moment of this load at the load factor 1.
-   type :: acting_t
-      integer :: wheel = 0
-      logical :: is_at_patch = .false.                   !! at the contact point; otherwise at the wheel centre
-      real(wp) :: force(3) = 0.0_wp, moment(3) = 0.0_wp  !! at the load factor 1 [N, N m]
-      logical :: has_trail = .false.                     !! the offset of the case gives a moment
-   end type acting_t
-
-   !> Additions of a case to a suspension. The indices of joints, rows, terms and loads of the rig continue after the suspension.
-   type :: rig_t
-      type(joint_t), allocatable :: joints(:)            !! drivers of heights, one row each
-      type(row_t), allocatable :: rows(:)
-      type(term_t), allocatable :: terms(:)
-      type(load_t), allocatable :: loads(:)
-      type(height_t), allocatable :: heights(:)          !! height prescribed by each row
-      type(acting_t), allocatable :: acting(:)           !! point and value of each load
-      type(actuation_t), allocatable :: actuations(:)    !! actuations of loads and rows of the rig, and of those the case names
-      logical :: is_table = .false.                      !! the rows of a table are the path of the case
-      real(wp) :: from = 0.0_wp, to = 0.0_wp             !! swept values, SI
-      integer :: increments = 0
-      character(:), allocatable :: unit, place_name      !! unit and name of the swept value: 'mm', 'wheel travel'
-   end type rig_t
 
    !> A case on the rig, ready to be solved.
    type :: mounted_case_t
@@ -147,7 +117,7 @@ contains
          call copy_rig_numbers(rig, suspension)
          do k = 1, size(rig%actuations)
             this%actuations(k)%share = rig%actuations(k)%share
-            if (is_grid(given)) this%actuations(k)%values = rig%actuations(k)%values
+            if (is_grid(given) .or. has_manoeuvres(given)) this%actuations(k)%values = rig%actuations(k)%values
          end do
          call copy_case_numbers(given, this)
          this%from = rig%from
@@ -192,13 +162,6 @@ contains
       suspension%loads = [base%loads, rig%loads]
       suspension%rig_rows = base%rig_rows + size(rig%rows)
    end subroutine put_on
-
-   !> A rig without rows and loads.
-   pure type(rig_t) function new_rig() result(rig)
-      allocate (rig%joints(0), rig%rows(0), rig%terms(0), rig%loads(0), rig%heights(0), rig%acting(0), rig%actuations(0))
-      rig%unit = '-'
-      rig%place_name = ''
-   end function new_rig
 
    !> The rig of a case. A case without a test uses the driver or load that it names.
    pure type(rig_t) function rig_of(suspension, case) result(rig)
@@ -257,6 +220,12 @@ contains
             if (wheels(side) > 0) call append_actuation(rig%actuations, '', trim(heights(side)), 1.0_wp, follows_table)
          end do
          call append_actuation(rig%actuations, '', case%drive, 1.0_wp, follows_table)
+         rig%is_table = .true.
+      case (drives_car)
+         do side = 1, 2
+            if (wheels(side) > 0) call load_wheel(suspension, case, wheels(side), side, rig)
+         end do
+         call load_masses(suspension, case, rig)
          rig%is_table = .true.
       end select
    end subroutine add_parts
@@ -370,61 +339,6 @@ contains
       rig%is_table = .true.
    end subroutine take_rows
 
-   !> Adds a driver of Σ sign × height relative to the vehicle body, with the heights of wheel centres, of contact points, or of the
-   !> road under the tyres. The value of the driver is the change from design [m]. The tyres on the road deflect under the loads at
-   !> the contact points, so that Σ sign × height = value + λ Σ sign²/rate.
-   pure subroutine add_height(rig, suspension, name, where, wheels, signs, control)
-      type(rig_t), intent(inout) :: rig        !! the numbers of the rig are set later (set_rig_numbers)
-      type(suspension_t), intent(in) :: suspension
-      character(*), intent(in) :: name, where
-      integer, intent(in) :: wheels(:)
-      real(wp), intent(in) :: signs(:)         !! one per wheel
-      character(*), intent(in) :: control      !! 'centre', 'patch' or 'road'
-      type(joint_t) :: joint
-      type(height_t) :: height
-      type(term_t) :: term
-      integer :: k
-
-      height%wheels(:size(wheels)) = wheels
-      height%signs(:size(wheels)) = signs
-      height%is_at_centre = control == 'centre'
-      height%is_road = control == 'road'
-      rig%heights = [rig%heights, height]
-      joint%name = name
-      joint%where = where
-      joint%kind = 'driver'
-      joint%number = findloc(joint_kinds, 'driver', dim=1)
-      joint%body_j = suspension%wheels(wheels(1))%body
-      joint%first_row = size(suspension%rows) + size(rig%rows) + 1
-      joint%rows = 1
-      joint%is_of_measures = .true.
-      rig%rows = [rig%rows, row_t(first=size(suspension%terms) + size(rig%terms) + 1, terms=size(wheels), &
-         joint=size(suspension%joints) + size(rig%joints) + 1, is_driver=.true.)]
-      rig%terms = [rig%terms, [(term, k=1, size(wheels))]]
-      rig%joints = [rig%joints, joint]
-   end subroutine add_height
-
-   !> Adds a load 'rig_<name>' on a wheel, and the actuation that scales it.
-   pure subroutine add_load(rig, suspension, case, name, acting, share, law, values)
-      type(rig_t), intent(inout) :: rig
-      type(suspension_t), intent(in) :: suspension
-      type(case_t), intent(in) :: case
-      character(*), intent(in) :: name
-      type(acting_t), intent(in) :: acting
-      real(wp), intent(in) :: share
-      integer, intent(in) :: law
-      real(wp), intent(in), optional :: values(:)
-      type(load_t) :: load
-
-      load%name = 'rig_'//name
-      load%where = case%where
-      load%body = suspension%wheels(acting%wheel)%body
-      load%is_case = .true.
-      rig%loads = [rig%loads, load]
-      rig%acting = [rig%acting, acting]
-      call append_actuation(rig%actuations, load%name, '', share, law, values)
-   end subroutine add_load
-
    !> Sets the numbers of a rig for a design of the suspension and of the case. Memory is allocated only for the first values of a
    !> grid.
    pure subroutine set_rig_numbers(suspension, case, rig)
@@ -440,6 +354,7 @@ contains
       if (rig%is_table) then
          rows = case%table%rows
          if (is_grid(case)) rows = product(grid_size(case))
+         if (has_manoeuvres(case)) rows = size(case%manoeuvres)
          rig%from = merge(0.0_wp, 1.0_wp, rows == 1)      ! from the design state, which is also reported
          rig%to = rows
          rig%increments = max(rows - 1, 1)
@@ -464,6 +379,11 @@ contains
       end do
       do k = 1, size(rig%acting)
          associate (this => rig%acting(k), load => rig%loads(k))
+            if (this%mass > 0) then
+               load%arm = suspension%bodies(this%mass)%centre
+               load%force = suspension%bodies(this%mass)%mass*this%force
+               cycle
+            end if
             load%arm = suspension%wheels(this%wheel)%centre
             if (this%is_at_patch) load%arm = suspension%wheels(this%wheel)%contact
             load%force = this%force
@@ -474,6 +394,8 @@ contains
          if (rig%actuations(k)%law == follows_tangent) rig%actuations(k)%share = design_track(suspension)
          if (rig%actuations(k)%law == follows_table .and. is_grid(case)) &
             call set_grid_values(case, rig%actuations(k)%drive == case%drive, rig%actuations(k)%values)
+         if (rig%actuations(k)%column > 0) &
+            call set_manoeuvre_values(suspension, case, rig%actuations(k)%column, rig%actuations(k)%values)
       end do
    end subroutine set_rig_numbers
 

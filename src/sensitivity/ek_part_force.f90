@@ -260,16 +260,18 @@ contains
       integer, intent(in) :: nq
       real(wp), intent(inout) :: force(:)
       real(wp) :: f(3), moment(3), arm(3)
-      integer :: k, at
+      integer :: k, l, at
 
       do k = 1, rates%loads
-         associate (load => suspension%loads(rates%load(k)))
-            if (.not. load%is_case) cycle
-            call wrench(load, state%poses(load%body + 1), f, moment, arm)
-            at = 6*(load%body - 1)
-            force(at + 1:at + 3) = force(at + 1:at + 3) + rates%factor(k)*f
-            force(at + 4:at + 6) = force(at + 4:at + 6) + rates%factor(k)*moment
-         end associate
+         do l = rates%load(k), rates%load(k) + rates%further(k)
+            associate (load => suspension%loads(l))
+               if (.not. load%is_case) cycle
+               call wrench(load, state%poses(load%body + 1), f, moment, arm)
+               at = 6*(load%body - 1)
+               force(at + 1:at + 3) = force(at + 1:at + 3) + rates%factor(k)*f
+               force(at + 4:at + 6) = force(at + 4:at + 6) + rates%factor(k)*moment
+            end associate
+         end do
       end do
       do k = 1, rates%rows
          force(nq + rates%row(k)) = force(nq + rates%row(k)) + rates%change(k)

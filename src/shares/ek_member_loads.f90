@@ -13,7 +13,7 @@ module ek_member_loads
    use ek_element, only: bushing_element
    use ek_element_force, only: element_evaluation_t, evaluate_element
    use ek_suspension, only: suspension_t, body_name
-   use ek_case, only: case_t
+   use ek_case, only: case_t, row_name
    use ek_path, only: path_t
    use ek_state, only: state_t, inputs_t, design_state, unpack_state
    use ek_schedule, only: schedule_t, new_schedule, inputs_at
@@ -35,6 +35,11 @@ module ek_member_loads
       real(wp) :: arm(3) = 0.0_wp        !! end from the reference point of the body, body axes [m]
    end type member_end_t
 
+   !> A string of its own length.
+   type :: text_t
+      character(:), allocatable :: text
+   end type text_t
+
    !> The loads of several cases: a table with one row per load as a string, and the peaks, each with its state, swept value (column
    !> `factor`) and case.
    type :: load_record_t
@@ -45,6 +50,8 @@ module ek_member_loads
       real(wp), allocatable :: factor(:, :)
       integer, allocatable :: case(:, :)
       character(64), allocatable :: cases(:)       !! names of the cases
+      logical :: has_names = .false.               !! rows have the name of their manoeuvre, or of their row of a load table
+      type(text_t), allocatable :: names(:, :)     !! name of the state of each peak
    end type load_record_t
 
    ! a load that exceeds a peak by less does not replace this peak: the first state stays, on both sides of an axle
@@ -169,18 +176,22 @@ contains
       end do
    end subroutine end_loads
 
-   !> Begins a record without cases.
-   subroutine begin_loads(suspension, model, checksum, record)
+   !> Begins a record without cases. If the states of any case have names, every row has a last column `name`.
+   subroutine begin_loads(suspension, model, checksum, record, cases)
       type(suspension_t), intent(in) :: suspension      !! not on the rig
       character(*), intent(in) :: model, checksum
       type(load_record_t), intent(out) :: record
+      type(case_t), intent(in), optional :: cases(:)    !! cases that will be added
+      integer :: k
 
       call member_ends(suspension, .false., record%ends)
       allocate (record%peaks(size(components), size(record%ends)), record%factor(size(components), size(record%ends)), &
          source=0.0_wp)
       allocate (record%state(size(components), size(record%ends)), record%case(size(components), size(record%ends)), source=0)
-      allocate (record%cases(0))
-      record%rows = new_frame('test,state,factor,element,hardpoint,body,fx_n,fy_n,fz_n,mx_nm,my_nm,mz_nm')
+      allocate (record%cases(0), record%names(size(components), size(record%ends)))
+      if (present(cases)) record%has_names = any([(row_name(cases(k), 1) /= '', k=1, size(cases))])
+      record%rows = new_frame('test,state,factor,element,hardpoint,body,fx_n,fy_n,fz_n,mx_nm,my_nm,mz_nm'// &
+         trim(merge(',name', '     ', record%has_names)))
       call record%rows%header%add('model '//model//', deck checksum '//checksum//', axes '// &
          trim(merge('iso   ', 'x-rear', suspension%is_iso))//'. Force and moment on the body, at the hardpoint')
    end subroutine begin_loads
@@ -198,6 +209,7 @@ contains
       type(inputs_t) :: inputs
       real(wp), allocatable :: loads(:, :)
       real(wp) :: own(3)
+      character(:), allocatable :: name
       integer :: k, e
 
       allocate (names(size(record%cases) + 1), loads(6, size(record%ends)))
@@ -212,6 +224,7 @@ contains
          call inputs_at(schedule, path%value(k), inputs)
          call assemble(suspension, state, inputs, residual_only, kkt)
          call end_loads(suspension, state, kkt%gradients, record%ends, loads)
+         name = row_name(case, nint(path%value(k)))
          call record%rows%put(case%name)
          call record%rows%put(k - 1)
          call record%rows%put(path%value(k)/case%unit, 9)
@@ -221,6 +234,7 @@ contains
             call record%rows%put(record%ends(e)%point)
             call record%rows%put(record%ends(e)%body)
             call record%rows%put(loads(:, e), 9)
+            if (record%has_names) call record%rows%put(name)
             own = own_force(suspension, state, record%ends(e), loads(1:3, e))
             call keep(e, k - 1, path%value(k)/case%unit, [loads(1:3, e), norm2(loads(1:3, e)), loads(4:6, e), &
                norm2(loads(4:6, e)), own])
@@ -244,6 +258,7 @@ contains
             record%state(i, e) = number
             record%factor(i, e) = factor
             record%case(i, e) = size(record%cases)
+            if (record%has_names) record%names(i, e)%text = name
          end do
       end subroutine keep
 
@@ -285,7 +300,8 @@ contains
       type(frame_t) :: frame
       integer :: e, i
 
-      frame = new_frame('element,hardpoint,body,component,value,unit,test,state,factor')
+      frame = new_frame('element,hardpoint,body,component,value,unit,test,state,factor'// &
+         trim(merge(',name', '     ', record%has_names)))
       do e = 1, size(record%ends)
          do i = 1, size(components)
             if (record%case(i, e) == 0) cycle
@@ -298,6 +314,7 @@ contains
             call frame%put(trim(record%cases(record%case(i, e))))
             call frame%put(record%state(i, e))
             call frame%put(record%factor(i, e), 9)
+            if (record%has_names) call frame%put(record%names(i, e)%text)
          end do
       end do
       text = frame%csv()

@@ -13,6 +13,7 @@
 !> | traction            | force           | forward at the wheel centre            | vertical force   |
 !> | aligning_torque     | moment          | about z, counterclockwise from above   | vertical force   |
 !> | vertical_force      | force           | upward at the contact point            | vertical force   |
+!> | manoeuvres          | manoeuvre       | forces of the road, inertia of masses  | vertical force   |
 !> | table               | row of the file | loads and heights in the columns       | vertical force   |
 !> | travel_and_steering | state of a grid | both up; the rack moves, too           | height, driven   |
 !>
@@ -24,12 +25,13 @@ module ek_rig_test
    implicit none(type, external)
    private
    public :: rig_test_t, rig_tests, rig_test, needs_both, of_one_wheel, lifts, is_scattered, swept_unit
-   public :: moves_heights, rolls, steers, loads_wheels, takes_table, covers_grid
+   public :: moves_heights, rolls, steers, loads_wheels, takes_table, covers_grid, drives_car
    public :: of_none, of_travel, of_tilt, of_roll, of_steer, of_lateral, of_braking, of_traction, of_aligning, of_vertical, &
       of_table, of_grid
 
    ! what a test does
-   integer, parameter :: moves_heights = 1, rolls = 2, steers = 3, loads_wheels = 4, takes_table = 5, covers_grid = 6
+   integer, parameter :: moves_heights = 1, rolls = 2, steers = 3, loads_wheels = 4, takes_table = 5, covers_grid = 6, &
+      drives_car = 7
 
    ! its charts and its gradients
    integer, parameter :: of_none = 0, of_travel = 1, of_tilt = 2, of_roll = 3, of_steer = 4, of_lateral = 5, of_braking = 6, &
@@ -83,6 +85,7 @@ module ek_rig_test
       rig_test_t('vertical_force', loads_wheels, of_vertical, 'force', 'N', 'change of vertical force at each contact point', &
          'factor', 'vertical force [N]    (+ up)', force=up), &
       rig_test_t('table', takes_table, of_table, 'force', '-', '', 'factor', 'row of the table'), &
+      rig_test_t('manoeuvres', drives_car, of_table, 'force', '-', 'manoeuvre', 'factor', 'manoeuvre'), &
       rig_test_t('travel_and_steering', covers_grid, of_grid, 'centre', '-', 'state of the grid', 'factor', 'state of the grid', &
          place=9, is_on_request=.true., reach=80.0_wp, increments=16)]
 
@@ -122,7 +125,7 @@ contains
       type(rig_test_t) :: test
 
       test = rig_test(name)
-      is_scattered = any(test%action == [takes_table, covers_grid])
+      is_scattered = any(test%action == [takes_table, covers_grid, drives_car])
    end function is_scattered
 
    !> The SI value of the unit of a swept value: of mm and of deg; 1 for any other unit.
