@@ -194,7 +194,7 @@ contains
       real(wp), allocatable :: limits(:, :)
       integer :: k
 
-      limits = limits_of(study, plan%heads, plan%tolerance)
+      allocate (limits, source=limits_of(study, plan%heads, plan%tolerance))
       do k = 1, size(chunk%status)
          if (chunk%status(k) == 0 .and. keeps(chunk%responses(:, k), limits(1, :), limits(2, :))) &
             counts%within = counts%within + 1
@@ -245,7 +245,7 @@ contains
 
       n = 1 + size(chunk%factors, 1) + size(chunk%responses, 1)
       block = block_of(study)
-      limits = limits_of(study, plan%heads, plan%tolerance)
+      allocate (limits, source=limits_of(study, plan%heads, plan%tolerance))
       do k = 1, size(chunk%status)
          values = [real(chunk%first + k - 1, wp), chunk%factors(:, k), chunk%responses(:, k)]
          if (has_limits(study)) values = [values, merge(1.0_wp, 0.0_wp, chunk%status(k) == 0 .and. &
