@@ -41,7 +41,7 @@ build_asan() { EK_BUILD=build/ci/asan tools/build.sh asan all; }
 # Static archives, because for any shared library the system's alternatives select OpenBLAS where it is installed.
 # Optimised for a quick build, not for speed. All layers at -O1, where gfortran warns of what may be uninitialised.
 build_reference() {
-  EK_BUILD=build/ci/reference_lapack tools/build.sh release all -DCMAKE_Fortran_FLAGS_RELEASE=-O1 -DEK_IPO=OFF -DEK_WERROR=ON \
+  EK_BUILD=build/ci/reference_lapack tools/build.sh release all -DCMAKE_Fortran_FLAGS_RELEASE=-O1 -DCMAKE_C_FLAGS_RELEASE=-O1 -DEK_IPO=OFF -DEK_WERROR=ON \
     -DBLA_VENDOR=Generic \
     -DBLAS_blas_LIBRARY="$(dpkg -L libblas-dev | grep '/libblas\.a$')" -DLAPACK_lapack_LIBRARY="$(dpkg -L liblapack-dev | grep '/liblapack\.a$')"
 }

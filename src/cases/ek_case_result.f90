@@ -95,9 +95,11 @@ contains
       type(observer_t), pointer :: tells
       type(remark_list_t) :: none
       logical :: has_path
+      integer(i8) :: had
 
       has_path = .false.
       if (present(is_walked)) has_path = is_walked
+      if (result%outcome == out_of_memory) result%bytes = 0
       result%outcome = solved
       result%remarks = none
       if (present(observer)) then
@@ -107,10 +109,13 @@ contains
          tells => own
       end if
       call make_observer(result%suspension, result%case, tells, options%columns, options%has_violation)
+      had = result%bytes
       result%bytes = sweep_bytes(result%suspension, result%case, tells)
-      if (.not. has_memory(result%bytes)) then
-         result%outcome = out_of_memory
-         return
+      if (result%bytes > had) then                     ! less is there already, from the design before
+         if (.not. has_memory(result%bytes)) then
+            result%outcome = out_of_memory
+            return
+         end if
       end if
       if (.not. has_path) call sweep(result%suspension, result%case, result%path, result%kkt, progress, options%reach, result%space)
       call observe(result%suspension, result%case, result%path, result%kkt, tells, result%table, options%defers_kandc)
