@@ -217,6 +217,12 @@ with sync_playwright() as tool:
         page.keyboard.press("ArrowLeft")
     expect(page.locator("#state-text")).to_have_text("at design")
     require(float(dot.get_attribute("cy")) > risen + 10, "the drawing does not follow the state")
+    # at design, toe is that of the deck whatever the points are: their derivatives are rounding noise, which is no answer
+    page.select_option("#asked", "left_toe_deg")
+    page.click("#movers")
+    expect(page.locator("#answer")).to_contain_text("No point moves left_toe_deg at design.", timeout=patient)
+    require(page.locator("#answer table tr").all_inner_texts()[-1].startswith("wheel.left.toe"), page.inner_text("#answer"))
+    require(page.locator("#views .arrow").count() == 0, "rounding noise is drawn as arrows")
 
     page.click("#baseline")
     chance, started, runs = random.Random(51), time.monotonic(), curves()["runs"]

@@ -54,28 +54,34 @@ function rowsOf({ written }, ending) {
 // A small change of a number other than a coordinate, with its words, as `derivatives` sorts by
 const smallChange = ({ unit, at }) => ({ mm: [1, "1 mm"], deg: [0.06, "0.06 deg"] })[unit] ?? [Math.abs(Number(at)) / 100, "1 %"];
 
+// The numbers that the command prints: the ten with the largest effects, and none whose derivative is rounding noise
+const listedNumbers = ({ output }) => new Set([...output.matchAll(/^  (\S+) +\S+(?: per .*)?$/gm)].map(([, path]) => path));
+
 async function showMovers() {
-  const column = element("asked").value, head = `Change of ${column} ${stateText()}`, result = await consult(["derivatives", ...ofTest()]);
+  const column = element("asked").value, head = `Change of ${column} ${stateText()}`;
+  const result = await consult(["derivatives", ...ofTest()]);
   if (!result) return;
-  const points = new Map(), others = [];
-  for (const row of rowsOf(result, "_derivatives.csv").filter(({ derivative }) => Number.isFinite(parseFloat(derivative)))) {
+  const points = new Map(), others = [], listed = listedNumbers(result);
+  for (const row of rowsOf(result, "_derivatives.csv").filter(({ number }) => listed.has(number))) {
     const slope = Number(row.derivative), [size, words] = smallChange(row);
     const [, name, axis] = /^point\.(.+)\.([xyz])$/.exec(row.number) ?? [];
     if (!name && !/^case\./.test(row.number)) others.push([row.number, words, slope * size]);
     if (!name) continue;
-    if (!points.has(name)) points.set(name, { name, unit: row.unit, slopes: [0, 0, 0] });
+    if (!points.has(name)) points.set(name, { name, unit: row.unit, slopes: [NaN, NaN, NaN] });
     points.get(name).slopes["xyz".indexOf(axis)] = slope;
   }
-  const sorted = [...points.values()].map((one) => ({ ...one, size: Math.hypot(...one.slopes) }))
-    .sort((a, b) => b.size - a.size).slice(0, 10);
-  question.arrows = sorted.filter(({ size }) => size > 0)
-    .map(({ name, slopes }) => ({ name, vector: slopes.map((slope) => slope / sorted[0].size) }));
+  const known = (slopes) => slopes.map((slope) => slope || 0);
+  const sorted = [...points.values()].map((one) => ({ ...one, size: Math.hypot(...known(one.slopes)) }))
+    .sort((a, b) => b.size - a.size);
+  question.arrows = sorted.map(({ name, slopes }) => ({ name, vector: known(slopes).map((slope) => slope / sorted[0].size) }));
   drawViews();
   answerWith(result,
-    tableWith(`${head}, by 1 ${sorted[0]?.unit} of a point; the arrows point to where it grows`, ["Point", "at most", "x", "y", "z"],
-      sorted.map(({ name, slopes, size }) => [name, size, ...slopes])),
-    tableWith(`${head}, by another number`, ["Number", "by", "change"],
-      others.filter(([, , change]) => change !== 0).sort((a, b) => Math.abs(b[2]) - Math.abs(a[2])).slice(0, 10)));
+    sorted.length === 0 ? `No point moves ${column} ${stateText()}.` :
+      tableWith(`${head}, by 1 ${sorted[0].unit} of a point, of the ten largest; the arrows point to where it grows`,
+        ["Point", "at most", "x", "y", "z"],
+        sorted.map(({ name, slopes, size }) => [name, size, ...slopes.map((slope) => Number.isNaN(slope) ? "" : slope)])),
+    others.length === 0 ? "" : tableWith(`${head}, by another number`, ["Number", "by", "change"],
+      others.sort((a, b) => Math.abs(b[2]) - Math.abs(a[2]))));
 }
 
 async function showParts() {

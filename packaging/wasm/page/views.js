@@ -18,7 +18,7 @@ const width = 300, height = 210, edge = 26;
 function drawViews(isNew = false) {
   const box = element("views");
   if (bench.points.length === 0) {
-    box.replaceChildren("This deck has no points with three numbers.");
+    box.replaceChildren(deck ? "This deck has no points with three numbers." : "Open a deck of the library, or drop one here.");
     return fillTables();
   }
   if (isNew || !bench.view) {     // a view keeps its scale while points are moved
