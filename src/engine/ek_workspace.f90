@@ -65,11 +65,11 @@ contains
    !> Gives a workspace its definition, with the numbers of the deck. The definition must outlive the workspace and all its copies.
    subroutine give_definition(definition, workspace)
       type(definition_t), target, intent(in) :: definition
-      type(workspace_t), intent(inout) :: workspace        !! `raw` is the model of the definition
+      type(workspace_t), intent(inout) :: workspace        !! empty but for `raw`, the model of the definition
 
       workspace%definition => definition
-      workspace%x = definition%parameters%x(:definition%parameters%used)
-      workspace%deck_cases = definition%cases
+      allocate (workspace%x, source=definition%parameters%x(:definition%parameters%used))
+      allocate (workspace%deck_cases, source=definition%cases)
       workspace%stage = realised
    end subroutine give_definition
 
