@@ -211,10 +211,11 @@ contains
       real(wp), allocatable :: places(:)
       integer :: k
 
-      if (row_name(case, 1) == '' .or. table%names%count() > 0) return
+      if (row_name(case, 1) == '' .or. allocated(table%names)) return
       places = column(table, 'factor')
+      allocate (table%names(size(places)))
       do k = 1, size(places)
-         call table%names%add(row_name(case, nint(places(k))))
+         table%names(k)%text = row_name(case, nint(places(k)))
       end do
    end subroutine name_rows
 

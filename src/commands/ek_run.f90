@@ -3,7 +3,7 @@
 !> --json: the tables, messages (key `remarks`) and status of a run as one object (schema/run.schema.json).
 module ek_run
    use ek_kinds, only: wp
-   use ek_error, only: error_t, fail, exit_usage, exit_convergence
+   use ek_error, only: error_t, message_list_t, fail, exit_usage, exit_convergence
    use ek_text, only: str, quoted, plural
    use ek_file, only: make_folder, base_name, write_standard_output
    use ek_rig_test, only: rig_test, lifts, is_scattered
@@ -359,6 +359,7 @@ contains
       type(case_result_t), intent(in) :: result
       type(case_t), intent(in) :: case             !! case as in the deck
       type(json_t), intent(inout) :: json
+      type(message_list_t) :: names
       type(remark_t) :: remark
       integer :: k
 
@@ -378,7 +379,12 @@ contains
       end do
       call json%close(']')
       if (result%is_run()) then
-         if (result%table%names%count() > 0) call json%item('names', json_strings(result%table%names))
+         if (allocated(result%table%names)) then
+            do k = 1, size(result%table%names)
+               call names%add(result%table%names(k)%text)
+            end do
+            call json%item('names', json_strings(names))
+         end if
          call json%item('factor_unit', json_string(result%case%unit_name))
          call json%open('[', 'columns')
          do k = 1, size(result%table%columns)

@@ -21,12 +21,18 @@ module ek_table
 
    character(*), parameter :: line_end = new_line('a')
 
+   !> The name of a row. Not a second list of messages in the table: gfortran 12 releases only the first of two components of one
+   !> type when it deallocates an object of a class that contains them.
+   type :: row_name_t
+      character(:), allocatable :: text
+   end type row_name_t
+
    type :: table_t
       character(name_length), allocatable :: columns(:)   !! names with unit suffix, e.g. toe_deg
       real(wp), allocatable :: values(:, :)               !! (column, row): a row is contiguous
       logical, allocatable :: is_whole(:)                 !! the column contains integers: state, iterations, …
       type(message_list_t) :: header                      !! lines above the columns, each written after '# '
-      type(message_list_t) :: names                       !! name of each row, in a last column `name`; empty: no such column
+      type(row_name_t), allocatable :: names(:)           !! name of each row, in a last column `name`; not allocated: no such column
    end type table_t
 
    character(*), parameter :: whole_names(5) = [character(13) :: 'state', 'converged', 'stable', 'near_singular', 'iterations']
@@ -128,7 +134,7 @@ contains
       character(:), allocatable :: text
 
       text = csv_row(table%values(:, k), table%is_whole)
-      if (table%names%count() > 0) text = text(:len(text) - 1)//','//csv_cell(table%names%line(k))//line_end
+      if (allocated(table%names)) text = text(:len(text) - 1)//','//csv_cell(table%names(k)%text)//line_end
    end function row_text
 
    !> A string as a cell of a CSV file: in double quotes if it contains a comma, a quote or a line end.
@@ -199,7 +205,7 @@ contains
          if (k > 1) call buffer%add(',')
          call buffer%add(trim(table%columns(k)))
       end do
-      if (table%names%count() > 0) call buffer%add(',name')
+      if (allocated(table%names)) call buffer%add(',name')
       text = buffer%text()//line_end
    end function csv_head
 
