@@ -10,6 +10,7 @@ module ek_plausible_response
    use ek_element, only: element_kinds, axial_spring, torsion_spring, stop_spring
    use ek_element_label, only: element_label, is_between_bodies
    use ek_element_force, only: spring_tension
+   use ek_manoeuvre, only: standing_load
    use ek_suspension, only: suspension_t
    use ek_state, only: design_state, inputs_t
    use ek_kkt, only: kkt_t
@@ -163,7 +164,7 @@ contains
       associate (wheel => suspension%wheels(w))
          call doubts%examine(wheel%where, 'wheel '//quoted(wheel%name))
          value = value_of(kandc, prefix//wanted(1))*newton_per_mm
-         load = road_load(suspension, w)
+         load = standing_load(suspension, w)
          if (ieee_is_finite(value) .and. has_coil(suspension)) then
             call doubts%judge('wheel rate', value)
             if (load > 0.0_wp .and. value > 0.0_wp) &
@@ -270,20 +271,6 @@ contains
       has_coil = any(element_kinds(suspension%elements%kind)%carries)
    end function has_coil
 
-   !> The constant load of the road on a wheel [N], positive upward.
-   pure real(wp) function road_load(suspension, w) result(load)
-      type(suspension_t), intent(in) :: suspension
-      integer, intent(in) :: w
-      integer :: k
-
-      load = 0.0_wp
-      do k = 1, size(suspension%loads)
-         associate (of => suspension%loads(k))
-            if (.not. of%is_case .and. .not. of%is_weight .and. of%body == suspension%wheels(w)%body) load = load + of%force(3)
-         end associate
-      end do
-   end function road_load
-
    !> Examines whether the preload trim (`balance`) leaves all springs without force although the road loads the wheels.
    subroutine doubt_load(suspension, doubts)
       type(suspension_t), intent(in) :: suspension
@@ -295,7 +282,7 @@ contains
       if (suspension%balance == 'none') return
       load = 0.0_wp
       do k = 1, size(suspension%wheels)
-         load = max(load, road_load(suspension, k))
+         load = max(load, standing_load(suspension, k))
       end do
       most = 0.0_wp
       first = 0
