@@ -32,7 +32,7 @@ module ek_table
       real(wp), allocatable :: values(:, :)               !! (column, row): a row is contiguous
       logical, allocatable :: is_whole(:)                 !! the column contains integers: state, iterations, …
       type(message_list_t) :: header                      !! lines above the columns, each written after '# '
-      type(row_name_t), allocatable :: names(:)           !! name of each row, in a last column `name`; not allocated: no such column
+      type(row_name_t), allocatable :: names(:)           !! name of each row, in a last column `name`; without names: not allocated
    end type table_t
 
    character(*), parameter :: whole_names(5) = [character(13) :: 'state', 'converged', 'stable', 'near_singular', 'iterations']
