@@ -16,8 +16,9 @@ contains
 
       if (size(record%rods) == 0) return
       call begin_section(page, 'rods', 'Rods in load cases', is_printed=.false.)
-      call add_text(page, 'p', 'Largest tension and largest compression of each rod (joint `distance`) over all manoeuvres and '// &
-         'named rows of load tables, with the name of the load case. The command `loads` writes the loads on all parts.')
+      call add_text(page, 'p', 'Largest tension and largest compression of each rod (a joint of type distance) over all '// &
+         'manoeuvres and named rows of load tables, with the name of the load case. '// &
+         'The command elastokin loads writes the loads on all parts.')
       call begin_table(page, [character(16) :: 'Rod', '>Tension [N]', 'in', '>Compression [N]', 'in'])
       do k = 1, size(record%rods)
          call add_cell(page, record%rods(k)%name)
