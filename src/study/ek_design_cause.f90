@@ -73,7 +73,7 @@ contains
       integer :: c, j, side, row
 
       cause%design = design
-      cause%faults = faults
+      allocate (cause%faults, source=faults)               ! an assignment reads bounds of what is not allocated
       allocate (cause%lost(2, size(workspace%cases)), cause%open(2, size(workspace%cases)), source=not_given())
       allocate (cause%tables(size(workspace%cases)))
       do c = 1, size(workspace%cases)
