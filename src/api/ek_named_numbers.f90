@@ -19,6 +19,8 @@ module ek_named_numbers
    use ek_sweep_table, only: observer_t
    use ek_case_result, only: case_result_t, solve_options_t, solve_mounted, add_remarks
    use ek_test_result, only: test_result_t
+   use ek_gradient, only: gradient_windows
+   use ek_gradient_definition, only: windows_t
    use ek_key_number, only: key_number_t, nothing, read_source, largest_of_all
    use ek_number_reach, only: reach_of, lacks_state
    use ek_missing_number, only: missing_reason
@@ -33,6 +35,7 @@ module ek_named_numbers
       logical :: is_solved = .false.              !! whether the case is solved for the present design
       logical :: is_missed = .false.              !! whether a number has no value because this case lacks a state
       type(solve_options_t) :: options            !! required columns; swept value beyond which no state is required
+      type(case_t) :: read              !! a case with the places of the readings alone
       type(observer_t), allocatable :: observer   !! observer of the required columns; allocated at the first solution
       class(case_result_t), allocatable :: result
    end type needed_case_t
@@ -75,6 +78,7 @@ contains
       do k = 1, size(numbers%cases)
          allocate (numbers%cases(k)%options%columns(0))
          numbers%cases(k)%options%reach = 0.0_wp
+         call gradient_windows(tests(k), windows_t(), numbers%cases(k)%read)      ! all of them: the states have the bits of the report
       end do
       is_complete = .true.
       do k = 1, size(names)
@@ -83,17 +87,16 @@ contains
          if (number == 0) cycle
          numbers%numbers(k) = listed(number)
          numbers%wheel(k) = wheel
-         call add_needs(listed(number), suspension, cases, tests, numbers%cases, numbers%reach(:, k))
+         call add_needs(listed(number), suspension, cases, numbers%cases, numbers%reach(:, k))
       end do
       if (.not. is_complete) call explain_unknown(names, suspension, cases, error)
    end subroutine prepare_numbers
 
    !> Adds the columns and states that a key number requires from its cases.
-   subroutine add_needs(number, suspension, cases, tests, needed, reach)
+   subroutine add_needs(number, suspension, cases, needed, reach)
       type(key_number_t), intent(in) :: number
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: cases(:)
-      type(test_result_t), intent(in) :: tests(:)
       type(needed_case_t), intent(inout) :: needed(:)
       real(wp), intent(inout) :: reach(:)                !! reach of each source
       integer :: k, wheel
@@ -105,7 +108,7 @@ contains
                call add(source%column(wheel))
                call add(source%over(wheel))
             end do
-            reach(k) = reach_of(number%how, suspension, cases(source%test), source, tests(source%test))
+            reach(k) = reach_of(number%how, suspension, cases(source%test), source)
             this%options%reach = max(this%options%reach, reach(k))
          end associate
       end do
@@ -190,6 +193,7 @@ contains
       if (.not. allocated(needed%result)) allocate (needed%result, needed%observer)
       full = case
       full%has_all = .true.                  ! as in the report
+      if (allocated(needed%read%windows)) full%windows = needed%read%windows
       call mount_case(suspension, full, needed%result%mounted_case_t)
       call solve_mounted(needed%options, needed%result, observer=needed%observer)
       needed%is_solved = .true.

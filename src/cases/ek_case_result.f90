@@ -11,17 +11,20 @@ module ek_case_result
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t, is_mountable, row_name
    use ek_path, only: path_t, sweep, progress_procedure
+   use ek_path_states, only: drop_readings
    use ek_rig, only: mounted_case_t, mount_case
    use ek_wheel_side, only: single_side
+   use ek_standard_tests, only: describe_sweep
    use ek_sweep_table, only: observer_t, make_observer, observe, open_states, sweep_bytes
    use ek_failure_text, only: failure_text, stability_remarks
    use ek_case_remarks, only: settling_remarks, drift_remarks, travel_remarks, rack_remarks, closure_remarks, curve_reach_remarks
    use ek_remark, only: remark_list_t, failure, on_case, on_end
-   use ek_table, only: table_t, name_length, column
+   use ek_table, only: table_t, name_length, column, keep_rows, scheduled_rows
    use ek_test_result, only: frame_line, test_result_t, find_wheels
    implicit none(type, external)
    private
-   public :: case_result_t, solve_options_t, solve_case, solve_mounted, add_remarks, failure_of, test_of, add_header
+   public :: case_result_t, solve_options_t, solve_case, solve_mounted, keep_schedule, add_remarks, failure_of, &
+      test_of, add_header
    public :: solved, partly_solved, not_solvable, not_mountable, out_of_memory
 
    ! outcomes
@@ -123,6 +126,23 @@ contains
       if (allocated(options%checksum)) call add_header(result%table, result%suspension, result%case, options%checksum)
    end subroutine solve_mounted
 
+   !> Removes the states where numbers are read from a result, after the numbers were read. The states of the schedule remain.
+   subroutine keep_schedule(result)
+      type(case_result_t), intent(inout) :: result
+      real(wp), allocatable :: states(:)
+      integer :: k
+
+      if (.not. allocated(result%path%is_scheduled)) return
+      if (all(result%path%is_scheduled)) return
+      call keep_rows(scheduled_rows(result%table), result%table)
+      states = column(result%table, 'state')
+      do k = 1, size(states)
+         result%table%values(1, k) = count(result%path%is_scheduled(:nint(states(k))))      ! the table counts from 0
+      end do
+      if (allocated(result%table%is_scheduled)) deallocate (result%table%is_scheduled)
+      call drop_readings(result%path)
+   end subroutine keep_schedule
+
    !> A result as a test of the report: name, kind, settings and table of its case, with the wheels found in the table.
    function test_of(result) result(test)
       type(case_result_t), intent(in) :: result
@@ -132,6 +152,7 @@ contains
       test%kind = result%case%test
       test%is_anti = result%case%is_anti
       test%is_iso = result%suspension%is_iso
+      call describe_sweep(result%suspension, result%case, test)
       test%table = result%table
       allocate (test%prefixes(0), test%sides(0))
       if (size(result%suspension%wheels) > 0) call find_wheels(test, result%suspension%wheels(1)%side)

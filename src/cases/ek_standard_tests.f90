@@ -5,21 +5,59 @@ module ek_standard_tests
    use ek_rig_test, only: rig_test_t, rig_tests, rig_test, needs_both, swept_unit, steers, rolls, moves_heights, covers_grid
    use ek_case, only: case_t
    use ek_grid, only: is_grid
-   use ek_suspension, only: suspension_t
+   use ek_suspension, only: suspension_t, driver_unit
    use ek_kkt, only: kkt_t, new_kkt
    use ek_path, only: path_t, sweep
+   use ek_test_result, only: test_result_t
    use ek_rig, only: mount
    use ek_characteristics, only: trail
    use ek_wheel_side, only: left_and_right
    implicit none(type, external)
    private
-   public :: standard_tests, cover_rack_travel, test_title, held_text
+   public :: standard_tests, cover_rack_travel, test_title, held_text, describe_sweep, unit_of_swept_value
 
    character(*), parameter :: of_standard = 'the standard tests'
    real(wp), parameter :: inside = 0.95_wp          !! share of the travel to a lock that a standard test covers
    real(wp), parameter :: too_short = 0.05_wp       !! share of the range: a model that locks earlier is left to the test
 
 contains
+
+   !> Sets what the windows of a test depend on: the range of its swept value around design, and the angle of the steering wheel for
+   !> one unit of its driver.
+   pure subroutine describe_sweep(suspension, case, test)
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: case
+      type(test_result_t), intent(inout) :: test
+      real(wp) :: ends(2)
+
+      ends = abs([case%from, case%to])/unit_of_swept_value(suspension, case)
+      if (case%from*case%to < 0.0_wp) then
+         test%reach = minval(ends)
+      else if (case%from*case%to <= 0.0_wp) then
+         test%reach = maxval(ends)                    ! one side of design
+      end if
+      associate (steering => suspension%steering)
+         if (steering%has_steering .and. abs(steering%ratio) > 0.0_wp) &
+            test%wheel_size = 360.0_wp*swept_unit(driver_unit(suspension, steering%driver))/abs(steering%ratio)
+      end associate
+   end subroutine describe_sweep
+
+   !> SI value of the unit of the swept value of a case that is not on the rig.
+   pure real(wp) function unit_of_swept_value(suspension, case) result(unit)
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: case
+      type(rig_test_t) :: test
+
+      if (allocated(case%test)) test = rig_test(case%test)
+      if (test%action == 0) then
+         unit = 1.0_wp                                ! factor of a load
+         if (len(case%load) == 0 .and. .not. allocated(case%actuations)) unit = swept_unit(driver_unit(suspension, case%drive))
+      else if (test%action == steers) then
+         unit = swept_unit(driver_unit(suspension, case%drive))
+      else
+         unit = swept_unit(test%unit)
+      end if
+   end function unit_of_swept_value
 
    !> Lists the standard tests of an axle, or the standard tests of a single wheel.
    !>

@@ -11,13 +11,14 @@ module ek_report
    use ek_reader, only: definition_t
    use ek_examination, only: examination_t
    use ek_standard_tests, only: standard_tests
-   use ek_table, only: table_t, new_table
+   use ek_table, only: table_t, new_table, csv_text
+   use ek_table_reading, only: states_of_windows
    use ek_test_charts, only: test_charts
    use ek_grid, only: is_grid
    use ek_grid_figures, only: find_grid, envelope_text
    use ek_chart, only: chart_t
    use ek_scales, only: read_scales, take_scales
-   use ek_gradient, only: test_gradients, gradients_csv, gradients_json
+   use ek_gradient, only: test_gradients, gradient_windows, gradients_csv, gradients_json
    use ek_report_files, only: contents_csv, test_line, name_files
    use ek_report_names, only: contents_file, gradients_file, gradients_json_file, compliance_file, numbers_file, &
       numbers_json_file, deck_file, used_deck_file, data_file, page_file, loads_file, peaks_file, list_file, files_of_reports, &
@@ -47,7 +48,7 @@ module ek_report
    use ek_console, only: print_note, print_error, print_model_remarks
    use ek_kinds, only: wp, millimetre
    use ek_path, only: path_t
-   use ek_case_result, only: case_result_t, solve_options_t, solve_case, add_remarks, failure_of, add_header
+   use ek_case_result, only: case_result_t, solve_options_t, solve_case, keep_schedule, add_remarks, failure_of, add_header
    use ek_remark, only: remark_t, failure, on_case, on_end, on_stability, on_settling, on_rack, on_curve, on_closure
    use ek_compliance_table, only: compliance_table
    use ek_member_loads, only: load_record_t, begin_loads, add_loads, peak_loads
@@ -61,6 +62,7 @@ module ek_report
    public :: report, run_planned
 
    integer, parameter :: most_live = 24      ! rates: more make the page slow and large
+   character(*), parameter :: windows_folder = 'windows'
 
    type, extends(deck_settings_t) :: settings_t
       type(windows_t) :: windows                     !! windows of the gradients
@@ -110,6 +112,7 @@ contains
       if (allocated(error)) return
       call planned_tests(workspace%suspension, chosen, page%tests)
       call name_files(page%tests)
+      call stop_at_windows(settings%windows, page%tests, chosen)
       call find_model_remarks(workspace%suspension, workspace%raw, workspace%deck_cases, chosen, .true., remarks)
       call print_model_remarks(settings%is_quiet, remarks, page%warnings)
       call box%remove([character(18) :: page_file, contents_file, compliance_file, deck_file, used_deck_file, files_of_loads])
@@ -162,6 +165,18 @@ contains
       call move_alloc(incomplete, error)
       call box%finish(error)
    end subroutine report
+
+   !> Adds the windows of the gradients to the stops of each test.
+   subroutine stop_at_windows(windows, tests, cases)
+      type(windows_t), intent(in) :: windows
+      type(test_result_t), intent(in) :: tests(:)
+      type(case_t), intent(inout) :: cases(:)
+      integer :: k
+
+      do k = 1, size(cases)
+         call gradient_windows(tests(k), windows, cases(k))
+      end do
+   end subroutine stop_at_windows
 
    !> Writes the gradients, the key numbers with their targets, and the list of tests.
    subroutine put_numbers(workspace, checksum, page, box)
@@ -301,6 +316,7 @@ contains
          end if
          if (.not. page%tests(k)%is_run) cycle
          call box%put(page%tests(k)%file, page%tests(k)%table)
+         call write_windows(chosen(k), page%tests(k), box)
          if (allocated(compliance)) then
             call box%put(compliance_file, compliance)
             deallocate (compliance)
@@ -318,6 +334,22 @@ contains
       if (failed > 0) call fail(incomplete, code, str(failed)//' of '//plural(size(chosen), 'test', 'tests')// &
          trim(merge(' is ', ' are', failed == 1))//' incomplete; see the warnings at the top of the report')
    end subroutine run_tests
+
+   !> Writes the states at which the slopes of a test are read, if the test has slopes.
+   subroutine write_windows(case, test, box)
+      type(case_t), intent(in) :: case
+      type(test_result_t), intent(in) :: test
+      type(outbox_t), intent(inout) :: box
+      type(table_t) :: table
+
+      if (.not. allocated(case%windows)) return
+      table = test%table
+      if (allocated(test%read)) table = test%read
+      call states_of_windows(case%windows, table)
+      if (size(table%values, 2) == 0) return
+      call box%make_folder(windows_folder)
+      call box%write(windows_folder//'/'//test%file, csv_text(table))
+   end subroutine write_windows
 
    !> Prints the lines of the verdict to standard error.
    subroutine print_verdicts(is_quiet, page)
@@ -391,6 +423,8 @@ contains
       options%is_compared = .false.
       options%min_settling = 1.0e-5_wp           ! m, seen on a rig: the design state should be in equilibrium
       call solve_case(base, case, options, result)
+      if (allocated(result%table%is_scheduled)) test%read = result%table
+      call keep_schedule(result)
       call add_remarks(options, result)
       call failure_of(result, error)
       do topic = 1, size(topics)

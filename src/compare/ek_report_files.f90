@@ -121,6 +121,7 @@ contains
          allocate (results%tests(1))
          call read_test(path, 'results', results%tests(1), error, may_stream=.true.)
          if (allocated(error)) return
+         results%tests(1)%table%is_of_rows = .true.         ! the states of a table cannot be chosen
          call test_gradients(results%tests(1), windows, results%gradients)
          call facts_of_table(results%tests(1)%table, results%deck)
          return

@@ -179,7 +179,8 @@ contains
          if (first == path%start) then
             call seed(self%branch%predictor, path, first, -direction)
          else
-            steps = max(1, nint(abs(path%value(first))/abs(path%value(2) - path%value(1))))
+            steps = 1
+            if (path%step > 0.0_wp) steps = max(1, nint(abs(path%value(first))/path%step))
             do k = 1, steps
                call advance(self, suspension, case, path%value(first)*real(k, wp)/steps, first, path, kkt, failure)
                if (failure%state > 0) return
@@ -188,6 +189,10 @@ contains
          end if
          do k = first + direction, last, direction
             if (abs(path%value(k)) > far .and. abs(k - first) >= least) exit
+            if (.not. (path%is_scheduled(k) .or. case%method == 'equilibrium')) then
+               call advance_aside(self, suspension, case, k, path, kkt, progress)
+               cycle
+            end if
             call advance(self, suspension, case, path%value(k), k, path, kkt, failure)
             if (failure%state > 0) return
             call keep(self, suspension, case, k, path, kkt, progress)
@@ -368,6 +373,34 @@ contains
       self%inputs = next
       self%here = value
    end subroutine advance
+
+   !> Computes one increment of a linear method to a state where a number is read. The next state of the schedule is reached from the
+   !> state before, as without this reading: a linear method depends on its increments.
+   subroutine advance_aside(self, suspension, case, k, path, kkt, progress)
+      type(walk_t), intent(inout) :: self
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: case
+      integer, intent(in) :: k
+      type(path_t), intent(inout) :: path
+      type(kkt_t), intent(inout) :: kkt
+      procedure(progress_procedure), optional :: progress
+      type(state_t) :: state
+      type(inputs_t) :: inputs
+      type(failure_t) :: failure
+      real(wp), allocatable :: held(:)
+      real(wp) :: here
+
+      state = self%state
+      inputs = self%inputs
+      here = self%here
+      if (allocated(self%held)) allocate (held, source=self%held)
+      call advance(self, suspension, case, path%value(k), k, path, kkt, failure)
+      if (failure%state == 0) call keep(self, suspension, case, k, path, kkt, progress)
+      self%state = state
+      self%inputs = inputs
+      self%here = here
+      if (allocated(held)) self%held(:) = held
+   end subroutine advance_aside
 
    !> Checks the states from `first` to `last`, outward from design, and marks states that are not on the path as not reached.
    !> Without static equilibrium under the constant loads, nothing is checked.

@@ -4,6 +4,7 @@ module ek_case
    use ek_error, only: message_list_t
    implicit none(type, external)
    private
+   public :: add_place, add_window, copy_places
    public :: case_t, actuation_t, table_column_t, load_table_t, append_actuation, scales_loads, is_mountable, prefer_plan, &
       copy_case_numbers, method_names, solver_names, manoeuvre_t, &
       row_name
@@ -85,6 +86,9 @@ module ek_case
       character(:), allocatable :: target   !! target 'column=value'; '' without a target
       logical :: is_good = .true.           !! .false.: the case has an error and cannot be mounted on the rig
       logical :: has_all = .false.          !! the compliance matrix and the quantities derived from it are written at every state
+      ! where numbers are read: the path stops there, too (ek_path_states)
+      real(wp), allocatable :: places(:)      !! swept values, in the unit of the swept value
+      real(wp), allocatable :: windows(:, :)  !! (centre and half width, window) of slopes, in the unit of the swept value
       ! of a case on the rig, see ek_rig; not allocated in the deck, except for a case that names several loads
       type(actuation_t), allocatable :: actuations(:)
       real(wp) :: unit = 1.0_wp             !! SI value of the unit of the swept value
@@ -125,7 +129,7 @@ contains
    end subroutine prefer_plan
 
    !> Copies the numbers of a case to the case of another design, without allocation. If the other case is empty, the complete case
-   !> is copied.
+   !> is copied. Places of readings are copied if the first case has some.
    pure subroutine copy_case_numbers(from, to)
       type(case_t), intent(in) :: from
       type(case_t), intent(inout) :: to
@@ -143,11 +147,44 @@ contains
       to%tolerance = from%tolerance
       to%offset = from%offset
       to%has_all = from%has_all
+      call copy_places(from, to)
       if (.not. allocated(from%manoeuvres)) return
       to%manoeuvres%vertical = from%manoeuvres%vertical
       to%manoeuvres%longitudinal = from%manoeuvres%longitudinal
       to%manoeuvres%lateral = from%manoeuvres%lateral
    end subroutine copy_case_numbers
+
+   !> Copies the places of readings from a case that has some.
+   pure subroutine copy_places(from, to)
+      type(case_t), intent(in) :: from
+      type(case_t), intent(inout) :: to
+
+      if (allocated(from%places)) to%places = from%places
+      if (allocated(from%windows)) to%windows = from%windows
+   end subroutine copy_places
+
+   !> Adds a swept value at which a number is read.
+   pure subroutine add_place(place, case)
+      real(wp), intent(in) :: place            !! in the unit of the swept value
+      type(case_t), intent(inout) :: case
+
+      if (.not. allocated(case%places)) allocate (case%places(0))
+      if (any(abs(case%places - place) <= 0.0_wp)) return
+      case%places = [case%places, place]
+   end subroutine add_place
+
+   !> Adds a window over which a slope is read.
+   pure subroutine add_window(centre, half, case)
+      real(wp), intent(in) :: centre, half     !! middle and half width, in the unit of the swept value
+      type(case_t), intent(inout) :: case
+      integer :: k
+
+      if (.not. allocated(case%windows)) allocate (case%windows(2, 0))
+      do k = 1, size(case%windows, 2)
+         if (all(abs(case%windows(:, k) - [centre, half]) <= 0.0_wp)) return
+      end do
+      case%windows = reshape([case%windows, centre, half], [2, size(case%windows, 2) + 1])
+   end subroutine add_window
 
    !> Whether a case on the rig scales loads.
    pure logical function scales_loads(case)

@@ -5,12 +5,13 @@
 module ek_key_number
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
-   use ek_table, only: table_t, column_index, name_length
+   use ek_table, only: table_t, column_index, name_length, scheduled_rows
    use ek_test_result, only: design_row, unfolded_rows
+   use ek_table_reading, only: value_where
    use ek_gradient, only: fit_slope
    implicit none(type, external)
    private
-   public :: key_number_t, key_source_t, nothing, read_source, has_value, needs_path
+   public :: key_number_t, key_source_t, nothing, read_source, has_value, needs_path, is_slope
    public :: at_design, largest, least, slope, in_phase, anti_phase, at_place, to_contact, largest_of_all
 
    !> The source of a key number: a column at design; its maximum or minimum over the test; a gradient, or a gradient with only
@@ -27,6 +28,7 @@ module ek_key_number
       character(name_length) :: over(2) = ''            !! abscissa of a gradient; or column that has a given value
       real(wp) :: wanted(2) = 0.0_wp                    !! given value of the column `over`, in the unit of this column
       real(wp) :: half = 0.0_wp                         !! half width of the window of a gradient, in the unit of `over`
+      real(wp) :: width = 0.0_wp                        !! half width of the window of a gradient [swept value]
       real(wp) :: size(2) = 1.0_wp                      !! factor on the slope of the columns: unit and sign of a gradient
       real(wp) :: factor_size = 1.0_wp                  !! load or displacement at `factor` = 1
    end type key_source_t
@@ -66,6 +68,7 @@ contains
       needs_path = .not. (how == at_design .or. is_slope(how))
    end function needs_path
 
+   !> Whether a key number is a gradient.
    pure logical function is_slope(how)
       integer, intent(in) :: how
       is_slope = how >= slope .and. how <= anti_phase
@@ -80,7 +83,7 @@ contains
       type(table_t), intent(in) :: table                !! of the test
       real(wp), intent(inout) :: values(2)              !! NaN before the first test
       logical, intent(out) :: is_final
-      integer :: wheel, place, over, points
+      integer :: wheel, place, over, points, undefined, reason
       real(wp) :: value
 
       if (how /= largest_of_all) values = nothing()
@@ -95,7 +98,7 @@ contains
             values(wheel) = design_value(table, place)
          case (slope:anti_phase)
             if (over == 0) cycle
-            call fit_slope(table, place, over, source%factor_size, source%half, value, points)
+            call fit_slope(table, place, over, source%factor_size, source%width, source%half, value, reason, points, undefined)
             values(wheel) = value*source%size(wheel)
          case (at_place)
             values(wheel) = value_where(table, over, source%wanted(wheel), place)
@@ -141,39 +144,13 @@ contains
       end select
    end subroutine take_extreme
 
-   !> Value of column y at the point where column x has a given value, interpolated linearly between two neighbouring states. Of
-   !> several such points, the point nearest to design is used. NaN if there is no such point.
-   real(wp) function value_where(table, x, wanted, y) result(value)
-      type(table_t), intent(in) :: table
-      integer, intent(in) :: x, y                       !! indices of the columns
-      real(wp), intent(in) :: wanted
-      real(wp) :: share, nearest
-      logical :: is_usable(size(table%values, 2))
-      integer :: f, k
-
-      value = nothing()
-      f = column_index(table, 'factor')
-      if (min(x, y, f) == 0) return
-      is_usable = is_good(table, x) .and. is_good(table, y)
-      nearest = huge(nearest)
-      do k = 1, size(is_usable) - 1
-         if (.not. all(is_usable(k:k + 1))) cycle
-         associate (from => table%values(:, k), to => table%values(:, k + 1))
-            if ((from(x) - wanted)*(to(x) - wanted) > 0.0_wp .or. .not. abs(to(x) - from(x)) > 0.0_wp) cycle
-            share = (wanted - from(x))/(to(x) - from(x))
-            if (abs(from(f) + share*(to(f) - from(f))) >= nearest) cycle
-            nearest = abs(from(f) + share*(to(f) - from(f)))
-            value = from(y) + share*(to(y) - from(y))
-         end associate
-      end do
-   end function value_where
-
-   !> Whether each state converged, is on the branch through design (unfolded_rows), and has a finite value in a column.
+   !> Whether each state is of the schedule, converged, is on the branch through design (unfolded_rows), and has a finite value in a
+   !> column.
    pure function is_good(table, place)
       type(table_t), intent(in) :: table
       integer, intent(in) :: place
       logical :: is_good(size(table%values, 2))
-      is_good = unfolded_rows(table) .and. ieee_is_finite(table%values(place, :))
+      is_good = unfolded_rows(table) .and. scheduled_rows(table) .and. ieee_is_finite(table%values(place, :))
    end function is_good
 
 end module ek_key_number

@@ -10,8 +10,8 @@ module ek_key_numbers
    use ek_test_result, only: test_result_t
    use ek_gradient, only: gradient_t
    use ek_gradient_definition, only: fitted
-   use ek_key_number, only: key_number_t, key_source_t, nothing, read_source, has_value, at_design, largest, least, slope, &
-      in_phase, anti_phase
+   use ek_key_number, only: key_number_t, key_source_t, nothing, read_source, has_value, is_slope, at_design, largest, least, &
+      slope, in_phase, anti_phase
    use ek_missing_number, only: missing_reason
    use ek_place_numbers, only: number_list_t, new_number, add_source, append, numbers_of, place_numbers
    use ek_text, only: spaced, str
@@ -111,15 +111,15 @@ contains
          values = nothing()
          is_final = .false.
          do j = 1, size(listed(k)%sources)
-            call read_source(listed(k)%how, listed(k)%sources(j), tests(listed(k)%sources(j)%test)%table, values, is_final)
+            call read_test(listed(k)%how, listed(k)%sources(j), tests(listed(k)%sources(j)%test), values, is_final)
             if (is_final) exit
          end do
          if (is_final .and. j > 1) call name_test(tests(listed(k)%sources(j)%test)%name, listed(k))
          listed(k)%left = values(1)
          listed(k)%right = values(2)
          ! a slope without a value remains, with the reason among the gradients
-         is_there(k) = has_value(listed(k)) .or. (listed(k)%how >= slope .and. listed(k)%how <= anti_phase)
-         if (.not. has_value(listed(k))) listed(k)%reason = missing_reason(listed(k), 1, 1, tests(listed(k)%sources(1)%test)%table)
+         is_there(k) = has_value(listed(k)) .or. is_slope(listed(k)%how)
+         if (.not. has_value(listed(k))) listed(k)%reason = missing_in(listed(k), tests(listed(k)%sources(1)%test))
       end do
       allocate (numbers(count(is_there)))
       j = 0
@@ -137,6 +137,34 @@ contains
          missing(j) = listed(k)
       end do
    end subroutine key_numbers
+
+   !> Reads a key number from a test: a slope at the states of its window, every other number at the states of the schedule.
+   subroutine read_test(how, source, test, values, is_final)
+      integer, intent(in) :: how
+      type(key_source_t), intent(in) :: source
+      type(test_result_t), intent(in) :: test
+      real(wp), intent(inout) :: values(2)
+      logical, intent(out) :: is_final
+
+      if (is_slope(how) .and. allocated(test%read)) then
+         call read_source(how, source, test%read, values, is_final)
+      else
+         call read_source(how, source, test%table, values, is_final)
+      end if
+   end subroutine read_test
+
+   !> The reason why a key number has no value in its first test.
+   function missing_in(number, test) result(text)
+      type(key_number_t), intent(in) :: number
+      type(test_result_t), intent(in) :: test
+      character(:), allocatable :: text
+
+      if (is_slope(number%how) .and. allocated(test%read)) then
+         text = missing_reason(number, 1, 1, test%read)
+      else
+         text = missing_reason(number, 1, 1, test%table)
+      end if
+   end function missing_in
 
    !> Lists all key numbers that the tests may have, from the headings of their tables. Nothing is solved.
    subroutine list_key_numbers(tests, gradients, numbers, wanted)
@@ -282,6 +310,7 @@ contains
             source%column(wheel) = gradients(k)%column
             source%over(wheel) = gradients(k)%over
             source%half = gradients(k)%window_half
+            source%width = gradients(k)%width
             source%size(wheel) = gradients(k)%size*gradients(k)%turn
             if (size(number%sources) > 0) cycle
             number%unit = gradients(k)%unit
@@ -440,8 +469,8 @@ contains
 
    end subroutine ratio_numbers
 
-   !> The definition of a slope: 'least-squares slope of toe_deg over factor, times −1000 (left wheel), 1000 (right wheel)'. The
-   !> value is the slope of the columns as they are in the table of the test, times the factor.
+   !> The definition of a slope: 'slope of the least-squares line of toe_deg over factor, times −1000 (left wheel), 1000 (right
+   !> wheel)'. The value is the slope of the columns as they are in the table of the test, times the factor.
    function slope_definition(column, over, per_factor, unit, times) result(text)
       character(*), intent(in) :: column, over      !! columns of y and x, without the name of the wheel
       real(wp), intent(in) :: per_factor            !! load or displacement at `factor` = 1
@@ -449,7 +478,7 @@ contains
       real(wp), intent(in) :: times(2)              !! factor of each wheel on the slope in the unit of the window; 0: no number
       character(:), allocatable :: text
 
-      text = 'least-squares slope of '//column//' over '//over
+      text = 'slope of the least-squares line of '//column//' over '//over
       if (over /= 'factor') then
          text = text//times_of(times)
          return

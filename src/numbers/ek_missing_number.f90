@@ -5,7 +5,7 @@ module ek_missing_number
    use ek_kinds, only: wp
    use ek_text, only: str
    use ek_table, only: table_t, column_index, name_length, row_count
-   use ek_test_result, only: converged_rows, design_row
+   use ek_test_result, only: design_row, state_range
    use ek_gradient, only: fit_slope, slope_note
    use ek_key_number, only: key_number_t, at_design, slope, anti_phase, at_place, to_contact, largest_of_all
    implicit none(type, external)
@@ -23,7 +23,7 @@ contains
       character(:), allocatable :: text
       character(name_length) :: column
       real(wp) :: value
-      integer :: place, over, points, undefined
+      integer :: place, over, points, undefined, reason
 
       column = number%sources(source)%column(wheel)
       if (column == '') column = number%sources(source)%column(3 - wheel)
@@ -39,11 +39,9 @@ contains
       else if (number%how >= slope .and. number%how <= anti_phase) then
          text = 'the model does not define '//trim(number%sources(source)%over(wheel))
          if (over > 0) then
-            call fit_slope(table, place, over, number%sources(source)%factor_size, number%sources(source)%half, value, points, &
-               undefined)
-            text = slope_note(points, undefined, trim(column), trim(table%columns(over)))
-            if (points == 0 .and. undefined == 0) text = text//range_of(table)
-            if (points < 3 .and. undefined == 0) text = text//'; use more increments, or a range around design'
+            call fit_slope(table, place, over, number%sources(source)%factor_size, number%sources(source)%width, &
+               number%sources(source)%half, value, reason, points, undefined)
+            text = slope_note(table, reason, points, undefined, trim(column), trim(table%columns(over)))
          end if
       else if (number%how == at_design .or. number%how == to_contact .and. design_row(table) == 0) then
          text = trim(column)//' is not a number (nan) at this state'
@@ -71,16 +69,11 @@ contains
    function range_of(table) result(text)
       type(table_t), intent(in) :: table
       character(:), allocatable :: text
-      logical :: is_good(row_count(table))
-      integer :: factor
+      real(wp) :: range(2)
 
+      range = state_range(table)
       text = ''
-      factor = column_index(table, 'factor')
-      if (factor == 0) return
-      is_good = converged_rows(table) .and. ieee_is_finite(table%values(factor, :))
-      if (.not. any(is_good)) return
-      text = ' (the states are from '//str(minval(table%values(factor, :), mask=is_good), 6)//' to '// &
-         str(maxval(table%values(factor, :), mask=is_good), 6)//')'
+      if (ieee_is_finite(range(1))) text = ' (the states are from '//str(range(1), 6)//' to '//str(range(2), 6)//')'
    end function range_of
 
 end module ek_missing_number

@@ -99,7 +99,7 @@ contains
       call add_source(source, number)
       number%name = name
       number%condition = 'test '//test%name//', where the inner wheel is steered by 20 deg (left: turn to the left)'
-      number%definition = column//' at this steer angle, linear between two states'
+      number%definition = column//' at this steer angle, on the cubic curve through four states'
       call append(number, numbers)
    end subroutine add_at_steer
 
@@ -142,7 +142,7 @@ contains
          number%name = to_stop//stop
          number%condition = 'test '//test%name//', from design to contact'
          number%definition = 'magnitude of the change of '//travel//' from design to where '//stop//gap_ending// &
-            ' is 0, linear between two states'
+            ' is 0, on the cubic curve through four states'
          call append(number, numbers)
       end do
 

@@ -4,7 +4,7 @@ module ek_planned_test
    use ek_text, only: spaced
    use ek_suspension, only: suspension_t, load_number
    use ek_case, only: case_t
-   use ek_standard_tests, only: test_title, held_text
+   use ek_standard_tests, only: test_title, held_text, describe_sweep
    use ek_test_result, only: test_result_t
    implicit none(type, external)
    private
@@ -25,6 +25,7 @@ contains
          associate (test => tests(k), case => cases(k))
             test%name = case%name
             test%is_iso = suspension%is_iso
+            call describe_sweep(suspension, case, test)
             allocate (test%prefixes(0), test%sides(0))
             if (len(case%test) > 0) then
                test%kind = case%test

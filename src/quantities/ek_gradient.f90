@@ -1,8 +1,9 @@
-!> Gradients of a test: least-squares slopes over a window around design.
+!> Gradients of a test: slopes of the least-squares line over a window around design.
 !>
-!>     slope = Σ (x − x̄)(y − ȳ) / Σ (x − x̄)²       over the rows with converged = 1 and |x| ≤ window
+!>     slope = ∫ x y dx / ∫ x² dx       over |x| ≤ window
 !>
-!> If a path turns back, only the rows of the branch through design are used (unfolded_rows). x is the travel, roll, steering
+!> The slope is read at five states of the window where the path stops (ek_table_reading), so that the increments have no influence.
+!> If a path turns back, only the states of the branch through design are used (unfolded_rows). x is the travel, roll, steering
 !> input, force or torque of the test, y a column. The reported value is
 !>
 !>     value = size · s_y/s_x · slope
@@ -20,7 +21,9 @@ module ek_gradient
    use ek_quantity, only: slope_unit, unit_text
    use ek_noise, only: noise_of, solved
    use ek_table, only: table_t, row_count, column_index, name_length
-   use ek_test_result, only: test_result_t, unfolded_rows, wheel_column
+   use ek_case, only: case_t, add_window
+   use ek_table_reading, only: read_slope, is_outside, is_undefined, is_flat, min_points
+   use ek_test_result, only: test_result_t, wheel_column, state_range
    use ek_gradient_definition, only: definition_t, definitions_of, windows_t, window_of
    use ek_error, only: error_t, fail, exit_file
    use ek_decimal, only: get_decimal
@@ -29,10 +32,8 @@ module ek_gradient
    use ek_text_table, only: text_table_t, read_text_table, cell_of
    implicit none(type, external)
    private
-   public :: gradient_t, test_gradients, fit_slope, slope_note, slope_over_window, gradient_noise
+   public :: gradient_t, test_gradients, gradient_windows, fit_slope, slope_note, gradient_noise
    public :: gradients_csv, gradients_json, read_gradients
-
-   integer, parameter :: min_points = 3     !! fewer points do not define a fit
 
    !> One gradient of the report.
    type :: gradient_t
@@ -43,6 +44,7 @@ module ek_gradient
       character(:), allocatable :: column, over   !! columns of y and of x in the table
       character(:), allocatable :: window      !! window with unit: '±15 mm'
       real(wp) :: window_half = 0.0_wp         !! half width of the window [mm, deg, N or N m]
+      real(wp) :: width = 0.0_wp               !! half width of the window [swept value]
       real(wp) :: value = 0.0_wp               !! value in `unit`; NaN if there is a note
       real(wp) :: turn = 1.0_wp                !! sign s_y/s_x of the wheel, see above
       real(wp) :: size = 1.0_wp                !! factor that converts the slope to `unit`
@@ -92,6 +94,53 @@ contains
 
    end subroutine test_gradients
 
+   !> Adds the windows of all gradients of a test to its case, so that its path stops where they are read.
+   subroutine gradient_windows(test, windows, case)
+      type(test_result_t), intent(in) :: test          !! as planned, not solved
+      type(windows_t), intent(in) :: windows
+      type(case_t), intent(inout) :: case
+      type(definition_t), allocatable :: list(:)
+      character(8) :: unit
+      real(wp) :: half, width
+      integer :: k
+
+      list = definitions_of(test%kind)
+      do k = 1, size(list)
+         call find_window(test, trim(list(k)%over), windows, half, width, unit)
+         call add_window(0.0_wp, width, case)
+      end do
+   end subroutine gradient_windows
+
+   !> Finds the window of a gradient of a test. If the range of the test is smaller than a window that no user gives, the window ends with
+   !> the range.
+   pure subroutine find_window(test, over, windows, half, width, unit)
+      type(test_result_t), intent(in) :: test
+      character(*), intent(in) :: over                 !! column of the abscissa, without the name of its wheel
+      type(windows_t), intent(in) :: windows
+      real(wp), intent(out) :: half                    !! half width, in `unit`
+      real(wp), intent(out) :: width                   !! half width [swept value]
+      character(*), intent(out) :: unit                !! mm, deg, N or N m
+      logical :: is_given
+
+      call window_of(test%kind, over, windows, half, unit, is_given)
+      width = swept_width(test, over, half)
+      if (is_given .or. width <= test%reach) return
+      half = half*(test%reach/width)
+      width = test%reach
+   end subroutine find_window
+
+   !> The half width of a window in the swept value of a test, from the half width in the unit of the abscissa of a gradient. The
+   !> swept value of a test of travel or roll has the unit of the abscissa.
+   pure real(wp) function swept_width(test, over, half) result(width)
+      type(test_result_t), intent(in) :: test
+      character(*), intent(in) :: over                 !! column of the abscissa, without the name of its wheel
+      real(wp), intent(in) :: half
+
+      width = half
+      if (over == 'factor' .and. abs(test%factor_size) > 0.0_wp) width = half/abs(test%factor_size)
+      if (over == 'steering_wheel_deg' .and. test%wheel_size > 0.0_wp) width = half/test%wheel_size
+   end function swept_width
+
    !> One gradient of a test, with its description.
    function one_gradient(test, windows, definition, wheel, place, is_of_axle) result(gradient)
       type(test_result_t), intent(in) :: test
@@ -103,7 +152,7 @@ contains
       character(8) :: unit
       character(:), allocatable :: slope_ending
       real(wp) :: slope
-      integer :: over, side, undefined
+      integer :: over, side, undefined, reason
 
       over = wheel_column(test, wheel, trim(definition%over))
       side = test%sides(wheel)
@@ -114,58 +163,73 @@ contains
       gradient%sign = trim(definition%sign)
       gradient%column = trim(test%table%columns(place))
       gradient%over = trim(test%table%columns(over))
-      call window_of(test%kind, definition%over, windows, gradient%window_half, unit)
+      call find_window(test, trim(definition%over), windows, gradient%window_half, gradient%width, unit)
       call slope_unit(trim(definition%column), trim(definition%over), trim(unit), slope_ending, gradient%size)
       gradient%unit = unit_text(slope_ending)
       gradient%window = '±'//str(gradient%window_half)//' '//trim(unit)
 
-      call fit_slope(test%table, place, over, test%factor_size, gradient%window_half, slope, gradient%points, &
-         undefined)
+      if (allocated(test%read)) then
+         call fit_slope(test%read, place, over, test%factor_size, gradient%width, gradient%window_half, slope, reason, &
+            gradient%points, undefined)
+      else
+         call fit_slope(test%table, place, over, test%factor_size, gradient%width, gradient%window_half, slope, reason, &
+            gradient%points, undefined)
+      end if
       gradient%note = ''
       gradient%turn = turn_of(test, definition, side)
       gradient%value = slope
       if (.not. ieee_is_finite(slope)) then
-         gradient%note = slope_note(gradient%points, undefined, '', trim(gradient%over))
+         gradient%note = slope_note(test%table, reason, gradient%points, undefined, '', trim(gradient%over))
          return
       end if
       gradient%value = slope*(gradient%size*gradient%turn)
    end function one_gradient
 
    !> The reason why a slope has no value.
-   function slope_note(points, undefined, column, over) result(note)
-      integer, intent(in) :: points, undefined     !! of fit_slope
+   function slope_note(table, reason, points, undefined, column, over) result(note)
+      type(table_t), intent(in) :: table
+      integer, intent(in) :: reason, points, undefined     !! of fit_slope
       character(*), intent(in) :: column, over     !! names of both columns; column '': not named
       character(:), allocatable :: note
+      real(wp) :: range(2)
 
-      note = 'no state in the window'
-      if (points > 0) note = 'only '//str(points)//' of at least '//str(min_points)//' states in the window'
-      if (points >= min_points) note = over//' does not change'
-      if (undefined > 0) then
+      select case (reason)
+      case (is_outside)
+         note = 'no state was found'
+         range = state_range(table)
+         if (ieee_is_finite(range(1))) note = 'the states, '//str(range(1), 6)//' to '//str(range(2), 6)// &
+            ', do not cover the window'
+      case (is_undefined)
          note = 'undefined at '//plural(undefined, 'state', 'states')//' in the window'
          if (column /= '') note = column//' is '//note
-      end if
+      case (is_flat)
+         note = over//' does not change'
+      case default
+         note = 'no state in the window'
+         if (points > 0) note = 'only '//str(points)//' of at least '//str(min_points)//' states in the window'
+         note = note//'; use more increments, or a range around design'
+      end select
    end function slope_note
 
-   !> Fits the slope of one column over another column, in the units of both; 0 if the slope is within the noise. Creates no
-   !> strings.
-   subroutine fit_slope(table, place, over, factor_size, half, slope, points, undefined)
+   !> Reads the slope of one column over another column in a window around design, in the units of both; 0 if the slope is within the
+   !> noise. Creates no strings.
+   pure subroutine fit_slope(table, place, over, factor_size, width, half, slope, reason, points, undefined)
       type(table_t), intent(in) :: table
       integer, intent(in) :: place, over           !! indices of the columns of y and x
       real(wp), intent(in) :: factor_size          !! load or displacement at `factor` = 1, if that is the abscissa
-      real(wp), intent(in) :: half                 !! half width of the window
-      real(wp), intent(out) :: slope               !! NaN if the window has too few states, or a value is undefined
-      integer, intent(out) :: points               !! states in the window at which the column is defined
-      integer, intent(out), optional :: undefined  !! states in the window at which y is not a number
-      logical :: is_good(row_count(table))
-      real(wp), allocatable :: x(:), y(:)
+      real(wp), intent(in) :: width                !! half width of the window [swept value]
+      real(wp), intent(in) :: half                 !! half width of the window, in the unit of the abscissa
+      real(wp), intent(out) :: slope               !! NaN without a value
+      integer, intent(out) :: reason               !! of read_slope
+      integer, intent(out) :: points               !! states that are read and at which the column is defined
+      integer, intent(out) :: undefined            !! states in the window at which a column is not a number
 
-      is_good = unfolded_rows(table)
-      x = pack(table%values(over, :), is_good)
-      y = pack(table%values(place, :), is_good)
       if (table%columns(over) == 'factor') then
-         where (ieee_is_finite(x)) x = x*factor_size
+         call read_slope(table, place, over, 0.0_wp, width, half/abs(factor_size), slope, reason, points, undefined)
+         slope = slope/factor_size
+      else
+         call read_slope(table, place, over, 0.0_wp, width, half, slope, reason, points, undefined)
       end if
-      call slope_over_window(x, y, half, slope, points, undefined)
       if (.not. ieee_is_finite(slope)) return
       if (abs(slope)*half <= gradient_noise(table%columns(place))) slope = 0.0_wp
    end subroutine fit_slope
@@ -194,31 +258,6 @@ contains
       end select
       if (test%is_anti .and. side > 0) turn = -turn                  ! the load on the right wheel is −factor
    end function turn_of
-
-   !> Fits the least-squares slope of y over x for |x| ≤ half. The slope is NaN with fewer than three states in the window, or if
-   !> their x differ by at most half/1000. It is also NaN if y is not a number at a state in the window, because the other states
-   !> would give another slope.
-   pure subroutine slope_over_window(x, y, half, slope, points, undefined)
-      real(wp), intent(in) :: x(:), y(:)   !! one value per state; a state that was not found has no x and is skipped
-      real(wp), intent(in) :: half
-      real(wp), intent(out) :: slope
-      integer, intent(out) :: points       !! states in the window at which y is a number
-      integer, intent(out), optional :: undefined      !! states in the window at which y is not a number
-      real(wp), parameter :: rim = 1.0_wp + 1.0e-6_wp   !! a state nominally on the edge is inside: travel is driven to 1e-7 mm
-      logical :: is_inside(size(x))
-      real(wp) :: mean(2), spread
-
-      slope = ieee_value(1.0_wp, ieee_quiet_nan)
-      is_inside = ieee_is_finite(x)
-      where (is_inside) is_inside = abs(x) <= half*rim
-      points = count(is_inside .and. ieee_is_finite(y))
-      if (present(undefined)) undefined = count(is_inside) - points
-      if (points < min_points .or. points < count(is_inside)) return
-      if (maxval(x, mask=is_inside) - minval(x, mask=is_inside) <= 1.0e-3_wp*half) return        ! all at one x: no slope
-      mean = [sum(x, mask=is_inside), sum(y, mask=is_inside)]/points
-      spread = sum((x - mean(1))**2, mask=is_inside)
-      slope = sum((x - mean(1))*(y - mean(2)), mask=is_inside)/spread
-   end subroutine slope_over_window
 
    !> The gradients as CSV, one line per gradient; `nan` for a missing value.
    pure function gradients_csv(gradients) result(text)

@@ -84,6 +84,7 @@ module ek_gradient_definition
    !> `wheel` of the steering-wheel angle.
    type :: windows_t
       real(wp) :: half(6) = [15.0_wp, 1.0_wp, 1000.0_wp, 100.0_wp, 10.0_wp, 20.0_wp]
+      logical :: is_given(6) = .false.       !! a user gives the window; otherwise it ends where the range of a test ends
    end type windows_t
 
 contains
@@ -112,14 +113,16 @@ contains
 
       is_known = any(names == word)
       where (names == word) windows%half = half
+      where (names == word) windows%is_given = .true.
    end subroutine set_window
 
    !> Finds the window of a gradient. Over `factor`, this is the window of the quantity that the test scales: force, torque or rack.
-   pure subroutine window_of(kind, over, windows, half, unit)
+   pure subroutine window_of(kind, over, windows, half, unit, is_given)
       character(*), intent(in) :: kind, over    !! kind of the test; column, without the wheel's name
       type(windows_t), intent(in) :: windows
       real(wp), intent(out) :: half             !! half width, in `unit`
       character(*), intent(out) :: unit         !! mm, deg, N or N m; 3 letters
+      logical, intent(out), optional :: is_given        !! a user gives the window
       type(rig_test_t) :: test
       integer :: which
 
@@ -132,6 +135,7 @@ contains
       if (over == 'steering_wheel_deg') which = wheel
       half = windows%half(which)
       unit = units(which)
+      if (present(is_given)) is_given = windows%is_given(which)
    end subroutine window_of
 
 end module ek_gradient_definition

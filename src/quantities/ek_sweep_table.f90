@@ -12,7 +12,7 @@ module ek_sweep_table
    use ek_schedule, only: schedule_t, new_schedule, inputs_at
    use ek_kkt, only: kkt_t, assemble, assemble_rows, residual_only, whole_tangent
    use ek_attitude, only: attitude_t, find_attitude
-   use ek_path, only: path_t
+   use ek_path_states, only: path_t, most_places
    use ek_state_columns, only: list_state, state_values, has_wheels, has_joints, has_only_wheels
    use ek_column_list, only: column_list_t, choose
    use ek_kandc_list, only: kandc_t, list_kandc, choose_kandc, begin_design, same_columns
@@ -117,6 +117,11 @@ contains
 
       call reached_rows(path, first, last)
       table = new_table(observer%columns, last - first + 1)
+      table%is_along_arc = case%follows_arc
+      table%is_of_rows = path%is_table
+      if (allocated(path%is_scheduled)) then
+         if (.not. all(path%is_scheduled)) table%is_scheduled = path%is_scheduled(first:last)
+      end if
       allocate (wheels(size(suspension%wheels)))
       allocate (values(observer%ended), source=ieee_value(1.0_wp, ieee_quiet_nan))
       state = design_state(suspension)
@@ -368,11 +373,12 @@ contains
       integer(i8), parameter :: margin = 20000000_i8  ! bytes: all storage that does not grow with the states
 
       ! the table twice: working copy and result
-      bytes = margin + 8*int(case%increments + 2, i8)*(coordinates(suspension) + of_a_path + 2*size(observer%columns))
+      bytes = margin + 8*int(case%increments + 2 + most_places(case), i8)* &
+         (coordinates(suspension) + of_a_path + 2*size(observer%columns))
    end function sweep_bytes
 
-   !> Finds the first and last state in the table: all converged states, and one more on a side that failed. If no state converged,
-   !> both are the design state. For a load table, every row is included.
+   !> Finds the first and last state in the table: all converged states, and one more of the schedule on a side that failed. If no
+   !> state converged, both are the design state. For a load table, every row is included.
    pure subroutine reached_rows(path, first, last)
       type(path_t), intent(in) :: path
       integer, intent(out) :: first, last
@@ -386,9 +392,23 @@ contains
          first = max(path%start, 1)
          last = first
       else
-         first = max(first - 1, 1)
-         last = min(last + 1, path%states)
+         first = scheduled_from(max(first - 1, 1), -1)
+         last = scheduled_from(min(last + 1, path%states), 1)
       end if
+
+   contains
+
+      !> The first state of the schedule from state k on, in a direction. The ends of a path are of the schedule.
+      pure integer function scheduled_from(k, direction) result(state)
+         integer, intent(in) :: k, direction
+
+         state = k
+         if (.not. allocated(path%is_scheduled)) return
+         do while (.not. path%is_scheduled(state))
+            state = state + direction
+         end do
+      end function scheduled_from
+
    end subroutine reached_rows
 
 end module ek_sweep_table

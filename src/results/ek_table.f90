@@ -16,7 +16,7 @@ module ek_table
    use ek_quantity, only: name_length
    implicit none(type, external)
    private
-   public :: table_t, new_table, column_index, name_index, column, column_range, row_count, name_length
+   public :: table_t, new_table, keep_rows, scheduled_rows, column_index, name_index, column, column_range, row_count, name_length
    public :: csv_text, csv_head, csv_row, csv_cell, write_csv, print_csv, read_csv
 
    character(*), parameter :: line_end = new_line('a')
@@ -31,6 +31,10 @@ module ek_table
       character(name_length), allocatable :: columns(:)   !! names with unit suffix, e.g. toe_deg
       real(wp), allocatable :: values(:, :)               !! (column, row): a row is contiguous
       logical, allocatable :: is_whole(:)                 !! the column contains integers: state, iterations, …
+      logical, allocatable :: is_scheduled(:)             !! .false.: the state of the row is not of the schedule of its case; a
+                                                          !! number is read there. Not allocated: all are
+      logical :: is_along_arc = .false.                   !! the states are at equal distances along a path
+      logical :: is_of_rows = .false.                     !! the states are those of the rows of a load table or of a grid
       type(message_list_t) :: header                      !! lines above the columns, each written after '# '
       type(row_name_t), allocatable :: names(:)           !! name of each row, in a last column `name`; without names: not allocated
    end type table_t
@@ -50,6 +54,28 @@ contains
       allocate (table%is_whole, source=[(any(whole_names == columns(k)), k=1, size(columns))])
       allocate (table%values(size(columns), rows), source=ieee_value(1.0_wp, ieee_quiet_nan))
    end function new_table
+
+   !> Whether the state of each row is of the schedule of its case. The other states are those where numbers are read.
+   pure function scheduled_rows(table) result(is_scheduled)
+      type(table_t), intent(in) :: table
+      logical :: is_scheduled(size(table%values, 2))
+
+      is_scheduled = .true.
+      if (allocated(table%is_scheduled)) is_scheduled = table%is_scheduled
+   end function scheduled_rows
+
+   !> Reduces a table to some of its rows.
+   pure subroutine keep_rows(is_kept, table)
+      logical, intent(in) :: is_kept(:)         !! of each row
+      type(table_t), intent(inout) :: table
+      integer, allocatable :: rows(:)
+      integer :: k
+
+      rows = pack([(k, k=1, size(is_kept))], is_kept)
+      table%values = table%values(:, rows)
+      if (allocated(table%names)) table%names = table%names(rows)
+      if (allocated(table%is_scheduled)) table%is_scheduled = table%is_scheduled(rows)
+   end subroutine keep_rows
 
    !> Index of a column; 0 if no column has the name. Names are case-sensitive. (libgfortran's findloc of strings reads beyond the
    !> array with back = .true.)

@@ -2,7 +2,7 @@
 !>
 !> Charts, gradients and pages are made only from this result; missing columns are omitted.
 module ek_test_result
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
    use ek_error, only: message_list_t
    use ek_rig_test, only: rig_test_t, rig_test, of_one_wheel, steers, loads_wheels
@@ -10,7 +10,7 @@ module ek_test_result
    implicit none(type, external)
    private
    public :: test_result_t, test_grid_t
-   public :: frame_line, read_frame_line, find_wheels, choose_abscissa, converged_rows, unfolded_rows, design_row
+   public :: frame_line, read_frame_line, find_wheels, choose_abscissa, converged_rows, unfolded_rows, design_row, state_range
    public :: wheel_column, has_column, travel_column, min_stroke, wheel_word
 
    character(*), parameter :: travel_column = 'wheel_travel_mm'
@@ -27,6 +27,7 @@ module ek_test_result
    end type test_grid_t
 
    type :: test_result_t
+      type(table_t), allocatable :: read     !! `table` with the states where slopes are read; not allocated: `table` has them
       character(:), allocatable :: name      !! name of the case, unique in a report
       character(:), allocatable :: kind      !! kind of test: 'parallel_travel', 'roll', 'lateral_force', …; 'other'
       character(:), allocatable :: title     !! heading of the test on a page
@@ -36,6 +37,8 @@ module ek_test_result
       character(:), allocatable :: abscissa, label
       real(wp) :: abscissa_size = 1.0_wp
       real(wp) :: factor_size = 1.0_wp       !! load or displacement at `factor` = 1 [N, N m or mm]
+      real(wp) :: reach = huge(1.0_wp)       !! the case covers ± this swept value around design, or one side if it has no other one
+      real(wp) :: wheel_size = 0.0_wp        !! steering-wheel angle at `factor` = 1, as a magnitude [deg]; 0: unknown
       character(48) :: held = ''             !! condition of the wheels: 'vertical force held'; '': unknown
       logical :: is_anti = .false.           !! the loads on the right and left wheels are opposite
       logical :: is_iso = .false.            !! vectors in the table are in ISO 8855 axes (x forward, y left)
@@ -226,6 +229,22 @@ contains
       end function rotation_behind
 
    end function unfolded_rows
+
+   !> Smallest and largest swept value of the converged states of a table; NaN without such a state.
+   pure function state_range(table) result(range)
+      type(table_t), intent(in) :: table
+      real(wp) :: range(2)
+      logical :: is_good(size(table%values, 2))
+      integer :: factor
+
+      range = ieee_value(1.0_wp, ieee_quiet_nan)
+      factor = column_index(table, 'factor')
+      if (factor == 0) return
+      is_good = converged_rows(table) .and. ieee_is_finite(table%values(factor, :))
+      if (.not. any(is_good)) return
+      range(1) = minval(table%values(factor, :), mask=is_good)
+      range(2) = maxval(table%values(factor, :), mask=is_good)
+   end function state_range
 
    !> Index of the last converged row with `factor` = 0, the design state; 0 if there is no such row.
    pure integer function design_row(table) result(row)

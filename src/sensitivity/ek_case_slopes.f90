@@ -16,6 +16,7 @@ module ek_case_slopes
    type :: case_slopes_t
       integer :: case = 0                                    !! index of the case in the workspace
       type(solve_options_t) :: options                       !! required columns, and required distance of the states from design
+      logical :: reads_all = .false.                         !! numbers are read at all states, not only at the places of the case
       type(derivatives_t), allocatable :: derivatives        !! derivatives of the columns at the states
       type(table_t) :: table !! table of the last solved design: quantities and entries of the compliance matrix
       type(table_t) :: moved                                 !! `table`, moved along a direction (move_table)
@@ -48,7 +49,7 @@ contains
       if (is_valid) is_valid = .not. lacks_state(workspace%cases(this%case)%result, this%options%reach)
       if (.not. is_valid) return
       associate (result => workspace%cases(this%case)%result, derivatives => this%derivatives)
-         states = pack([(k, k=1, result%path%states)], result%path%is_reached)
+         states = pack([(k, k=1, result%path%states)], result%path%is_reached .and. (this%reads_all .or. result%path%is_read))
          call find_derivatives(workspace, states, derivatives)
          call make_table(result%table, derivatives, this%table, this%place, this%row)
          do s = 1, size(states)

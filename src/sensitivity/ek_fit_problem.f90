@@ -10,6 +10,7 @@ module ek_fit_problem
    use ek_deck, only: deck_t
    use ek_study, only: by_value, by_scale, is_given, not_given
    use ek_key_number, only: key_number_t, key_source_t, slope
+   use ek_number_reach, only: reach_of_place
    use ek_workspace, only: workspace_t
    use ek_workspace_cases, only: case_number
    use ek_parameter, only: parameter_path
@@ -269,7 +270,7 @@ contains
                   ' and '//quoted(trim(this%over)))
                return
             end if
-            if (this%is_slope) call make_slope(this, wanted)
+            if (this%is_slope) call make_slope(this, workspace, wanted)
          else
             call find_wanted(workspace, c, this%quantity, this%at, wanted, error)
             if (allocated(error)) then
@@ -303,17 +304,18 @@ contains
          end if
          unit = ''
          if (allocated(workspace%cases(c)%case%unit_name)) unit = workspace%cases(c)%case%unit_name      ! once on the rig
-         call add_curve(this, head, home, unit, wanted, point, problem, mistakes)
+         call add_curve(this, head, home, unit, workspace, wanted, point, problem, mistakes)
       end associate
    end subroutine add_target
 
    !> Adds the points of a target that is a curve: one point for each row of the file. The swept value and the required value must
    !> be numbers; a limit may be missing in rows with another number.
-   subroutine add_curve(this, head, home, swept_unit, first, model, problem, mistakes)
+   subroutine add_curve(this, head, home, swept_unit, workspace, first, model, problem, mistakes)
       type(fit_target_t), intent(in) :: this
       character(*), intent(in) :: head              !! beginning of messages
       character(*), intent(in) :: home
       character(*), intent(in) :: swept_unit        !! unit of the swept value of the case
+      type(workspace_t), intent(in) :: workspace
       type(wanted_number_t), intent(in) :: first    !! the quantity, with `at` to be replaced
       type(fit_point_t), intent(in) :: model        !! a point with target and deviation
       type(fit_problem_t), intent(inout) :: problem
@@ -334,7 +336,7 @@ contains
       allocate (points(used), source=model)
       do k = 1, used
          list(k)%at = rows(1, k)
-         list(k)%reach = merge(0.0_wp, huge(1.0_wp), abs(rows(1, k)) <= 0.0_wp .and. this%over == 'factor')
+         if (this%over == 'factor') list(k)%reach = reach_of_place(workspace%raw, workspace%cases(first%case)%case, rows(1, k))
          points(k)%value = rows(2, k)
          points(k)%low = rows(3, k)
          points(k)%high = rows(4, k)
@@ -344,8 +346,9 @@ contains
    end subroutine add_curve
 
    !> Turns a requested column into its slope within a window around design. The slope is fitted like a gradient of the report.
-   subroutine make_slope(target, wanted)
+   subroutine make_slope(target, workspace, wanted)
       type(fit_target_t), intent(in) :: target
+      type(workspace_t), intent(in) :: workspace
       type(wanted_number_t), intent(inout) :: wanted
       type(key_number_t) :: key
       type(key_source_t) :: source
@@ -354,12 +357,14 @@ contains
       source%column(1) = wanted%column
       source%over(1) = target%over
       source%half = target%window
+      if (target%over == 'factor') source%width = target%window      ! otherwise found when the case is solved first
       key%how = slope
       key%sources = [source]
       wanted%key = key
       wanted%unit = wanted%unit//' per '//trim(target%over)
       wanted%column = ''
       wanted%reach = [huge(1.0_wp)]
+      if (target%over == 'factor') wanted%reach = reach_of_place(workspace%raw, workspace%cases(wanted%case)%case, target%window)
    end subroutine make_slope
 
    !> Checks that the numbers of a factor belong to no earlier factor. `message` describes a number that an earlier factor changes,

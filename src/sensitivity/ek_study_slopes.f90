@@ -13,9 +13,10 @@ module ek_study_slopes
    use ek_text, only: quoted
    use ek_deck, only: deck_t
    use ek_reader, only: definition_t
-   use ek_table, only: column_index, name_length
+   use ek_table, only: column_index, name_length, scheduled_rows
    use ek_study, only: study_t
-   use ek_response_value, only: reading_t, read_response, is_difference
+   use ek_case, only: copy_places
+   use ek_response_value, only: reading_t, read_response, reads_all_states, is_difference
    use ek_workspace, only: workspace_t, put_numbers, solve_or_explain
    use ek_factor_numbers, only: factor_paths_t, put_factor
    use ek_designer, only: designer_t
@@ -57,7 +58,7 @@ contains
       type(error_t), allocatable, intent(out) :: error       !! exit_deck: factors or cases without derivatives; exit_model
       type(message_list_t) :: mistakes
       logical :: is_done
-      integer :: c, f, k
+      integer :: c, f, k, r
 
       allocate (self)
       allocate (self%workspace)
@@ -87,6 +88,11 @@ contains
             if (designer%increments > 0 .and. workspace%cases(k)%number > 0) &
                workspace%deck_cases(workspace%cases(k)%number)%increments = designer%increments
             this%options = designer%options(c)
+            this%reads_all = c == 1 .and. size(study%columns) > 0
+            do r = 1, size(self%readings)
+               if (self%case_of(r) == c) this%reads_all = this%reads_all .or. reads_all_states(self%readings(r))
+            end do
+            call copy_places(designer%workspace%cases(c)%case, workspace%cases(k)%case)
          end associate
       end do
       if (mistakes%count() > 0) then
@@ -114,8 +120,8 @@ contains
 
       associate (result => self%workspace%cases(self%cases(1)%case)%result, names => self%cases(1)%derivatives%columns)
          self%columns = [(findloc(names == study%columns(c), .true., dim=1), c=1, size(study%columns))]
-         allocate (self%sweep(merge(size(result%table%values, 2), 0, size(study%columns) > 0)))
-         if (size(self%sweep) > 0) self%sweep(:) = result%table%values(2, :)
+         allocate (self%sweep(0))
+         if (size(study%columns) > 0) self%sweep = pack(result%table%values(2, :), scheduled_rows(result%table))
       end associate
       self%responses = size(self%readings)
       allocate (self%values(self%responses + size(self%columns)*size(self%sweep)))
@@ -215,16 +221,19 @@ contains
       type(study_slopes_t), intent(inout) :: self
       logical, intent(inout) :: is_valid                     !! .false. if the case has other states here
       integer :: c, first, last
+      integer, allocatable :: shown(:)                       ! states of the schedule
 
       if (size(self%columns) == 0) return
-      associate (found => self%cases(1)%derivatives, states => size(self%sweep))
-         is_valid = is_valid .and. size(found%states) == states
+      associate (found => self%cases(1)%derivatives, states => size(self%sweep), &
+         path => self%workspace%cases(self%cases(1)%case)%result%path)
+         shown = pack([(c, c=1, size(found%states))], path%is_scheduled(found%states))
+         is_valid = is_valid .and. size(shown) == states
          if (.not. is_valid) return
          do c = 1, size(self%columns)
             first = self%responses + (c - 1)*states + 1
             last = first + states - 1
-            self%values(first:last) = found%values(self%columns(c), :)
-            self%slopes(first:last, :) = transpose(found%slopes(self%columns(c), :, :))
+            self%values(first:last) = found%values(self%columns(c), shown)
+            self%slopes(first:last, :) = transpose(found%slopes(self%columns(c), :, shown))
          end do
       end associate
    end subroutine take_curves

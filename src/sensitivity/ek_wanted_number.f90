@@ -1,17 +1,17 @@
 !> A requested number of the results: a column of a case at a swept value, an entry of its compliance matrix, or a key number of the
 !> report. This module defines the requested number, finds the cases that it needs, and reads its value from their tables.
 module ek_wanted_number
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
    use ek_error, only: error_t, fail, exit_usage
    use ek_text, only: lower, quoted, suggestion
    use ek_quantity, only: unit_of, unit_text
    use ek_table, only: table_t, name_length, column_index
    use ek_case, only: case_t
-   use ek_test_result, only: test_result_t, unfolded_rows
+   use ek_test_result, only: test_result_t
+   use ek_table_reading, only: value_at_place, value_where
    use ek_key_number, only: key_number_t, nothing, read_source
    use ek_number_names, only: list_all, find_number, side_of_only_wheel, stems_of
-   use ek_number_reach, only: reach_of
+   use ek_number_reach, only: reach_of, reach_of_place
    use ek_compliance_table, only: compliance_columns
    use ek_workspace, only: workspace_t
    use ek_workspace_cases, only: heads_of_case, report_cases
@@ -89,7 +89,7 @@ contains
       wanted%at = at
       wanted%cases = [k]
       wanted%reach = [huge(1.0_wp)]
-      if (abs(at) <= 0.0_wp .and. over == 'factor') wanted%reach = 0.0_wp      ! the design state alone
+      if (over == 'factor') wanted%reach = reach_of_place(workspace%raw, workspace%cases(k)%case, at)
    end subroutine find_column
 
    !> Finds a key number; wanted%key is not allocated if the report has no key number of this name.
@@ -122,7 +122,7 @@ contains
          allocate (wanted%cases(size(sources)), wanted%reach(size(sources)))
          do k = 1, size(sources)
             wanted%cases(k) = workspace%report_order(sources(k)%test)
-            wanted%reach(k) = reach_of(wanted%key%how, workspace%raw, cases(sources(k)%test), sources(k), tests(sources(k)%test))
+            wanted%reach(k) = reach_of(wanted%key%how, workspace%raw, cases(sources(k)%test), sources(k))
          end do
       end associate
    end subroutine find_key_number
@@ -136,15 +136,22 @@ contains
       real(wp), intent(inout) :: value !! on entry, the value from the preceding sources; NaN before the first source
       real(wp) :: both(2)
       logical :: is_final
+      integer :: column
 
       if (allocated(wanted%key)) then
          both = value
          call read_source(wanted%key%how, wanted%key%sources(source), table, both, is_final)
          value = both(wanted%wheel)
       else
-         value = value_at(table, column_index(table, trim(wanted%over)), column_index(table, trim(wanted%column)), wanted%at)
-         if (wanted%is_change) value = value - value_at(table, column_index(table, 'factor'), &
-            column_index(table, trim(wanted%column)), 0.0_wp)
+         column = column_index(table, trim(wanted%column))
+         value = nothing()
+         if (column == 0) return
+         if (wanted%over == 'factor') then
+            value = value_at_place(table, column, wanted%at)
+         else
+            value = value_where(table, column_index(table, trim(wanted%over)), wanted%at, column)
+         end if
+         if (wanted%is_change) value = value - value_at_place(table, column, 0.0_wp)
       end if
    end subroutine read_number
 
@@ -168,70 +175,5 @@ contains
          end select
       end do
    end function heading_with
-
-   !> Value of column y at which column x has a given value. At a state with this value, the result is the value of the state.
-   !> Otherwise the result is interpolated by the cubic curve through two states on either side (next to an end, by a straight
-   !> line). If x has the value several times, the point nearest to design is used. NaN outside the range of x.
-   function value_at(table, x, y, at) result(value)
-      type(table_t), intent(in) :: table
-      integer, intent(in) :: x, y                          !! indices of the columns
-      real(wp), intent(in) :: at
-      real(wp) :: value
-      real(wp), parameter :: rounding = 1.0e-7_wp          !! allowed deviation of a driven height, as a share of the range of x
-      integer, allocatable :: rows(:)
-      logical :: is_good(size(table%values, 2))
-      real(wp) :: nearest, place, slack
-      integer :: k, f, best
-
-      value = nothing()
-      f = column_index(table, 'factor')
-      if (min(x, y, f) == 0) return
-      is_good = unfolded_rows(table) .and. ieee_is_finite(table%values(x, :)) .and. ieee_is_finite(table%values(y, :))
-      rows = pack([(k, k=1, size(is_good))], is_good)
-      if (size(rows) == 0) return
-      slack = rounding*(maxval(table%values(x, rows)) - minval(table%values(x, rows)))
-      if (at < minval(table%values(x, rows)) - slack .or. at > maxval(table%values(x, rows)) + slack) return
-      place = min(max(at, minval(table%values(x, rows))), maxval(table%values(x, rows)))
-      best = 0
-      nearest = huge(nearest)
-      do k = 1, size(rows) - 1
-         if ((table%values(x, rows(k)) - place)*(table%values(x, rows(k + 1)) - place) > 0.0_wp) cycle
-         if (abs(table%values(f, rows(k))) >= nearest) cycle
-         nearest = abs(table%values(f, rows(k)))
-         best = k
-      end do
-      if (best == 0) then
-         value = table%values(y, rows(1))                  ! the only state
-      else if (best > 1 .and. best < size(rows) - 1) then
-         value = polynomial(table%values(x, rows(best - 1:best + 2)), table%values(y, rows(best - 1:best + 2)), place)
-      else
-         value = polynomial(table%values(x, rows(best:best + 1)), table%values(y, rows(best:best + 1)), place)
-      end if
-   end function value_at
-
-   !> The value at `at` of the polynomial through the given points (Lagrange). At a point, the result is exactly y of the point. If
-   !> two points have equal x, y of the first is used.
-   pure real(wp) function polynomial(x, y, at) result(value)
-      real(wp), intent(in) :: x(:), y(:), at
-      real(wp) :: weight
-      integer :: j, k
-
-      do k = 1, size(x)
-         value = y(k)
-         if (abs(x(k) - at) <= 0.0_wp) return
-      end do
-      value = y(1)
-      do k = 2, size(x)
-         if (any(abs(x(:k - 1) - x(k)) <= 0.0_wp)) return
-      end do
-      value = 0.0_wp
-      do k = 1, size(x)
-         weight = 1.0_wp
-         do j = 1, size(x)
-            if (j /= k) weight = weight*(at - x(j))/(x(k) - x(j))
-         end do
-         value = value + weight*y(k)
-      end do
-   end function polynomial
 
 end module ek_wanted_number

@@ -18,7 +18,9 @@ module ek_wanted_values
    use ek_noise, only: is_flat
    use ek_table, only: name_length, column_index
    use ek_case_result, only: add_remarks, failure_of
-   use ek_key_number, only: nothing, largest_of_all
+   use ek_case, only: add_place, add_window
+   use ek_table_reading, only: usual_width
+   use ek_key_number, only: nothing, largest_of_all, is_slope, needs_path
    use ek_missing_number, only: missing_reason
    use ek_number_reach, only: lacks_state
    use ek_workspace, only: workspace_t, put_numbers, solve_or_explain
@@ -55,7 +57,7 @@ contains
    subroutine begin_values(wanted, directions, workspace, self, error)
       type(wanted_number_t), intent(in) :: wanted(:)
       type(direction_t), intent(in) :: directions(:)
-      type(workspace_t), intent(inout) :: workspace
+      type(workspace_t), intent(inout) :: workspace           !! its cases stop where the numbers are read
       class(wanted_values_t), allocatable, intent(out) :: self
       type(error_t), allocatable, intent(out) :: error       !! exit_usage, exit_model, exit_convergence: a number has no value
       type(message_list_t) :: mistakes
@@ -71,6 +73,8 @@ contains
       do n = 1, size(wanted)
          do j = 1, size(wanted(n)%cases)
             call add_need(wanted(n), j, self%needed)
+            call find_width(j, self%needed, workspace, self%wanted(n))
+            call stop_where_read(self%wanted(n), j, workspace)
          end do
       end do
       code = exit_model
@@ -115,7 +119,9 @@ contains
          options%reach = max(options%reach, wanted%reach(source))
          call add(wanted%column)
          call add(wanted%over)
+         if (.not. allocated(wanted%key)) needed(j)%reads_all = needed(j)%reads_all .or. wanted%over /= 'factor'
          if (.not. allocated(wanted%key)) return
+         needed(j)%reads_all = needed(j)%reads_all .or. needs_path(wanted%key%how)
          do wheel = 1, 2
             call add(wanted%key%sources(source)%column(wheel))
             call add(wanted%key%sources(source)%over(wheel))
@@ -131,6 +137,49 @@ contains
       end subroutine add
 
    end subroutine add_need
+
+   !> Adds the swept values at which a requested number is read to the stops of its case.
+   subroutine stop_where_read(wanted, source, workspace)
+      type(wanted_number_t), intent(in) :: wanted
+      integer, intent(in) :: source
+      type(workspace_t), intent(inout) :: workspace
+
+      associate (case => workspace%cases(wanted%cases(source))%case)
+         if (.not. allocated(wanted%key)) then
+            if (wanted%over == 'factor') call add_place(wanted%at, case)
+            if (wanted%is_change) call add_place(0.0_wp, case)
+         else if (is_slope(wanted%key%how)) then
+            call add_window(0.0_wp, wanted%key%sources(source)%width, case)
+         else
+            call add_place(0.0_wp, case)
+         end if
+      end associate
+   end subroutine stop_where_read
+
+   !> Finds the half width in the swept value of the window of a slope over any column, from the case at the present numbers. The
+   !> error of a case that cannot be solved is returned when the number is read.
+   subroutine find_width(source, needed, workspace, wanted)
+      integer, intent(in) :: source
+      type(needed_t), intent(inout) :: needed(:)
+      type(workspace_t), intent(inout) :: workspace
+      type(wanted_number_t), intent(inout) :: wanted
+      type(error_t), allocatable :: ignored
+      logical :: is_done
+      integer :: n
+
+      if (.not. allocated(wanted%key)) return
+      if (.not. is_slope(wanted%key%how)) return
+      associate (this => wanted%key%sources(source))
+         if (this%width > 0.0_wp) return
+         this%width = this%half
+         n = needed_number(wanted%cases(source), needed)
+         call solve_or_explain(needed(n)%case, needed(n)%options, workspace, is_done, ignored)
+         if (allocated(ignored) .or. .not. is_done) return
+         associate (table => workspace%cases(needed(n)%case)%result%table)
+            this%width = usual_width(table, column_index(table, trim(this%over(1))), 0.0_wp, this%half)
+         end associate
+      end associate
+   end subroutine find_width
 
    !> The number of cases that the requested numbers need.
    pure integer function count_cases(wanted) result(many)

@@ -8,11 +8,11 @@ module ek_designer
    use ek_reader, only: definition_t
    use ek_case_result, only: solve_options_t, solve_case, add_remarks, failure_of, test_of
    use ek_sweep_table, only: sweep_columns
-   use ek_table, only: column_index, name_length
+   use ek_table, only: column_index, name_length, scheduled_rows
    use ek_quantity, only: head_with_unit
    use ek_study, only: study_t
-   use ek_response, only: needed_columns, no_column, prepare_reading, prepare_difference
-   use ek_response_value, only: reading_t
+   use ek_response, only: needed_columns, no_column, prepare_reading, prepare_difference, check_reading
+   use ek_response_value, only: reading_t, stop_where_read, is_difference
    use ek_read_states, only: reads_few_states
    use ek_study_pack, only: pack_space_t, begin_packs
    use ek_workspace, only: workspace_t
@@ -77,6 +77,7 @@ contains
       type(designer_t), intent(inout) :: designer          !! replaced
       type(error_t), allocatable, intent(out) :: error     !! exit_deck: errors of the study; otherwise the deck or its first case
                                                            !! that cannot be run
+      type(message_list_t) :: mistakes
       integer :: k
 
       call begin_designer(study, deck, definition, designer, error)
@@ -84,20 +85,27 @@ contains
       allocate (designer%options(size(designer%case_names)))
       do k = 1, size(designer%case_names)
          call list_columns(study, designer, k)
-         associate (this => designer%workspace%cases(k))
-            call solve_case(designer%workspace%suspension, this%case, designer%options(k), this%result, observer=this%observer)
-            if (.not. this%result%is_run()) then
-               call add_remarks(designer%options(k), this%result)
-               call failure_of(this%result, error)
-            end if
-         end associate
+         call solve_first(k, designer, error)
          if (allocated(error)) return
       end do
-      allocate (designer%packs)
-      call begin_packs(designer%workspace, designer%packs)
-      designer%states = size(designer%workspace%cases(1)%result%table%values, 2)
       call check_columns(study, home, designer, error)
       if (allocated(error)) return
+      do k = 1, size(designer%readings)
+         call stop_where_read(designer%readings(k), designer%workspace%cases(designer%case_of(k))%case)
+      end do
+      do k = 1, size(designer%case_names)
+         associate (case => designer%workspace%cases(k)%case)
+            if (.not. (allocated(case%places) .or. allocated(case%windows))) cycle
+         end associate
+         call solve_first(k, designer, error)
+         if (allocated(error)) return
+      end do
+      call check_readings(designer, mistakes)
+      if (mistakes%count() > 0) call fail(error, exit_deck, mistakes%text())
+      if (allocated(error)) return
+      allocate (designer%packs)
+      call begin_packs(designer%workspace, designer%packs)
+      designer%states = count(scheduled_rows(designer%workspace%cases(1)%result%table))
       do k = 1, size(designer%options)
          associate (this => designer%workspace%cases(k))
             designer%options(k)%defers_kandc = reads_few_states(designer%readings, designer%case_of, k, &
@@ -105,6 +113,34 @@ contains
          end associate
       end do
    end subroutine new_designer
+
+   !> Solves a case in the design of the deck.
+   subroutine solve_first(k, designer, error)
+      integer, intent(in) :: k                             !! index of the case
+      type(designer_t), intent(inout) :: designer
+      type(error_t), allocatable, intent(out) :: error     !! the case cannot be run
+
+      associate (this => designer%workspace%cases(k))
+         call solve_case(designer%workspace%suspension, this%case, designer%options(k), this%result, observer=this%observer)
+         if (this%result%is_run()) return
+         call add_remarks(designer%options(k), this%result)
+         call failure_of(this%result, error)
+      end associate
+   end subroutine solve_first
+
+   !> Reads all responses in the design of the deck.
+   subroutine check_readings(designer, mistakes)
+      type(designer_t), intent(in) :: designer
+      type(message_list_t), intent(inout) :: mistakes
+      character(:), allocatable :: message
+      integer :: k
+
+      do k = 1, size(designer%readings)
+         if (is_difference(designer%readings(k))) cycle
+         call check_reading(designer%readings(k), designer%workspace%cases(designer%case_of(k))%result%table, message)
+         if (message /= '') call mistakes%add(message)
+      end do
+   end subroutine check_readings
 
    !> Lists the cases: the case of the study first, then the cases of its responses.
    subroutine list_cases(study, designer)

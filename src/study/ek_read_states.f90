@@ -3,16 +3,16 @@
 !>
 !> | response | states that the response reads |
 !> |---|---|
-!> | value | the state at `at`, or its two neighbours |
-!> | slope | the states in the window of the slope |
-!> | rms | the neighbours of each point of the given curve |
-!> | span, min, max, gradient; columns of the curves | all |
+!> | value | the state at `at` |
+!> | slope, gradient | the five states of the window |
+!> | rms | the state at each point of the given curve |
+!> | span, min, max; columns of the curves | all |
 !> | difference | the states of its two responses |
 module ek_read_states
    use ek_table, only: table_t, column_index
    use ek_sweep_table, only: observer_t, observe_kandc_at, is_kandc_column, reads_matrix
    use ek_case_result, only: case_result_t
-   use ek_response_value, only: reading_t, mark_states, reads_all_states, is_difference, place_of_column
+   use ek_response_value, only: reading_t, mark_states, reads_all_states, is_difference, is_slope, place_of_column
    implicit none(type, external)
    private
    public :: reads_few_states, observe_read_states
@@ -35,7 +35,6 @@ contains
       do j = 1, size(readings)
          if (case_of(j) /= case .or. is_difference(readings(j))) cycle
          if (reads_all_states(readings(j)) .and. is_kandc(readings(j)%at_column)) reads_few_states = .false.
-         if (is_kandc(readings(j)%at_over)) reads_few_states = .false.        ! the window is known from this column
       end do
 
    contains
@@ -55,16 +54,27 @@ contains
       type(observer_t), intent(inout) :: observer          !! observer of this case
       type(case_result_t), intent(inout) :: result         !! solved with defers_kandc
       logical :: is_read(size(result%table%values, 2))
-      integer :: column, j
+      integer :: column, over, j
 
       is_read = .false.
       do j = 1, size(readings)
          if (case_of(j) /= case .or. is_difference(readings(j))) cycle
          column = place_of_column(result%table, readings(j)%asked%column, readings(j)%at_column)
+         over = 0
+         if (is_slope(readings(j))) over = place_of_column(result%table, readings(j)%over, readings(j)%at_over)
          if (column == 0) cycle                            ! the model of this design does not define it
-         if (is_kandc_column(observer, column)) call mark_states(readings(j), result%table, is_read)
+         if (is_kandc(column) .or. is_kandc(over)) call mark_states(readings(j), result%table, is_read)
       end do
       call observe_kandc_at(is_read, result%suspension, result%case, result%path, result%kkt, observer, result%table)
+
+   contains
+
+      pure logical function is_kandc(column)
+         integer, intent(in) :: column                     !! 0: none
+         is_kandc = column > 0
+         if (is_kandc) is_kandc = is_kandc_column(observer, column)
+      end function is_kandc
+
    end subroutine observe_read_states
 
 end module ek_read_states

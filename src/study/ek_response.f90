@@ -18,12 +18,13 @@ module ek_response
    use ek_gradient_definition, only: definition_t, definitions_of, windows_t, fitted
    use ek_gradient, only: gradient_t, test_gradients, gradient_noise
    use ek_study, only: response_t, of_names
-   use ek_response_value, only: reading_t, read_response, mark_states, is_slope, find_window, unplaced_states, &
-      mark_neighbours, rounded, place_of_column, an_rms, a_gradient, a_difference, no_fault, column_is_missing, over_is_missing, &
-      is_outside, has_no_slope, has_few_states, is_undefined
+   use ek_table_reading, only: usual_width, min_points
+   use ek_response_value, only: reading_t, read_response, mark_states, is_slope, place_of_column, an_rms, a_gradient, a_slope, &
+      a_difference, no_fault, column_is_missing, over_is_missing, is_outside, window_is_outside, has_few_states, is_undefined, &
+      is_between
    implicit none(type, external)
    private
-   public :: needed_columns, no_column, prepare_reading, prepare_difference, fault_text
+   public :: needed_columns, no_column, prepare_reading, prepare_difference, check_reading, fault_text
 
    character(*), parameter :: travel = 'wheel_travel_mm'
 
@@ -75,8 +76,9 @@ contains
 
    end subroutine needed_columns
 
-   !> Checks a response against the table of its case, in the design of the deck, and prepares its reading. `message` gives the
-   !> reason if the response cannot be read, and is '' otherwise. A response that is only undefined in this design is accepted.
+   !> Finds the columns of a response in the table of its case, in the design of the deck, and prepares its reading. `message` gives
+   !> the reason if the response cannot be read, and is '' otherwise. The case need not yet stop where the response is read:
+   !> check_reading reads the response when it does.
    subroutine prepare_reading(asked, table, factor_unit, reading, message, heads, home, test)
       type(response_t), intent(in) :: asked
       type(table_t), intent(in) :: table
@@ -89,8 +91,7 @@ contains
       type(test_result_t), intent(in), optional :: test   !! the case as a test of the report, for a gradient
       character(name_length), allocatable :: names(:)
       character(:), allocatable :: unit
-      real(wp) :: value, size_of_slope
-      integer :: fault
+      real(wp) :: size_of_slope
 
       reading%asked = asked
       reading%over = asked%over
@@ -105,22 +106,57 @@ contains
       if (is_slope(reading)) then
          if (reading%over == '') reading%over = usual_over(asked%column, table)
          reading%at_over = column_index(table, reading%over)
-         reading%at_converged = column_index(table, 'converged')
          if (message == '' .and. reading%at_over == 0) then
             message = no_column(reading%over, names)
             if (asked%over == '') message = "give 'over': the results have no wheel travel, over which a slope is taken by default"
          end if
+         if (reading%of == a_slope) call find_width(table, factor_unit, reading)
          call slope_unit(reading%asked%column, reading%over, factor_unit, unit, size_of_slope)
          reading%size = reading%size*size_of_slope
          reading%head = head_with_unit(asked%name, unit)
       end if
       if (reading%of == an_rms) call read_curve(asked, home, factor_unit, reading%curve, message)
-      if (message == '') then
-         call read_response(reading, table, value, fault)
-         if (fault /= no_fault .and. fault /= is_undefined) message = fault_text(reading, table, fault)
-      end if
       if (message /= '') message = asked%where//': response '//quoted(asked%name)//': '//message
    end subroutine prepare_reading
+
+   !> Reads a response in the design of the deck. `message` gives the reason if it cannot be read, and is '' otherwise. A response
+   !> that is only undefined in this design is accepted.
+   subroutine check_reading(reading, table, message)
+      type(reading_t), intent(in) :: reading
+      type(table_t), intent(in) :: table                  !! of its case, which stops where the response is read
+      character(:), allocatable, intent(out) :: message
+      real(wp) :: value
+      integer :: fault
+
+      message = ''
+      call read_response(reading, table, value, fault)
+      if (fault /= no_fault .and. fault /= is_undefined) message = fault_text(reading, table, fault)
+      if (message /= '') message = reading%asked%where//': response '//quoted(reading%asked%name)//': '//message
+   end subroutine check_reading
+
+   !> Finds the half width in the swept value of the window of a slope. A wheel travel has the unit of a swept value in mm. A window
+   !> that the file does not give ends where the range of the case ends.
+   subroutine find_width(table, factor_unit, reading)
+      type(table_t), intent(in) :: table
+      character(*), intent(in) :: factor_unit
+      type(reading_t), intent(inout) :: reading
+
+      real(wp) :: reach, slack
+
+      reading%width = reading%asked%window
+      if (reading%at_over == 0) return
+      if (.not. (reading%over == 'factor' .or. factor_unit == 'mm' .and. index(reading%over, travel) > 0)) &
+         reading%width = usual_width(table, reading%at_over, reading%asked%at, reading%asked%window)
+      if (reading%asked%has_window) return
+      associate (low => minval(table%values(2, :)), high => maxval(table%values(2, :)), at => reading%asked%at)
+         slack = 1.0e-9_wp*(high - low)
+         reach = min(at - low, high - at)
+         if (abs(reach) <= slack) reach = high - low          ! one side
+      end associate
+      if (reach < slack .or. reading%width <= reach) return
+      reading%asked%window = reading%asked%window*(reach/reading%width)
+      reading%width = reach
+   end subroutine find_width
 
    !> Prepares a response that is a difference of two responses, which must already be prepared. `message` gives the error if the
    !> two responses have different units, and is '' otherwise.
@@ -165,6 +201,7 @@ contains
          reading%asked%column = gradients(k)%column
          reading%over = gradients(k)%over
          if (.not. reading%asked%window > 0.0_wp) reading%asked%window = gradients(k)%window_half
+         reading%width = gradients(k)%width*(reading%asked%window/gradients(k)%window_half)
          reading%size = gradients(k)%turn
          reading%noise = gradient_noise(gradients(k)%column)
          return
@@ -238,9 +275,9 @@ contains
       type(table_t), intent(in) :: table
       integer, intent(in) :: fault               !! reason code of read_response, not 0
       character(:), allocatable :: text
-      logical :: is_near(size(table%values, 2))
-      real(wp) :: centre, x(size(table%values, 2))
-      integer :: first, over
+      logical :: is_marked(size(table%values, 2))
+      real(wp) :: x(size(table%values, 2))
+      integer :: first, column
 
       select case (fault)
       case (column_is_missing)
@@ -252,58 +289,36 @@ contains
          text = 'at = '//str(reading%asked%at)
          if (reading%of == an_rms) text = 'a factor of '//reading%asked%file
          text = text//' lies outside the range of the case, '//str(minval(x))//' to '//str(maxval(x))
+      case (is_between)
+         text = 'at = '//str(reading%asked%at)
+         if (reading%of == an_rms) text = 'a factor of '//reading%asked%file
+         text = text//' lies between two rows of the load table of the case; expected the number of a row'
+      case (window_is_outside)
+         x = table%values(2, :)
+         text = 'no slope: the states of the case, '//str(minval(x), 6)//' to '//str(maxval(x), 6)//', do not cover the window '// &
+            'of ± '//str(reading%asked%window)//' around '//str(merge(reading%asked%at, 0.0_wp, reading%of == a_slope))// &
+            '; expected a larger range of the case, or a smaller window of the response'
       case (is_undefined)
-         is_near = .false.
-         call mark_states(reading, table, is_near)
-         is_near = is_near .and. .not. ieee_is_finite(table%values(place_of_column(table, reading%asked%column, &
-            reading%at_column), :))
+         column = place_of_column(table, reading%asked%column, reading%at_column)
          text = quoted(reading%asked%column)
-         if (is_slope(reading) .and. .not. any(is_near)) then
-            over = place_of_column(table, reading%over, reading%at_over)
-            x = table%values(2, :)
-            call find_window(reading, table, over, rounded(reading%asked%at, x), centre, is_near)
-            if (ieee_is_finite(centre)) then
-               is_near = unplaced_states(reading, table, over, is_near)
-            else
-               call mark_neighbours(x, rounded(reading%asked%at, x), is_near)
-               is_near = is_near .and. .not. ieee_is_finite(table%values(over, :))
-            end if
+         is_marked = .false.
+         call mark_states(reading, table, is_marked)
+         is_marked = is_marked .and. .not. ieee_is_finite(table%values(column, :))
+         if (is_slope(reading) .and. .not. any(is_marked)) then
+            call mark_states(reading, table, is_marked)
+            is_marked = is_marked .and. .not. ieee_is_finite(table%values(place_of_column(table, reading%over, reading%at_over), :))
             text = quoted(reading%over)
          end if
-         first = findloc(is_near, .true., dim=1)
-         text = text//' has no value at '//plural(count(is_near), 'state', 'states')
+         first = findloc(is_marked, .true., dim=1)
+         text = text//' has no value at '//plural(max(1, count(is_marked)), 'state', 'states')
          if (first > 0) text = text//', the first at factor '//str(table%values(2, first))
       case (has_few_states)
-         text = 'no gradient: it needs 3 states within the window of ± '//str(reading%asked%window)// &
-            '; use more increments in the case, or a larger window in the response'
-      case (has_no_slope)
-         x = table%values(place_of_column(table, reading%over, reading%at_over), :)
-         call find_window(reading, table, place_of_column(table, reading%over, reading%at_over), &
-            rounded(reading%asked%at, table%values(2, :)), centre, is_near)
-         text = 'no slope: '//plural(count(is_near), 'state lies', 'states lie')//' within the window of ± '// &
-            str(reading%asked%window)//', a slope needs 2; '//remedy(abs(x - centre), reading%asked%window)
+         text = 'no slope: it needs '//str(min_points)//' states within the window of ± '//str(reading%asked%window)// &
+            '; use more states in the case, or a larger window in the response'
       case default
          text = 'no slope: '//quoted(reading%over)//' does not change within the window'
       end select
    end function fault_text
-
-   !> Advice on how to obtain two states in the window of a slope.
-   pure function remedy(distance, window) result(words)
-      real(wp), intent(in) :: distance(:)      !! distance of each state from the centre of the window
-      real(wp), intent(in) :: window
-      character(:), allocatable :: words
-      real(wp) :: second, unit
-      logical :: is_left(size(distance))
-
-      words = 'use more increments in the case'
-      is_left = ieee_is_finite(distance)
-      if (count(is_left) < 2) return
-      is_left(minloc(distance, dim=1, mask=is_left)) = .false.
-      second = minval(distance, mask=is_left)
-      unit = 10.0_wp**(floor(log10(second)) - 2)          ! of the third digit
-      words = 'use at least '//str(ceiling(second/window))//' times as many increments in the case, or a window of '// &
-         str(ceiling(second/unit*(1.0_wp - 1.0e-9_wp))*unit, 3)//' or more in the response'
-   end function remedy
 
    !> The default column over which a slope is taken: the wheel travel. With two wheels, the travel on the side of the column is
    !> used; if the column has no side, the left travel is used.

@@ -4,13 +4,15 @@
 module ek_response_value
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan, ieee_is_finite
    use ek_kinds, only: wp
-   use ek_table, only: table_t, column_index
-   use ek_gradient, only: slope_over_window
+   use ek_table, only: table_t, column_index, scheduled_rows
+   use ek_window, only: window_points
+   use ek_case, only: case_t, add_place, add_window
+   use ek_table_reading, only: value_at_place, read_slope, rows_of_window, row_at, is_read, of_window_outside => is_outside, &
+      of_window_undefined => is_undefined, of_window_flat => is_flat
    use ek_study, only: response_t
    implicit none(type, external)
    private
-   public :: reading_t, read_response, mark_states, reads_all_states, is_difference, is_slope, find_window, unplaced_states, &
-      mark_neighbours, rounded, place_of_column
+   public :: reading_t, read_response, mark_states, reads_all_states, stop_where_read, is_difference, is_slope, place_of_column
 
    !> A response, prepared for tables with given columns.
    type :: reading_t
@@ -18,9 +20,10 @@ module ek_response_value
       character(:), allocatable :: over      !! slope, gradient: name of the column over which it is taken
       character(:), allocatable :: head      !! column heading of the response, with the unit
       real(wp) :: size = 1.0_wp !! slope: factor from the units of the columns to the units of the response; gradient: its sign
+      real(wp) :: width = 0.0_wp             !! slope, gradient: half width of the window [swept value]
       real(wp) :: noise = 0.0_wp !! gradient: a change of the column over half the window up to this number is rounded to zero
       integer :: of = 0                      !! kind of response, one of the constants below
-      integer :: at_column = 0, at_over = 0, at_converged = 0     !! indices of the columns in the table of the design of the deck
+      integer :: at_column = 0, at_over = 0  !! indices of the columns in the table of the design of the deck
       real(wp), allocatable :: curve(:, :)   !! rms: (swept value, given value; point)
    end type reading_t
 
@@ -29,8 +32,10 @@ module ek_response_value
       a_difference = 8
 
    ! why it cannot be read
-   integer, parameter, public :: no_fault = 0, column_is_missing = 1, over_is_missing = 2, is_outside = 3, has_no_slope = 4, &
-      is_flat = 5, has_few_states = 6, is_undefined = 7
+   integer, parameter, public :: no_fault = 0, column_is_missing = 1, over_is_missing = 2, is_outside = 3, &
+      window_is_outside = 4, is_flat = 5, has_few_states = 6, is_undefined = 7, is_between = 8
+
+   real(wp), parameter :: rounding = 1.0e-9_wp      !! of the range of a case, after conversion to SI
 
 contains
 
@@ -45,20 +50,17 @@ contains
       if (fault == no_fault .and. .not. ieee_is_finite(value)) fault = is_undefined
    end subroutine read_response
 
-   !> Reads a response from one table. A value is read at a swept value, linear between states. A slope is the least-squares slope
-   !> in a window around the swept value. A gradient is the slope that the report computes, over a window around design. A span or
-   !> an extreme is read over all states, and rms is the root mean square of the deviations from a curve at its points.
-   !> The response has no value if the column is undefined at a state that is read. (minval and maxval would ignore such a state.)
+   !> Reads a response from one table, as ek_table_reading reads it. A value is that of the state at a swept value. A slope is read over a
+   !> window around the swept value, a gradient over a window around design. A span or an extreme is read over all states of the
+   !> schedule, and rms is the root mean square of the deviations from a curve at its points. The response has no value if the column
+   !> is undefined at a state that is read. (minval and maxval would ignore such a state.)
    subroutine read_value(reading, table, value, fault)
       type(reading_t), intent(in) :: reading
       type(table_t), intent(in) :: table
       real(wp), intent(out) :: value             !! NaN if the response has no value
       integer, intent(out) :: fault              !! 0, or the reason code for fault_text
-      real(wp) :: at, centre, spread, low, high
-      integer :: points, undefined
-      real(wp) :: x(size(table%values, 2)), y(size(table%values, 2))
-      logical :: is_near(size(table%values, 2))
-      integer :: column, over, k
+      real(wp) :: sum
+      integer :: column, over, reason, states, undefined, k
 
       fault = no_fault
       value = ieee_value(1.0_wp, ieee_quiet_nan)
@@ -68,105 +70,136 @@ contains
       if (column == 0) fault = column_is_missing
       if (over == 0) fault = over_is_missing
       if (fault /= no_fault) return              ! the model of this design does not define it
-      y = table%values(column, :)
-      x = table%values(2, :)
       select case (reading%of)
       case (a_span, a_least, a_most)
-         if (.not. all(ieee_is_finite(y))) return
-         if (reading%of == a_span) value = maxval(y) - minval(y)
-         if (reading%of == a_least) value = minval(y)
-         if (reading%of == a_most) value = maxval(y)
-      case (a_gradient)
-         call slope_over_window(table%values(over, :), y, reading%asked%window, value, points, undefined)
-         if (undefined > 0) return
-         if (ieee_is_finite(value)) then
-            if (abs(value)*reading%asked%window <= reading%noise) value = 0.0_wp
-         else
-            fault = merge(has_few_states, is_flat, points < 3)
-         end if
-         value = value*reading%size
+         associate (y => table%values(column, :), is_scheduled => scheduled_rows(table))
+            if (any(is_scheduled .and. .not. ieee_is_finite(y))) return
+            if (reading%of == a_span) value = maxval(y, mask=is_scheduled) - minval(y, mask=is_scheduled)
+            if (reading%of == a_least) value = minval(y, mask=is_scheduled)
+            if (reading%of == a_most) value = maxval(y, mask=is_scheduled)
+         end associate
+      case (a_value)
+         call read_at(reading%asked%at, value)
       case (an_rms)
-         spread = 0.0_wp
+         sum = 0.0_wp
          do k = 1, size(reading%curve, 2)
-            at = between(x, y, rounded(reading%curve(1, k), x))
-            if (reading%curve(1, k) < minval(x) .or. reading%curve(1, k) > maxval(x)) fault = is_outside
-            spread = spread + (at - reading%curve(2, k))**2
+            call read_at(reading%curve(1, k), value)
+            sum = sum + (value - reading%curve(2, k))**2
          end do
-         if (fault == no_fault) value = sqrt(spread/size(reading%curve, 2))
+         value = sqrt(sum/size(reading%curve, 2))
+         if (fault /= no_fault) value = ieee_value(1.0_wp, ieee_quiet_nan)
       case default
-         call find_ends(x, low, high)
-         at = nearest_end(reading%asked%at, low, high)
-         if (.not. (at >= low .and. at <= high)) then
-            fault = is_outside
-            return
-         end if
-         if (reading%of == a_value) then
-            value = between(x, y, at)
-            return
-         end if
-         call find_window(reading, table, over, at, centre, is_near)
-         x = table%values(over, :)
-         if (.not. ieee_is_finite(centre)) return       ! the state did not converge, or the column is undefined there
-         if (any(unplaced_states(reading, table, over, is_near))) return
-         if (count(is_near) < 2) then
-            fault = has_no_slope
-            return
-         end if
-         call fit_line(x, y, is_near, value, spread)
-         if (spread > 0.0_wp) then
-            value = reading%size*value/spread
-         else
-            value = ieee_value(1.0_wp, ieee_quiet_nan)
+         call read_slope(table, column, over, centre_of(reading), reading%width, reading%asked%window, value, reason, states, &
+            undefined)
+         select case (reason)
+         case (is_read)
+            if (reading%of == a_gradient .and. abs(value)*reading%asked%window <= reading%noise) value = 0.0_wp
+         case (of_window_outside)
+            fault = merge(is_outside, window_is_outside, lies_outside(centre_of(reading)))
+         case (of_window_undefined)
+            fault = is_undefined
+         case (of_window_flat)
             fault = is_flat
-         end if
+         case default
+            fault = has_few_states
+         end select
+         value = value*reading%size
       end select
+
+   contains
+
+      !> Reads the column at a swept value.
+      subroutine read_at(place, value)
+         real(wp), intent(in) :: place
+         real(wp), intent(out) :: value
+
+         value = value_at_place(table, column, place)
+         if (ieee_is_finite(value) .or. row_at(table, place) > 0) return
+         if (lies_outside(place)) then
+            fault = is_outside
+         else if (table%is_of_rows) then
+            fault = is_between
+         end if
+      end subroutine read_at
+
+      !> Whether a swept value lies outside the range of the case.
+      pure logical function lies_outside(place)
+         real(wp), intent(in) :: place
+         real(wp) :: low, high
+
+         low = minval(table%values(2, :))
+         high = maxval(table%values(2, :))
+         lies_outside = place < low - rounding*(high - low) .or. place > high + rounding*(high - low)
+      end function lies_outside
+
    end subroutine read_value
 
-   !> Whether a response counts as reading its column at every state: span, min, max and gradient. A gradient reads only the states
-   !> in its window, but its columns need no compliance matrix.
+   !> The swept value in the middle of the window of a slope. The window of a gradient lies around design.
+   pure real(wp) function centre_of(reading) result(centre)
+      type(reading_t), intent(in) :: reading
+      centre = 0.0_wp
+      if (reading%of == a_slope) centre = reading%asked%at
+   end function centre_of
+
+   !> Adds the swept values at which a response is read to the stops of its case.
+   pure subroutine stop_where_read(reading, case)
+      type(reading_t), intent(in) :: reading
+      type(case_t), intent(inout) :: case
+      integer :: k
+
+      select case (reading%of)
+      case (a_value)
+         call add_place(reading%asked%at, case)
+      case (an_rms)
+         do k = 1, size(reading%curve, 2)
+            call add_place(reading%curve(1, k), case)
+         end do
+      case (a_slope, a_gradient)
+         call add_window(centre_of(reading), reading%width, case)
+      end select
+   end subroutine stop_where_read
+
+   !> Whether a response reads its column at every state of the schedule.
    pure logical function reads_all_states(reading)
       type(reading_t), intent(in) :: reading
-      reads_all_states = reading%of == a_span .or. reading%of == a_least .or. reading%of == a_most .or. reading%of == a_gradient
+      reads_all_states = reading%of == a_span .or. reading%of == a_least .or. reading%of == a_most
    end function reads_all_states
 
-   !> Marks the states at which read_response reads the column of a response. For a value, these are its neighbours; for a slope,
-   !> the states in its window; for rms, the neighbours of each point of the curve. For all other kinds, all states are marked (see
-   !> reads_all_states).
-   pure subroutine mark_states(reading, table, is_read)
+   !> Marks the states at which read_response reads the column of a response: the state of a value, the states in the window of a
+   !> slope, the states at the points of a curve. For all other kinds, and for a slope over the rows of a load table, all states are
+   !> marked (see reads_all_states).
+   pure subroutine mark_states(reading, table, is_marked)
       type(reading_t), intent(in) :: reading
       type(table_t), intent(in) :: table         !! swept values, and the column over which a slope is taken
-      logical, intent(inout) :: is_read(:)       !! whether each state is read; marks of other states are unchanged
-      logical :: is_near(size(is_read))
-      real(wp) :: x(size(is_read)), centre
-      integer :: over, k
+      logical, intent(inout) :: is_marked(:)     !! whether each state is read; marks of other states are unchanged
+      integer :: rows(window_points), side, k
 
       if (is_difference(reading)) return
-      x = table%values(2, :)
       if (reads_all_states(reading)) then
-         is_read = .true.
+         is_marked = is_marked .or. scheduled_rows(table)
       else if (reading%of == an_rms) then
          do k = 1, size(reading%curve, 2)
-            call mark_neighbours(x, rounded(reading%curve(1, k), x), is_read)
+            call mark(row_at(table, reading%curve(1, k)), is_marked)
          end do
       else if (reading%of == a_value) then
-         call mark_neighbours(x, rounded(reading%asked%at, x), is_read)
+         call mark(row_at(table, reading%asked%at), is_marked)
       else
-         over = place_of_column(table, reading%over, reading%at_over)
-         if (over == 0) return                   ! the model of this design does not define it
-         call find_window(reading, table, over, rounded(reading%asked%at, x), centre, is_near)
-         is_read = is_read .or. is_near
+         call rows_of_window(table, centre_of(reading), reading%width, rows, side)
+         if (any(rows == 0)) is_marked = is_marked .or. table%is_of_rows
+         do k = 1, window_points
+            call mark(rows(k), is_marked)
+         end do
       end if
+
+   contains
+
+      pure subroutine mark(row, is_marked)
+         integer, intent(in) :: row              !! 0: none
+         logical, intent(inout) :: is_marked(:)
+         if (row > 0) is_marked(row) = .true.
+      end subroutine mark
+
    end subroutine mark_states
-
-   !> Marks the states from which `between` interpolates the value at the swept value x = at.
-   pure subroutine mark_neighbours(x, at, is_read)
-      real(wp), intent(in) :: x(:), at
-      logical, intent(inout) :: is_read(:)
-      integer :: first, last
-
-      call neighbours(x, at, first, last)
-      if (first > 0) is_read(first:last) = .true.
-   end subroutine mark_neighbours
 
    !> Whether a response is the difference of two other responses. A difference is not read from a table.
    pure logical function is_difference(reading)
@@ -174,116 +207,11 @@ contains
       is_difference = reading%of == a_difference
    end function is_difference
 
-   !> Computes the sums `along` and `spread` of the least-squares line through the selected points. The slope of the line is
-   !> along/spread.
-   pure subroutine fit_line(x, y, is_near, along, spread)
-      real(wp), contiguous, intent(in) :: x(:), y(:)
-      logical, contiguous, intent(in) :: is_near(:)      !! whether each point is selected
-      real(wp), intent(out) :: along, spread             !! Σ (x − mean x)(y − mean y), Σ (x − mean x)²
-      real(wp) :: mean_x, mean_y
-      integer :: k, points
-
-      points = 0
-      mean_x = 0.0_wp
-      mean_y = 0.0_wp
-      do k = 1, size(x)
-         if (.not. is_near(k)) cycle
-         points = points + 1
-         mean_x = mean_x + x(k)
-         mean_y = mean_y + y(k)
-      end do
-      mean_x = mean_x/points
-      mean_y = mean_y/points
-      along = 0.0_wp
-      spread = 0.0_wp
-      do k = 1, size(x)
-         if (.not. is_near(k)) cycle
-         spread = spread + (x(k) - mean_x)**2
-         along = along + (x(k) - mean_x)*(y(k) - mean_y)
-      end do
-   end subroutine fit_line
-
    !> Whether a response is a slope or a gradient over a window.
    pure logical function is_slope(reading)
       type(reading_t), intent(in) :: reading
       is_slope = reading%of == a_slope .or. reading%of == a_gradient
    end function is_slope
-
-   !> Finds the states in the window of a slope. No state is found if the centre of the window has no value.
-   pure subroutine find_window(reading, table, over, at, centre, is_near)
-      type(reading_t), intent(in) :: reading
-      type(table_t), intent(in) :: table
-      integer, intent(in) :: over                !! column over which the slope is taken
-      real(wp), intent(in) :: at
-      real(wp), intent(out) :: centre            !! centre of the window; NaN if it has no value
-      logical, intent(out) :: is_near(:)
-      real(wp), parameter :: rounding = 1.0e-9_wp
-      real(wp) :: x(size(table%values, 2))
-      integer :: k
-
-      x = table%values(over, :)
-      centre = between(table%values(2, :), x, at)
-      is_near = .false.
-      if (.not. ieee_is_finite(centre)) return
-      do k = 1, size(x)
-         is_near(k) = ieee_is_finite(x(k))
-         if (is_near(k)) is_near(k) = abs(x(k) - centre) <= reading%asked%window*(1.0_wp + rounding)
-      end do
-   end subroutine find_window
-
-   !> Whether each state may lie in the window of a slope although the state has no abscissa: the column over which the slope is
-   !> taken is undefined. The result is .true. for a converged state next to a state in the window.
-   pure function unplaced_states(reading, table, over, is_near) result(is_unplaced)
-      type(reading_t), intent(in) :: reading
-      type(table_t), intent(in) :: table
-      integer, intent(in) :: over                !! column over which the slope is taken
-      logical, intent(in) :: is_near(:)          !! result of find_window
-      logical :: is_unplaced(size(is_near))
-      integer :: converged, k, n
-
-      n = size(is_near)
-      is_unplaced = .not. ieee_is_finite(table%values(over, :))
-      if (.not. any(is_unplaced)) return
-      do k = 1, n
-         if (is_unplaced(k)) is_unplaced(k) = is_near(max(k - 1, 1)) .or. is_near(min(k + 1, n))
-      end do
-      converged = place_of_column(table, 'converged', reading%at_converged)
-      if (converged > 0) is_unplaced = is_unplaced .and. table%values(converged, :) > 0.5_wp
-      if (converged == 0) is_unplaced = .false.
-   end function unplaced_states
-
-   !> The swept value `at`, or an end of the range of x if `at` equals this end within rounding.
-   pure real(wp) function rounded(at, x)
-      real(wp), intent(in) :: at, x(:)
-      real(wp) :: low, high
-
-      call find_ends(x, low, high)
-      rounded = nearest_end(at, low, high)
-   end function rounded
-
-   !> Finds the smallest and the largest swept value.
-   pure subroutine find_ends(x, low, high)
-      real(wp), intent(in) :: x(:)
-      real(wp), intent(out) :: low, high
-      integer :: k
-
-      low = huge(low)
-      high = -huge(high)
-      do k = 1, size(x)
-         low = min(low, x(k))
-         high = max(high, x(k))
-      end do
-   end subroutine find_ends
-
-   !> The swept value `at`, or `low` or `high` if `at` equals this end of the range within rounding.
-   pure real(wp) function nearest_end(at, low, high) result(rounded)
-      real(wp), intent(in) :: at, low, high
-      real(wp), parameter :: rounding = 1.0e-9_wp      ! of the range of a case, after conversion to SI
-
-      rounded = at
-      if (abs(at - low) <= rounding*(high - low)) rounded = low
-      if (abs(at - high) <= rounding*(high - low)) rounded = high
-   end function nearest_end
 
    !> Index of the column with a name; 0 if the table has no such column. The index `usual`, from the table of the design of the
    !> deck, is tried first.
@@ -302,40 +230,5 @@ contains
       end if
       place = column_index(table, name)
    end function place_of_column
-
-   !> Value of y at x = at, linear between the rows; NaN outside the range of x.
-   pure real(wp) function between(x, y, at)
-      real(wp), intent(in) :: x(:), y(:), at
-      integer :: k, next
-
-      between = ieee_value(1.0_wp, ieee_quiet_nan)
-      call neighbours(x, at, k, next)
-      if (k == 0) return
-      between = y(k)
-      if (next > k) between = y(k) + (y(next) - y(k))*(at - x(k))/(x(next) - x(k))
-   end function between
-
-   !> Finds the row with x = at, or the two rows between which x = at lies.
-   pure subroutine neighbours(x, at, first, last)
-      real(wp), intent(in) :: x(:), at
-      integer, intent(out) :: first, last        !! indices of the rows; 0 outside the range of x
-      integer :: k
-
-      first = 0
-      last = 0
-      do k = 1, size(x)
-         if (abs(x(k) - at) <= 0.0_wp) then
-            first = k
-            last = k
-            return
-         end if
-         if (k == size(x)) exit
-         if ((x(k) - at)*(x(k + 1) - at) < 0.0_wp) then
-            first = k
-            last = k + 1
-            return
-         end if
-      end do
-   end subroutine neighbours
 
 end module ek_response_value

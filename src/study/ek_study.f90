@@ -54,6 +54,7 @@ module ek_study
       real(wp) :: at = 0.0_wp !! swept value of the case at which the column is read (value) or the window is centred (slope)
       character(:), allocatable :: over           !! column over which the slope is taken; '': the wheel travel
       real(wp) :: window = 15.0_wp !! half width of the window of a slope, unit of `over`; gradient: 0 for the window of the report
+      logical :: has_window = .true.              !! the file gives the window; otherwise it ends where the range of the case ends
       character(:), allocatable :: file           !! rms: CSV file of the curve from which deviations are computed
       real(wp) :: lower = -huge(1.0_wp), upper = huge(1.0_wp)      !! limits for a design; ∓huge if not given
       character(word_length) :: names(2) = ''     !! difference: names of two preceding responses, first minus second

@@ -11,8 +11,9 @@ module ek_study_design
    use ek_text, only: quoted, replace
    use ek_deck, only: deck_t, set_value
    use ek_reader, only: definition_t
+   use ek_case, only: copy_places
    use ek_case_result, only: case_result_t, solve_case, solve_mounted, add_remarks, solved
-   use ek_table, only: table_t, column_index
+   use ek_table, only: table_t, column_index, scheduled_rows
    use ek_study, only: study_t, not_given, by_scale
    use ek_response_value, only: read_response, is_difference
    use ek_read_states, only: observe_read_states
@@ -154,6 +155,7 @@ contains
       end if
       do case = 1, size(workspace%cases)
          associate (this => workspace%cases(case))
+            call copy_places(designer%workspace%cases(case)%case, this%case)
             call solve_case(workspace%suspension, this%case, designer%options(case), this%result, observer=this%observer)
             if (.not. this%result%is_run()) call add_remarks(designer%options(case), this%result)
          end associate
@@ -233,11 +235,12 @@ contains
       integer, intent(in) :: k
       type(chunk_t), intent(inout) :: chunk
       real(wp), allocatable :: more(:, :)
-      logical :: is_next
+      logical :: is_next, is_scheduled(size(table%values, 2))
       integer :: place, j, rows, before
 
       if (size(study%columns) == 0) return
-      rows = size(table%values, 2)
+      is_scheduled = scheduled_rows(table)
+      rows = count(is_scheduled)
       if (chunk%rows + rows > size(chunk%curves, 2)) then
          allocate (more(size(chunk%curves, 1), 2*(chunk%rows + rows)))
          more(:, :chunk%rows) = chunk%curves(:, :chunk%rows)
@@ -248,14 +251,14 @@ contains
          chunk%curves(:, j + rows) = chunk%curves(:, j)
       end do
       associate (curves => chunk%curves(:, before + 1:before + rows))
-         curves(1, :) = table%values(2, :)
+         curves(1, :) = pack(table%values(2, :), is_scheduled)
          place = 2
          do j = 1, size(study%columns)
             is_next = place < size(table%columns)
             if (is_next) is_next = table%columns(place + 1) == study%columns(j)       ! many columns stand in their order
             place = merge(place + 1, 0, is_next)
             if (.not. is_next) place = column_index(table, study%columns(j))
-            if (place > 0) curves(1 + j, :) = table%values(place, :)
+            if (place > 0) curves(1 + j, :) = pack(table%values(place, :), is_scheduled)
             if (place == 0) curves(1 + j, :) = not_given()
          end do
       end associate

@@ -262,6 +262,7 @@ contains
       this%over = text_of(reading, 'over')
       this%at = number_of(reading, 'at', 0.0_wp)
       this%window = number_of(reading, 'window', merge(0.0_wp, this%window, this%of == 'gradient'))
+      this%has_window = has_key(reading, 'window')
       this%side = lower(text_of(reading, 'side'))
       call choice(reading, 'side', [character(5) :: 'left', 'right'], c)
       do c = 1, size(of_slopes)

@@ -38,6 +38,7 @@ class Table:
     """A table of a test: its rows that converged on the branch through design."""
 
     def __init__(self, path):
+        self.name = path.stem
         self.rows = rows_of(path)
 
     def column(self, side, name):
@@ -52,28 +53,46 @@ class Table:
         return at if at is not None and abs(float(self.rows[at]['factor'])) <= 1e-9 else None
 
 
+INNER = math.sqrt(3 / 7)                                        # inner points of Gauss and Lobatto
+POINTS = ((-1, 1 / 10), (-INNER, 49 / 90), (0, 32 / 45), (INNER, 49 / 90), (1, 1 / 10))
+
+
+def polynomial(x, y, at):
+    """The value at a place of the polynomial through points."""
+    value = 0.0
+    for k, own in enumerate(x):
+        share = y[k]
+        for j, other in enumerate(x):
+            if j != k:
+                share *= (at - other) / (own - other)
+        value += share
+    return value
+
+
 def slope(x, y, half):
-    """The least-squares slope over |x| <= half; nan with fewer than three states or with a gap."""
-    inside = [(a, b) for a, b in zip(x, y) if abs(a) <= half * (1 + 1e-6)]
-    if len(inside) < 3 or any(math.isnan(b) for _, b in inside):
+    """The slope of the least-squares line of y over |x| <= half, y the polynomial through five states; nan without the states."""
+    if len(x) != 5 or any(math.isnan(v) for v in (*x, *y)):
         return math.nan
-    mx, my = (sum(p[k] for p in inside) / len(inside) for k in (0, 1))
-    spread = sum((a - mx) ** 2 for a, _ in inside)
-    return sum((a - mx) * (b - my) for a, b in inside) / spread
+    along = sum(weight * half * point * polynomial(x, y, half * point) for point, weight in POINTS)
+    return along / sum(weight * (half * point) ** 2 for point, weight in POINTS)
+
+
+def cubic(x, y, at):
+    """The cubic curve through four points, or the line through two."""
+    return next((b for a, b in zip(x, y) if a == at), None) if at in x else polynomial(x, y, at)
 
 
 def where(x, y, factor, wanted):
-    """y where x has a value, linear between two states, nearest to design."""
-    best, value = math.inf, math.nan
-    for k in range(len(x) - 1):
-        part = x[k:k + 2] + y[k:k + 2]
-        if any(math.isnan(v) for v in part) or (x[k] - wanted) * (x[k + 1] - wanted) > 0 or x[k] == x[k + 1]:
-            continue
-        share = (wanted - x[k]) / (x[k + 1] - x[k])
-        place = abs(factor[k] + share * (factor[k + 1] - factor[k]))
-        if place < best:
-            best, value = place, y[k] + share * (y[k + 1] - y[k])
-    return value
+    """y where x has a value, on the cubic curve through two states on either side, nearest to design."""
+    good = [k for k in range(len(x)) if not math.isnan(x[k]) and not math.isnan(y[k])]
+    best, at = math.inf, None
+    for j, k in enumerate(good[:-1]):
+        if (x[k] - wanted) * (x[good[j + 1]] - wanted) <= 0 and abs(factor[k]) < best:
+            best, at = abs(factor[k]), j
+    if at is None:
+        return math.nan
+    near = good[at - 1:at + 3] if 0 < at < len(good) - 2 else good[at:at + 2]
+    return cubic([x[k] for k in near], [y[k] for k in near], wanted)
 
 
 def folds(table):
@@ -94,6 +113,10 @@ class Report:
         self.numbers = rows_of(self.folder / 'key_numbers.csv')
         self.by_name = {row['name']: row for row in self.numbers}
         self.checked, self.wrong = 0, []
+
+    def window(self, test):
+        """The states of the windows of a test."""
+        return Table(self.folder / 'windows' / f'{test}.csv')
 
     def table(self, test):
         if test not in self.tables:
@@ -128,16 +151,19 @@ class Report:
         table = self.table(re.match('test ([^,]+)', condition).group(1))
         if folds(table):
             return None, 0.0
-        if text.startswith('least-squares slope of '):
-            match = re.match(r'least-squares slope of (\S+) over (\w+)(?: \(1: (\S+) .*?\))?'
+        if text.startswith('slope of the least-squares line of '):
+            match = re.match(r'slope of the least-squares line of (\S+) over (\w+)(?: \(1: (\S+) .*?\))?'
                              r'(?:, times (\S+)(?: \(left wheel\), (\S+) \(right wheel\))?)?(?:;|$)', text)
             times = number(match[4] or '1')
             if match[5] and side == 'right':
                 times = number(match[5])
             half = number(re.search('within ±(\\S+) ', condition)[1])
             per_factor = number(match[3] or '1')
+            table = self.window(table.name)
             x = [v * per_factor for v in table.column(side, match[2])]
-            value = slope(x, table.column(side, match[1]), half) * per_factor * times
+            nodes = [min(range(len(x)), key=lambda k: abs(x[k] - point * half)) for point, _ in POINTS if x]
+            y = table.column(side, match[1])
+            value = slope([x[k] for k in nodes], [y[k] for k in nodes], half) * per_factor * times
             return value, 2e-2 * abs(times * per_factor) / half if number(row['value']) == 0 else 0.0
         if 'at this steer angle' in text:
             column, sign = text.split()[0], 1 if side == 'left' else -1
