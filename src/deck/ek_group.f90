@@ -198,6 +198,10 @@ module ek_group
       key_t(manoeuvre_group, 'longitudinal', number, 1, 1, .false.), &
       key_t(manoeuvre_group, 'lateral', number, 1, 1, .false.), &
       key_t(manoeuvre_group, 'longitudinal_by', word, 1, 1, .false.), &
+      key_t(manoeuvre_group, 'side', word, 1, 1, .false.), &
+      key_t(manoeuvre_group, 'wheels', number, 2, 2, .false., not_negative), &
+      key_t(manoeuvre_group, 'downforce', number, 1, 1, .false.), &
+      key_t(manoeuvre_group, 'steer', number, 1, 1, .false.), &
       key_t(case_group, 'load', word, 1, max_loads, .false., role=load_group), &
       key_t(case_group, 'drive', word, 1, 1, .false., role=joint_group), &
       key_t(case_group, 'wheel', word, 1, 1, .false., role=wheel_group), &

@@ -2,9 +2,12 @@
 module ek_reader_manoeuvres
    use ek_kinds, only: wp
    use ek_blueprint, only: manoeuvre_plan_t
-   use ek_group, only: axle_group, manoeuvre_group
+   use ek_case, only: manoeuvre_t
+   use ek_text, only: lower, str
+   use ek_group, only: axle_group, manoeuvre_group, wheel_group, steering_group, joint_group
    use ek_manoeuvre_records, only: set_names
-   use ek_record, only: is_given
+   use ek_record, only: is_given, element
+   use ek_reference, only: find_card, is_driver
    use ek_deck_reading, only: deck_reading_t, complain, refuse, where_of, line_of, has_key, choice, text_of, number_of, slot
    implicit none(type, external)
    private
@@ -16,11 +19,13 @@ contains
    subroutine read_manoeuvre(reading)
       type(deck_reading_t), intent(inout) :: reading
       type(manoeuvre_plan_t) :: plan
-      integer :: c
+      real(wp) :: steer_unit
+      integer :: c, usual
 
       if (has_key(reading, 'set')) then
          call choice(reading, 'set', set_names, c)
-         call refuse(reading, [character(16) :: 'name', 'vertical', 'longitudinal', 'lateral', 'longitudinal_by'], &
+         call refuse(reading, [character(16) :: 'name', 'vertical', 'longitudinal', 'lateral', 'longitudinal_by', 'side', &
+            'wheels', 'downforce', 'steer'], &
             'a set has its own numbers; to replace a manoeuvre of the set, give a &manoeuvre with its name')
          return
       end if
@@ -31,18 +36,71 @@ contains
          this%vertical = number_of(reading, 'vertical', 1.0_wp)
          this%longitudinal = number_of(reading, 'longitudinal', 0.0_wp)
          this%lateral = number_of(reading, 'lateral', 0.0_wp)
-         call choice(reading, 'longitudinal_by', [character(5) :: 'brake', 'drive'], c, &
-            default=merge(1, 2, this%longitudinal < 0.0_wp))
+         this%has_wheels = has_key(reading, 'wheels')
+         if (this%has_wheels) call refuse(reading, [character(8) :: 'vertical', 'side'], &
+            'wheels gives the load factor of each wheel')
+         call read_side(reading, this%side)
+         usual = merge(1, 2, this%longitudinal < 0.0_wp)
+         if (this%side > 0) usual = 3
+         call choice(reading, 'longitudinal_by', [character(8) :: 'brake', 'drive', 'obstacle'], c, default=usual)
          this%is_braked = c == 1
-         call check_car(reading, abs(this%longitudinal) > 0.0_wp .or. abs(this%lateral) > 0.0_wp)
+         this%hits_obstacle = c == 3
+         if (c == 3 .and. this%side == 0) call complain(reading, 'longitudinal_by', "longitudinal_by = 'obstacle' needs side: "// &
+            'the wheel that hits the obstacle')
+         if (this%has_wheels) this%wheels = [number_of(reading, 'wheels', 1.0_wp, 1), number_of(reading, 'wheels', 1.0_wp, 2)]
+         this%downforce = number_of(reading, 'downforce', 0.0_wp)*reading%units%force
+         steer_unit = 1.0_wp
+         if (has_key(reading, 'steer')) call find_steering(reading, plan%manoeuvre, steer_unit)
+         this%steer = number_of(reading, 'steer', 0.0_wp)*steer_unit
+         call check_car(reading, this%side == 0 .and. (abs(this%longitudinal) > 0.0_wp .or. abs(this%lateral) > 0.0_wp))
       end associate
       if (.not. reading%cards(reading%k)%is_good) return
-      call slot(reading, 'vertical', 1.0_wp, plan%vertical, default=1.0_wp)
+      if (.not. plan%manoeuvre%has_wheels) call slot(reading, 'vertical', 1.0_wp, plan%vertical, default=1.0_wp)
       call slot(reading, 'longitudinal', 1.0_wp, plan%longitudinal, default=0.0_wp)
       call slot(reading, 'lateral', 1.0_wp, plan%lateral, default=0.0_wp)
+      call slot(reading, 'wheels', 1.0_wp, plan%wheels, count=2)
+      call slot(reading, 'downforce', reading%units%force, plan%downforce)
+      call slot(reading, 'steer', steer_unit, plan%steer)
       reading%plan%manoeuvres = [reading%plan%manoeuvres, plan]
       reading%cards(reading%k)%index = size(reading%plan%manoeuvres)
    end subroutine read_manoeuvre
+
+   !> Reads the side of the wheel that a manoeuvre of one wheel loads. The deck must have a wheel on this side.
+   subroutine read_side(reading, side)
+      type(deck_reading_t), intent(inout) :: reading
+      integer, intent(out) :: side           !! 1 left, 2 right, 0: not given
+      character(5), parameter :: sides(2) = [character(5) :: 'left', 'right']
+      integer :: j
+
+      call choice(reading, 'side', sides, side)
+      if (side == 0 .or. .not. any(reading%cards%group == wheel_group)) return
+      if (.not. any([(reading%cards(j)%group == wheel_group .and. lower(element(reading%records(j), 'side', 1)) == sides(side), &
+         j=1, size(reading%cards))])) call complain(reading, 'side', 'side: the deck has no '//trim(sides(side))//' wheel')
+   end subroutine read_side
+
+   !> Finds the steering driver that a manoeuvre holds: the driver of &steering, otherwise the only driver of the deck.
+   subroutine find_steering(reading, this, unit)
+      type(deck_reading_t), intent(inout) :: reading
+      type(manoeuvre_t), intent(inout) :: this
+      real(wp), intent(inout) :: unit        !! SI value of the deck unit of the driver; unchanged if not found
+      logical :: is_one(size(reading%cards))
+      integer :: j, found
+
+      is_one = [(is_driver(reading, j), j=1, size(reading%cards))]
+      j = findloc(reading%cards%group, steering_group, dim=1)
+      if (j > 0) then
+         found = find_card(reading, joint_group, element(reading%records(j), 'driver', 1))
+         if (found == 0) return              ! reported with &steering
+      else if (count(is_one) == 1) then
+         found = findloc(is_one, .true., dim=1)
+      else
+         call complain(reading, 'steer', 'steer needs a steering driver, found '// &
+            'no &steering and '//str(count(is_one))//' driver joints: add &steering with its driver')
+         return
+      end if
+      unit = reading%cards(found)%factor
+      this%driver = trim(reading%cards(found)%name)
+   end subroutine find_steering
 
    !> Checks that the deck has the data of the car that a manoeuvre needs: &axle with `mass` for an acceleration, and gravity if
    !> bodies have masses. A manoeuvre after a manoeuvre with an error is not checked, so that a missing number is reported once.

@@ -108,6 +108,8 @@ module ek_blueprint
    type :: manoeuvre_plan_t
       type(manoeuvre_t) :: manoeuvre
       integer :: vertical = 0, longitudinal = 0, lateral = 0
+      integer :: wheels = 0                        !! the first of two
+      integer :: downforce = 0, steer = 0
    end type manoeuvre_plan_t
 
    type :: blueprint_t
@@ -223,7 +225,9 @@ contains
          end do
          if (case == 0) return
          is_used_elsewhere = is_used_elsewhere .or. any(self%manoeuvres%vertical == number) .or. &
-            any(self%manoeuvres%longitudinal == number) .or. any(self%manoeuvres%lateral == number)
+            any(self%manoeuvres%longitudinal == number) .or. any(self%manoeuvres%lateral == number) .or. &
+            any(self%manoeuvres%downforce == number) .or. any(self%manoeuvres%steer == number) .or. &
+            any(self%manoeuvres%wheels > 0 .and. (self%manoeuvres%wheels == number .or. self%manoeuvres%wheels + 1 == number))
          associate (c => self%cases(case))
             is_used_elsewhere = is_used_elsewhere .or. any([c%from, c%to, c%offset, c%steer_from, c%steer_to] == number)
          end associate

@@ -51,13 +51,21 @@ module ek_case
       type(message_list_t) :: names           !! name of each row; empty: the rows have no names
    end type load_table_t
 
-   !> A manoeuvre of the car, given by the load factor and the accelerations of the car.
+   !> A manoeuvre of the car, given by the load factor and the accelerations of the car. With a side, the three numbers are forces
+   !> on the wheel of this side per load of the wheel when the car stands.
    type :: manoeuvre_t
       character(:), allocatable :: name, where
       real(wp) :: vertical = 1.0_wp        !! load factor: vertical force of the road per weight; 1 when the car stands [-]
       real(wp) :: longitudinal = 0.0_wp    !! acceleration per standard gravity, positive forward [-]
       real(wp) :: lateral = 0.0_wp         !! acceleration per standard gravity, positive to the left [-]
       logical :: is_braked = .false.       !! the brakes give the longitudinal force; otherwise the drive
+      logical :: hits_obstacle = .false.   !! an obstacle gives the longitudinal force, which acts at the wheel centre
+      integer :: side = 0                  !! 1 left, 2 right: only this wheel is loaded, the other one stands; 0: the car is loaded
+      logical :: has_wheels = .false.      !! each wheel has its own load factor, in place of `vertical`
+      real(wp) :: wheels(2) = 1.0_wp       !! load factors of the left and of the right wheel [-]
+      real(wp) :: downforce = 0.0_wp       !! aerodynamic force on the axle, positive downward [N]
+      character(:), allocatable :: driver  !! steering driver that the manoeuvre holds; not allocated: none
+      real(wp) :: steer = 0.0_wp           !! change of the value of this driver from design [m, rad]
    end type manoeuvre_t
 
    !> A case as given in the deck, in SI. Without a `test`, either `load` or `drive` is not empty.
@@ -133,6 +141,7 @@ contains
    pure subroutine copy_case_numbers(from, to)
       type(case_t), intent(in) :: from
       type(case_t), intent(inout) :: to
+      integer :: k
 
       if (.not. allocated(to%name)) then
          to = from
@@ -149,9 +158,16 @@ contains
       to%has_all = from%has_all
       call copy_places(from, to)
       if (.not. allocated(from%manoeuvres)) return
-      to%manoeuvres%vertical = from%manoeuvres%vertical
-      to%manoeuvres%longitudinal = from%manoeuvres%longitudinal
-      to%manoeuvres%lateral = from%manoeuvres%lateral
+      do k = 1, size(from%manoeuvres)
+         associate (this => to%manoeuvres(k), other => from%manoeuvres(k))
+            this%vertical = other%vertical
+            this%longitudinal = other%longitudinal
+            this%lateral = other%lateral
+            this%wheels = other%wheels
+            this%downforce = other%downforce
+            this%steer = other%steer
+         end associate
+      end do
    end subroutine copy_case_numbers
 
    !> Copies the places of readings from a case that has some.

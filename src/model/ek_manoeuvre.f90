@@ -3,13 +3,17 @@
 !> With g the gravity of the deck (standard gravity if the deck has none), m the mass of the car, h the height of its centre of
 !> gravity, L the wheelbase, t the track, and N0 the load of the axle when the car stands:
 !>
-!>     axle load          N  = n N0 ± m g a_x h/L          + rear axle, a_x: acceleration forward per g
+!>     axle load          N  = n N0 ± m g a_x h/L + D      + rear axle, a_x: acceleration forward per g, D: downforce on the axle
 !>     load transfer      ΔN = s m g a_y h/t               from the inner to the outer wheel, s: roll share of the axle
 !>     lateral force      N0 a_y                           in proportion to the vertical forces of the wheels
 !>     longitudinal force m g a_x × share of the axle      share of the brakes or of the drive, in the same proportion
 !>
 !> A wheel that lifts carries 0, and the other wheel carries the load of the axle. In a deck with one wheel, the other wheel is its
 !> mirror image. The masses of the deck carry m (n − 1) g downward and m g a against the acceleration, in addition to their weights.
+!>
+!> With a load factor n_k of each wheel, n_k N0_k replaces n N0_k, the part of the wheel in n N0. In a manoeuvre of one wheel, the
+!> car is not accelerated: the wheel with the load N0_k when the car stands carries n N0_k upward, a_x N0_k forward and a_y N0_k to
+!> the left, and the other wheel carries its load when the car stands. In both, each mass has the factors of the wheel on its side.
 module ek_manoeuvre
    use ek_kinds, only: wp
    use ek_text, only: str
@@ -19,11 +23,14 @@ module ek_manoeuvre
    implicit none(type, external)
    private
    public :: has_manoeuvres, wheel_forces, set_manoeuvre_values, standing_load, axle_fault, manoeuvre_fault, can_drive
-   public :: vertical_column, lateral_column, brake_column, drive_column, columns_of_side, inertia_column
+   public :: vertical_column, lateral_column, brake_column, drive_column, obstacle_column, columns_of_side, inertia_column, &
+      steer_column, has_sides
 
-   ! columns of the loads of a manoeuvre: four for each side, then three for the masses
-   integer, parameter :: vertical_column = 1, lateral_column = 2, brake_column = 3, drive_column = 4, columns_of_side = 4
-   integer, parameter :: inertia_column(3) = [9, 10, 11]
+   ! columns of the inputs of a manoeuvre: five for each side; three for the masses of the car, on the left and on the right; steering
+   integer, parameter :: vertical_column = 1, lateral_column = 2, brake_column = 3, drive_column = 4, obstacle_column = 5, &
+      columns_of_side = 5
+   integer, parameter :: inertia_column(3, 0:2) = reshape([11, 12, 13, 14, 15, 16, 17, 18, 19], [3, 3])
+   integer, parameter :: steer_column = 20
 
    real(wp), parameter :: standard_gravity = 9.80665_wp      !! m/s²
 
@@ -39,6 +46,12 @@ contains
       has_manoeuvres = .false.
       if (allocated(case%test)) has_manoeuvres = case%test == 'manoeuvres'
    end function has_manoeuvres
+
+   !> Whether the left and the right side of the car have different load factors or accelerations in a manoeuvre of a case.
+   pure logical function has_sides(case)
+      type(case_t), intent(in) :: case
+      has_sides = any(case%manoeuvres%side > 0) .or. any(case%manoeuvres%has_wheels)
+   end function has_sides
 
    !> Gravity of the deck; standard gravity if the deck has no gravity [m/s²].
    pure real(wp) function gravity_of(suspension) result(gravity)
@@ -106,14 +119,20 @@ contains
       type(manoeuvre_t), intent(in) :: manoeuvre
       real(wp), intent(out) :: forces(3, 2)     !! (component, side) rearward, to the right, upward [N]
       integer, intent(out) :: fault             !! none, rolls_over, lifts_off
-      real(wp) :: standing, shares(2), weight, axle_load, transfer, roll_share, share, track
+      real(wp) :: standing, shares(2), weight, vertical, axle_load, further, transfer, roll_share, share, track
       integer :: k
 
       fault = none
       call standing_axle(suspension, standing, shares)
+      if (manoeuvre%side > 0) then
+         call load_one_wheel(standing*shares, shares, manoeuvre, forces, fault)
+         return
+      end if
       associate (axle => suspension%axle)
          weight = axle%mass*gravity_of(suspension)
-         axle_load = manoeuvre%vertical*standing
+         vertical = manoeuvre%vertical
+         if (manoeuvre%has_wheels) vertical = dot_product(shares, manoeuvre%wheels)
+         axle_load = vertical*standing
          transfer = 0.0_wp
          share = 0.0_wp
          if (axle%has_axle) then
@@ -124,16 +143,20 @@ contains
             track = track_of(suspension)
             if (abs(manoeuvre%lateral) > 0.0_wp) then
                transfer = roll_share*weight*manoeuvre%lateral*axle%cg_height/track
-               if (abs(manoeuvre%lateral)*axle%cg_height > 0.5_wp*track*manoeuvre%vertical) fault = rolls_over
+               if (abs(manoeuvre%lateral)*axle%cg_height*standing > 0.5_wp*track*(vertical*standing + manoeuvre%downforce)) &
+                  fault = rolls_over
             end if
             share = axle%drive_share
             if (manoeuvre%is_braked) share = merge(axle%brake_share, 1.0_wp - axle%brake_share, axle%is_front)
          end if
+         axle_load = axle_load + manoeuvre%downforce
+         further = axle_load - vertical*standing
          if (axle_load < 0.0_wp) then
             fault = lifts_off
             axle_load = 0.0_wp
          end if
          forces(3, :) = axle_load*shares + [-transfer, transfer]      ! to the left: the right wheel is the outer one
+         if (manoeuvre%has_wheels) forces(3, :) = (standing*manoeuvre%wheels + further)*shares + [-transfer, transfer]
          do k = 1, 2
             if (forces(3, k) >= 0.0_wp) cycle
             forces(3, k) = 0.0_wp
@@ -146,15 +169,47 @@ contains
       end associate
    end subroutine wheel_forces
 
-   !> Sets the values of an actuation in all manoeuvres of a case: the change of a force of a wheel from design [N], or the
-   !> acceleration of the masses that acts in addition to their weights [m/s²]. Memory of a suitable size is used again.
+   !> Computes the forces of the road on the wheels in a manoeuvre of one wheel, whose factors count from its load when the car
+   !> stands. The other wheel stands.
+   pure subroutine load_one_wheel(standing, shares, manoeuvre, forces, fault)
+      real(wp), intent(in) :: standing(2)       !! loads of the left and of the right wheel when the car stands [N]
+      real(wp), intent(in) :: shares(2)         !! shares of the wheels in the load of the axle [-]
+      type(manoeuvre_t), intent(in) :: manoeuvre
+      real(wp), intent(out) :: forces(3, 2)     !! as for wheel_forces [N]
+      integer, intent(out) :: fault             !! none, lifts_off
+
+      forces = 0.0_wp
+      forces(3, :) = standing
+      associate (load => standing(manoeuvre%side))
+         forces(:, manoeuvre%side) = load*[-manoeuvre%longitudinal, -manoeuvre%lateral, manoeuvre%vertical]
+      end associate
+      forces(3, :) = forces(3, :) + manoeuvre%downforce*shares
+      fault = merge(lifts_off, none, any(forces(3, :) < 0.0_wp))
+      forces(3, :) = max(forces(3, :), 0.0_wp)
+   end subroutine load_one_wheel
+
+   !> The load factor and the accelerations of the masses on a side of the car: vertical, longitudinal, lateral [-].
+   pure function factors_of(manoeuvre, side) result(factors)
+      type(manoeuvre_t), intent(in) :: manoeuvre
+      integer, intent(in) :: side               !! 1 left, 2 right, 0 the car
+      real(wp) :: factors(3)
+
+      factors = [manoeuvre%vertical, manoeuvre%longitudinal, manoeuvre%lateral]
+      if (side == 0) return
+      if (manoeuvre%has_wheels) factors(1) = manoeuvre%wheels(side)
+      if (manoeuvre%side == 3 - side) factors = [1.0_wp, 0.0_wp, 0.0_wp]
+   end function factors_of
+
+   !> Sets the values of an actuation in all manoeuvres of a case: the change of a force of a wheel from design [N], the acceleration
+   !> of the masses that acts in addition to their weights [m/s²], or the position of the steering [m, rad]. Memory of a suitable size
+   !> is used again.
    pure subroutine set_manoeuvre_values(suspension, case, column, values)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
       integer, intent(in) :: column             !! one of the columns above; the columns of the right side follow the left side
       real(wp), allocatable, intent(inout) :: values(:)
-      real(wp) :: forces(3, 2), gravity
-      integer :: k, side, part, fault, wheels(2)
+      real(wp) :: forces(3, 2), factors(3), gravity
+      integer :: k, side, part, fault, wheels(2), at(2)
 
       if (allocated(values)) then
          if (size(values) /= size(case%manoeuvres)) deallocate (values)
@@ -164,14 +219,16 @@ contains
       gravity = gravity_of(suspension)
       side = (column - 1)/columns_of_side + 1
       part = column - (side - 1)*columns_of_side
+      at = findloc(inertia_column, column) - [0, 1]      ! direction, side
       do k = 1, size(values)
          associate (this => case%manoeuvres(k))
-            if (column == inertia_column(1)) then
-               values(k) = gravity*this%longitudinal             ! rearward, against the acceleration
-            else if (column == inertia_column(2)) then
-               values(k) = gravity*this%lateral                  ! to the right
-            else if (column == inertia_column(3)) then
-               values(k) = -gravity*(this%vertical - 1.0_wp)
+            if (column == steer_column) then
+               values(k) = this%steer
+            else if (at(1) > 0) then
+               factors = factors_of(this, at(2))
+               if (at(1) == 1) values(k) = gravity*factors(2)      ! rearward, against the acceleration
+               if (at(1) == 2) values(k) = gravity*factors(3)      ! to the right
+               if (at(1) == 3) values(k) = -gravity*(factors(1) - 1.0_wp)
             else
                call wheel_forces(suspension, this, forces, fault)
                select case (part)
@@ -181,8 +238,10 @@ contains
                   values(k) = forces(2, side)
                case (brake_column)
                   values(k) = merge(forces(1, side), 0.0_wp, this%is_braked)
+               case (drive_column)
+                  values(k) = merge(0.0_wp, forces(1, side), this%is_braked .or. this%hits_obstacle)
                case default
-                  values(k) = merge(0.0_wp, forces(1, side), this%is_braked)
+                  values(k) = merge(forces(1, side), 0.0_wp, this%hits_obstacle)
                end select
             end if
          end associate
@@ -223,19 +282,34 @@ contains
       type(suspension_t), intent(in) :: suspension
       type(manoeuvre_t), intent(in) :: manoeuvre
       character(:), allocatable :: words
-      real(wp) :: forces(3, 2)
+      character(:), allocatable :: factor, aerodynamic
+      real(wp) :: forces(3, 2), standing, shares(2), vertical
       integer :: fault
 
       call wheel_forces(suspension, manoeuvre, forces, fault)
       words = ''
+      if (fault == none) return
+      call standing_axle(suspension, standing, shares)
+      vertical = manoeuvre%vertical
+      factor = 'vertical'
+      if (manoeuvre%has_wheels) then
+         vertical = dot_product(shares, manoeuvre%wheels)
+         factor = 'the mean of wheels'
+      end if
+      aerodynamic = ''
+      if (abs(manoeuvre%downforce) > 0.0_wp) aerodynamic = ', downforce = '//str(manoeuvre%downforce, 6)//' N'
       select case (fault)
       case (rolls_over)
-         words = 'the car rolls over: lateral must be at most vertical × track/(2 cg_height) = '// &
-            str(0.5_wp*track_of(suspension)*manoeuvre%vertical/suspension%axle%cg_height, 4)//' g, found '// &
-            str(abs(manoeuvre%lateral))//' g: use a smaller lateral, or a larger vertical'
+         words = 'the car rolls over: lateral must be at most '//factor//' × track/(2 cg_height) = '
+         if (aerodynamic /= '') words = 'the car rolls over: lateral must be at most ('//factor// &
+            ' + downforce/axle load) × track/(2 cg_height) = '
+         words = words//str(0.5_wp*track_of(suspension)*(vertical + manoeuvre%downforce/standing)/suspension%axle%cg_height, 4)// &
+            ' g, found '//str(abs(manoeuvre%lateral))//' g: use a smaller lateral, or a larger '// &
+            trim(merge('factor  ', 'vertical', manoeuvre%has_wheels))
       case (lifts_off)
-         words = 'the axle lifts off the road: its load must not be below 0 with vertical = '//str(manoeuvre%vertical)// &
-            ' and longitudinal = '//str(manoeuvre%longitudinal)//': use a smaller acceleration, or a larger vertical'
+         words = 'the axle lifts off the road: its load must not be below 0 with '//factor//' = '//str(vertical)//aerodynamic// &
+            ' and longitudinal = '//str(manoeuvre%longitudinal)//': use a smaller acceleration, or a larger '// &
+            trim(merge('factor  ', 'vertical', manoeuvre%has_wheels))
       end select
    end function manoeuvre_fault
 

@@ -333,9 +333,14 @@ contains
             if (cases(k)%test == 'table') cycle
             if (has_manoeuvres(cases(k))) then
                do j = 1, size(cases(k)%manoeuvres)
-                  cases(k)%manoeuvres(j)%vertical = number_at(x, plan%manoeuvres(j)%vertical, 1.0_wp)
-                  cases(k)%manoeuvres(j)%longitudinal = number_at(x, plan%manoeuvres(j)%longitudinal)
-                  cases(k)%manoeuvres(j)%lateral = number_at(x, plan%manoeuvres(j)%lateral)
+                  associate (to => cases(k)%manoeuvres(j), from => plan%manoeuvres(j))
+                     to%vertical = number_at(x, from%vertical, 1.0_wp)
+                     to%longitudinal = number_at(x, from%longitudinal)
+                     to%lateral = number_at(x, from%lateral)
+                     to%downforce = number_at(x, from%downforce)
+                     to%steer = number_at(x, from%steer)
+                     if (from%wheels > 0) to%wheels = x(from%wheels:from%wheels + 1)
+                  end associate
                end do
                cycle
             end if

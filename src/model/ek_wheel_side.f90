@@ -4,7 +4,7 @@ module ek_wheel_side
    use ek_suspension, only: suspension_t
    implicit none(type, external)
    private
-   public :: side_name, left_and_right, is_axle, single_side, prefix_of, design_track, deck_frame, share_on_wheel
+   public :: side_name, left_and_right, is_axle, single_side, prefix_of, design_track, deck_frame, share_on_wheel, share_of_mass
 
 contains
 
@@ -63,6 +63,21 @@ contains
          end if
       end do
    end function share_on_wheel
+
+   !> Share of the mass of a body that moves with the wheels of a side [-]: 1 if its centre of gravity is on this side of the car,
+   !> otherwise 0; ½ in the middle of the car, and for a body with both wheels.
+   pure real(wp) function share_of_mass(suspension, body, side) result(share)
+      type(suspension_t), intent(in) :: suspension
+      integer, intent(in) :: body
+      integer, intent(in) :: side             !! 1 left, 2 right
+      real(wp), parameter :: middle = 1.0e-9_wp      ! m: tolerance of the middle of the car
+      real(wp) :: outboard
+
+      outboard = suspension%bodies(body)%origin(2) + suspension%bodies(body)%centre(2)
+      if (side == 1) outboard = -outboard
+      share = merge(1.0_wp, 0.0_wp, outboard > 0.0_wp)
+      if (abs(outboard) <= middle .or. count(suspension%wheels%body == body) > 1) share = 0.5_wp
+   end function share_of_mass
 
    !> Signs of x, y, z from the frame of the program to the frame of the deck.
    pure function deck_frame(suspension) result(frame)

@@ -21,13 +21,13 @@ module ek_rig
    use ek_contract, only: are_checked, require
    use ek_rig_test, only: rig_test_t, rig_test, of_one_wheel, swept_unit, moves_heights, rolls, steers, loads_wheels, takes_table, &
       covers_grid, drives_car, of_braking
-   use ek_wheel_side, only: side_name, left_and_right, design_track
+   use ek_wheel_side, only: side_name, left_and_right, design_track, share_of_mass
    use ek_suspension, only: suspension_t, driver_unit, copy_numbers
    use ek_kkt, only: kkt_t, renew_kkt
    use ek_path, only: walk_t, empty_walk
    use ek_grid, only: is_grid, grid_size, set_grid_values
    use ek_manoeuvre, only: has_manoeuvres, set_manoeuvre_values
-   use ek_manoeuvre_loads, only: load_wheel, load_masses
+   use ek_manoeuvre_loads, only: load_wheel, load_masses, hold_steering
    use ek_rig_parts, only: rig_t, acting_t, new_rig, add_height, add_load
    use ek_case, only: case_t, append_actuation, copy_case_numbers, is_mountable, follows_place, follows_tangent, follows_table
    use ek_measure, only: measure_t, global_gap
@@ -226,6 +226,7 @@ contains
             if (wheels(side) > 0) call load_wheel(suspension, case, wheels(side), side, rig)
          end do
          call load_masses(suspension, case, rig)
+         call hold_steering(case, rig)
          rig%is_table = .true.
       end select
    end subroutine add_parts
@@ -382,6 +383,7 @@ contains
             if (this%mass > 0) then
                load%arm = suspension%bodies(this%mass)%centre
                load%force = suspension%bodies(this%mass)%mass*this%force
+               if (this%side > 0) load%force = share_of_mass(suspension, this%mass, this%side)*load%force
                cycle
             end if
             load%arm = suspension%wheels(this%wheel)%centre

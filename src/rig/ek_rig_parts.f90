@@ -24,6 +24,7 @@ module ek_rig_parts
       logical :: has_trail = .false.                     !! the offset of the case gives a moment
       integer :: mass = 0                                !! index of a body: its mass times the force acts at its centre of gravity;
                                                          !! 0: the load acts on a wheel
+      integer :: side = 0                                !! of a mass: only its share on the left (1) or on the right (2)
    end type acting_t
 
    !> Additions of a case to a suspension. The indices of joints, rows, terms and loads of the rig continue after the suspension.
