@@ -331,6 +331,7 @@ contains
          if (box%has_failed()) return
       end do
       page%incomplete = failed
+      if (size(suspension%tilts) > 0) allocate (page%tilts, source=suspension%tilts)
       if (failed > 0) call fail(incomplete, code, str(failed)//' of '//plural(size(chosen), 'test', 'tests')// &
          trim(merge(' is ', ' are', failed == 1))//' incomplete; see the warnings at the top of the report')
    end subroutine run_tests

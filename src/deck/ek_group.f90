@@ -54,7 +54,7 @@ module ek_group
 
    type :: key_t
       integer :: group
-      character(16) :: name
+      character(18) :: name
       integer :: type
       integer :: least, most     !! least and largest number of values
       logical :: is_required
@@ -105,6 +105,8 @@ module ek_group
       key_t(joint_group, 'ratios', number, 1, max_measures, .false., not_zero), &
       key_t(joint_group, 'stiffness', number, 1, 1, .false., positive), &
       key_t(joint_group, 'balance', switch, 1, 1, .false.), &
+      key_t(joint_group, 'rating_angle', number, 1, 2, .false., positive), &
+      key_t(joint_group, 'rating_axis_vector', number, 3, 6, .false., role=polar), &
       key_t(bushing_group, 'bodies', word, 2, 2, .true., role=body_group), &
       key_t(bushing_group, 'at', word, 1, 2, .true., role=point_group), &
       key_t(bushing_group, 'z_axis', word, 2, 2, .false., role=point_group), &
@@ -112,6 +114,8 @@ module ek_group
       key_t(bushing_group, 'x_axis', word, 2, 2, .false., role=point_group), &
       key_t(bushing_group, 'x_vector', number, 3, 3, .false., role=polar), &
       key_t(bushing_group, 'mirrored', switch, 1, 1, .false.), &
+      key_t(bushing_group, 'rating_angle', number, 1, 1, .false., positive), &
+      key_t(bushing_group, 'rating_axis_vector', number, 3, 3, .false., role=polar), &
       key_t(bushing_group, 'kt', number, 3, 3, .false., not_negative, has_zeros=.true.), &
       key_t(bushing_group, 'kr', number, 3, 3, .false., not_negative, has_zeros=.true.), &
       key_t(bushing_group, 'curve', word, 1, 6, .false., role=curves), &
@@ -378,11 +382,11 @@ contains
       integer, intent(in) :: group
       character(*), intent(in) :: name
       character(:), allocatable :: words
-      character(16) :: names(count(keys%group == group))
+      character(len(keys%name)) :: names(count(keys%group == group))
 
       names = pack(keys%name, keys%group == group)
       words = 'there is no key '//quoted(name)//' in &'//trim(group_names(group))// &
-         did_you_mean(name, [character(16) :: names(:1), 'note', names(2:)])
+         did_you_mean(name, [character(len(names)) :: names(:1), 'note', names(2:)])
    end function unknown_key
 
 end module ek_group

@@ -18,6 +18,7 @@ module ek_reader_elements
    use ek_group, only: measure_group, bushing_group, spring_group, damper_group, stop_group, torsion_group, word_length
    use ek_deck_reading, only: deck_reading_t, complain, where_of, has_key, choice, text_of, texts_of, switch_of, number_of, &
       numbers_of, value_count, refuse, slot
+   use ek_reader_ratings, only: rating_t, read_rating, add_tilts
    use ek_reference, only: look_up, find_bodies, find_direction, find_ends, find_curve, new_vector
    implicit none(type, external)
    private
@@ -236,6 +237,7 @@ contains
       type(deck_reading_t), intent(inout) :: reading
       type(bushing_plan_t) :: plan
       type(element_t) :: element
+      type(rating_t) :: rating
       integer :: number(2)
 
       call find_bodies(reading, number)
@@ -245,6 +247,7 @@ contains
          call complain(reading, '', "give 'kt', 'kr' or 'curve'")
       call find_laws(reading, plan, element%bushing)
       call find_axes(reading, plan)
+      call read_rating(reading, 1, .false., rating)
       if (.not. reading%cards(reading%k)%is_good) return
 
       associate (units => reading%units)
@@ -266,6 +269,7 @@ contains
       call set_kind(element, bushing_element, measure_t(body_i=number(1), body_j=number(2)))
       reading%plan%prototype%elements = [reading%plan%prototype%elements, element]
       reading%plan%bushings = [reading%plan%bushings, plan]
+      call add_tilts(reading, rating, 0, size(reading%plan%bushings))
    end subroutine read_bushing
 
    !> Finds the curves of a bushing from strings such as 'fx=c' or 'mz=-c'. The minus sign stands for the curve reflected through

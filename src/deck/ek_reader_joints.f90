@@ -5,13 +5,14 @@ module ek_reader_joints
    use ek_rotation, only: angle_between
    use ek_measure, only: axis_axis, body_gap, global_gap, distance, rotation, is_of_angle
    use ek_joint, only: term_t, joint_geometry_t, joint_terms, joint_kinds, joint_table, joint_kind_t, axes_fit, max_terms, &
-      no_axis, one_or_two, two_axes, either_axis, right_angle, no_angle, not_opposed
+      no_axis, one_or_two, two_axes, either_axis, right_angle, no_angle, not_opposed, rod_part
    use ek_suspension, only: readout_t
    use ek_assembly, only: append_joint
    use ek_blueprint, only: vector_t, readout_plan_t, joint_plan_t, across, upright
    use ek_group, only: measure_group, word_length, max_measures
    use ek_deck_reading, only: deck_reading_t, complain, where_of, has_key, choice, text_of, texts_of, switch_of, value_count, &
       refuse, slot
+   use ek_reader_ratings, only: rating_t, read_rating, add_tilts
    use ek_reference, only: look_up, find_bodies, find_direction, find_ends, check_apart, new_vector
    implicit none(type, external)
    private
@@ -100,6 +101,7 @@ contains
       type(joint_kind_t), intent(in) :: kind
       type(joint_geometry_t) :: geometry
       type(joint_plan_t) :: plan
+      type(rating_t) :: rating
       type(term_t) :: terms(max_terms)
       integer :: terms_of_row(max_terms), rows, numbers(2)
       logical :: has_bodies, has_points, has_u, has_v, is_u, is_v
@@ -114,6 +116,7 @@ contains
       call find_direction(reading, 'axis', 'axis_vector', plan%axes(1), has_u, is_u)
       call find_direction(reading, 'axis_2', 'axis_2_vector', plan%axes(2), has_v, is_v)
       if (is_u .and. is_v) call check_axes(reading, kind%angle, plan%axes)
+      if (has_stud(kind)) call read_rating(reading, merge(2, 1, kind%part == rod_part), kind%part /= rod_part, rating)
       if (.not. reading%cards(reading%k)%is_good .or. .not. has_bodies) return
       if (kind%axes == either_axis) then
          if (.not. has_v) call new_vector(reading, vector_t(kind=across, a=plan%axes(1)), plan%axes(2))
@@ -131,6 +134,7 @@ contains
             terms(:sum(terms_of_row(:rows))), terms_of_row(:rows))
          if (kind%axes == either_axis .and. .not. has_u) model%joints(size(model%joints))%chosen_axis = 1
          if (kind%axes == either_axis .and. .not. has_v) model%joints(size(model%joints))%chosen_axis = 2
+         call add_tilts(reading, rating, size(model%joints), 0)
       end associate
    end subroutine make_joint
 
@@ -218,14 +222,20 @@ contains
       call append_joint(reading%plan%prototype, text_of(reading, 'name'), where_of(reading), kind, terms, [size(terms)])
    end subroutine append_measures
 
+   !> Whether a joint has studs, whose tilt may be rated.
+   pure logical function has_stud(kind)
+      type(joint_kind_t), intent(in) :: kind
+      has_stud = any(kind%name == [character(9) :: 'spherical', 'universal', 'distance'])
+   end function has_stud
+
    !> Checks that a joint has the keys that its type requires, and no other keys.
    subroutine check_keys(reading, kind)
       type(deck_reading_t), intent(inout) :: reading
       type(joint_kind_t), intent(in) :: kind
-      character(*), parameter :: joint_keys(11) = [character(13) :: 'bodies', 'at', 'axis', 'axis_vector', 'axis_2', &
-         'axis_2_vector', 'measure', 'measures', 'ratios', 'stiffness', 'balance']
+      character(*), parameter :: joint_keys(13) = [character(18) :: 'bodies', 'at', 'axis', 'axis_vector', 'axis_2', &
+         'axis_2_vector', 'measure', 'measures', 'ratios', 'stiffness', 'balance', 'rating_angle', 'rating_axis_vector']
       character(:), allocatable :: a_joint
-      logical :: has_axis, has_second, may(11), must(11)
+      logical :: has_axis, has_second, may(13), must(13)
       integer :: j
 
       a_joint = 'a '//trim(kind%name)//' joint'
@@ -234,9 +244,10 @@ contains
       may(5:6) = kind%axes >= one_or_two
       may([7, 10, 11]) = kind%name == 'driver'
       may(8:9) = kind%name == 'coupler'
+      may(12:13) = has_stud(kind)
       must = may
       must(2) = kind%min_points > 0
-      must([3, 4, 5, 6, 10, 11]) = .false.
+      must([3, 4, 5, 6, 10, 11, 12, 13]) = .false.
       do j = 1, size(joint_keys)
          if (.not. may(j)) call refuse(reading, joint_keys(j:j), a_joint//' does not accept this key')
          if (must(j) .and. .not. has_key(reading, trim(joint_keys(j)))) &

@@ -258,7 +258,7 @@ contains
       integer, intent(in) :: at
 
       sign = 1.0_wp
-      if (role_of(record, key) == merge(polar, axial, at == 2)) sign = -1.0_wp
+      if (role_of(record, key) == merge(polar, axial, modulo(at, 3) == 2)) sign = -1.0_wp
    end function sign_of_image
 
    !> Whether the axis of a record is a rotation axis, so that the sense of rotation determines the sign of the value.

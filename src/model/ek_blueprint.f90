@@ -130,6 +130,7 @@ module ek_blueprint
       type(curve_plan_t), allocatable :: curves(:)
       type(case_plan_t), allocatable :: cases(:)
       type(manoeuvre_plan_t), allocatable :: manoeuvres(:)
+      integer, allocatable :: tilt_axes(:)  !! index of the vector of the axis of each tilt; 0: the default axis
       ! &axle: wheelbase, cg_height, mass, brake_share, drive_share, front_overhang, front_width, axle_load, roll_share;
       ! &steering: ratio, travel
       integer :: axle(9) = 0, steering(2) = 0   !! indices of parameters
@@ -145,7 +146,7 @@ contains
       call allocate_lists(self%prototype)
       allocate (self%points(0), self%vectors(0), self%bodies(0), self%masses(0), self%readouts(0), self%joints(0))
       allocate (self%elements(0), self%bushings(0), self%wheels(0), self%loads(0), self%curves(0), self%cases(0))
-      allocate (self%manoeuvres(0))
+      allocate (self%manoeuvres(0), self%tilt_axes(0))
       call add_vector(self, vector_t(value=[0.0_wp, 0.0_wp, 1.0_wp]), number)
    end subroutine new_blueprint
 

@@ -71,6 +71,9 @@ contains
             measure%v = suspension%vectors(:, this%v)
          end associate
       end do
+      do k = 1, size(plan%tilt_axes)
+         suspension%tilts(k)%axis = suspension%vectors(:, plan%tilt_axes(k))
+      end do
       call place_joints(plan, x, suspension, is_good)
       do k = 1, size(plan%elements)
          call place_element(plan, x, k, suspension, is_good)

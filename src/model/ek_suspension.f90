@@ -10,6 +10,7 @@ module ek_suspension
    use ek_joint, only: joint_t, row_t, term_t
    use ek_element, only: element_t, copy_element
    use ek_load, only: load_t
+   use ek_tilt, only: tilt_t
    use ek_contract, only: are_checked, require
    implicit none(type, external)
    private
@@ -107,6 +108,7 @@ module ek_suspension
       integer :: rig_rows = 0                  !! number of rows of the rig, which are the last rows, see ek_rig
       type(wheel_t), allocatable :: wheels(:)
       type(readout_t), allocatable :: readouts(:)
+      type(tilt_t), allocatable :: tilts(:)    !! rated tilts of joints and bushings
       type(axle_t) :: axle = axle_t()
       type(steering_t) :: steering = steering_t()
       real(wp), allocatable :: vectors(:, :)   !! (3, 0:n) design points [m] and directions of the blueprint, see ek_realise
@@ -122,7 +124,7 @@ contains
    subroutine allocate_lists(self)
       type(suspension_t), intent(inout) :: self
       allocate (self%bodies(0), self%points(0), self%joints(0), self%rows(0), self%terms(0), self%elements(0), self%loads(0), &
-         self%wheels(0), self%readouts(0))
+         self%wheels(0), self%readouts(0), self%tilts(0))
       self%balance = 'none'
       self%name = ''
       self%title = ''
@@ -171,6 +173,9 @@ contains
       do k = 1, size(from%readouts)
          to%readouts(k)%measure = from%readouts(k)%measure
          to%readouts(k)%design_value = from%readouts(k)%design_value
+      end do
+      do k = 1, size(from%tilts)
+         to%tilts(k)%axis = from%tilts(k)%axis
       end do
       to%axle%wheelbase = from%axle%wheelbase
       to%axle%cg_height = from%axle%cg_height

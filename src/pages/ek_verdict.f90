@@ -13,6 +13,7 @@ module ek_verdict
    use ek_test_result, only: test_result_t, design_row
    use ek_page, only: page_number
    use ek_report_content, only: report_t
+   use ek_tilt_verdict, only: judge_tilts
    implicit none(type, external)
    private
    public :: verdict_t, verdict_lines, plain
@@ -54,8 +55,8 @@ module ek_verdict
 
 contains
 
-   !> Lists the lines: incomplete tests, load at design, heights of the tests if they differ, one line per domain, largest load. A line is omitted if the report
-   !> does not have the numbers of this line.
+   !> Lists the lines: incomplete tests, load at design, heights of the tests if they differ, one line per domain, tilt of joints,
+   !> largest load. A line is omitted if the report does not have the numbers of this line.
    subroutine verdict_lines(report, lines)
       type(report_t), intent(in) :: report
       type(verdict_t), allocatable, intent(out) :: lines(:)
@@ -76,6 +77,11 @@ contains
          call judge(report, domains(d), line)
          if (line%text /= '') call append(lines, line)
       end do
+      if (allocated(report%tilts)) then
+         line%domain = 'tilt of joints'
+         call judge_tilts(report%tilts, report%tests, line%text, line%verdict)
+         if (line%text /= '') call append(lines, line)
+      end if
       line%domain = 'loads'
       line%verdict = ''
       line%text = largest_load(report)

@@ -6,7 +6,7 @@ module ek_state_blocks
    use ek_same_parts, only: same_measure, same_element, same_wheel
    use ek_suspension, only: suspension_t
    use ek_column_list, only: column_list_t
-   use ek_state_columns, only: of_position, of_axis, of_element, of_readout, of_bushing, of_joint
+   use ek_state_columns, only: of_position, of_axis, of_element, of_readout, of_bushing, of_joint, of_tilt, measure_of_tilt
    implicit none(type, external)
    private
    public :: block_reads, same_block, parts_of_block, pair_of_block
@@ -31,6 +31,8 @@ contains
             call mark_bodies(suspension%elements(k)%measure, is_read)
          case (of_readout)
             call mark_bodies(suspension%readouts(k)%measure, is_read)
+         case (of_tilt)
+            call mark_bodies(measure_of_tilt(suspension, k), is_read)
          case (of_joint)
             associate (joint => suspension%joints(k))
                associate (first => suspension%unknowns() + joint%first_row)
@@ -98,6 +100,8 @@ contains
             same_block = same_element(here%elements(k), there%elements(k))
          case (of_readout)
             same_block = same_measure(here%readouts(k)%measure, there%readouts(k)%measure)
+         case (of_tilt)
+            same_block = same_tilt(here, there, k)
          case (of_joint)
             associate (a => here%joints(k), first => here%joints(k)%first_row)
                same_block = .true.
@@ -118,6 +122,35 @@ contains
          end select
       end associate
    end function same_block
+
+   !> Whether a tilt has equal axes, and for an end of a rod equal points, in two designs.
+   pure logical function same_tilt(here, there, k)
+      type(suspension_t), intent(in) :: here, there
+      integer, intent(in) :: k
+      type(measure_t) :: a, b
+
+      a = measure_of_tilt(here, k)
+      b = measure_of_tilt(there, k)
+      associate (this => here%tilts(k), other => there%tilts(k))
+         same_tilt = .not. any(abs(this%axis - other%axis) > 0.0_wp)
+         if (this%end > 0) then
+            same_tilt = same_tilt .and. same_measure(a, b) .and. same_origin(a%body_i) .and. same_origin(a%body_j)
+         else if (this%bushing > 0) then
+            same_tilt = same_tilt .and. .not. any(abs(here%elements(here%scalars + this%bushing)%bushing%axes - &
+               there%elements(there%scalars + this%bushing)%bushing%axes) > 0.0_wp)
+         end if
+      end associate
+
+   contains
+
+      !> Whether a body has the same reference point in both designs.
+      pure logical function same_origin(body)
+         integer, intent(in) :: body
+         same_origin = .true.
+         if (body > 0) same_origin = .not. any(abs(here%bodies(body)%origin - there%bodies(body)%origin) > 0.0_wp)
+      end function same_origin
+
+   end function same_tilt
 
    !> Finds the wheel whose attitude a block follows from, and the joint whose gradients; 0: none.
    pure subroutine parts_of_block(list, b, wheel, joint)

@@ -1,4 +1,4 @@
-!> The columns of a state itself: wheels, springs, measures, bushings, joints. Columns that need the compliance matrix are in
+!> The columns of a state itself: wheels, springs, measures, bushings, joints, tilts. Columns that need the compliance matrix are in
 !> ek_kandc_columns.
 !>
 !> Units are mm, N, deg, N m regardless of the deck's units; vectors are in the deck's frame. input/QUANTITIES.md defines each
@@ -6,7 +6,8 @@
 module ek_state_columns
    use ek_kinds, only: wp, degree, millimetre
    use ek_quantity, only: wheel_position, steer_axis, axis
-   use ek_measure, only: measure_value, axis_axis, rotation
+   use ek_measure, only: measure_t, measure_value, axis_axis, rotation
+   use ek_tilt, only: tilt_between, tilt_of_end
    use ek_block, only: rotated
    use ek_rotation, only: cross
    use ek_law, only: deflection
@@ -23,10 +24,10 @@ module ek_state_columns
    private
    public :: list_state, state_columns, state_values, block_vector, has_wheels, has_joints, has_only_wheels
    public :: most_values
-   public :: of_position, of_axis, of_element, of_readout, of_bushing, of_joint
+   public :: of_position, of_axis, of_element, of_readout, of_bushing, of_joint, of_tilt, measure_of_tilt
 
-   ! sections: of a wheel, an element of one measure, a measure, a bushing, a joint
-   integer, parameter :: of_position = 1, of_axis = 2, of_element = 3, of_readout = 4, of_bushing = 5, of_joint = 6
+   ! sections: of a wheel, an element of one measure, a measure, a bushing, a joint, a rated tilt
+   integer, parameter :: of_position = 1, of_axis = 2, of_element = 3, of_readout = 4, of_bushing = 5, of_joint = 6, of_tilt = 7
    integer, parameter :: most_values = max(12, size(wheel_position), size(steer_axis))   !! greatest number of values of a section
 
    ! rotations, cosines, lengths: ending of the column of an element's value, and its unit
@@ -94,6 +95,10 @@ contains
             end if
          end associate
          call end_block(list, of_joint, k)
+      end do
+      do k = 1, size(suspension%tilts)
+         call add_column(list, suspension%tilts(k)%name//'_deg')
+         call end_block(list, of_tilt, k)
       end do
 
    contains
@@ -171,6 +176,8 @@ contains
          call bushing_values(suspension, state, list%item(b), values)
       case (of_joint)
          call joint_values(suspension, state, kkt%gradients, frame, list%item(b), values)
+      case (of_tilt)
+         values(1) = tilt_value(suspension, state, list%item(b))/degree
       end select
    end subroutine block_vector
 
@@ -256,6 +263,46 @@ contains
          values(4:6) = frame*(moment - cross(arm, force))                  ! about the joint's point
       end associate
    end subroutine joint_values
+
+   !> The tilt of a joint or bushing, or of an end of a rod [rad].
+   pure real(wp) function tilt_value(suspension, state, k) result(value)
+      type(suspension_t), intent(in) :: suspension
+      type(state_t), intent(in) :: state
+      integer, intent(in) :: k
+      type(measure_t) :: m
+      real(wp) :: axis(3), at_design(3), arms(3, 2)
+
+      m = measure_of_tilt(suspension, k)
+      associate (this => suspension%tilts(k), pose_i => state%poses(m%body_i + 1), pose_j => state%poses(m%body_j + 1))
+         axis = this%axis
+         if (this%end == 0) then
+            if (this%bushing > 0 .and. .not. norm2(axis) > 0.0_wp) &
+               axis = suspension%elements(suspension%scalars + this%bushing)%bushing%axes(:, 3)
+            value = tilt_between(pose_i, pose_j, axis)
+            return
+         end if
+         arms = reshape([m%arm_i, m%arm_j], [3, 2])
+         at_design = arms(:, 2) - arms(:, 1)
+         if (m%body_j > 0) at_design = at_design + suspension%bodies(m%body_j)%origin
+         if (m%body_i > 0) at_design = at_design - suspension%bodies(m%body_i)%origin
+         value = tilt_of_end(state%poses(merge(m%body_i, m%body_j, this%end == 1) + 1), axis, &
+            pose_j%r + rotated(pose_j%a, arms(:, 2)) - pose_i%r - rotated(pose_i%a, arms(:, 1)), at_design)
+      end associate
+   end function tilt_value
+
+   !> The measure with the bodies of a tilt; for an end of a rod, also with its points.
+   pure type(measure_t) function measure_of_tilt(suspension, k) result(measure)
+      type(suspension_t), intent(in) :: suspension
+      integer, intent(in) :: k
+
+      associate (this => suspension%tilts(k))
+         if (this%bushing > 0) then
+            measure = suspension%elements(suspension%scalars + this%bushing)%measure
+         else
+            measure = suspension%terms(suspension%rows(suspension%joints(this%joint)%first_row)%first)%measure
+         end if
+      end associate
+   end function measure_of_tilt
 
    !> Index in `endings` and `units` for a kind of measure.
    pure integer function which(kind)
