@@ -211,6 +211,7 @@ module ek_group
       key_t(case_group, 'wheel', word, 1, 1, .false., role=wheel_group), &
       key_t(case_group, 'test', word, 1, 1, .false.), &
       key_t(case_group, 'vertical', word, 1, 1, .false.), &
+      key_t(case_group, 'pose', word, 1, 1, .false.), &
       key_t(case_group, 'phase', word, 1, 1, .false.), &
       key_t(case_group, 'offset', number, 1, 1, .false.), &
       key_t(case_group, 'file', prose, 1, 1, .false.), &

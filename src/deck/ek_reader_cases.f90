@@ -9,7 +9,8 @@ module ek_reader_cases
    use ek_namelist, only: value_fault
    use ek_realise, only: steepest_roll
    use ek_blueprint, only: case_plan_t
-   use ek_group, only: wheel_group, case_group, load_group, steering_group, manoeuvre_group, number, max_loads, word_length
+   use ek_group, only: wheel_group, spring_group, case_group, load_group, steering_group, manoeuvre_group, number, max_loads, &
+      word_length
    use ek_deck_reading, only: deck_reading_t, complain, where_of, line_of, has_key, choice, text_of, texts_of, number_of, &
       whole_of, refuse, slot
    use ek_attachment, only: path_of
@@ -208,7 +209,8 @@ contains
       else if (.not. (has_key(reading, 'load') .or. has_key(reading, 'drive'))) then
          call complain(reading, '', "give 'load', 'drive' or 'test'")
       end if
-      call refuse(reading, [character(16) :: 'vertical', 'phase', 'offset', 'file', 'steer_from', 'steer_to', 'steer_increments'], &
+      call refuse(reading, [character(16) :: 'vertical', 'pose', 'phase', 'offset', 'file', 'steer_from', 'steer_to', &
+         'steer_increments'], &
          "only a case with a 'test' accepts this key")
       load = texts_of(reading, 'load', max_loads)
       loads = count(load /= '')
@@ -284,6 +286,7 @@ contains
       call refuse_in_test('steer_increments', test%action /= covers_grid, no_grid)
       call refuse_in_test('phase', .not. test%has_phase, 'only tests with forces or torques have a phase')
       call refuse_in_test('offset', .not. test%has_trail, 'only test ''lateral_force'' has an offset')
+      call refuse_in_test('pose', test%action /= drives_car, 'only test ''manoeuvres'' has a pose')
       call refuse_in_test('file', test%action /= takes_table, 'only test ''table'' reads a file')
       call refuse_in_test('from', test%action == takes_table, 'the table sets the range')
       call refuse_in_test('to', test%action == takes_table, 'the table sets the range')
@@ -303,6 +306,10 @@ contains
       if ((test%action == loads_wheels .and. lifts(test)) .or. test%action == drives_car) call refuse_in_test('vertical', &
          c > 0 .and. c /= 3, 'the test prescribes the force')
       if (c == 4) call check_tyres(reading)
+      call choice(reading, 'pose', [character(7) :: 'settled', 'design'], c)
+      this%holds_springs = c == 2
+      if (this%holds_springs .and. .not. any(reading%cards%group == spring_group)) call complain(reading, 'pose', &
+         "pose = 'design' needs a &spring, whose length it keeps")
       call choice(reading, 'phase', [character(4) :: 'in', 'anti'], c)
       this%is_anti = c == 2
       if (this%is_anti .or. needs_both(test)) then

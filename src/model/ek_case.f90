@@ -91,6 +91,7 @@ module ek_case
       character(:), allocatable :: file     !! name of the file of a load table
       type(load_table_t) :: table           !! content of this file
       type(manoeuvre_t), allocatable :: manoeuvres(:)   !! rows of test 'manoeuvres'
+      logical :: holds_springs = .false.    !! the springs keep their lengths at design, see ek_held_springs
       character(:), allocatable :: target   !! target 'column=value'; '' without a target
       logical :: is_good = .true.           !! .false.: the case has an error and cannot be mounted on the rig
       logical :: has_all = .false.          !! the compliance matrix and the quantities derived from it are written at every state

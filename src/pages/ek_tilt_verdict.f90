@@ -13,8 +13,8 @@ module ek_tilt_verdict
 
 contains
 
-   !> Finds the largest tilt relative to its rating, and creates the words: 'left_ball_joint 11.20 of 12 deg: in test steering at
-   !> factor −75'. The words are '' if no test has a rated tilt.
+   !> Finds the largest tilt relative to its rating, and creates the message: 'left_ball_joint 11.20 of 12 deg: in test steering at
+   !> factor −75'. The message is '' if no test has a rated tilt.
    subroutine judge_tilts(tilts, tests, words, verdict)
       type(tilt_t), intent(in) :: tilts(:)
       type(test_result_t), intent(in) :: tests(:)
@@ -74,7 +74,7 @@ contains
       if (tilt%end > 0) words = words(:len(words) - 2)//' end '//str(tilt%end)
    end function part_name
 
-   !> The state in a row of a test: its name, its place in the grid, or the value of `factor`.
+   !> The state in a row of a test: its name, its travel and steering in a grid, or the value of `factor`.
    function state_words(test, row) result(words)
       type(test_result_t), intent(in) :: test
       integer, intent(in) :: row

@@ -27,6 +27,7 @@ module ek_rig
    use ek_path, only: walk_t, empty_walk
    use ek_grid, only: is_grid, grid_size, set_grid_values
    use ek_manoeuvre, only: has_manoeuvres, set_manoeuvre_values
+   use ek_held_springs, only: hold_springs
    use ek_manoeuvre_loads, only: load_wheel, load_masses, hold_steering
    use ek_rig_parts, only: rig_t, acting_t, new_rig, add_height, add_load
    use ek_case, only: case_t, append_actuation, copy_case_numbers, is_mountable, follows_place, follows_tangent, follows_table
@@ -74,6 +75,7 @@ contains
       if (are_checked) call require(is_mountable(given), 'mount: the table of the case was not read')
       rig = rig_of(base, given)
       call put_on(rig, base, suspension)
+      if (given%holds_springs) call hold_springs(suspension)
       this = given
       if (.not. allocated(this%test)) this%test = ''
       this%actuations = rig%actuations
@@ -113,6 +115,7 @@ contains
       end if
       associate (rig => mounted%rig, suspension => mounted%suspension, this => mounted%case)
          call copy_numbers(base, suspension)
+         if (given%holds_springs) call hold_springs(suspension)
          call set_rig_numbers(base, given, rig)
          call copy_rig_numbers(rig, suspension)
          do k = 1, size(rig%actuations)
