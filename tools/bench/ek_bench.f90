@@ -23,6 +23,7 @@ module ek_bench
    use ek_load_deck, only: deck_settings_t, read_deck_settings, load_deck, chosen_cases, examine_chosen, read_changed
    use ek_increment_parts, only: parts_t, time_walk, time_parts, processor_seconds
    use ek_bench_figures, only: figures_t, table_of, json_of, short_sweep
+   use ek_bench_loads, only: time_loads
    use ek_growth, only: bench_growth
    use ek_bench_derivatives, only: bench_derivatives
    use ek_console, only: print_text
@@ -121,6 +122,7 @@ contains
       figures%factorisations = real(sum(path%iterations), wp)/path%states
       figures%most = maxval(path%iterations)
       call time_kandc(suspension, case, path, planned, figures)
+      call time_loads(suspension, case, planned, figures%loads)
       case%tolerance = 1.0e-13_wp     ! m, a thousand times tighter than the default
       call sweep(suspension, case, exact, kkt)
       figures%distance = largest_distance(path, exact, kkt%nq/6)

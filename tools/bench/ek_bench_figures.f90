@@ -30,6 +30,7 @@ module ek_bench_figures
       real(wp) :: kandc_row = 0.0_wp         !! time of the compliance matrix of all wheels at a state, by plan [s]; 0: no wheel
       real(wp) :: kandc_all = 0.0_wp         !! time of the compliance matrix and all K&C quantities, by plan [s]; 0: no wheel
       real(wp) :: design = 0.0_wp  !! time of a design of short_sweep increments, from numbers to a column [s]; 0: not measured
+      real(wp) :: loads = 0.0_wp             !! time of all manoeuvres with the loads on all parts, by plan [s]; 0: no manoeuvres
       real(wp) :: states = 0.0_wp            !! time of the states and the column of this design alone [s]
    end type figures_t
 
@@ -65,6 +66,11 @@ contains
          text = text//'K&C row by plan: compliance matrix of all wheels '//microseconds(figures%kandc_row)//', rows per second '// &
             per_second(figures%kandc_row)//'; with all quantities '//microseconds(figures%kandc_all)//', rows per second '// &
             per_second(figures%kandc_all)//nl
+      end if
+      if (figures%loads > 0.0_wp) then
+         write (line, '(a,i0,a,f0.2,a)') 'manoeuvres by plan: ', figures%increments + 1, ' with the loads on all parts in ', &
+            figures%loads*1.0e3_wp, ' ms'
+         text = text//trim(line)//nl
       end if
       if (.not. figures%design > 0.0_wp) return
       text = text//'design of '//str(short_sweep)//' increments, from numbers to a column: '//microseconds(figures%design)//', '// &
@@ -141,6 +147,7 @@ contains
          call json%item('kandc_row_us', json_number(figures%kandc_row*1.0e6_wp))
          call json%item('kandc_all_us', json_number(figures%kandc_all*1.0e6_wp))
       end if
+      if (figures%loads > 0.0_wp) call json%item('loads_ms', json_number(figures%loads*1.0e3_wp))
       if (figures%design > 0.0_wp) then
          call json%item('design_us', json_number(figures%design*1.0e6_wp))
          call json%item('design_states_us', json_number(figures%states*1.0e6_wp))
