@@ -30,6 +30,9 @@ bench five five_link_axle parallel_travel 600
 bench short_corner mcpherson vertical_sweep 60
 bench short_axle mcpherson_axle parallel_travel 100
 "$elastokin-bench" --growth 2000 --json >"$work/growth"
+{ echo "&include file = '$PWD/input/mcpherson_axle/mcpherson_axle.nml' /"
+  seq 12 | awk '{printf "&manoeuvre name = \"m%d\", vertical = %.2f, lateral = %.2f /\n", $1, 0.75 + 0.05*$1, 0.05*$1 - 0.05}'; } >"$work/manoeuvres.nml"
+"$elastokin-bench" "$work/manoeuvres.nml" --set axle.mass=1500 --case manoeuvres --json >"$work/manoeuvres"
 
 cat >"$work/study.nml" <<END
 &study name = 'speed', kind = 'monte_carlo', samples = $samples, increments = 60,
@@ -64,6 +67,7 @@ row "study of the McPherson corner, 61 states and 5 responses per design, $(npro
 row "compliance matrix of a state, by plan: McPherson corner / axle" \
   "$(figure "$(value corner kandc_row_us)" 1) / $(figure "$(value axle kandc_row_us)" 1) µs"
 row "the same with all K&C quantities" "$(figure "$(value corner kandc_all_us)" 1) / $(figure "$(value axle kandc_all_us)" 1) µs"
+row "12 manoeuvres of the McPherson axle with the loads on all parts, by plan" "$(figure "$(value manoeuvres loads_ms)" 1) ms"
 row "increment of a chain with n = 397 / 1999, by LAPACK" \
   "$(figure "$(awk -v t="$(value growth lapack_us 397)" 'BEGIN {print t/1e3}')" 2) / $(figure "$(awk -v t="$(value growth lapack_us 1999)" 'BEGIN {print t/1e3}')" 0) ms"
 row "the same by plan" \
