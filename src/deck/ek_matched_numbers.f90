@@ -17,7 +17,7 @@ module ek_matched_numbers
    !> A number of the deck: an element of a key of a record of the finished deck.
    type :: match_t
       integer :: record = 0                !! index of the record; with &mirror, each side has its own record
-      character(14) :: key = ''
+      character(18) :: key = ''
       integer :: at = 1                    !! subscript of the number in its key
       real(wp) :: sign = 1.0_wp            !! −1: the number is minus the value written to the path
       integer :: number = 0                !! index of the parameter; 0: the number is not a parameter

@@ -22,7 +22,7 @@ module ek_parameter
    !> One number of the deck as a parameter of the model.
    type :: parameter_t
       integer :: record = 0               !! index of its record in the mirrored deck
-      character(14) :: key = ''
+      character(18) :: key = ''
       integer :: at = 1                   !! subscript of the number in its key
       real(wp) :: unit = 1.0_wp           !! SI value of the deck unit of the number
       integer :: range = 0                !! legal range of the key, see ek_number_range
