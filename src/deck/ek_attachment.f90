@@ -2,7 +2,8 @@
 !> The location of such a record is its line in the file from which it was created. Errors in a file are reported once, even if the
 !> deck names the file several times.
 module ek_attachment
-   use ek_kinds, only: wp, units_t, millimetre, degree
+   use ek_kinds, only: wp, units_t
+   use ek_dimension, only: units_of
    use ek_error, only: message_list_t
    use ek_text, only: lower
    use ek_file, only: join_path, folder_name
@@ -26,9 +27,7 @@ contains
       is_iso = .false.
       do k = 1, size(records)
          if (records(k)%group /= 'model') cycle
-         units%length = merge(1.0_wp, millimetre, lower(element(records(k), 'length', 1)) == 'm')
-         units%force = merge(1000.0_wp, 1.0_wp, lower(element(records(k), 'force', 1)) == 'kn')
-         units%angle = merge(1.0_wp, degree, lower(element(records(k), 'angle', 1)) == 'rad')
+         units = units_of(element(records(k), 'length', 1), element(records(k), 'force', 1), element(records(k), 'angle', 1))
          is_iso = lower(element(records(k), 'axes', 1)) == 'iso'
          return
       end do

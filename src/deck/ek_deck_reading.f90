@@ -7,6 +7,7 @@ module ek_deck_reading
    use ek_kinds, only: wp, i8, units_t
    use ek_text, only: str, lower, quoted
    use ek_decimal, only: checked_number
+   use ek_dimension, only: pure_number, unit_size, unit_name, dimension_of
    use ek_record, only: deck_errors_t, place_in, record_t, entry_index, is_given, place_of, line_text
    use ek_group, only: group_names, record_head, word_length, key_t, find_key
    use ek_number_range, only: is_inside, range_text, acute
@@ -16,7 +17,7 @@ module ek_deck_reading
    private
    public :: deck_reading_t, card_t, complain, complain_of_all, where_of, line_of, has_key
    public :: text_of, texts_of, number_of, numbers_of, whole_of, long_of, switch_of, value_count, choice, choose
-   public :: refuse, is_second, slot, raw
+   public :: refuse, is_second, slot, raw, unit_of
 
    !> The information about one record.
    type :: card_t
@@ -25,7 +26,8 @@ module ek_deck_reading
       integer :: hash = 0                   !! hash value of the name in lower case: equal names have equal values
       logical :: is_good = .false.          !! no error found so far
       integer :: index = 0                  !! index among the parts of its kind; point: index of its vector
-      real(wp) :: factor = 1.0_wp           !! measure, driver: SI value of the deck unit
+      !> The dimensions of the keys whose dimension is relative (ek_dimension): of measures, drivers, elements and cases.
+      integer :: deflection = pure_number, reaction = pure_number, swept = pure_number
       logical :: is_used = .false.          !! point: referenced; body: attached to something; load: scaled by cases
    end type card_t
 
@@ -280,44 +282,67 @@ contains
       if (any(units == lower(word))) hint = '; imperial units are not supported: convert the numbers of the deck'
    end function imperial_hint
 
-   !> Defines parameters: a number of the record being read, or the first `count` elements of a list. `number` is the index of the
-   !> first parameter; 0 if the key is not given and has no default.
-   subroutine slot(reading, key, unit, number, default, count)
+   !> SI value of the deck's unit of a key of the record being read, by the dimension in the row of the key.
+   real(wp) function unit_of(reading, key)
+      type(deck_reading_t), intent(in) :: reading
+      character(*), intent(in) :: key
+      type(key_t) :: row
+      logical :: is_known
+
+      call find_key(reading%cards(reading%k)%group, key, row, is_known)
+      unit_of = unit_of_row(reading, row)
+   end function unit_of
+
+   !> SI value of the deck's unit of a row of the table of keys, in the record being read.
+   pure real(wp) function unit_of_row(reading, row)
+      type(deck_reading_t), intent(in) :: reading
+      type(key_t), intent(in) :: row
+
+      associate (card => reading%cards(reading%k))
+         unit_of_row = unit_size(dimension_of(row%dimension, card%deflection, card%reaction, card%swept), reading%units)
+      end associate
+   end function unit_of_row
+
+   !> Defines parameters: the elements of a number of the record being read, or the first `count` elements of a list, in SI by the
+   !> dimension of the key. `number` is the index of the first parameter; 0 if the key is not given and has no default.
+   subroutine slot(reading, key, number, default, count)
       type(deck_reading_t), intent(inout) :: reading
       character(*), intent(in) :: key
-      real(wp), intent(in) :: unit                   !! SI value of the unit in the deck
       integer, intent(out) :: number
       real(wp), intent(in), optional :: default      !! default in the unit of the deck; absent: the key has none
-      integer, intent(in), optional :: count         !! default 1
-      real(wp) :: usual
+      integer, intent(in), optional :: count         !! default: the least number of values of the key
+      type(key_t) :: row
+      real(wp) :: usual, unit
+      logical :: is_known
       integer :: k, elements
 
       number = 0
       usual = 0.0_wp
       if (present(default)) usual = default
       if (.not. present(default) .and. .not. has_key(reading, key)) return
-      elements = 1
+      call find_key(reading%cards(reading%k)%group, key, row, is_known)
+      unit = unit_of_row(reading, row)
+      elements = row%least
       if (present(count)) elements = count
       number = reading%parameters%used + 1
       do k = 1, elements
-         call add_parameter(reading%parameters, reading%records, reading%k, key, k, number_of(reading, key, usual, k)*unit, unit, &
+         call add_parameter(reading%parameters, reading%records, reading%k, row, k, number_of(reading, key, usual, k)*unit, unit, &
             entry_of(reading, key, k) > 0)
-         if (reading%parameters%list(reading%parameters%used)%range == acute) call check_angle(reading, key)
+         if (row%range == acute) call check_angle(reading, row)
       end do
    end subroutine slot
 
    !> Reports the parameter added last if it is an angle outside its range.
-   subroutine check_angle(reading, key)
+   subroutine check_angle(reading, row)
       type(deck_reading_t), intent(inout) :: reading
-      character(*), intent(in) :: key
-      type(key_t) :: row
-      logical :: is_known
+      type(key_t), intent(in) :: row
+      character(:), allocatable :: key
 
       associate (this => reading%parameters%list(reading%parameters%used), x => reading%parameters%x(reading%parameters%used))
          if (is_inside(acute, x)) return
-         call find_key(reading%cards(reading%k)%group, key, row, is_known)
-         call complain(reading, key, key//' '//range_text(row%range, row%unit, str(x/this%unit)// &
-            trim(merge(' rad', ' deg', this%unit >= 1.0_wp))))
+         key = trim(row%name)
+         call complain(reading, key, key//' '//range_text(row%range, row%unit, str(x/this%unit)//' '// &
+            unit_name(row%dimension, reading%units)))
       end associate
    end subroutine check_angle
 

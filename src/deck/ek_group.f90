@@ -1,9 +1,12 @@
 !> The groups of a deck and their keys: the single definition of legal input.
 !>
-!> A new key needs a row here, and a statement in the reader of its group that asks for its value.
+!> A new key needs a row here, and a statement in the reader of its group that asks for its value. The row of a number has its
+!> dimension, by which the reader converts the number to SI.
 module ek_group
    use ek_text, only: quoted, did_you_mean
    use ek_quantity, only: name_length
+   use ek_dimension, only: pure_number, length, force, angle, moment, rate, rotation_rate, mass, acceleration, gravities, &
+      deflection, reaction, reaction_rate, swept
    use ek_number_range, only: any_number, positive, not_negative, not_zero, share, acute
    implicit none(type, external)
    private
@@ -62,6 +65,7 @@ module ek_group
       character(20) :: unit = ''   !! unit of the limits of the range, for messages
       integer :: role = 0
       logical :: has_zeros = .false.    !! a setting of one element sets the elements that the deck does not give to 0
+      integer :: dimension = pure_number     !! dimension of a number, see ek_dimension: the reader converts by it
    end type key_t
 
    integer, parameter :: named(*) = [model_group, point_group, body_group, mass_group, measure_group, joint_group, &
@@ -77,14 +81,14 @@ module ek_group
       key_t(model_group, 'angle', word, 1, 1, .false.), &
       key_t(model_group, 'axes', word, 1, 1, .false.), &
       key_t(model_group, 'balance', word, 1, 1, .false.), &
-      key_t(model_group, 'gravity', number, 1, 1, .false., not_negative, ' (m/s², downward)'), &
+      key_t(model_group, 'gravity', number, 1, 1, .false., not_negative, ' (m/s², downward)', dimension=acceleration), &
       key_t(model_group, 'plausible', switch, 1, 1, .false.), &
-      key_t(point_group, 'at', number, 3, 3, .true., role=polar), &
+      key_t(point_group, 'at', number, 3, 3, .true., role=polar, dimension=length), &
       key_t(body_group, 'origin', word, 1, 1, .false., role=point_group), &
-      key_t(body_group, 'mass', number, 1, 1, .false., positive, ' kg'), &
+      key_t(body_group, 'mass', number, 1, 1, .false., positive, ' kg', dimension=mass), &
       key_t(body_group, 'centre', word, 1, 1, .false., role=point_group), &
       key_t(mass_group, 'body', word, 1, 1, .true., role=body_group), &
-      key_t(mass_group, 'kg', number, 1, 1, .true., positive), &
+      key_t(mass_group, 'kg', number, 1, 1, .true., positive, dimension=mass), &
       key_t(mass_group, 'at', word, 1, 1, .true., role=point_group), &
       key_t(measure_group, 'type', word, 1, 1, .true.), &
       key_t(measure_group, 'bodies', word, 2, 2, .true., role=body_group), &
@@ -103,9 +107,9 @@ module ek_group
       key_t(joint_group, 'measure', word, 1, 1, .false., role=measure_group), &
       key_t(joint_group, 'measures', word, 1, max_measures, .false., role=measure_group), &
       key_t(joint_group, 'ratios', number, 1, max_measures, .false., not_zero), &
-      key_t(joint_group, 'stiffness', number, 1, 1, .false., positive), &
+      key_t(joint_group, 'stiffness', number, 1, 1, .false., positive, dimension=reaction_rate), &
       key_t(joint_group, 'balance', switch, 1, 1, .false.), &
-      key_t(joint_group, 'rating_angle', number, 1, 2, .false., positive), &
+      key_t(joint_group, 'rating_angle', number, 1, 2, .false., positive, dimension=angle), &
       key_t(joint_group, 'rating_axis_vector', number, 3, 6, .false., role=polar), &
       key_t(bushing_group, 'bodies', word, 2, 2, .true., role=body_group), &
       key_t(bushing_group, 'at', word, 1, 2, .true., role=point_group), &
@@ -114,98 +118,98 @@ module ek_group
       key_t(bushing_group, 'x_axis', word, 2, 2, .false., role=point_group), &
       key_t(bushing_group, 'x_vector', number, 3, 3, .false., role=polar), &
       key_t(bushing_group, 'mirrored', switch, 1, 1, .false.), &
-      key_t(bushing_group, 'rating_angle', number, 1, 1, .false., positive), &
+      key_t(bushing_group, 'rating_angle', number, 1, 1, .false., positive, dimension=angle), &
       key_t(bushing_group, 'rating_axis_vector', number, 3, 3, .false., role=polar), &
-      key_t(bushing_group, 'kt', number, 3, 3, .false., not_negative, has_zeros=.true.), &
-      key_t(bushing_group, 'kr', number, 3, 3, .false., not_negative, has_zeros=.true.), &
+      key_t(bushing_group, 'kt', number, 3, 3, .false., not_negative, has_zeros=.true., dimension=rate), &
+      key_t(bushing_group, 'kr', number, 3, 3, .false., not_negative, has_zeros=.true., dimension=rotation_rate), &
       key_t(bushing_group, 'curve', word, 1, 6, .false., role=curves), &
       key_t(bushing_group, 'property_file', prose, 1, 1, .false.), &
       key_t(bushing_group, 'property_scale', number, 1, 6, .false., positive), &
-      key_t(bushing_group, 'property_offset', number, 1, 6, .false.), &
+      key_t(bushing_group, 'property_offset', number, 1, 6, .false., dimension=deflection), &
       key_t(bushing_group, 'property_kind', word, 1, 1, .false.), &
-      key_t(bushing_group, 'preload_force', number, 3, 3, .false., role=polar, has_zeros=.true.), &
-      key_t(bushing_group, 'preload_moment', number, 3, 3, .false., role=axial, has_zeros=.true.), &
+      key_t(bushing_group, 'preload_force', number, 3, 3, .false., role=polar, has_zeros=.true., dimension=force), &
+      key_t(bushing_group, 'preload_moment', number, 3, 3, .false., role=axial, has_zeros=.true., dimension=moment), &
       key_t(spring_group, 'bodies', word, 2, 2, .false., role=body_group), &
       key_t(spring_group, 'at', word, 2, 2, .false., role=point_group), &
       key_t(spring_group, 'measure', word, 1, 1, .false., role=measure_group), &
-      key_t(spring_group, 'rate', number, 1, 1, .false., not_negative), &
+      key_t(spring_group, 'rate', number, 1, 1, .false., not_negative, dimension=reaction_rate), &
       key_t(spring_group, 'curve', word, 1, 1, .false.), &
       key_t(spring_group, 'property_file', prose, 1, 1, .false.), &
       key_t(spring_group, 'property_scale', number, 1, 1, .false., positive), &
-      key_t(spring_group, 'property_offset', number, 1, 1, .false.), &
+      key_t(spring_group, 'property_offset', number, 1, 1, .false., dimension=deflection), &
       key_t(spring_group, 'property_kind', word, 1, 1, .false.), &
-      key_t(spring_group, 'preload', number, 1, 1, .false.), &
+      key_t(spring_group, 'preload', number, 1, 1, .false., dimension=reaction), &
       key_t(spring_group, 'balance', switch, 1, 1, .false.), &
-      key_t(spring_group, 'free_length', number, 1, 1, .false., positive), &
-      key_t(curve_group, 'x', number, 2, max_values, .true.), &
-      key_t(curve_group, 'y', number, 2, max_values, .true.), &
+      key_t(spring_group, 'free_length', number, 1, 1, .false., positive, dimension=length), &
+      key_t(curve_group, 'x', number, 2, max_values, .true., dimension=deflection), &
+      key_t(curve_group, 'y', number, 2, max_values, .true., dimension=reaction), &
       key_t(curve_group, 'kind', word, 1, 1, .false.), &
       key_t(damper_group, 'bodies', word, 2, 2, .true., role=body_group), &
       key_t(damper_group, 'at', word, 2, 2, .true., role=point_group), &
-      key_t(damper_group, 'gas_force', number, 1, 1, .false., not_negative), &
-      key_t(damper_group, 'gas_rate', number, 1, 1, .false., not_negative), &
+      key_t(damper_group, 'gas_force', number, 1, 1, .false., not_negative, dimension=force), &
+      key_t(damper_group, 'gas_rate', number, 1, 1, .false., not_negative, dimension=rate), &
       key_t(stop_group, 'type', word, 1, 1, .true.), &
       key_t(stop_group, 'bodies', word, 2, 2, .true., role=body_group), &
       key_t(stop_group, 'at', word, 2, 2, .true., role=point_group), &
-      key_t(stop_group, 'clearance', number, 1, 1, .true., not_negative), &
-      key_t(stop_group, 'rate', number, 1, 1, .false., not_negative), &
+      key_t(stop_group, 'clearance', number, 1, 1, .true., not_negative, dimension=length), &
+      key_t(stop_group, 'rate', number, 1, 1, .false., not_negative, dimension=rate), &
       key_t(stop_group, 'curve', word, 1, 1, .false.), &
       key_t(stop_group, 'property_file', prose, 1, 1, .false.), &
       key_t(stop_group, 'property_scale', number, 1, 1, .false., positive), &
-      key_t(stop_group, 'property_offset', number, 1, 1, .false.), &
+      key_t(stop_group, 'property_offset', number, 1, 1, .false., dimension=length), &
       key_t(stop_group, 'property_kind', word, 1, 1, .false.), &
-      key_t(stop_group, 'rounding', number, 1, 1, .false., positive), &
+      key_t(stop_group, 'rounding', number, 1, 1, .false., positive, dimension=length), &
       key_t(torsion_group, 'bodies', word, 2, 2, .true., role=body_group), &
       key_t(torsion_group, 'axis', word, 2, 2, .false., role=point_group), &
       key_t(torsion_group, 'axis_vector', number, 3, 3, .false., role=polar), &
-      key_t(torsion_group, 'rate', number, 1, 1, .false., not_negative), &
+      key_t(torsion_group, 'rate', number, 1, 1, .false., not_negative, dimension=rotation_rate), &
       key_t(torsion_group, 'curve', word, 1, 1, .false.), &
-      key_t(torsion_group, 'preload', number, 1, 1, .false.), &
+      key_t(torsion_group, 'preload', number, 1, 1, .false., dimension=moment), &
       key_t(wheel_group, 'body', word, 1, 1, .true., role=body_group), &
       key_t(wheel_group, 'side', word, 1, 1, .true., role=wheel_side), &
       key_t(wheel_group, 'centre', word, 1, 1, .true., role=point_group), &
       key_t(wheel_group, 'contact', word, 1, 1, .true., role=point_group), &
       key_t(wheel_group, 'spin_vector', number, 3, 3, .false., role=polar), &
-      key_t(wheel_group, 'toe', number, 1, 1, .false., acute, ' deg'), &
-      key_t(wheel_group, 'camber', number, 1, 1, .false., acute, ' deg'), &
-      key_t(wheel_group, 'radius', number, 1, 1, .false., positive), &
-      key_t(wheel_group, 'tyre_rate', number, 1, 1, .false., positive), &
-      key_t(wheel_group, 'tyre_width', number, 1, 1, .false., positive), &
-      key_t(wheel_group, 'sprung_mass', number, 1, 1, .false., positive, ' kg'), &
+      key_t(wheel_group, 'toe', number, 1, 1, .false., acute, ' deg', dimension=angle), &
+      key_t(wheel_group, 'camber', number, 1, 1, .false., acute, ' deg', dimension=angle), &
+      key_t(wheel_group, 'radius', number, 1, 1, .false., positive, dimension=length), &
+      key_t(wheel_group, 'tyre_rate', number, 1, 1, .false., positive, dimension=rate), &
+      key_t(wheel_group, 'tyre_width', number, 1, 1, .false., positive, dimension=length), &
+      key_t(wheel_group, 'sprung_mass', number, 1, 1, .false., positive, ' kg', dimension=mass), &
       key_t(wheel_group, 'steer_axis', word, 2, 2, .false., role=point_group), &
       key_t(axle_group, 'name', word, 1, 1, .false.), &
       key_t(axle_group, 'position', word, 1, 1, .true.), &
-      key_t(axle_group, 'wheelbase', number, 1, 1, .true., positive), &
-      key_t(axle_group, 'cg_height', number, 1, 1, .true., positive), &
-      key_t(axle_group, 'mass', number, 1, 1, .false., positive), &
-      key_t(axle_group, 'axle_load', number, 1, 1, .false., positive), &
+      key_t(axle_group, 'wheelbase', number, 1, 1, .true., positive, dimension=length), &
+      key_t(axle_group, 'cg_height', number, 1, 1, .true., positive, dimension=length), &
+      key_t(axle_group, 'mass', number, 1, 1, .false., positive, dimension=mass), &
+      key_t(axle_group, 'axle_load', number, 1, 1, .false., positive, dimension=force), &
       key_t(axle_group, 'roll_share', number, 1, 1, .false., share), &
       key_t(axle_group, 'brake_share', number, 1, 1, .true., share), &
       key_t(axle_group, 'drive_share', number, 1, 1, .false., share), &
       key_t(axle_group, 'drive_reaction', word, 1, 1, .false.), &
       key_t(axle_group, 'brake_reaction', word, 1, 1, .false.), &
-      key_t(axle_group, 'front_overhang', number, 1, 1, .false., positive), &
-      key_t(axle_group, 'front_width', number, 1, 1, .false., positive), &
+      key_t(axle_group, 'front_overhang', number, 1, 1, .false., positive, dimension=length), &
+      key_t(axle_group, 'front_width', number, 1, 1, .false., positive, dimension=length), &
       key_t(steering_group, 'name', word, 1, 1, .false.), &
       key_t(steering_group, 'driver', word, 1, 1, .true., role=joint_group), &
-      key_t(steering_group, 'ratio', number, 1, 1, .true., not_zero), &
-      key_t(steering_group, 'travel', number, 1, 1, .true., positive), &
+      key_t(steering_group, 'ratio', number, 1, 1, .true., not_zero, dimension=length), &
+      key_t(steering_group, 'travel', number, 1, 1, .true., positive, dimension=length), &
       key_t(load_group, 'body', word, 1, 1, .true., role=body_group), &
       key_t(load_group, 'at', word, 1, 1, .true., role=point_group), &
-      key_t(load_group, 'force', number, 3, 3, .false., role=polar, has_zeros=.true.), &
-      key_t(load_group, 'moment', number, 3, 3, .false., role=axial, has_zeros=.true.), &
+      key_t(load_group, 'force', number, 3, 3, .false., role=polar, has_zeros=.true., dimension=force), &
+      key_t(load_group, 'moment', number, 3, 3, .false., role=axial, has_zeros=.true., dimension=moment), &
       key_t(load_group, 'follows', switch, 1, 1, .false.), &
       key_t(load_group, 'factor', word, 1, 1, .false.), &
       key_t(manoeuvre_group, 'name', word, 1, 1, .false.), &
       key_t(manoeuvre_group, 'set', word, 1, 1, .false.), &
       key_t(manoeuvre_group, 'vertical', number, 1, 1, .false., not_negative), &
-      key_t(manoeuvre_group, 'longitudinal', number, 1, 1, .false.), &
-      key_t(manoeuvre_group, 'lateral', number, 1, 1, .false.), &
+      key_t(manoeuvre_group, 'longitudinal', number, 1, 1, .false., dimension=gravities), &
+      key_t(manoeuvre_group, 'lateral', number, 1, 1, .false., dimension=gravities), &
       key_t(manoeuvre_group, 'longitudinal_by', word, 1, 1, .false.), &
       key_t(manoeuvre_group, 'side', word, 1, 1, .false.), &
       key_t(manoeuvre_group, 'wheels', number, 2, 2, .false., not_negative), &
-      key_t(manoeuvre_group, 'downforce', number, 1, 1, .false.), &
-      key_t(manoeuvre_group, 'steer', number, 1, 1, .false.), &
+      key_t(manoeuvre_group, 'downforce', number, 1, 1, .false., dimension=force), &
+      key_t(manoeuvre_group, 'steer', number, 1, 1, .false., dimension=deflection), &
       key_t(case_group, 'load', word, 1, max_loads, .false., role=load_group), &
       key_t(case_group, 'drive', word, 1, 1, .false., role=joint_group), &
       key_t(case_group, 'wheel', word, 1, 1, .false., role=wheel_group), &
@@ -213,20 +217,20 @@ module ek_group
       key_t(case_group, 'vertical', word, 1, 1, .false.), &
       key_t(case_group, 'pose', word, 1, 1, .false.), &
       key_t(case_group, 'phase', word, 1, 1, .false.), &
-      key_t(case_group, 'offset', number, 1, 1, .false.), &
+      key_t(case_group, 'offset', number, 1, 1, .false., dimension=length), &
       key_t(case_group, 'file', prose, 1, 1, .false.), &
       key_t(case_group, 'target', prose, 1, 1, .false.), &
       key_t(case_group, 'quantities', word, 1, 1, .false.), &
-      key_t(case_group, 'from', number, 1, 1, .false.), &
-      key_t(case_group, 'to', number, 1, 1, .false.), &
+      key_t(case_group, 'from', number, 1, 1, .false., dimension=swept), &
+      key_t(case_group, 'to', number, 1, 1, .false., dimension=swept), &
       key_t(case_group, 'increments', whole, 1, 1, .false.), &
-      key_t(case_group, 'steer_from', number, 1, 1, .false.), &
-      key_t(case_group, 'steer_to', number, 1, 1, .false.), &
+      key_t(case_group, 'steer_from', number, 1, 1, .false., dimension=deflection), &
+      key_t(case_group, 'steer_to', number, 1, 1, .false., dimension=deflection), &
       key_t(case_group, 'steer_increments', whole, 1, 1, .false.), &
       key_t(case_group, 'method', word, 1, 1, .false.), &
       key_t(case_group, 'solver', word, 1, 1, .false.), &
       key_t(case_group, 'follow', word, 1, 1, .false.), &
-      key_t(case_group, 'tolerance', number, 1, 1, .false., positive), &
+      key_t(case_group, 'tolerance', number, 1, 1, .false., positive, dimension=length), &
       key_t(study_group, 'title', prose, 1, 1, .false.), &
       key_t(study_group, 'kind', word, 1, 1, .true.), &
       key_t(study_group, 'deck', prose, 1, 1, .true.), &
@@ -342,8 +346,8 @@ contains
       if (.not. of_deck) names = group_names(study_groups)
    end function names_of_groups
 
-   !> Whether --set addresses a group without a record name: &model, and every group whose name is optional or does not exist, except
-   !> &manoeuvre, whose records other than sets have names.
+   !> Whether --set addresses a group without a record name: &model, and every group whose name is optional or does not exist,
+   !> except &manoeuvre, whose records other than sets have names.
    pure logical function is_single(group)
       integer, intent(in) :: group
       is_single = group == model_group .or. .not. (group == manoeuvre_group .or. any(keys%group == group .and. &

@@ -9,13 +9,14 @@
 !> the axis of a rotation) becomes −M v. The x and z axes of a bushing are mirrored as directions, so y = z × x becomes
 !> −M y: in marker axes, forces change the sign of y, moments the signs of x and z.
 module ek_mirror
-   use ek_kinds, only: wp
+   use ek_kinds, only: wp, units_t
    use ek_text, only: str, lower, quoted, did_you_mean
    use ek_record, only: deck_errors_t, has_side, left_side, right_side, side_prefix, record_t, entry_t, add_record, &
       add_value, element, entry_index, place_of, line_text, role_of, sign_of_image, turns
    use ek_group, only: group_names, group_number, point_group, word_length, record_head, is_element, can_be_doubled, &
       number, point_group, body_group, measure_group, wheel_group, load_group, polar, axial, curves, wheel_side
    use ek_namelist, only: value_fault
+   use ek_attachment, only: units_in_deck
    implicit none(type, external)
    private
    public :: mirror_records
@@ -70,6 +71,8 @@ contains
       type(record_t), intent(in) :: records(:)
       type(half_t), intent(out) :: half
       type(deck_errors_t), intent(inout) :: deck_errors
+      type(units_t) :: units
+      logical :: is_iso
       integer :: mirror, pass, k, e
 
       allocate (half%groups(size(records)), half%names(size(records)))
@@ -90,8 +93,9 @@ contains
                line_text(records(mirror), records(k)))
             if (mirror == 0) mirror = k
          case ('model')
-            if (lower(element(records(k), 'length', 1)) == 'm') half%length = 1.0_wp
-            if (lower(element(records(k), 'axes', 1)) == 'iso') half%outboard = 1.0_wp
+            call units_in_deck(records(k:k), units, is_iso)
+            half%length = units%length
+            half%outboard = merge(1.0_wp, -1.0_wp, is_iso)
          case ('wheel')
             half%is_right(k) = lower(element(records(k), 'side', 1)) == 'right'
             if (half%is_right(k)) call complain(deck_errors, records(k), 'side', &

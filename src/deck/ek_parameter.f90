@@ -170,16 +170,14 @@ contains
    end function changed
 
    !> Adds a number of a record as a parameter. parameters%used becomes the index of the parameter.
-   subroutine add_parameter(parameters, records, k, key, at, value, unit, is_given)
+   subroutine add_parameter(parameters, records, k, row, at, value, unit, is_given)
       type(parameters_t), intent(inout) :: parameters
       type(record_t), intent(in) :: records(:)
       integer, intent(in) :: k, at
-      character(*), intent(in) :: key
+      type(key_t), intent(in) :: row                 !! of the key in the table of keys
       real(wp), intent(in) :: value                  !! SI
       real(wp), intent(in) :: unit
       logical, intent(in) :: is_given
-      type(key_t) :: row
-      logical :: is_known
       integer :: n, j
 
       n = parameters%used
@@ -190,13 +188,12 @@ contains
       n = n + 1
       parameters%used = n
       parameters%x(n) = value
-      call find_key(group_number(records(k)%group), key, row, is_known)
-      parameters%list(n) = parameter_t(k, key, at, unit, row%range, is_given)
+      parameters%list(n) = parameter_t(k, row%name, at, unit, row%range, is_given)
       if (records(k)%side /= right_side) return
-      parameters%list(n)%sign = sign_of_image(records(k), key, at)
+      parameters%list(n)%sign = sign_of_image(records(k), trim(row%name), at)
       do j = n - 1, 1, -1         ! the left record precedes the right one
          if (parameters%list(j)%record /= k - 1) cycle
-         if (parameters%list(j)%key /= key .or. parameters%list(j)%at /= at) cycle
+         if (parameters%list(j)%key /= row%name .or. parameters%list(j)%at /= at) cycle
          parameters%list(n)%tied = j
          return
       end do

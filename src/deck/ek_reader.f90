@@ -3,7 +3,7 @@
 !> Here numbers are converted from the deck's units: x is in SI, in the axes of the deck. All errors of the deck are collected. The
 !> blueprint is complete if no record other than a &case or a &target_band has an error.
 module ek_reader
-   use ek_kinds, only: wp, i8, units_t, millimetre, degree
+   use ek_kinds, only: wp, i8
    use ek_text, only: str, quoted, lower, did_you_mean
    use ek_error, only: error_t, message_list_t, fail, exit_deck
    use ek_record, only: single, record_t, hand_over, element, place_of, own_name
@@ -12,6 +12,7 @@ module ek_reader
       steering_group, load_group, manoeuvre_group, target_group, word_length, record_head, has_results
    use ek_namelist, only: check_record, name_fault
    use ek_deck, only: deck_t, finish_deck
+   use ek_attachment, only: units_in_deck
    use ek_deck_reading, only: deck_reading_t, complain, complain_of_all, where_of, line_of, choice, text_of, switch_of, &
       number_of, is_second, slot
    use ek_parameter, only: parameters_t
@@ -405,28 +406,23 @@ contains
    subroutine read_model(reading)
       type(deck_reading_t), intent(inout) :: reading
       character(*), parameter :: balances(3) = [character(6) :: 'none', 'spring', 'all']
-      integer :: length, force, angle, frame, balance, gravity
+      integer :: c, balance, gravity
 
       if (is_second(reading)) return
-      call choice(reading, 'length', [character(2) :: 'mm', 'm'], length, default=1)
-      call choice(reading, 'force', [character(2) :: 'N', 'kN'], force, default=1)
-      call choice(reading, 'angle', ['deg', 'rad'], angle, default=1)
-      call choice(reading, 'axes', [character(6) :: 'x-rear', 'iso'], frame, default=1)
+      call choice(reading, 'length', [character(2) :: 'mm', 'm'], c)
+      call choice(reading, 'force', [character(2) :: 'N', 'kN'], c)
+      call choice(reading, 'angle', ['deg', 'rad'], c)
+      call choice(reading, 'axes', [character(6) :: 'x-rear', 'iso'], c)
       call choice(reading, 'balance', balances, balance, default=1)
-      reading%units = units_t(merge(1.0_wp, millimetre, length == 2), merge(1000.0_wp, 1.0_wp, force == 2), &
-         merge(1.0_wp, degree, angle == 2))
-      reading%plan%length_unit = reading%units%length
-      reading%plan%force_unit = reading%units%force
-      reading%plan%angle_unit = reading%units%angle
-      reading%plan%is_iso = frame == 2
-      call slot(reading, 'gravity', 1.0_wp, gravity)
+      call units_in_deck(reading%records(reading%k:reading%k), reading%units, reading%plan%is_iso)
+      call slot(reading, 'gravity', gravity)
       reading%plan%gravity = gravity
       associate (model => reading%plan%prototype)
          model%gravity = number_of(reading, 'gravity', 0.0_wp)
          model%name = text_of(reading, 'name')
          model%title = text_of(reading, 'title')
          model%balance = trim(balances(max(balance, 1)))
-         model%is_iso = frame == 2
+         model%is_iso = reading%plan%is_iso
          model%units = reading%units
          model%is_plausible_wanted = switch_of(reading, 'plausible', .true.)
          model%where = where_of(reading)

@@ -27,7 +27,7 @@ contains
       integer :: number
 
       vector%kind = hardpoint
-      call slot(reading, 'at', reading%units%length, vector%first, default=0.0_wp, count=3)
+      call slot(reading, 'at', vector%first, default=0.0_wp)
       call new_vector(reading, vector, number)
       reading%cards(reading%k)%index = number
       ! a setting of one side has the last word and may have taken its point across the plane: no range keeps it then
@@ -50,7 +50,7 @@ contains
       call find_point(reading, 'centre', text_of(reading, 'centre'), plan%centre, has_centre)
       if (has_key(reading, 'mass') .neqv. has_key(reading, 'centre')) call complain(reading, &
          trim(merge('mass  ', 'centre', has_key(reading, 'mass'))), 'give mass and centre (of gravity) together')
-      call slot(reading, 'mass', 1.0_wp, plan%mass)
+      call slot(reading, 'mass', plan%mass)
       body%name = text_of(reading, 'name')
       body%where = where_of(reading)
       body%has_origin = plan%origin > 0
@@ -69,7 +69,7 @@ contains
       call find_moving_body(reading, plan%body, has_body)
       call find_point(reading, 'at', text_of(reading, 'at'), plan%at, has_place)
       if (.not. reading%cards(reading%k)%is_good .or. .not. has_body .or. .not. has_place) return
-      call slot(reading, 'kg', 1.0_wp, plan%kg)
+      call slot(reading, 'kg', plan%kg)
       associate (body => reading%plan%prototype%bodies(plan%body))      ! whether it has a weight
          body%mass = body%mass + number_of(reading, 'kg', 1.0_wp)
       end associate
@@ -94,8 +94,8 @@ contains
       reading%cards(reading%k)%is_used = element%is_case
       if (.not. reading%cards(reading%k)%is_good) return
 
-      call slot(reading, 'force', reading%units%force, plan%force, default=0.0_wp, count=3)
-      call slot(reading, 'moment', reading%units%force*reading%units%length, plan%moment, default=0.0_wp, count=3)
+      call slot(reading, 'force', plan%force, default=0.0_wp)
+      call slot(reading, 'moment', plan%moment, default=0.0_wp)
       element%name = text_of(reading, 'name')
       element%where = where_of(reading)
       element%follows = switch_of(reading, 'follows', .false.)
@@ -134,10 +134,10 @@ contains
       call find_points(reading, 'steer_axis', plan%steer_axis, is_there)
       if (is_there) call check_apart(reading, 'steer_axis', plan%steer_axis, '', is_there)
       if (.not. reading%cards(reading%k)%is_good) return
-      call slot(reading, 'radius', reading%units%length, plan%radius)
-      call slot(reading, 'tyre_rate', reading%units%force/reading%units%length, plan%tyre_rate)
-      call slot(reading, 'tyre_width', reading%units%length, plan%tyre_width)
-      call slot(reading, 'sprung_mass', 1.0_wp, plan%sprung_mass)
+      call slot(reading, 'radius', plan%radius)
+      call slot(reading, 'tyre_rate', plan%tyre_rate)
+      call slot(reading, 'tyre_width', plan%tyre_width)
+      call slot(reading, 'sprung_mass', plan%sprung_mass)
       this%name = text_of(reading, 'name')
       this%where = where_of(reading)
       reading%plan%prototype%wheels = [reading%plan%prototype%wheels, this]
@@ -153,8 +153,8 @@ contains
       real(wp) :: spin(3)
 
       if (.not. has_key(reading, 'spin_vector')) then
-         call slot(reading, 'toe', reading%units%angle, plan%toe, default=0.0_wp)
-         call slot(reading, 'camber', reading%units%angle, plan%camber, default=0.0_wp)
+         call slot(reading, 'toe', plan%toe, default=0.0_wp)
+         call slot(reading, 'camber', plan%camber, default=0.0_wp)
          return
       end if
       if (has_key(reading, 'toe') .or. has_key(reading, 'camber')) call complain(reading, 'spin_vector', &
@@ -165,7 +165,7 @@ contains
          return
       end if
       vector%kind = given
-      call slot(reading, 'spin_vector', 1.0_wp, vector%first, count=3)
+      call slot(reading, 'spin_vector', vector%first)
       call new_vector(reading, vector, plan%spin)
       spin = reading%vectors(:, plan%spin)
       if (.not. this%side*spin(2) > 0.0_wp) call complain(reading, 'spin_vector', 'spin_vector must point outboard, to the '// &
@@ -182,15 +182,15 @@ contains
       if (has_key(reading, 'front_overhang') .neqv. has_key(reading, 'front_width')) call complain(reading, &
          trim(merge('front_overhang', 'front_width   ', has_key(reading, 'front_overhang'))), &
          'give front_overhang and front_width together (both define the wall-to-wall turning circle)')
-      call slot(reading, 'wheelbase', reading%units%length, number(1))
-      call slot(reading, 'cg_height', reading%units%length, number(2))
-      call slot(reading, 'mass', 1.0_wp, number(3))
-      call slot(reading, 'brake_share', 1.0_wp, number(4))
-      call slot(reading, 'drive_share', 1.0_wp, number(5), default=1.0_wp)
-      call slot(reading, 'front_overhang', reading%units%length, number(6))
-      call slot(reading, 'front_width', reading%units%length, number(7))
-      call slot(reading, 'axle_load', reading%units%force, number(8))
-      call slot(reading, 'roll_share', 1.0_wp, number(9))
+      call slot(reading, 'wheelbase', number(1))
+      call slot(reading, 'cg_height', number(2))
+      call slot(reading, 'mass', number(3))
+      call slot(reading, 'brake_share', number(4))
+      call slot(reading, 'drive_share', number(5), default=1.0_wp)
+      call slot(reading, 'front_overhang', number(6))
+      call slot(reading, 'front_width', number(7))
+      call slot(reading, 'axle_load', number(8))
+      call slot(reading, 'roll_share', number(9))
       reading%plan%axle = number
       associate (this => reading%plan%prototype%axle)
          call choice(reading, 'position', [character(5) :: 'front', 'rear'], c)
@@ -217,8 +217,8 @@ contains
       driver = text_of(reading, 'driver')
       call look_up(reading, 'driver', joint_group, driver, found)
       if (found > 0) call check_driver()
-      call slot(reading, 'ratio', reading%units%length, number(1))
-      call slot(reading, 'travel', reading%units%length, number(2))
+      call slot(reading, 'ratio', number(1))
+      call slot(reading, 'travel', number(2))
       reading%plan%steering = number
       associate (this => reading%plan%prototype%steering)
          this%has_steering = .true.

@@ -2,6 +2,7 @@
 module ek_reader_cases
    use ek_kinds, only: wp, millimetre
    use ek_text, only: str, lower, quoted
+   use ek_dimension, only: pure_number, length, force, angle
    use ek_rig_test, only: rig_test_t, rig_tests, needs_both, of_one_wheel, lifts, rig_test, rolls, steers, loads_wheels, &
       takes_table, covers_grid, drives_car
    use ek_case, only: case_t, method_names, solver_names, follow_names, max_increments
@@ -12,7 +13,7 @@ module ek_reader_cases
    use ek_group, only: wheel_group, spring_group, case_group, load_group, steering_group, manoeuvre_group, number, max_loads, &
       word_length
    use ek_deck_reading, only: deck_reading_t, complain, where_of, line_of, has_key, choice, text_of, texts_of, number_of, &
-      whole_of, refuse, slot
+      whole_of, refuse, slot, unit_of
    use ek_attachment, only: path_of
    use ek_reference, only: look_up, find_driver, find_wheel, is_driver
    implicit none(type, external)
@@ -33,11 +34,10 @@ contains
       type(case_t), intent(out) :: this
       type(case_plan_t) :: plan
       type(rig_test_t) :: test
-      real(wp) :: unit, steer_unit, from, to, reach, tolerance
+      real(wp) :: from, to, reach, tolerance
       integer :: c
       logical :: has_grid, has_table
 
-      unit = 1.0_wp
       test = rig_test(lower(text_of(reading, 'test')))
       has_grid = test%action == covers_grid
       has_table = any(test%action == [takes_table, drives_car])
@@ -50,9 +50,9 @@ contains
       from = number_of(reading, 'from', -reach)
       to = number_of(reading, 'to', reach)
       if (has_key(reading, 'test')) then
-         call read_test(reading, from, to, this, unit, steer_unit)
+         call read_test(reading, from, to, this)
       else
-         call read_drive(reading, this, unit)
+         call read_drive(reading, this)
       end if
       if (.not. has_table) then
          if (.not. (has_key(reading, 'from') .or. has_grid)) call complain(reading, '', "'from' is missing")
@@ -66,12 +66,12 @@ contains
       this%increments = whole_of(reading, 'increments', merge(test%increments, this%increments, has_grid))
       if (this%increments < 1 .or. this%increments > max_increments) call complain(reading, 'increments', &
          'increments must be 1 to '//str(max_increments)//', found '//str(this%increments))
-      if (has_grid) call read_grid(reading, steer_unit, this, plan)
+      if (has_grid) call read_grid(reading, this, plan)
       call choice(reading, 'method', method_names, c)
       this%says_solver = has_key(reading, 'solver')
       call choice(reading, 'solver', solver_names, c)
       this%uses_plan = c == 2
-      tolerance = number_of(reading, 'tolerance', this%tolerance/reading%units%length)*reading%units%length
+      tolerance = number_of(reading, 'tolerance', this%tolerance/unit_of(reading, 'tolerance'))*unit_of(reading, 'tolerance')
       if (has_key(reading, 'tolerance')) this%tolerance = tolerance
       if (tolerance < min_tolerance .or. tolerance > max_tolerance) call complain(reading, 'tolerance', 'tolerance must be '// &
          str(min_tolerance/millimetre)//' to '//str(max_tolerance/millimetre)//' mm, found '// &
@@ -85,20 +85,19 @@ contains
       this%name = text_of(reading, 'name')
       this%where = where_of(reading)
       this%is_good = reading%cards(reading%k)%is_good
-      if (.not. has_table) call slot(reading, 'from', unit, plan%from, default=-reach)
-      if (.not. has_table) call slot(reading, 'to', unit, plan%to, default=reach)
-      if (test%has_trail) call slot(reading, 'offset', reading%units%length, plan%offset, default=0.0_wp)
-      this%from = from*unit
-      this%to = to*unit
+      if (.not. has_table) call slot(reading, 'from', plan%from, default=-reach)
+      if (.not. has_table) call slot(reading, 'to', plan%to, default=reach)
+      if (test%has_trail) call slot(reading, 'offset', plan%offset, default=0.0_wp)
+      this%from = from*unit_of(reading, 'from')
+      this%to = to*unit_of(reading, 'to')
       reading%plan%cases = [reading%plan%cases, plan]
       reading%cards(reading%k)%index = size(reading%plan%cases)
    end subroutine read_case
 
    !> Reads the range of the driver in a grid. The default is the travel of &steering, which depends on the design, if the driver is
    !> the rack. For any other driver, both ends of the range must be given.
-   subroutine read_grid(reading, steer_unit, this, plan)
+   subroutine read_grid(reading, this, plan)
       type(deck_reading_t), intent(inout) :: reading
-      real(wp), intent(in) :: steer_unit       !! SI value of the deck unit of the driver
       type(case_t), intent(inout) :: this
       type(case_plan_t), intent(inout) :: plan
       character(*), parameter :: keys(2) = [character(10) :: 'steer_from', 'steer_to']
@@ -113,8 +112,8 @@ contains
          call complain(reading, 'steer_increments', 'the grid must have at most '//str(max_increments)//' states, found '// &
             str(this%increments + 1)//' x '//str(this%steer_increments + 1)//': use fewer increments')
       end if
-      call slot(reading, 'steer_from', steer_unit, plan%steer_from)
-      call slot(reading, 'steer_to', steer_unit, plan%steer_to)
+      call slot(reading, 'steer_from', plan%steer_from)
+      call slot(reading, 'steer_to', plan%steer_to)
       j = findloc(reading%cards%group, steering_group, dim=1)
       is_rack = .false.
       if (j > 0) is_rack = lower(element(reading%records(j), 'driver', 1)) == lower(this%drive)
@@ -123,8 +122,8 @@ contains
          if (.not. has_key(reading, trim(keys(k)))) call complain(reading, '', quoted(trim(keys(k)))// &
             ' is missing: give both, or neither for the travel of &steering')
       end do
-      this%steer_from = number_of(reading, 'steer_from', 0.0_wp)*steer_unit
-      this%steer_to = number_of(reading, 'steer_to', 0.0_wp)*steer_unit
+      this%steer_from = number_of(reading, 'steer_from', 0.0_wp)*unit_of(reading, 'steer_from')
+      this%steer_to = number_of(reading, 'steer_to', 0.0_wp)*unit_of(reading, 'steer_to')
       if (reading%cards(reading%k)%is_good .and. .not. abs(this%steer_to - this%steer_from) > 0.0_wp) &
          call complain(reading, 'steer_to', 'steer_from and steer_to must differ, found '// &
          str(number_of(reading, 'steer_to', 0.0_wp))//' twice')
@@ -197,12 +196,11 @@ contains
    end subroutine refuse_one_file_for_two
 
    !> Reads a case that scales loads or moves a driver directly.
-   subroutine read_drive(reading, this, unit)
+   subroutine read_drive(reading, this)
       type(deck_reading_t), intent(inout) :: reading
       type(case_t), intent(inout) :: this
-      real(wp), intent(inout) :: unit      !! SI value of the deck unit of from and to
       character(word_length) :: load(max_loads)
-      integer :: j, loads, refused
+      integer :: j, loads, refused, swept
 
       if (has_key(reading, 'load') .and. has_key(reading, 'drive')) then
          call complain(reading, 'drive', 'give either load or drive, not both')
@@ -232,14 +230,16 @@ contains
          end do
       end if
       this%drive = text_of(reading, 'drive')
+      swept = pure_number          ! the factor of a load
       if (lower(this%drive) == 'wheel_travel') then
          this%drive = 'wheel_travel'
-         unit = reading%units%length
+         swept = length
          if (.not. any(reading%cards%group == wheel_group)) &
             call complain(reading, 'drive', "drive is 'wheel_travel', but there is no &wheel")
       else if (this%drive /= '') then
-         call find_driver(reading, this%drive, [character(12) :: 'wheel_travel'], unit)
+         call find_driver(reading, this%drive, [character(12) :: 'wheel_travel'], swept)
       end if
+      reading%cards(reading%k)%swept = swept
       call find_wheel(reading, this%drive == 'wheel_travel', "with drive = 'wheel_travel'", this%wheel)
 
    contains
@@ -262,17 +262,14 @@ contains
    end subroutine read_drive
 
    !> Reads the test of a case. A missing key, and a key that the test does not allow, are reported as errors.
-   subroutine read_test(reading, from, to, this, unit, steer_unit)
+   subroutine read_test(reading, from, to, this)
       type(deck_reading_t), intent(inout) :: reading
       real(wp), intent(in) :: from, to       !! in the unit of the deck
       type(case_t), intent(inout) :: this
-      real(wp), intent(inout) :: unit        !! SI value of the deck unit of from and to
-      real(wp), intent(out) :: steer_unit    !! SI value of the deck unit of the driver in a grid
       character(*), parameter :: no_grid = 'only test ''travel_and_steering'' has a second range'
       type(rig_test_t) :: test
-      integer :: c, wheels(2)
+      integer :: c, swept, steered, wheels(2)
 
-      steer_unit = 1.0_wp
       call choice(reading, 'test', rig_tests%name, c)
       this%load = ''
       if (c == 0) return
@@ -316,21 +313,24 @@ contains
          if (any(wheels == 0)) call complain(reading, 'test', 'a left and a right wheel are needed; the deck has '// &
             str(count(wheels > 0)))
       end if
-      this%offset = number_of(reading, 'offset', 0.0_wp)*reading%units%length
+      this%offset = number_of(reading, 'offset', 0.0_wp)*unit_of(reading, 'offset')
       this%wheel = max(wheels(1), 1)
       if (wheels(1) == 0) this%wheel = max(wheels(2), 1)
       call find_wheel(reading, of_one_wheel(test), "with test = 'single_travel'", this%wheel)
 
-      unit = 1.0_wp          ! N m, as on every rig
-      if (test%unit == 'mm') unit = merge(reading%units%force, reading%units%length, this%vertical == 'force')
-      if (test%unit == 'deg') unit = reading%units%angle
-      if (test%unit == 'N') unit = reading%units%force
-      if (test%action == rolls .and. max(abs(from), abs(to))*unit > steepest_roll) call complain(reading, 'to', &
-         'the roll angle must stay within 0.5 rad (28.6 deg), found '//str(from)//' to '//str(to))
-      if (test%action == steers) call find_steering(reading, this%drive, unit)
+      swept = pure_number          ! N m, as on every rig
+      if (test%unit == 'mm') swept = merge(force, length, this%vertical == 'force')
+      if (test%unit == 'deg') swept = angle
+      if (test%unit == 'N') swept = force
+      if (test%action == steers) call find_steering(reading, this%drive, swept)
+      reading%cards(reading%k)%swept = swept
+      if (test%action == rolls .and. max(abs(from), abs(to))*unit_of(reading, 'from') > steepest_roll) &
+         call complain(reading, 'to', 'the roll angle must stay within 0.5 rad (28.6 deg), found '//str(from)//' to '//str(to))
       if (test%action == covers_grid) then
-         call find_steering(reading, this%drive, steer_unit)
-         unit = reading%units%length
+         steered = pure_number
+         call find_steering(reading, this%drive, steered)
+         reading%cards(reading%k)%deflection = steered
+         reading%cards(reading%k)%swept = length
       end if
       if (test%action == takes_table) then
          if (.not. has_key(reading, 'file')) call complain(reading, '', "'file' is missing")
@@ -389,10 +389,10 @@ contains
 
    !> Finds the steered joint: the `drive` of the case, otherwise the driver of &steering, otherwise the only driver of the deck. An
    !> error is reported if none of them exists.
-   subroutine find_steering(reading, drive, unit)
+   subroutine find_steering(reading, drive, dimension)
       type(deck_reading_t), intent(inout) :: reading
       character(:), allocatable, intent(out) :: drive
-      real(wp), intent(inout) :: unit        !! SI value of the deck unit of the joint; unchanged if not found
+      integer, intent(inout) :: dimension    !! dimension of the prescribed value; unchanged if not found
       logical :: is_one(size(reading%cards))
       integer :: j
 
@@ -404,7 +404,7 @@ contains
       if (drive == '') then
          call complain(reading, 'test', "the steered joint is unknown: give drive = '<driver joint>' or a &steering")
       else
-         call find_driver(reading, drive, [character(1) ::], unit)
+         call find_driver(reading, drive, [character(1) ::], dimension)
       end if
    end subroutine find_steering
 

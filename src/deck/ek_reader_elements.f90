@@ -1,6 +1,6 @@
 !> &curve, and the elastic elements: &spring, &damper, &stop, &torsion, each of one measure, and &bushing.
 !>
-!> A curve itself has no units. Its numbers are in the deck units of the element that uses the curve.
+!> A curve itself has no units. Its numbers are in the deck units of the element that uses the curve, which converts them.
 module ek_reader_elements
    use ek_kinds, only: wp
    use ek_text, only: str, lower, quoted
@@ -9,7 +9,8 @@ module ek_reader_elements
    use ek_number_range, only: only_zero
    use ek_curve, only: curve_t, look_up_curve
    use ek_new_curve, only: new_curve, curve_kinds, min_step
-   use ek_measure, only: measure_t, distance, rotation, is_of_angle
+   use ek_dimension, only: unit_size, length, angle, force, moment
+   use ek_measure, only: measure_t, distance, rotation
    use ek_element, only: element_t, set_kind, axial_spring, measure_spring, damper, stop_spring, torsion_spring, bushing_element, &
       rate_number, preload_number, free_length_number, clearance_number, rounding_number
    use ek_elastic, only: bushing_t
@@ -17,7 +18,7 @@ module ek_reader_elements
    use ek_design_vector, only: marker_axes
    use ek_group, only: measure_group, bushing_group, spring_group, damper_group, stop_group, torsion_group, word_length
    use ek_deck_reading, only: deck_reading_t, complain, where_of, has_key, choice, text_of, texts_of, switch_of, number_of, &
-      numbers_of, value_count, refuse, slot
+      numbers_of, value_count, refuse, slot, unit_of
    use ek_reader_ratings, only: rating_t, read_rating, add_tilts
    use ek_reference, only: look_up, find_bodies, find_direction, find_ends, find_curve, new_vector
    implicit none(type, external)
@@ -54,8 +55,8 @@ contains
       end do
       plan%name = text_of(reading, 'name')
       plan%kind = trim(curve_kinds(c))
-      call slot(reading, 'x', 1.0_wp, plan%x, count=plan%points)
-      call slot(reading, 'y', 1.0_wp, plan%y, count=plan%points)
+      call slot(reading, 'x', plan%x, count=plan%points)
+      call slot(reading, 'y', plan%y, count=plan%points)
       reading%plan%curves(size(reading%plan%curves)) = plan
    end subroutine read_curve
 
@@ -83,8 +84,7 @@ contains
       type(element_plan_t) :: plan
       type(measure_t) :: measure
 
-      plan%force_unit = reading%units%force
-      plan%value_unit = reading%units%length
+      call set_dimensions(reading, plan, length, force)
       if (has_key(reading, 'measure')) then
          call find_measure()
       else
@@ -96,14 +96,14 @@ contains
       if (has_key(reading, 'preload') .and. has_key(reading, 'free_length')) &
          call complain(reading, 'free_length', 'give either preload or free_length, not both')
       if (.not. reading%cards(reading%k)%is_good) return
-      call slot(reading, 'free_length', reading%units%length, plan%numbers(free_length_number))
+      call slot(reading, 'free_length', plan%numbers(free_length_number))
       if (plan%numbers(free_length_number) == 0) &
-         call slot(reading, 'preload', plan%force_unit, plan%numbers(preload_number), default=0.0_wp)
+         call slot(reading, 'preload', plan%numbers(preload_number), default=0.0_wp)
       call add(reading, plan, merge(axial_spring, measure_spring, measure%kind == distance), measure)
 
    contains
 
-      !> Finds the measure of the spring, and the units of its value and force.
+      !> Finds the measure of the spring, and the dimensions of its value and force.
       subroutine find_measure()
          integer :: found
 
@@ -115,9 +115,8 @@ contains
             reading%cards(reading%k)%is_good = .false.
             return
          end if
-         plan%value_unit = reading%cards(found)%factor
+         call set_dimensions(reading, plan, reading%cards(found)%deflection, reading%cards(found)%reaction)
          measure = reading%plan%prototype%readouts(plan%readout)%measure
-         if (is_of_angle(measure%kind)) plan%force_unit = plan%force_unit*reading%units%length
          if (measure%kind /= distance) call refuse(reading, ['free_length'], &
             'only a spring on a distance accepts this key; give preload instead')
       end subroutine find_measure
@@ -132,8 +131,8 @@ contains
 
       call find_link(reading, plan, measure)
       if (.not. reading%cards(reading%k)%is_good) return
-      call slot(reading, 'gas_rate', reading%units%force/reading%units%length, plan%numbers(rate_number), default=0.0_wp)
-      call slot(reading, 'gas_force', reading%units%force, plan%numbers(preload_number), default=0.0_wp)
+      call slot(reading, 'gas_rate', plan%numbers(rate_number), default=0.0_wp)
+      call slot(reading, 'gas_force', plan%numbers(preload_number), default=0.0_wp)
       call add(reading, plan, damper, measure)
    end subroutine read_damper
 
@@ -143,11 +142,10 @@ contains
       type(element_plan_t) :: plan
       type(measure_t) :: measure
       type(curve_t) :: curve
-      real(wp) :: force, slope
+      real(wp) :: force_at_contact, slope
       integer :: c
 
-      plan%force_unit = reading%units%force
-      plan%value_unit = reading%units%length
+      call set_dimensions(reading, plan, length, force)
       call choice(reading, 'type', [character(7) :: 'bump', 'rebound'], c)
       call find_link(reading, plan, measure)
       call find_law(reading, plan)
@@ -155,14 +153,14 @@ contains
          associate (this => reading%plan%curves(plan%curve), x => reading%parameters%x)
             curve = new_curve(x(this%x:this%x + this%points - 1), x(this%y:this%y + this%points - 1), this%kind)
          end associate
-         call look_up_curve(curve, 0.0_wp, force, slope)
-         if (abs(force) > 0.0_wp) call complain(reading, 'curve', 'curve '//quoted(text_of(reading, 'curve'))// &
-            ' must be 0 at 0 (a stop without contact exerts no force), found '//str(force))
+         call look_up_curve(curve, 0.0_wp, force_at_contact, slope)
+         if (abs(force_at_contact) > 0.0_wp) call complain(reading, 'curve', 'curve '//quoted(text_of(reading, 'curve'))// &
+            ' must be 0 at 0 (a stop without contact exerts no force), found '//str(force_at_contact))
       end if
       if (.not. reading%cards(reading%k)%is_good) return
-      call slot(reading, 'clearance', reading%units%length, plan%numbers(clearance_number))
-      call slot(reading, 'rounding', reading%units%length, plan%numbers(rounding_number), &
-         default=usual_rounding/reading%units%length)
+      call slot(reading, 'clearance', plan%numbers(clearance_number))
+      call slot(reading, 'rounding', plan%numbers(rounding_number), &
+         default=usual_rounding/unit_of(reading, 'rounding'))
       call add(reading, plan, stop_spring, measure)
       if (c == 2) reading%plan%prototype%elements(reading%plan%prototype%scalars)%law%sign = 1.0_wp
    end subroutine read_stop
@@ -174,16 +172,27 @@ contains
       logical :: has_axis, is_axis
       integer :: bodies(2)
 
-      plan%force_unit = reading%units%force*reading%units%length
-      plan%value_unit = reading%units%angle
+      call set_dimensions(reading, plan, angle, moment)
       call find_bodies(reading, bodies)
       call find_direction(reading, 'axis', 'axis_vector', plan%axis, has_axis, is_axis)
       if (.not. has_axis) call complain(reading, '', "give 'axis' or 'axis_vector'")
       call find_law(reading, plan)
       if (.not. reading%cards(reading%k)%is_good) return
-      call slot(reading, 'preload', plan%force_unit, plan%numbers(preload_number), default=0.0_wp)
+      call slot(reading, 'preload', plan%numbers(preload_number), default=0.0_wp)
       call add(reading, plan, torsion_spring, measure_t(kind=rotation, body_i=bodies(1), body_j=bodies(2)))
    end subroutine read_torsion
+
+   !> Sets the dimensions of deflection and reaction of an element, and thereby the units of its curve.
+   subroutine set_dimensions(reading, plan, of_deflection, of_reaction)
+      type(deck_reading_t), intent(inout) :: reading
+      type(element_plan_t), intent(inout) :: plan
+      integer, intent(in) :: of_deflection, of_reaction
+
+      reading%cards(reading%k)%deflection = of_deflection
+      reading%cards(reading%k)%reaction = of_reaction
+      plan%value_unit = unit_size(of_deflection, reading%units)
+      plan%force_unit = unit_size(of_reaction, reading%units)
+   end subroutine set_dimensions
 
    !> Finds the distance between two distinct points of two different bodies as a measure.
    subroutine find_link(reading, plan, measure)
@@ -209,7 +218,7 @@ contains
          call complain(reading, '', "give 'rate' or 'curve'")
       end if
       call find_curve(reading, 'curve', text_of(reading, 'curve'), plan%curve)
-      call slot(reading, 'rate', plan%force_unit/plan%value_unit, plan%numbers(rate_number))
+      call slot(reading, 'rate', plan%numbers(rate_number))
    end subroutine find_law
 
    !> Adds an element to the prototype, before all bushings, and adds its plan to the blueprint. `realise` sets the numbers.
@@ -250,12 +259,10 @@ contains
       call read_rating(reading, 1, .false., rating)
       if (.not. reading%cards(reading%k)%is_good) return
 
-      associate (units => reading%units)
-         call slot(reading, 'kt', units%force/units%length, plan%kt, default=0.0_wp, count=3)
-         call slot(reading, 'kr', units%force*units%length/units%angle, plan%kr, default=0.0_wp, count=3)
-         call slot(reading, 'preload_force', units%force, plan%preload_force, default=0.0_wp, count=3)
-         call slot(reading, 'preload_moment', units%force*units%length, plan%preload_moment, default=0.0_wp, count=3)
-      end associate
+      call slot(reading, 'kt', plan%kt, default=0.0_wp)
+      call slot(reading, 'kr', plan%kr, default=0.0_wp)
+      call slot(reading, 'preload_force', plan%preload_force, default=0.0_wp)
+      call slot(reading, 'preload_moment', plan%preload_moment, default=0.0_wp)
       if (element%bushing%has_curves) then
          associate (list => reading%parameters%list)
             where (element%bushing%laws(1:3)%has_curve) list(plan%kt:plan%kt + 2)%range = only_zero

@@ -3,6 +3,7 @@ module ek_reader_joints
    use ek_kinds, only: wp
    use ek_text, only: str, quoted
    use ek_rotation, only: angle_between
+   use ek_dimension, only: unit_size, pure_number, length, angle, force, moment
    use ek_measure, only: axis_axis, body_gap, global_gap, distance, rotation, is_of_angle
    use ek_joint, only: term_t, joint_geometry_t, joint_terms, joint_kinds, joint_table, joint_kind_t, axes_fit, max_terms, &
       no_axis, one_or_two, two_axes, either_axis, right_angle, no_angle, not_opposed, rod_part
@@ -44,11 +45,12 @@ contains
       select case (kind)
       case (distance, body_gap, global_gap)
          if (.not. has_key(reading, 'at')) call complain(reading, '', "'at' is missing")
-         reading%cards(reading%k)%factor = reading%units%length
+         reading%cards(reading%k)%deflection = length
       case default
          call refuse(reading, ['at'], 'a measure of type '//quoted(type)//' does not accept points')
-         reading%cards(reading%k)%factor = merge(reading%units%angle, 1.0_wp, kind == rotation)
+         reading%cards(reading%k)%deflection = merge(angle, pure_number, kind == rotation)
       end select
+      reading%cards(reading%k)%reaction = merge(moment, force, is_of_angle(kind))
       if (kind == distance) then
          call need_two_points(reading, plan%ends, has_points, 'a distance')
          call refuse(reading, ['axis       ', 'axis_vector'], 'a distance does not accept an axis')
@@ -161,22 +163,19 @@ contains
    subroutine make_driver(reading)
       type(deck_reading_t), intent(inout) :: reading
       type(joint_plan_t) :: plan
-      real(wp) :: reaction_unit, place_unit
       integer :: found, readout
 
       call look_up(reading, 'measure', measure_group, text_of(reading, 'measure'), found)
       if (found == 0) return
-      place_unit = reading%cards(found)%factor
-      reading%cards(reading%k)%factor = place_unit
+      reading%cards(reading%k)%deflection = reading%cards(found)%deflection
+      reading%cards(reading%k)%reaction = reading%cards(found)%reaction
       readout = reading%cards(found)%index
       if (.not. reading%cards(reading%k)%is_good .or. readout == 0) return
       plan%readouts = [readout]
-      plan%units = [place_unit]
+      plan%units = [unit_size(reading%cards(found)%deflection, reading%units)]
       if (.not. has_key(reading, 'stiffness')) call refuse(reading, ['balance'], 'only a driver with a stiffness accepts this key')
       associate (model => reading%plan%prototype)
-         reaction_unit = reading%units%force
-         if (is_of_angle(model%readouts(readout)%measure%kind)) reaction_unit = reaction_unit*reading%units%length
-         call slot(reading, 'stiffness', reaction_unit, plan%stiffness)
+         call slot(reading, 'stiffness', plan%stiffness)
          call append_measures(reading, 'driver', plan%readouts)
          model%joints(size(model%joints))%says_balance = has_key(reading, 'balance')
          model%joints(size(model%joints))%is_balanced = switch_of(reading, 'balance', .true.)
@@ -204,8 +203,8 @@ contains
       if (.not. reading%cards(reading%k)%is_good .or. any(found(:given) == 0)) return
       plan%readouts = reading%cards(found(:given))%index
       if (any(plan%readouts == 0)) return      ! a measure that was rejected
-      plan%units = reading%cards(found(:given))%factor
-      call slot(reading, 'ratios', 1.0_wp, first, count=given)
+      plan%units = [(unit_size(reading%cards(found(j))%deflection, reading%units), j=1, given)]
+      call slot(reading, 'ratios', first, count=given)
       plan%ratios = [(first + j - 1, j=1, given)]
       call append_measures(reading, 'coupler', plan%readouts)
       reading%plan%joints = [reading%plan%joints, plan]

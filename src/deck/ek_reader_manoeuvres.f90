@@ -8,7 +8,8 @@ module ek_reader_manoeuvres
    use ek_manoeuvre_records, only: set_names
    use ek_record, only: is_given, element
    use ek_reference, only: find_card, is_driver
-   use ek_deck_reading, only: deck_reading_t, complain, refuse, where_of, line_of, has_key, choice, text_of, number_of, slot
+   use ek_deck_reading, only: deck_reading_t, complain, refuse, where_of, line_of, has_key, choice, text_of, number_of, slot, &
+      unit_of
    implicit none(type, external)
    private
    public :: read_manoeuvre
@@ -19,7 +20,6 @@ contains
    subroutine read_manoeuvre(reading)
       type(deck_reading_t), intent(inout) :: reading
       type(manoeuvre_plan_t) :: plan
-      real(wp) :: steer_unit
       integer :: c, usual
 
       if (has_key(reading, 'set')) then
@@ -48,19 +48,18 @@ contains
          if (c == 3 .and. this%side == 0) call complain(reading, 'longitudinal_by', "longitudinal_by = 'obstacle' needs side: "// &
             'the wheel that hits the obstacle')
          if (this%has_wheels) this%wheels = [number_of(reading, 'wheels', 1.0_wp, 1), number_of(reading, 'wheels', 1.0_wp, 2)]
-         this%downforce = number_of(reading, 'downforce', 0.0_wp)*reading%units%force
-         steer_unit = 1.0_wp
-         if (has_key(reading, 'steer')) call find_steering(reading, plan%manoeuvre, steer_unit)
-         this%steer = number_of(reading, 'steer', 0.0_wp)*steer_unit
+         this%downforce = number_of(reading, 'downforce', 0.0_wp)*unit_of(reading, 'downforce')
+         if (has_key(reading, 'steer')) call find_steering(reading, plan%manoeuvre)
+         this%steer = number_of(reading, 'steer', 0.0_wp)*unit_of(reading, 'steer')
          call check_car(reading, this%side == 0 .and. (abs(this%longitudinal) > 0.0_wp .or. abs(this%lateral) > 0.0_wp))
       end associate
       if (.not. reading%cards(reading%k)%is_good) return
-      if (.not. plan%manoeuvre%has_wheels) call slot(reading, 'vertical', 1.0_wp, plan%vertical, default=1.0_wp)
-      call slot(reading, 'longitudinal', 1.0_wp, plan%longitudinal, default=0.0_wp)
-      call slot(reading, 'lateral', 1.0_wp, plan%lateral, default=0.0_wp)
-      call slot(reading, 'wheels', 1.0_wp, plan%wheels, count=2)
-      call slot(reading, 'downforce', reading%units%force, plan%downforce)
-      call slot(reading, 'steer', steer_unit, plan%steer)
+      if (.not. plan%manoeuvre%has_wheels) call slot(reading, 'vertical', plan%vertical, default=1.0_wp)
+      call slot(reading, 'longitudinal', plan%longitudinal, default=0.0_wp)
+      call slot(reading, 'lateral', plan%lateral, default=0.0_wp)
+      call slot(reading, 'wheels', plan%wheels)
+      call slot(reading, 'downforce', plan%downforce)
+      call slot(reading, 'steer', plan%steer)
       reading%plan%manoeuvres = [reading%plan%manoeuvres, plan]
       reading%cards(reading%k)%index = size(reading%plan%manoeuvres)
    end subroutine read_manoeuvre
@@ -78,11 +77,11 @@ contains
          j=1, size(reading%cards))])) call complain(reading, 'side', 'side: the deck has no '//trim(sides(side))//' wheel')
    end subroutine read_side
 
-   !> Finds the steering driver that a manoeuvre holds: the driver of &steering, otherwise the only driver of the deck.
-   subroutine find_steering(reading, this, unit)
+   !> Finds the steering driver that a manoeuvre holds: the driver of &steering, otherwise the only driver of the deck. The dimension
+   !> of `steer` is that of this driver.
+   subroutine find_steering(reading, this)
       type(deck_reading_t), intent(inout) :: reading
       type(manoeuvre_t), intent(inout) :: this
-      real(wp), intent(inout) :: unit        !! SI value of the deck unit of the driver; unchanged if not found
       logical :: is_one(size(reading%cards))
       integer :: j, found
 
@@ -98,7 +97,7 @@ contains
             'no &steering and '//str(count(is_one))//' driver joints: add &steering with its driver')
          return
       end if
-      unit = reading%cards(found)%factor
+      reading%cards(reading%k)%deflection = reading%cards(found)%deflection
       this%driver = trim(reading%cards(found)%name)
    end subroutine find_steering
 

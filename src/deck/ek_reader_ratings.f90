@@ -3,7 +3,7 @@ module ek_reader_ratings
    use ek_kinds, only: wp
    use ek_text, only: str
    use ek_blueprint, only: vector_t, given
-   use ek_deck_reading, only: deck_reading_t, complain, has_key, number_of, numbers_of, value_count, text_of, slot
+   use ek_deck_reading, only: deck_reading_t, complain, has_key, number_of, numbers_of, value_count, text_of, slot, unit_of
    use ek_reference, only: new_vector
    use ek_tilt, only: tilt_t
    implicit none(type, external)
@@ -28,7 +28,7 @@ contains
       logical, intent(in) :: needs_axis      !! the axis has no default
       type(rating_t), intent(out) :: rating
       type(vector_t) :: vector
-      real(wp) :: numbers(6)
+      real(wp) :: numbers(6), unit
       integer :: k, first, given_values
 
       if (.not. has_key(reading, angle_key)) then
@@ -38,8 +38,9 @@ contains
       if (value_count(reading, angle_key) > ends) call complain(reading, angle_key, angle_key//': one angle is needed, found '// &
          str(value_count(reading, angle_key))//' (only a distance joint has two ends)')
       rating%tilts = ends
-      rating%angle(1) = number_of(reading, angle_key, 0.0_wp)*reading%units%angle
-      rating%angle(2) = number_of(reading, angle_key, rating%angle(1)/reading%units%angle, 2)*reading%units%angle
+      unit = unit_of(reading, angle_key)
+      rating%angle(1) = number_of(reading, angle_key, 0.0_wp)*unit
+      rating%angle(2) = number_of(reading, angle_key, rating%angle(1)/unit, 2)*unit
       given_values = value_count(reading, axis_key)
       if (given_values == 0) then
          if (needs_axis) call complain(reading, '', "'"//axis_key//"' is missing: the axis of stud and housing at design")
@@ -57,7 +58,7 @@ contains
          if (reading%cards(reading%k)%is_good) call complain(reading, axis_key, axis_key//' has zero length')
          return
       end do
-      call slot(reading, axis_key, 1.0_wp, first, count=given_values)
+      call slot(reading, axis_key, first, count=given_values)
       vector%kind = given
       do k = 1, given_values/3
          vector%first = first + 3*(k - 1)

@@ -270,7 +270,7 @@ contains
             if (reading%cards(reading%k)%is_good) call complain(reading, vector_key, vector_key//' has zero length')
             return
          end if
-         call slot(reading, vector_key, 1.0_wp, vector%first, count=3)
+         call slot(reading, vector_key, vector%first)
       end if
       call new_vector(reading, vector, direction)
       is_good = .true.
@@ -296,12 +296,12 @@ contains
       is_driver = reading%cards(k)%group == joint_group .and. lower(element(reading%records(k), 'type', 1)) == 'driver'
    end function is_driver
 
-   !> Checks that a case names a driver joint, and finds the unit of the driven value. A missing joint, and a joint that is not a
+   !> Checks that a case names a driver joint, and finds the dimension of the driven value. A missing joint, and a joint that is not a
    !> driver, are reported as errors.
-   subroutine find_driver(reading, name, others, unit)
+   subroutine find_driver(reading, name, others, dimension)
       type(deck_reading_t), intent(inout) :: reading
       character(*), intent(in) :: name, others(:)     !! others: other names that may be driven, for suggestions
-      real(wp), intent(inout) :: unit                 !! SI value of the deck unit of the driven value; unchanged if not found
+      integer, intent(inout) :: dimension             !! dimension of the driven value; unchanged if not found
       integer :: j, found
 
       found = find_card(reading, joint_group, name)
@@ -311,7 +311,7 @@ contains
             [character(word_length) :: pack(reading%cards%name, [(is_driver(reading, j), j=1, size(reading%cards))]), others]))
          return
       end if
-      unit = reading%cards(found)%factor
+      dimension = reading%cards(found)%deflection
       if (.not. is_driver(reading, found)) call complain(reading, 'drive', 'drive: the joint '//quoted(name)//' in '// &
          line_of(reading, found)//' is not a driver')
    end subroutine find_driver

@@ -63,7 +63,7 @@ module ek_blueprint
       integer, allocatable :: readouts(:)   !! indices of the readouts: the measures of a driver or coupler
       integer, allocatable :: ratios(:)     !! indices of the parameters: ratios of a coupler
       real(wp), allocatable :: units(:)     !! SI value of the deck unit of each measure
-      integer :: stiffness = 0              !! index of the parameter: stiffness of a driver [N or N m per deck unit]
+      integer :: stiffness = 0              !! index of the parameter: stiffness of a driver [N/m or N m/rad]
    end type joint_plan_t
 
    !> An elastic element of one measure.
@@ -115,7 +115,6 @@ module ek_blueprint
    type :: blueprint_t
       type(suspension_t) :: prototype       !! names, connections, and the numbers of the deck
       logical :: is_iso = .false.           !! the axes of the deck are ISO 8855
-      real(wp) :: force_unit = 1.0_wp, length_unit = 1.0_wp, angle_unit = 1.0_wp   !! SI per deck unit
       integer :: gravity = 0                !! index of the parameter
       integer, allocatable :: points(:)     !! index of the vector of each point of the prototype
       type(vector_t), allocatable :: vectors(:)

@@ -8,6 +8,7 @@
 !> is .false. and the suspension must not be used; the deck reader reports the reason.
 module ek_realise
    use ek_kinds, only: wp
+   use ek_dimension, only: unit_size, length, angle, force_dimension => force, moment
    use ek_contract, only: are_checked, require
    use ek_curve, only: curve_t, look_up_curve
    use ek_new_curve, only: new_curve, has_points, min_step
@@ -143,7 +144,7 @@ contains
                   if (.not. abs(x(this%ratios(t))) > 0.0_wp) is_good = .false.
                   suspension%terms(first + t - 1)%coefficient = x(this%ratios(t))*this%units(1)/this%units(t)
                end do
-               if (this%stiffness > 0) suspension%rows(joint%first_row)%compliance = 1.0_wp/(x(this%stiffness)/this%units(1))
+               if (this%stiffness > 0) suspension%rows(joint%first_row)%compliance = 1.0_wp/x(this%stiffness)
                joint%arm_j = suspension%terms(first)%measure%arm_j
                cycle
             end if
@@ -240,8 +241,8 @@ contains
          rates = [bushing%kt, bushing%kr]
          do c = 1, 6
             if (this%curves(c) == 0) cycle
-            call renew(plan, this%curves(c), x, merge(plan%length_unit, plan%angle_unit, c <= 3), &
-               plan%force_unit*merge(1.0_wp, plan%length_unit, c <= 3), bushing%laws(c)%curve, is_good)
+            call renew(plan, this%curves(c), x, unit_size(merge(length, angle, c <= 3), plan%prototype%units), &
+               unit_size(merge(force_dimension, moment, c <= 3), plan%prototype%units), bushing%laws(c)%curve, is_good)
             is_good = is_good .and. abs(rates(c)) <= 0.0_wp      ! a component has either a rate or a curve
          end do
       end associate

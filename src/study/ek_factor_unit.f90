@@ -1,9 +1,10 @@
 !> The unit of a factor, which is the unit of the numbers that the factor changes. The unit is given as a label ('N/mm') and as the
 !> suffix of a heading ('n_per_mm').
 !>
-!> A parameter contains only the SI value of its unit. The name of the unit follows from group and key, by one table in this module.
+!> A parameter contains only the SI value of its unit. The name of the unit follows from the dimension in the row of its key.
 module ek_factor_unit
-   use ek_kinds, only: wp, millimetre, degree
+   use ek_dimension, only: pure_number, length, force, unit_name, is_relative, dimension_of
+   use ek_group, only: key_t, find_key, group_number, spring_group
    use ek_record, only: is_given
    use ek_reader, only: definition_t
    use ek_study, only: by_scale
@@ -11,24 +12,6 @@ module ek_factor_unit
    implicit none(type, external)
    private
    public :: factor_unit, parameter_unit, unit_ending
-
-   !> Keys of one unit. L, F and A are length, force and angle in the units of the deck. A blank separates factors; '/' precedes the
-   !> divisor.
-   type :: unit_row_t
-      character(8) :: unit
-      character(200) :: keys             !! group.key, separated and enclosed by blanks
-   end type unit_row_t
-
-   type(unit_row_t), parameter :: rows(*) = [ &
-      unit_row_t('L', ' point.at wheel.radius wheel.tyre_width axle.wheelbase axle.cg_height axle.front_overhang'// &
-         ' axle.front_width spring.free_length stop.clearance stop.rounding steering.ratio steering.travel case.offset '), &
-      unit_row_t('F', ' load.force bushing.preload_force damper.gas_force spring.preload '), &
-      unit_row_t('F L', ' load.moment bushing.preload_moment torsion.preload '), &
-      unit_row_t('F/L', ' bushing.kt spring.rate stop.rate damper.gas_rate wheel.tyre_rate '), &
-      unit_row_t('F L/A', ' bushing.kr torsion.rate '), &
-      unit_row_t('A', ' wheel.toe wheel.camber '), &
-      unit_row_t('kg', ' body.mass mass.kg wheel.sprung_mass axle.mass '), &
-      unit_row_t('m/s²', ' model.gravity ')]
 
 contains
 
@@ -54,46 +37,21 @@ contains
    function parameter_unit(design, number) result(unit)
       type(definition_t), intent(in) :: design
       integer, intent(in) :: number
-      character(:), allocatable :: unit, path
-      integer :: k
+      character(:), allocatable :: unit
+      type(key_t) :: row
+      logical :: is_known
+      integer :: dimension
 
       unit = ''
-      associate (this => design%parameters%list(number), plan => design%plan)
-         path = ' '//trim(design%records(this%record)%group)//'.'//trim(this%key)//' '
-         do k = 1, size(rows)
-            if (index(rows(k)%keys, path) > 0) exit
-         end do
-         if (k > size(rows)) return
-         ! the rate of a spring on a &measure is a moment per angle if this is an angle
-         if (path == ' spring.rate ' .or. path == ' spring.preload ') then
-            if (is_given(design%records(this%record), 'measure')) return
+      associate (this => design%parameters%list(number), record => design%records(design%parameters%list(number)%record))
+         call find_key(group_number(record%group), trim(this%key), row, is_known)
+         dimension = row%dimension
+         if (is_relative(dimension)) then      ! a unit is named only if it follows from the record itself
+            if (group_number(record%group) /= spring_group .or. is_given(record, 'measure')) return
+            dimension = dimension_of(dimension, length, force, pure_number)
          end if
-         unit = written(trim(rows(k)%unit))
+         unit = unit_name(dimension, design%plan%prototype%units)
       end associate
-
-   contains
-
-      !> The unit of a pattern such as 'F L/A', with the unit names of the deck: 'N mm/deg'.
-      function written(pattern) result(text)
-         character(*), intent(in) :: pattern
-         character(:), allocatable :: text
-         integer :: j
-
-         text = ''
-         do j = 1, len(pattern)
-            select case (pattern(j:j))
-            case ('L')
-               text = text//trim(merge('mm', 'm ', design%plan%length_unit < 1.5_wp*millimetre))
-            case ('F')
-               text = text//trim(merge('kN', 'N ', design%plan%force_unit > 500.0_wp))
-            case ('A')
-               text = text//merge('deg', 'rad', design%plan%angle_unit < 1.5_wp*degree)
-            case default
-               text = text//pattern(j:j)
-            end select
-         end do
-      end function written
-
    end function parameter_unit
 
    !> A unit as the suffix of a heading: 'n_per_mm' for 'N/mm', 'nmm_per_deg' for 'N mm/deg', 'm_per_s2' for 'm/s²'.

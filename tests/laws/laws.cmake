@@ -21,6 +21,7 @@ add_library(ek_test_laws STATIC
   ${ek_laws_dir}/ek_remarks_on.f90
   ${ek_laws_dir}/ek_small_study.f90
   ${ek_laws_dir}/ek_exported.f90
+  ${ek_laws_dir}/ek_rewritten_deck.f90
   ${ek_laws_dir}/ek_probe.f90)
 set_target_properties(ek_test_laws PROPERTIES
   Fortran_MODULE_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/modules/laws)
