@@ -100,6 +100,7 @@ sway bar  =>  the glossary: American for anti-roll bar
 wheel lift in steer  =>  name of a quantity
 keywords?  =>  not the word list
 MemTotal  =>  a name of Linux
+json-schema.org/draft  =>  an address
 `relative_rotation`  =>  name of a procedure
 END
 }

@@ -154,7 +154,10 @@ json_fits_the_schemas() {
   if "$program" --help | grep '^  export ' >/dev/null; then
     "$program" export "$axle" --to matlab-kc --out "$folder/export" && "$program" export "$axle" --to csv --out "$folder/export" || return 1
   fi
+  "$program" schema >"$folder/schema" && cmp "$folder/schema" schema/deck.schema.json || return 1
+  "$tools/bin/python" tests/support/deck_as_data.py "$folder/decks" input/*/*.nml || return 1
   "$tools/bin/python" tests/support/check_json.py schema "$folder" || return 1
+  "$tools/bin/python" tests/support/deck_schema_laws.py "$program" input/*/*.nml tests/decks/[!b]*.nml || return 1
   sed 's/"value": [^,]*/"value": "x"/' "$folder/mcpherson/key_numbers.json" >"$folder/key_numbers.json"
   ! "$tools/bin/python" tests/support/check_json.py schema "$folder"
 }

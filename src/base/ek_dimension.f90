@@ -9,7 +9,7 @@ module ek_dimension
    use ek_text, only: lower
    implicit none(type, external)
    private
-   public :: unit_size, unit_name, dimension_of, is_relative, units_of
+   public :: unit_size, unit_name, unit_formula, dimension_of, is_relative, units_of
 
    integer, parameter, public :: pure_number = 0, length = 1, force = 2, angle = 3, moment = 4, rate = 5, rotation_rate = 6, &
       mass = 7, acceleration = 8, gravities = 9      !! gravities: an acceleration in g
@@ -29,6 +29,12 @@ module ek_dimension
    type(unit_t), parameter :: length_units(*) = [unit_t('mm', millimetre), unit_t('m', 1.0_wp)]
    type(unit_t), parameter :: force_units(*) = [unit_t('N', 1.0_wp), unit_t('kN', 1000.0_wp)]
    type(unit_t), parameter :: angle_units(*) = [unit_t('deg', degree), unit_t('rad', 1.0_wp)]
+   character(*), parameter, public :: length_names(*) = length_units%name, force_names(*) = force_units%name, &
+      angle_names(*) = angle_units%name      !! units that &model may select, the default first
+
+   !> The unit of each dimension in terms of the keys of &model, or as a fixed unit.
+   character(20), parameter :: formulas(pure_number:swept) = [character(20) :: '', 'length', 'force', 'angle', 'force*length', &
+      'force/length', 'force*length/angle', 'kg', 'm/s2', 'g', 'deflection', 'reaction', 'reaction/deflection', 'swept']
 
 contains
 
@@ -131,5 +137,13 @@ contains
          end select
       end do
    end function unit_name
+
+   !> The unit of a dimension in any deck, for instance 'force/length' in terms of the keys of &model, or 'kg'; '' for a pure number.
+   !> The unit of a relative dimension is the name of the dimension.
+   pure function unit_formula(dimension) result(formula)
+      integer, intent(in) :: dimension
+      character(:), allocatable :: formula
+      formula = trim(formulas(dimension))
+   end function unit_formula
 
 end module ek_dimension

@@ -17,6 +17,7 @@ module ek_command
    use ek_import, only: import
    use ek_export, only: export
    use ek_explain, only: explain
+   use ek_schema, only: print_schema
    implicit none(type, external)
    private
    public :: commands, options, exit_status_text, help_text, obey
@@ -120,7 +121,14 @@ module ek_command
       'Prints and draws the start, the target and the result. Also prints the 95 % confidence interval of each factor,'//nl// &
       'the factors at a bound, and the undetermined factors. Writes DIR/<fit>_factors.csv, <fit>_points.csv, <fit>.set'//nl// &
       'for --set-file, and the figure <fit>.png and .svg.', &
-      exit_status_text)]
+      exit_status_text), &
+      command_t('schema', 'schema', 'schema', 'print all keys of a deck as JSON Schema', &
+      'Prints a JSON Schema (version 2020-12) of a deck as data: an object with a list of records for each group, and one'//nl// &
+      'record for model, mirror, axle and steering. For each key, the schema gives type, number of values, range,'//nl// &
+      'accepted strings, default, unit (x-unit) and meaning. Editors and scripts can complete and check a deck with it.'//nl// &
+      'x-unit is a product of the units that model selects (length, force, angle), or a fixed unit. deflection and'//nl// &
+      'reaction are length and force, or angle and moment, of the measure, driver or element that the record names;'//nl// &
+      'swept is the swept value of a case. The schema does not cover rules between keys; `elastokin check` covers all.', '', -1)]
 
    ! In the order of the help; neighbours with the same help share a line
    type(option_t), parameter :: options(*) = [ &
@@ -312,6 +320,8 @@ contains
          call solve_for(line, error)
       case ('fit')
          call run_fit(line, error)
+      case ('schema')
+         call print_schema(error)
       end select
    end subroutine obey
 

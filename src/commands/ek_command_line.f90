@@ -19,7 +19,7 @@ module ek_command_line
       character(60) :: summary    !! description in the overview
       character(960) :: text      !! description in the help of the command
       character(230) :: ending    !! last paragraph of the help, after the options
-      integer :: files = 1        !! code for the number of files: 1: one; 2: two or more; 0: one or more
+      integer :: files = 1        !! code for the number of files: 1: one; 2: two or more; 0: one or more; -1: none
       character(15) :: alone = '' !! option that can replace the files; '' for no such option
    end type command_t
 
@@ -148,6 +148,8 @@ contains
                call fail(error, exit_usage, 'unknown command '//quoted(word)//suggestion(word, commands%name)// &
                   '; expected '//names_of(commands))
             end if
+         else if (commands(n)%files == -1) then
+            call fail(error, exit_usage, line%command//' does not accept a file, found '//quoted(word))
          else if (line%files%count() > 0 .and. commands(n)%files == 1) then
             call fail(error, exit_usage, 'expected one file, found '//quoted(line%files%line(1))//' and '//quoted(word))
          else
@@ -158,7 +160,7 @@ contains
       if (k == 0 .or. line%has('--help') .or. line%has('--version') .or. line%has('--help-files')) return
       if (n == 0) then
          call fail(error, exit_usage, 'no command: expected '//names_of(commands))
-      else if (line%files%count() < max(commands(n)%files, 1) .and. .not. line%has(trim(commands(n)%alone))) then
+      else if (line%files%count() < least_files(commands(n)) .and. .not. line%has(trim(commands(n)%alone))) then
          call fail(error, exit_usage, line%command//' needs '//trim(merge('a file              ', 'at least two results', &
             commands(n)%files < 2))//': '//program_prefix(commands)//trim(commands(n)%brief))
       end if
@@ -169,6 +171,14 @@ contains
             call fail(error, exit_usage, line%command//' does not accept '//word)
       end do
    end subroutine read_command_line
+
+   !> The least number of files of a command.
+   pure integer function least_files(command)
+      type(command_t), intent(in) :: command
+
+      least_files = max(command%files, 1)
+      if (command%files == -1) least_files = 0
+   end function least_files
 
    !> Reads an option with its value: --out DIR or --out=DIR.
    subroutine take_option(options, word, k, line, error)

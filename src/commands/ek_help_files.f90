@@ -304,7 +304,11 @@ contains
          do j = 1, size(options)
             if (belongs(options(j), trim(commands(k)%name))) call add_zsh_option(script, options, j)
          end do
-         call script%line(' '//backslash//nl//'  "'//trim(merge(' ', '*', commands(k)%files == 1))//':file:_files" ;;')
+         if (commands(k)%files >= 0) then
+            call script%line(' '//backslash//nl//'  "'//trim(merge(' ', '*', commands(k)%files == 1))//':file:_files" ;;')
+         else
+            call script%line(' ;;')
+         end if
       end do
       call script%line('    esac ;;')
       call script%line('esac')

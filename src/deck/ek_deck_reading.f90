@@ -10,13 +10,14 @@ module ek_deck_reading
    use ek_dimension, only: pure_number, unit_size, unit_name, dimension_of
    use ek_record, only: deck_errors_t, place_in, record_t, entry_index, is_given, place_of, line_text
    use ek_group, only: group_names, record_head, word_length, key_t, find_key
+   use ek_choices, only: choices_of
    use ek_number_range, only: is_inside, range_text, acute
    use ek_blueprint, only: blueprint_t
    use ek_parameter, only: parameters_t, add_parameter
    implicit none(type, external)
    private
    public :: deck_reading_t, card_t, complain, complain_of_all, where_of, line_of, has_key
-   public :: text_of, texts_of, number_of, numbers_of, whole_of, long_of, switch_of, value_count, choice, choose
+   public :: text_of, texts_of, number_of, numbers_of, whole_of, long_of, switch_of, value_count, choice, choice_among, choose
    public :: refuse, is_second, slot, raw, unit_of
 
    !> The information about one record.
@@ -213,14 +214,21 @@ contains
       if (text /= '') read (text, *) value
    end function long_of
 
-   !> The logical value of a key; `default` if the key is not given or was rejected.
+   !> The logical value of a key; `default`, or else the default of the table of keys, if the key is not given or was rejected.
    logical function switch_of(reading, key, default) result(value)
       type(deck_reading_t), intent(in) :: reading
       character(*), intent(in) :: key
-      logical, intent(in) :: default
+      logical, intent(in), optional :: default
       character(:), allocatable :: text
+      type(key_t) :: row
+      logical :: is_known
 
-      value = default
+      if (present(default)) then
+         value = default
+      else
+         call find_key(reading%cards(reading%k)%group, key, row, is_known)
+         value = row%default == '.true.'
+      end if
       text = raw(reading, key)
       if (text /= '') read (text, *) value
    end function switch_of
@@ -239,9 +247,33 @@ contains
       end associate
    end function value_count
 
-   !> Finds the index of the string of a key among the choices. Without a string, `number` is `default`, or 0 if there is no
-   !> default. For a string that is not one of the choices, an error is reported and `number` is 0.
-   subroutine choice(reading, key, choices, number, default)
+   !> Finds the index of the string of a key among the strings that the key accepts. Without a string, `number` is `default`, or
+   !> else the index of the default of the table of keys, or 0 if there is no default. For a string that is not one of them,
+   !> an error is reported and `number` is 0.
+   subroutine choice(reading, key, number, default, word)
+      type(deck_reading_t), intent(inout) :: reading
+      character(*), intent(in) :: key
+      integer, intent(out) :: number
+      integer, intent(in), optional :: default
+      character(:), allocatable, intent(out), optional :: word      !! the string itself; '' if there is none
+      character(word_length), allocatable :: words(:)
+      type(key_t) :: row
+      logical :: is_known
+
+      words = choices_of(reading%cards(reading%k)%group, key)
+      call choose(reading, key, text_of(reading, key), words, number)
+      call find_key(reading%cards(reading%k)%group, key, row, is_known)
+      if (text_of(reading, key) == '') then
+         if (row%default /= '') number = findloc(words, row%default, dim=1)
+         if (present(default)) number = default
+      end if
+      if (.not. present(word)) return
+      word = trim(row%default)
+      if (number > 0) word = trim(words(number))
+   end subroutine choice
+
+   !> Finds the index of the string of a key among the strings of the caller, otherwise as `choice`.
+   subroutine choice_among(reading, key, choices, number, default)
       type(deck_reading_t), intent(inout) :: reading
       character(*), intent(in) :: key, choices(:)
       integer, intent(out) :: number
@@ -249,7 +281,7 @@ contains
 
       call choose(reading, key, text_of(reading, key), choices, number)
       if (text_of(reading, key) == '' .and. present(default)) number = default
-   end subroutine choice
+   end subroutine choice_among
 
    !> Finds the index of a word, which is an element of a key, among the choices. Letter case is ignored. `number` is 0 if the word
    !> is blank; it is also 0, and an error is reported, if the word is not one of the choices.
@@ -264,9 +296,9 @@ contains
       if (word == '') return
       number = findloc([(lower(choices(j)) == lower(word), j=1, size(choices))], .true., dim=1)
       if (number > 0) return
-      list = quoted(choices(1))
+      list = quoted(trim(choices(1)))
       do j = 2, size(choices)
-         list = list//', '//quoted(choices(j))
+         list = list//', '//quoted(trim(choices(j)))
       end do
       call complain(reading, key, key//' must be one of '//list//', found '//quoted(word)// &
          imperial_hint(word))
@@ -309,7 +341,7 @@ contains
       type(deck_reading_t), intent(inout) :: reading
       character(*), intent(in) :: key
       integer, intent(out) :: number
-      real(wp), intent(in), optional :: default      !! default in the unit of the deck; absent: the key has none
+      real(wp), intent(in), optional :: default      !! in the unit of the deck; absent: the default of the table of keys, if any
       integer, intent(in), optional :: count         !! default: the least number of values of the key
       type(key_t) :: row
       real(wp) :: usual, unit
@@ -318,9 +350,14 @@ contains
 
       number = 0
       usual = 0.0_wp
-      if (present(default)) usual = default
-      if (.not. present(default) .and. .not. has_key(reading, key)) return
       call find_key(reading%cards(reading%k)%group, key, row, is_known)
+      if (present(default)) then
+         usual = default
+      else if (row%default /= '') then
+         usual = checked_number(trim(row%default))
+      else if (.not. has_key(reading, key)) then
+         return
+      end if
       unit = unit_of_row(reading, row)
       elements = row%least
       if (present(count)) elements = count

@@ -1,7 +1,8 @@
 !> The groups of a deck and their keys: the single definition of legal input.
 !>
 !> A new key needs a row here, and a statement in the reader of its group that asks for its value. The row of a number has its
-!> dimension, by which the reader converts the number to SI.
+!> dimension, by which the reader converts the number to SI. `elastokin schema` prints the rows of the groups of a deck; ek_choices
+!> lists the strings that a key accepts.
 module ek_group
    use ek_text, only: quoted, did_you_mean
    use ek_quantity, only: name_length
@@ -10,7 +11,8 @@ module ek_group
    use ek_number_range, only: any_number, positive, not_negative, not_zero, share, acute
    implicit none(type, external)
    private
-   public :: group_names, group_number, is_deck_group, has_results, names_of_groups, is_single, is_element, can_be_doubled
+   public :: group_names, group_summaries, group_number, is_deck_group, has_results, names_of_groups, occurs_once, is_single
+   public :: is_element, can_be_doubled
    public :: key_t, keys, find_key, record_head, unknown_key, spring_groups
 
    integer, parameter, public :: model_group = 1, point_group = 2, body_group = 3, measure_group = 4, joint_group = 5, &
@@ -23,6 +25,16 @@ module ek_group
       'bushing', 'spring', 'wheel', 'load', 'case', 'study', 'factor', 'response', 'include', 'mirror', 'curve', 'damper', &
       'stop', 'torsion', 'axle', 'steering', 'mass', 'correlation', 'hardpoints', 'target_band', &
       'fit', 'target', 'manoeuvre']
+
+   !> What a record of each group describes, for `elastokin schema`; '' for groups of a study or a fit.
+   character(*), parameter :: group_summaries(*) = [character(90) :: 'the model: name, units, frame and preload trim', &
+      'a hardpoint', 'a rigid body', 'a scalar between two bodies', 'a joint, driver or coupler', 'a bushing', &
+      'a spring between two points, or on a measure', 'a wheel, with its carrier and tyre', 'a force and moment on a body', &
+      'a sweep, or a test of the rig', '', '', '', 'a file with further groups of the deck', &
+      'the deck is the left half of an axle', 'a law for springs, stops, torsion springs and bushings', &
+      'a damper, of which the gas force acts', 'a bump stop or a rebound stop', 'a torsion spring between two bodies', &
+      'the axle and the car around it', 'the steering wheel and the rack', 'an additional mass on a body', '', &
+      'points from a file', 'a range in which a key number should lie', '', '', 'load factor and accelerations of the car']
 
    integer, parameter :: every_group = 0      !! group, in the table of keys, of a key that every group has
    integer, parameter :: spring_groups(*) = [spring_group, damper_group, stop_group, torsion_group]   ! elements of one measure
@@ -66,6 +78,8 @@ module ek_group
       integer :: role = 0
       logical :: has_zeros = .false.    !! a setting of one element sets the elements that the deck does not give to 0
       integer :: dimension = pure_number     !! dimension of a number, see ek_dimension: the reader converts by it
+      character(12) :: default = ''     !! value of a key that is not given, as in a deck; '': none, or it depends on other keys
+      character(100) :: about = ''      !! meaning of a key of a deck, a noun phrase, for `elastokin schema`
    end type key_t
 
    integer, parameter :: named(*) = [model_group, point_group, body_group, mass_group, measure_group, joint_group, &
@@ -73,164 +87,249 @@ module ek_group
       study_group, factor_group, response_group, fit_group, fit_target_group]
    integer :: j     ! implied-do index of the table, not used elsewhere
 
-   type(key_t), parameter :: keys(*) = [ &
-      [(key_t(named(j), 'name', word, 1, 1, .true.), j=1, size(named))], &
-      key_t(model_group, 'title', prose, 1, 1, .false.), &
-      key_t(model_group, 'length', word, 1, 1, .false.), &
-      key_t(model_group, 'force', word, 1, 1, .false.), &
-      key_t(model_group, 'angle', word, 1, 1, .false.), &
-      key_t(model_group, 'axes', word, 1, 1, .false.), &
-      key_t(model_group, 'balance', word, 1, 1, .false.), &
-      key_t(model_group, 'gravity', number, 1, 1, .false., not_negative, ' (m/s², downward)', dimension=acceleration), &
-      key_t(model_group, 'plausible', switch, 1, 1, .false.), &
-      key_t(point_group, 'at', number, 3, 3, .true., role=polar, dimension=length), &
-      key_t(body_group, 'origin', word, 1, 1, .false., role=point_group), &
-      key_t(body_group, 'mass', number, 1, 1, .false., positive, ' kg', dimension=mass), &
-      key_t(body_group, 'centre', word, 1, 1, .false., role=point_group), &
-      key_t(mass_group, 'body', word, 1, 1, .true., role=body_group), &
-      key_t(mass_group, 'kg', number, 1, 1, .true., positive, dimension=mass), &
-      key_t(mass_group, 'at', word, 1, 1, .true., role=point_group), &
-      key_t(measure_group, 'type', word, 1, 1, .true.), &
-      key_t(measure_group, 'bodies', word, 2, 2, .true., role=body_group), &
-      key_t(measure_group, 'at', word, 1, 2, .false., role=point_group), &
-      key_t(measure_group, 'axis', word, 2, 2, .false., role=point_group), &
-      key_t(measure_group, 'axis_vector', number, 3, 3, .false., role=polar), &
-      key_t(measure_group, 'axis_2', word, 2, 2, .false., role=point_group), &
-      key_t(measure_group, 'axis_2_vector', number, 3, 3, .false., role=polar), &
-      key_t(joint_group, 'type', word, 1, 1, .true.), &
-      key_t(joint_group, 'bodies', word, 2, 2, .false., role=body_group), &
-      key_t(joint_group, 'at', word, 1, 2, .false., role=point_group), &
-      key_t(joint_group, 'axis', word, 2, 2, .false., role=point_group), &
-      key_t(joint_group, 'axis_vector', number, 3, 3, .false., role=polar), &
-      key_t(joint_group, 'axis_2', word, 2, 2, .false., role=point_group), &
-      key_t(joint_group, 'axis_2_vector', number, 3, 3, .false., role=polar), &
-      key_t(joint_group, 'measure', word, 1, 1, .false., role=measure_group), &
-      key_t(joint_group, 'measures', word, 1, max_measures, .false., role=measure_group), &
-      key_t(joint_group, 'ratios', number, 1, max_measures, .false., not_zero), &
-      key_t(joint_group, 'stiffness', number, 1, 1, .false., positive, dimension=reaction_rate), &
-      key_t(joint_group, 'balance', switch, 1, 1, .false.), &
-      key_t(joint_group, 'rating_angle', number, 1, 2, .false., positive, dimension=angle), &
-      key_t(joint_group, 'rating_axis_vector', number, 3, 6, .false., role=polar), &
-      key_t(bushing_group, 'bodies', word, 2, 2, .true., role=body_group), &
-      key_t(bushing_group, 'at', word, 1, 2, .true., role=point_group), &
-      key_t(bushing_group, 'z_axis', word, 2, 2, .false., role=point_group), &
-      key_t(bushing_group, 'z_vector', number, 3, 3, .false., role=polar), &
-      key_t(bushing_group, 'x_axis', word, 2, 2, .false., role=point_group), &
-      key_t(bushing_group, 'x_vector', number, 3, 3, .false., role=polar), &
-      key_t(bushing_group, 'mirrored', switch, 1, 1, .false.), &
-      key_t(bushing_group, 'rating_angle', number, 1, 1, .false., positive, dimension=angle), &
-      key_t(bushing_group, 'rating_axis_vector', number, 3, 3, .false., role=polar), &
-      key_t(bushing_group, 'kt', number, 3, 3, .false., not_negative, has_zeros=.true., dimension=rate), &
-      key_t(bushing_group, 'kr', number, 3, 3, .false., not_negative, has_zeros=.true., dimension=rotation_rate), &
-      key_t(bushing_group, 'curve', word, 1, 6, .false., role=curves), &
-      key_t(bushing_group, 'property_file', prose, 1, 1, .false.), &
-      key_t(bushing_group, 'property_scale', number, 1, 6, .false., positive), &
-      key_t(bushing_group, 'property_offset', number, 1, 6, .false., dimension=deflection), &
-      key_t(bushing_group, 'property_kind', word, 1, 1, .false.), &
-      key_t(bushing_group, 'preload_force', number, 3, 3, .false., role=polar, has_zeros=.true., dimension=force), &
-      key_t(bushing_group, 'preload_moment', number, 3, 3, .false., role=axial, has_zeros=.true., dimension=moment), &
-      key_t(spring_group, 'bodies', word, 2, 2, .false., role=body_group), &
-      key_t(spring_group, 'at', word, 2, 2, .false., role=point_group), &
-      key_t(spring_group, 'measure', word, 1, 1, .false., role=measure_group), &
-      key_t(spring_group, 'rate', number, 1, 1, .false., not_negative, dimension=reaction_rate), &
-      key_t(spring_group, 'curve', word, 1, 1, .false.), &
-      key_t(spring_group, 'property_file', prose, 1, 1, .false.), &
-      key_t(spring_group, 'property_scale', number, 1, 1, .false., positive), &
-      key_t(spring_group, 'property_offset', number, 1, 1, .false., dimension=deflection), &
-      key_t(spring_group, 'property_kind', word, 1, 1, .false.), &
-      key_t(spring_group, 'preload', number, 1, 1, .false., dimension=reaction), &
-      key_t(spring_group, 'balance', switch, 1, 1, .false.), &
-      key_t(spring_group, 'free_length', number, 1, 1, .false., positive, dimension=length), &
-      key_t(curve_group, 'x', number, 2, max_values, .true., dimension=deflection), &
-      key_t(curve_group, 'y', number, 2, max_values, .true., dimension=reaction), &
-      key_t(curve_group, 'kind', word, 1, 1, .false.), &
-      key_t(damper_group, 'bodies', word, 2, 2, .true., role=body_group), &
-      key_t(damper_group, 'at', word, 2, 2, .true., role=point_group), &
-      key_t(damper_group, 'gas_force', number, 1, 1, .false., not_negative, dimension=force), &
-      key_t(damper_group, 'gas_rate', number, 1, 1, .false., not_negative, dimension=rate), &
-      key_t(stop_group, 'type', word, 1, 1, .true.), &
-      key_t(stop_group, 'bodies', word, 2, 2, .true., role=body_group), &
-      key_t(stop_group, 'at', word, 2, 2, .true., role=point_group), &
-      key_t(stop_group, 'clearance', number, 1, 1, .true., not_negative, dimension=length), &
-      key_t(stop_group, 'rate', number, 1, 1, .false., not_negative, dimension=rate), &
-      key_t(stop_group, 'curve', word, 1, 1, .false.), &
-      key_t(stop_group, 'property_file', prose, 1, 1, .false.), &
-      key_t(stop_group, 'property_scale', number, 1, 1, .false., positive), &
-      key_t(stop_group, 'property_offset', number, 1, 1, .false., dimension=length), &
-      key_t(stop_group, 'property_kind', word, 1, 1, .false.), &
-      key_t(stop_group, 'rounding', number, 1, 1, .false., positive, dimension=length), &
-      key_t(torsion_group, 'bodies', word, 2, 2, .true., role=body_group), &
-      key_t(torsion_group, 'axis', word, 2, 2, .false., role=point_group), &
-      key_t(torsion_group, 'axis_vector', number, 3, 3, .false., role=polar), &
-      key_t(torsion_group, 'rate', number, 1, 1, .false., not_negative, dimension=rotation_rate), &
-      key_t(torsion_group, 'curve', word, 1, 1, .false.), &
-      key_t(torsion_group, 'preload', number, 1, 1, .false., dimension=moment), &
-      key_t(wheel_group, 'body', word, 1, 1, .true., role=body_group), &
-      key_t(wheel_group, 'side', word, 1, 1, .true., role=wheel_side), &
-      key_t(wheel_group, 'centre', word, 1, 1, .true., role=point_group), &
-      key_t(wheel_group, 'contact', word, 1, 1, .true., role=point_group), &
-      key_t(wheel_group, 'spin_vector', number, 3, 3, .false., role=polar), &
-      key_t(wheel_group, 'toe', number, 1, 1, .false., acute, ' deg', dimension=angle), &
-      key_t(wheel_group, 'camber', number, 1, 1, .false., acute, ' deg', dimension=angle), &
-      key_t(wheel_group, 'radius', number, 1, 1, .false., positive, dimension=length), &
-      key_t(wheel_group, 'tyre_rate', number, 1, 1, .false., positive, dimension=rate), &
-      key_t(wheel_group, 'tyre_width', number, 1, 1, .false., positive, dimension=length), &
-      key_t(wheel_group, 'sprung_mass', number, 1, 1, .false., positive, ' kg', dimension=mass), &
-      key_t(wheel_group, 'steer_axis', word, 2, 2, .false., role=point_group), &
-      key_t(axle_group, 'name', word, 1, 1, .false.), &
-      key_t(axle_group, 'position', word, 1, 1, .true.), &
-      key_t(axle_group, 'wheelbase', number, 1, 1, .true., positive, dimension=length), &
-      key_t(axle_group, 'cg_height', number, 1, 1, .true., positive, dimension=length), &
-      key_t(axle_group, 'mass', number, 1, 1, .false., positive, dimension=mass), &
-      key_t(axle_group, 'axle_load', number, 1, 1, .false., positive, dimension=force), &
-      key_t(axle_group, 'roll_share', number, 1, 1, .false., share), &
-      key_t(axle_group, 'brake_share', number, 1, 1, .true., share), &
-      key_t(axle_group, 'drive_share', number, 1, 1, .false., share), &
-      key_t(axle_group, 'drive_reaction', word, 1, 1, .false.), &
-      key_t(axle_group, 'brake_reaction', word, 1, 1, .false.), &
-      key_t(axle_group, 'front_overhang', number, 1, 1, .false., positive, dimension=length), &
-      key_t(axle_group, 'front_width', number, 1, 1, .false., positive, dimension=length), &
-      key_t(steering_group, 'name', word, 1, 1, .false.), &
-      key_t(steering_group, 'driver', word, 1, 1, .true., role=joint_group), &
-      key_t(steering_group, 'ratio', number, 1, 1, .true., not_zero, dimension=length), &
-      key_t(steering_group, 'travel', number, 1, 1, .true., positive, dimension=length), &
-      key_t(load_group, 'body', word, 1, 1, .true., role=body_group), &
-      key_t(load_group, 'at', word, 1, 1, .true., role=point_group), &
-      key_t(load_group, 'force', number, 3, 3, .false., role=polar, has_zeros=.true., dimension=force), &
-      key_t(load_group, 'moment', number, 3, 3, .false., role=axial, has_zeros=.true., dimension=moment), &
-      key_t(load_group, 'follows', switch, 1, 1, .false.), &
-      key_t(load_group, 'factor', word, 1, 1, .false.), &
-      key_t(manoeuvre_group, 'name', word, 1, 1, .false.), &
-      key_t(manoeuvre_group, 'set', word, 1, 1, .false.), &
-      key_t(manoeuvre_group, 'vertical', number, 1, 1, .false., not_negative), &
-      key_t(manoeuvre_group, 'longitudinal', number, 1, 1, .false., dimension=gravities), &
-      key_t(manoeuvre_group, 'lateral', number, 1, 1, .false., dimension=gravities), &
-      key_t(manoeuvre_group, 'longitudinal_by', word, 1, 1, .false.), &
-      key_t(manoeuvre_group, 'side', word, 1, 1, .false.), &
-      key_t(manoeuvre_group, 'wheels', number, 2, 2, .false., not_negative), &
-      key_t(manoeuvre_group, 'downforce', number, 1, 1, .false., dimension=force), &
-      key_t(manoeuvre_group, 'steer', number, 1, 1, .false., dimension=deflection), &
-      key_t(case_group, 'load', word, 1, max_loads, .false., role=load_group), &
-      key_t(case_group, 'drive', word, 1, 1, .false., role=joint_group), &
-      key_t(case_group, 'wheel', word, 1, 1, .false., role=wheel_group), &
-      key_t(case_group, 'test', word, 1, 1, .false.), &
-      key_t(case_group, 'vertical', word, 1, 1, .false.), &
-      key_t(case_group, 'pose', word, 1, 1, .false.), &
-      key_t(case_group, 'phase', word, 1, 1, .false.), &
-      key_t(case_group, 'offset', number, 1, 1, .false., dimension=length), &
-      key_t(case_group, 'file', prose, 1, 1, .false.), &
-      key_t(case_group, 'target', prose, 1, 1, .false.), &
-      key_t(case_group, 'quantities', word, 1, 1, .false.), &
-      key_t(case_group, 'from', number, 1, 1, .false., dimension=swept), &
-      key_t(case_group, 'to', number, 1, 1, .false., dimension=swept), &
-      key_t(case_group, 'increments', whole, 1, 1, .false.), &
-      key_t(case_group, 'steer_from', number, 1, 1, .false., dimension=deflection), &
-      key_t(case_group, 'steer_to', number, 1, 1, .false., dimension=deflection), &
-      key_t(case_group, 'steer_increments', whole, 1, 1, .false.), &
-      key_t(case_group, 'method', word, 1, 1, .false.), &
-      key_t(case_group, 'solver', word, 1, 1, .false.), &
-      key_t(case_group, 'follow', word, 1, 1, .false.), &
-      key_t(case_group, 'tolerance', number, 1, 1, .false., positive, dimension=length), &
+   type(key_t), parameter :: keys_of_names(*) = [(key_t(named(j), 'name', word, 1, 1, .true., about='name of the item'), &
+      j=1, size(named))]
+
+   type(key_t), parameter :: keys_of_parts(*) = [ &
+      key_t(model_group, 'title', prose, 1, 1, .false., about='title of the figures'), &
+      key_t(model_group, 'length', word, 1, 1, .false., default='mm', about='unit of length'), &
+      key_t(model_group, 'force', word, 1, 1, .false., default='N', about='unit of force'), &
+      key_t(model_group, 'angle', word, 1, 1, .false., default='deg', about='unit of angle'), &
+      key_t(model_group, 'axes', word, 1, 1, .false., default='x-rear', &
+      about='frame: x-rear is x rearward, y to the right; iso is x forward, y to the left; z is up'), &
+      key_t(model_group, 'balance', word, 1, 1, .false., default='none', &
+      about='preload trim, by which the design position is an equilibrium under the constant loads'), &
+      key_t(model_group, 'gravity', number, 1, 1, .false., not_negative, ' (m/s², downward)', dimension=acceleration, &
+      about='gravity, downward; 0 if not given'), &
+      key_t(model_group, 'plausible', switch, 1, 1, .false., default='.true.', about='whether implausible numbers are reported'), &
+      key_t(point_group, 'at', number, 3, 3, .true., role=polar, dimension=length, about='coordinates in the design position'), &
+      key_t(body_group, 'origin', word, 1, 1, .false., role=point_group, about='reference point, for method recursive only'), &
+      key_t(body_group, 'mass', number, 1, 1, .false., positive, ' kg', dimension=mass, about='mass; requires centre'), &
+      key_t(body_group, 'centre', word, 1, 1, .false., role=point_group, about='point at the centre of gravity; requires mass'), &
+      key_t(mass_group, 'body', word, 1, 1, .true., role=body_group, about='body that carries the mass'), &
+      key_t(mass_group, 'kg', number, 1, 1, .true., positive, dimension=mass, about='additional mass, in kg in every deck'), &
+      key_t(mass_group, 'at', word, 1, 1, .true., role=point_group, about='point at the centre of gravity of this mass'), &
+      key_t(measure_group, 'type', word, 1, 1, .true., about='type of the measure'), &
+      key_t(measure_group, 'bodies', word, 2, 2, .true., role=body_group, about='first and second body'), &
+      key_t(measure_group, 'at', word, 1, 2, .false., role=point_group, about='one point or two points, as the type requires'), &
+      key_t(measure_group, 'axis', word, 2, 2, .false., role=point_group, about='two points: direction fixed in the first body'), &
+      key_t(measure_group, 'axis_vector', number, 3, 3, .false., role=polar, &
+      about='components of a vector of any length, instead of axis'), &
+      key_t(measure_group, 'axis_2', word, 2, 2, .false., role=point_group, &
+      about='two points: direction fixed in the second body'), &
+      key_t(measure_group, 'axis_2_vector', number, 3, 3, .false., role=polar, &
+      about='components of a vector of any length, instead of axis_2'), &
+      key_t(joint_group, 'type', word, 1, 1, .true., about='type of the joint'), &
+      key_t(joint_group, 'bodies', word, 2, 2, .false., role=body_group, &
+      about='first and second body; not of a driver or coupler'), &
+      key_t(joint_group, 'at', word, 1, 2, .false., role=point_group, about='one point or two points, as the type requires'), &
+      key_t(joint_group, 'axis', word, 2, 2, .false., role=point_group, about='two points: direction fixed in the first body'), &
+      key_t(joint_group, 'axis_vector', number, 3, 3, .false., role=polar, &
+      about='components of a vector of any length, instead of axis'), &
+      key_t(joint_group, 'axis_2', word, 2, 2, .false., role=point_group, about='two points: direction fixed in the second body'), &
+      key_t(joint_group, 'axis_2_vector', number, 3, 3, .false., role=polar, &
+      about='components of a vector of any length, instead of axis_2'), &
+      key_t(joint_group, 'measure', word, 1, 1, .false., role=measure_group, about='driver: the prescribed measure'), &
+      key_t(joint_group, 'measures', word, 1, max_measures, .false., role=measure_group, about='coupler: the measures'), &
+      key_t(joint_group, 'ratios', number, 1, max_measures, .false., not_zero, &
+      about='coupler: ratios; the sum of ratio x measure is constant'), &
+      key_t(joint_group, 'stiffness', number, 1, 1, .false., positive, dimension=reaction_rate, &
+      about='driver: stiffness between prescribed value and measure; rigid if not given'), &
+      key_t(joint_group, 'balance', switch, 1, 1, .false., &
+      about='driver with a stiffness: whether it may carry a force at design'), &
+      key_t(joint_group, 'rating_angle', number, 1, 2, .false., positive, dimension=angle, &
+      about='largest tilt of the joint; of a distance joint, of both ends'), &
+      key_t(joint_group, 'rating_axis_vector', number, 3, 6, .false., role=polar, &
+      about='axis of stud and housing at design; of a distance joint, of both ends'), &
+      key_t(bushing_group, 'bodies', word, 2, 2, .true., role=body_group, about='first and second body'), &
+      key_t(bushing_group, 'at', word, 1, 2, .true., role=point_group, about='one point for both markers, or one for each'), &
+      key_t(bushing_group, 'z_axis', word, 2, 2, .false., role=point_group, &
+      about='two points: z axis of the marker in the first body'), &
+      key_t(bushing_group, 'z_vector', number, 3, 3, .false., role=polar, &
+      about='components of a vector of any length, instead of z_axis'), &
+      key_t(bushing_group, 'x_axis', word, 2, 2, .false., role=point_group, &
+      about='two points: x axis of the marker in the first body'), &
+      key_t(bushing_group, 'x_vector', number, 3, 3, .false., role=polar, &
+      about='components of a vector of any length, instead of x_axis'), &
+      key_t(bushing_group, 'mirrored', switch, 1, 1, .false., default='.false.', &
+      about='choose the axis that is not given as on the right side of a mirrored axle'), &
+      key_t(bushing_group, 'rating_angle', number, 1, 1, .false., positive, dimension=angle, &
+      about='largest tilt of the bushing'), &
+      key_t(bushing_group, 'rating_axis_vector', number, 3, 3, .false., role=polar, &
+      about='axis whose tilt is rated; marker z if not given'), &
+      key_t(bushing_group, 'kt', number, 3, 3, .false., not_negative, has_zeros=.true., dimension=rate, default='0', &
+      about='rates along the marker axes x, y, z'), &
+      key_t(bushing_group, 'kr', number, 3, 3, .false., not_negative, has_zeros=.true., dimension=rotation_rate, default='0', &
+      about='rates about the marker axes x, y, z'), &
+      key_t(bushing_group, 'curve', word, 1, 6, .false., role=curves, &
+      about='curves instead of rates: fx=name, fy=-name (reflected through the origin), ... mz=name'), &
+      key_t(bushing_group, 'property_file', prose, 1, 1, .false., &
+      about='file of Adams/Car or IPGKinematics with the law of the element'), &
+      key_t(bushing_group, 'property_scale', number, 1, 6, .false., positive, default='1', &
+      about='factors of forces and moments of the file: fx, fy, fz, mx, my, mz'), &
+      key_t(bushing_group, 'property_offset', number, 1, 6, .false., dimension=deflection, default='0', &
+      about='deflections at which the curves of the file are read at design: lengths, then angles'), &
+      key_t(bushing_group, 'property_kind', word, 1, 1, .false., default='akima', &
+      about='interpolation of the curves of the file'), &
+      key_t(bushing_group, 'preload_force', number, 3, 3, .false., role=polar, has_zeros=.true., dimension=force, default='0', &
+      about='force on the second body at design, in marker axes'), &
+      key_t(bushing_group, 'preload_moment', number, 3, 3, .false., role=axial, has_zeros=.true., dimension=moment, default='0', &
+      about='moment on the second body at design, in marker axes'), &
+      key_t(spring_group, 'bodies', word, 2, 2, .false., role=body_group, about='first and second body; not with measure'), &
+      key_t(spring_group, 'at', word, 2, 2, .false., role=point_group, about='two points; not with measure'), &
+      key_t(spring_group, 'measure', word, 1, 1, .false., role=measure_group, &
+      about='measure on which the spring acts, instead of bodies and at'), &
+      key_t(spring_group, 'rate', number, 1, 1, .false., not_negative, dimension=reaction_rate, &
+      about='reaction per deflection; or curve or property_file'), &
+      key_t(spring_group, 'curve', word, 1, 1, .false., about='curve of the reaction over the compression'), &
+      key_t(spring_group, 'property_file', prose, 1, 1, .false., &
+      about='file of Adams/Car or IPGKinematics with the law of the element'), &
+      key_t(spring_group, 'property_scale', number, 1, 1, .false., positive, default='1', &
+      about='factor of the force of the file'), &
+      key_t(spring_group, 'property_offset', number, 1, 1, .false., dimension=deflection, default='0', &
+      about='length added to the compression before the curve of the file is read'), &
+      key_t(spring_group, 'property_kind', word, 1, 1, .false., default='akima', about='interpolation of the curves of the file'), &
+      key_t(spring_group, 'preload', number, 1, 1, .false., dimension=reaction, default='0', &
+      about='compressive reaction at design; or free_length'), &
+      key_t(spring_group, 'balance', switch, 1, 1, .false., default='.true.', &
+      about='whether the preload trim may change the preload'), &
+      key_t(spring_group, 'free_length', number, 1, 1, .false., positive, dimension=length, about='length without force'), &
+      key_t(curve_group, 'x', number, 2, max_values, .true., dimension=deflection, &
+      about='increasing values, in the unit of the deflection of the element that uses the curve'), &
+      key_t(curve_group, 'y', number, 2, max_values, .true., dimension=reaction, &
+      about='as many values as x, in the unit of the reaction of the element that uses the curve'), &
+      key_t(curve_group, 'kind', word, 1, 1, .false., default='linear', about='interpolation'), &
+      key_t(damper_group, 'bodies', word, 2, 2, .true., role=body_group, about='first and second body'), &
+      key_t(damper_group, 'at', word, 2, 2, .true., role=point_group, about='two points'), &
+      key_t(damper_group, 'gas_force', number, 1, 1, .false., not_negative, dimension=force, default='0', &
+      about='gas force at design'), &
+      key_t(damper_group, 'gas_rate', number, 1, 1, .false., not_negative, dimension=rate, default='0', &
+      about='increase of the gas force per length of compression'), &
+      key_t(stop_group, 'type', word, 1, 1, .true., about='bump pushes the ends apart, rebound pulls them together'), &
+      key_t(stop_group, 'bodies', word, 2, 2, .true., role=body_group, about='first and second body'), &
+      key_t(stop_group, 'at', word, 2, 2, .true., role=point_group, about='two points'), &
+      key_t(stop_group, 'clearance', number, 1, 1, .true., not_negative, dimension=length, &
+      about='change of the distance of the points from design to contact'), &
+      key_t(stop_group, 'rate', number, 1, 1, .false., not_negative, dimension=rate, &
+      about='force per penetration; or curve or property_file'), &
+      key_t(stop_group, 'curve', word, 1, 1, .false., about='curve of the force over the penetration'), &
+      key_t(stop_group, 'property_file', prose, 1, 1, .false., &
+      about='file of Adams/Car or IPGKinematics with the law of the element'), &
+      key_t(stop_group, 'property_scale', number, 1, 1, .false., positive, default='1', about='factor of the force of the file'), &
+      key_t(stop_group, 'property_offset', number, 1, 1, .false., dimension=length, default='0', &
+      about='length added to the penetration before the curve of the file is read'), &
+      key_t(stop_group, 'property_kind', word, 1, 1, .false., default='akima', about='interpolation of the curves of the file'), &
+      key_t(stop_group, 'rounding', number, 1, 1, .false., positive, dimension=length, &
+      about='length of the smooth transition at contact; 0.5 mm if not given'), &
+      key_t(torsion_group, 'bodies', word, 2, 2, .true., role=body_group, about='first and second body'), &
+      key_t(torsion_group, 'axis', word, 2, 2, .false., role=point_group, about='two points: axis fixed in the first body'), &
+      key_t(torsion_group, 'axis_vector', number, 3, 3, .false., role=polar, &
+      about='components of a vector of any length, instead of axis'), &
+      key_t(torsion_group, 'rate', number, 1, 1, .false., not_negative, dimension=rotation_rate, &
+      about='moment per angle; or curve'), &
+      key_t(torsion_group, 'curve', word, 1, 1, .false., about='curve of the moment over the angle'), &
+      key_t(torsion_group, 'preload', number, 1, 1, .false., dimension=moment, default='0', &
+      about='moment on the second body about the axis at design')]
+
+   type(key_t), parameter :: keys_of_tests(*) = [ &
+      key_t(wheel_group, 'body', word, 1, 1, .true., role=body_group, about='wheel carrier'), &
+      key_t(wheel_group, 'side', word, 1, 1, .true., role=wheel_side, about='side of the car'), &
+      key_t(wheel_group, 'centre', word, 1, 1, .true., role=point_group, about='point: wheel centre'), &
+      key_t(wheel_group, 'contact', word, 1, 1, .true., role=point_group, about='point: contact point'), &
+      key_t(wheel_group, 'spin_vector', number, 3, 3, .false., role=polar, &
+      about='spin axis, pointing outboard, instead of toe and camber'), &
+      key_t(wheel_group, 'toe', number, 1, 1, .false., acute, ' deg', dimension=angle, default='0', about='static toe'), &
+      key_t(wheel_group, 'camber', number, 1, 1, .false., acute, ' deg', dimension=angle, default='0', about='static camber'), &
+      key_t(wheel_group, 'radius', number, 1, 1, .false., positive, dimension=length, &
+      about='radius; height of the centre above the contact point if not given'), &
+      key_t(wheel_group, 'tyre_rate', number, 1, 1, .false., positive, dimension=rate, about='vertical stiffness of the tyre'), &
+      key_t(wheel_group, 'tyre_width', number, 1, 1, .false., positive, dimension=length, about='width of the tyre'), &
+      key_t(wheel_group, 'sprung_mass', number, 1, 1, .false., positive, ' kg', dimension=mass, &
+      about='sprung mass on this wheel; from the wheel load if not given'), &
+      key_t(wheel_group, 'steer_axis', word, 2, 2, .false., role=point_group, about='two points on the geometric steering axis'), &
+      key_t(axle_group, 'name', word, 1, 1, .false., about='name in messages'), &
+      key_t(axle_group, 'position', word, 1, 1, .true., about='position in the car'), &
+      key_t(axle_group, 'wheelbase', number, 1, 1, .true., positive, dimension=length, about='wheelbase'), &
+      key_t(axle_group, 'cg_height', number, 1, 1, .true., positive, dimension=length, &
+      about='height of the centre of gravity of the car above the ground'), &
+      key_t(axle_group, 'mass', number, 1, 1, .false., positive, dimension=mass, about='mass of the car'), &
+      key_t(axle_group, 'axle_load', number, 1, 1, .false., positive, dimension=force, &
+      about='force of the road on both wheels when the car stands'), &
+      key_t(axle_group, 'roll_share', number, 1, 1, .false., share, about='share of the lateral load transfer on this axle'), &
+      key_t(axle_group, 'brake_share', number, 1, 1, .true., share, about='share of the braking force on the front axle'), &
+      key_t(axle_group, 'drive_share', number, 1, 1, .false., share, default='1', &
+      about='share of the driving force on this axle'), &
+      key_t(axle_group, 'drive_reaction', word, 1, 1, .false., default='wheel_centre', about='where the driving force acts'), &
+      key_t(axle_group, 'brake_reaction', word, 1, 1, .false., default='carrier', about='what takes the brake torque'), &
+      key_t(axle_group, 'front_overhang', number, 1, 1, .false., positive, dimension=length, &
+      about='front axle: distance from the wheels forward to the front corners of the car'), &
+      key_t(axle_group, 'front_width', number, 1, 1, .false., positive, dimension=length, &
+      about='front axle: lateral distance of the front corners of the car'), &
+      key_t(steering_group, 'name', word, 1, 1, .false., about='name in messages'), &
+      key_t(steering_group, 'driver', word, 1, 1, .true., role=joint_group, about='driver joint that moves the rack'), &
+      key_t(steering_group, 'ratio', number, 1, 1, .true., not_zero, dimension=length, &
+      about='rack travel per revolution of the steering wheel'), &
+      key_t(steering_group, 'travel', number, 1, 1, .true., positive, dimension=length, &
+      about='largest rack travel in each direction'), &
+      key_t(load_group, 'body', word, 1, 1, .true., role=body_group, about='body on which the load acts'), &
+      key_t(load_group, 'at', word, 1, 1, .true., role=point_group, about='point of the body'), &
+      key_t(load_group, 'force', number, 3, 3, .false., role=polar, has_zeros=.true., dimension=force, default='0', &
+      about='force in the frame of the deck'), &
+      key_t(load_group, 'moment', number, 3, 3, .false., role=axial, has_zeros=.true., dimension=moment, default='0', &
+      about='moment in the frame of the deck'), &
+      key_t(load_group, 'follows', switch, 1, 1, .false., default='.false.', about='whether the load rotates with the body'), &
+      key_t(load_group, 'factor', word, 1, 1, .false., default='constant', &
+      about='case: scaled by the case that names the load; constant: acts in every case'), &
+      key_t(manoeuvre_group, 'name', word, 1, 1, .false., about='name of the manoeuvre in the results'), &
+      key_t(manoeuvre_group, 'set', word, 1, 1, .false., about='set of manoeuvres; no other key is then allowed'), &
+      key_t(manoeuvre_group, 'vertical', number, 1, 1, .false., not_negative, default='1', &
+      about='load factor: force of the road per weight of the car'), &
+      key_t(manoeuvre_group, 'longitudinal', number, 1, 1, .false., dimension=gravities, default='0', &
+      about='acceleration of the car, positive forward'), &
+      key_t(manoeuvre_group, 'lateral', number, 1, 1, .false., dimension=gravities, default='0', &
+      about='acceleration of the car, positive to the left'), &
+      key_t(manoeuvre_group, 'longitudinal_by', word, 1, 1, .false., &
+      about='what gives the longitudinal force; brake if decelerated'), &
+      key_t(manoeuvre_group, 'side', word, 1, 1, .false., about='the only wheel that the manoeuvre loads'), &
+      key_t(manoeuvre_group, 'wheels', number, 2, 2, .false., not_negative, &
+      about='load factors of the left and the right wheel, instead of vertical'), &
+      key_t(manoeuvre_group, 'downforce', number, 1, 1, .false., dimension=force, &
+      about='aerodynamic force on the axle, positive downward; 0 if not given'), &
+      key_t(manoeuvre_group, 'steer', number, 1, 1, .false., dimension=deflection, &
+      about='value of the steering driver; 0 if not given'), &
+      key_t(case_group, 'load', word, 1, max_loads, .false., role=load_group, about='loads that the case scales'), &
+      key_t(case_group, 'drive', word, 1, 1, .false., role=joint_group, &
+      about='wheel_travel, or the driver joint whose value changes'), &
+      key_t(case_group, 'wheel', word, 1, 1, .false., role=wheel_group, about='wheel whose travel is driven'), &
+      key_t(case_group, 'test', word, 1, 1, .false., about='test of the rig'), &
+      key_t(case_group, 'vertical', word, 1, 1, .false., about='how a test holds the wheels'), &
+      key_t(case_group, 'pose', word, 1, 1, .false., default='settled', &
+      about='test manoeuvres: the axle settles under the loads, or its springs keep their length at design'), &
+      key_t(case_group, 'phase', word, 1, 1, .false., default='in', &
+      about='forces or moments on both wheels: equal, or opposite on the right wheel'), &
+      key_t(case_group, 'offset', number, 1, 1, .false., dimension=length, default='0', &
+      about='test lateral_force: distance of the force aft of the contact point'), &
+      key_t(case_group, 'file', prose, 1, 1, .false., about='table of loads of test table'), &
+      key_t(case_group, 'target', prose, 1, 1, .false., about='column=value that the case solves for'), &
+      key_t(case_group, 'quantities', word, 1, 1, .false., &
+      about='columns; basic: from positions and forces only; all for a test, else basic'), &
+      key_t(case_group, 'from', number, 1, 1, .false., dimension=swept, about='first swept value'), &
+      key_t(case_group, 'to', number, 1, 1, .false., dimension=swept, about='last swept value'), &
+      key_t(case_group, 'increments', whole, 1, 1, .false., about='number of increments; 100 if not given, in a grid 16'), &
+      key_t(case_group, 'steer_from', number, 1, 1, .false., dimension=deflection, &
+      about='grid: first value of the steering driver'), &
+      key_t(case_group, 'steer_to', number, 1, 1, .false., dimension=deflection, about='grid: last value of the steering driver'), &
+      key_t(case_group, 'steer_increments', whole, 1, 1, .false., &
+      about='grid: number of increments of the steering driver; 12 if not given'), &
+      key_t(case_group, 'method', word, 1, 1, .false., default='equilibrium', about='method of solution'), &
+      key_t(case_group, 'solver', word, 1, 1, .false., &
+      about='solver of linear systems; lapack if not given, in studies and programs plan'), &
+      key_t(case_group, 'follow', word, 1, 1, .false., default='factor', &
+      about='equal steps of the factor, or along the path over limit points'), &
+      key_t(case_group, 'tolerance', number, 1, 1, .false., positive, dimension=length, &
+      about='limit of the last correction of a state; 1e-7 mm if not given')]
+
+   type(key_t), parameter :: keys_of_studies(*) = [ &
       key_t(study_group, 'title', prose, 1, 1, .false.), &
       key_t(study_group, 'kind', word, 1, 1, .true.), &
       key_t(study_group, 'deck', prose, 1, 1, .true.), &
@@ -291,17 +390,22 @@ module ek_group
       key_t(fit_target_group, 'file', prose, 1, 1, .false.), &
       key_t(fit_target_group, 'column', heading, 1, 1, .false.), &
       key_t(fit_target_group, 'deviation', number, 1, 1, .false., positive), &
-      key_t(fit_target_group, 'weight', number, 1, 1, .false., not_negative), &
-      key_t(include_group, 'file', prose, 1, 1, .true.), &
-      key_t(hardpoints_group, 'file', prose, 1, 1, .true.), &
-      key_t(hardpoints_group, 'length', word, 1, 1, .false.), &
-      key_t(hardpoints_group, 'axes', word, 1, 1, .false.), &
-      key_t(hardpoints_group, 'side', word, 1, 1, .false.), &
-      key_t(target_group, 'quantity', word, 1, 1, .true.), &
-      key_t(target_group, 'low', number, 1, 1, .false.), &
-      key_t(target_group, 'high', number, 1, 1, .false.), &
-      key_t(mirror_group, 'shared', word, 1, max_values, .false.), &
-      key_t(every_group, 'note', prose, 1, 1, .false.)]
+      key_t(fit_target_group, 'weight', number, 1, 1, .false., not_negative)]
+
+   type(key_t), parameter :: keys_of_files(*) = [ &
+      key_t(include_group, 'file', prose, 1, 1, .true., about='file with further groups of the deck'), &
+      key_t(hardpoints_group, 'file', prose, 1, 1, .true., about='CSV table, or subsystem or assembly of Adams/Car'), &
+      key_t(hardpoints_group, 'length', word, 1, 1, .false., &
+      about='unit of a CSV file without a unit; that of the deck if not given'), &
+      key_t(hardpoints_group, 'axes', word, 1, 1, .false., about='frame of the file'), &
+      key_t(hardpoints_group, 'side', word, 1, 1, .false., about='points that are read; left with mirror, else both'), &
+      key_t(target_group, 'quantity', word, 1, 1, .true., about='name of a key number of the report'), &
+      key_t(target_group, 'low', number, 1, 1, .false., about='lower limit, in the unit of the key number'), &
+      key_t(target_group, 'high', number, 1, 1, .false., about='upper limit, in the unit of the key number'), &
+      key_t(mirror_group, 'shared', word, 1, max_values, .false., about='names of the items that exist only once'), &
+      key_t(every_group, 'note', prose, 1, 1, .false., about='free text, for instance the source of a number')]
+
+   type(key_t), parameter :: keys(*) = [keys_of_names, keys_of_parts, keys_of_tests, keys_of_studies, keys_of_files]
 
 contains
 
@@ -316,6 +420,12 @@ contains
       integer, intent(in) :: group
       is_deck_group = group > 0 .and. .not. any([study_groups, fit_groups] == group)
    end function is_deck_group
+
+   !> Whether a deck may have at most one record of a group.
+   elemental logical function occurs_once(group)
+      integer, intent(in) :: group
+      occurs_once = any([model_group, mirror_group, axle_group, steering_group] == group)
+   end function occurs_once
 
    !> Whether records of a group have columns in the results. Their names must then differ, and &mirror duplicates the records that
    !> refer to duplicated parts.

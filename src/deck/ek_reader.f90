@@ -405,15 +405,15 @@ contains
    !> Reads &model: name, title, units, axes, preload trim (`balance`), gravity, and whether implausible numbers are reported.
    subroutine read_model(reading)
       type(deck_reading_t), intent(inout) :: reading
-      character(*), parameter :: balances(3) = [character(6) :: 'none', 'spring', 'all']
-      integer :: c, balance, gravity
+      character(:), allocatable :: balance
+      integer :: c, gravity
 
       if (is_second(reading)) return
-      call choice(reading, 'length', [character(2) :: 'mm', 'm'], c)
-      call choice(reading, 'force', [character(2) :: 'N', 'kN'], c)
-      call choice(reading, 'angle', ['deg', 'rad'], c)
-      call choice(reading, 'axes', [character(6) :: 'x-rear', 'iso'], c)
-      call choice(reading, 'balance', balances, balance, default=1)
+      call choice(reading, 'length', c)
+      call choice(reading, 'force', c)
+      call choice(reading, 'angle', c)
+      call choice(reading, 'axes', c)
+      call choice(reading, 'balance', c, word=balance)
       call units_in_deck(reading%records(reading%k:reading%k), reading%units, reading%plan%is_iso)
       call slot(reading, 'gravity', gravity)
       reading%plan%gravity = gravity
@@ -421,10 +421,10 @@ contains
          model%gravity = number_of(reading, 'gravity', 0.0_wp)
          model%name = text_of(reading, 'name')
          model%title = text_of(reading, 'title')
-         model%balance = trim(balances(max(balance, 1)))
+         model%balance = balance
          model%is_iso = reading%plan%is_iso
          model%units = reading%units
-         model%is_plausible_wanted = switch_of(reading, 'plausible', .true.)
+         model%is_plausible_wanted = switch_of(reading, 'plausible')
          model%where = where_of(reading)
       end associate
    end subroutine read_model

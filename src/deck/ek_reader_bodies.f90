@@ -86,7 +86,7 @@ contains
 
       call find_moving_body(reading, element%body, has_body)
       call find_point(reading, 'at', text_of(reading, 'at'), plan%at, is_found)
-      call choice(reading, 'factor', [character(8) :: 'constant', 'case'], c, default=1)
+      call choice(reading, 'factor', c)
       if (.not. (has_key(reading, 'force') .or. has_key(reading, 'moment'))) &
          call complain(reading, '', "give 'force' or 'moment'")
       element%is_case = c /= 1
@@ -94,11 +94,11 @@ contains
       reading%cards(reading%k)%is_used = element%is_case
       if (.not. reading%cards(reading%k)%is_good) return
 
-      call slot(reading, 'force', plan%force, default=0.0_wp)
-      call slot(reading, 'moment', plan%moment, default=0.0_wp)
+      call slot(reading, 'force', plan%force)
+      call slot(reading, 'moment', plan%moment)
       element%name = text_of(reading, 'name')
       element%where = where_of(reading)
-      element%follows = switch_of(reading, 'follows', .false.)
+      element%follows = switch_of(reading, 'follows')
       reading%plan%prototype%loads = [reading%plan%prototype%loads, element]
       reading%plan%loads = [reading%plan%loads, plan]
    end subroutine read_load
@@ -114,7 +114,7 @@ contains
 
       reading%cards(reading%k)%index = 1 + count(reading%cards(:reading%k - 1)%group == reading%cards(reading%k)%group)
       call find_moving_body(reading, this%body, has_body)
-      call choice(reading, 'side', [character(5) :: 'left', 'right'], c)
+      call choice(reading, 'side', c)
       this%side = merge(-1, 1, c == 1)
       call find_point(reading, 'centre', text_of(reading, 'centre'), plan%centre, has_centre)
       call find_point(reading, 'contact', text_of(reading, 'contact'), plan%contact, has_contact)
@@ -153,8 +153,8 @@ contains
       real(wp) :: spin(3)
 
       if (.not. has_key(reading, 'spin_vector')) then
-         call slot(reading, 'toe', plan%toe, default=0.0_wp)
-         call slot(reading, 'camber', plan%camber, default=0.0_wp)
+         call slot(reading, 'toe', plan%toe)
+         call slot(reading, 'camber', plan%camber)
          return
       end if
       if (has_key(reading, 'toe') .or. has_key(reading, 'camber')) call complain(reading, 'spin_vector', &
@@ -186,20 +186,20 @@ contains
       call slot(reading, 'cg_height', number(2))
       call slot(reading, 'mass', number(3))
       call slot(reading, 'brake_share', number(4))
-      call slot(reading, 'drive_share', number(5), default=1.0_wp)
+      call slot(reading, 'drive_share', number(5))
       call slot(reading, 'front_overhang', number(6))
       call slot(reading, 'front_width', number(7))
       call slot(reading, 'axle_load', number(8))
       call slot(reading, 'roll_share', number(9))
       reading%plan%axle = number
       associate (this => reading%plan%prototype%axle)
-         call choice(reading, 'position', [character(5) :: 'front', 'rear'], c)
+         call choice(reading, 'position', c)
          this%is_front = c == 1
          if (has_key(reading, 'front_overhang') .and. c == 2) call complain(reading, 'front_overhang', &
             "front_overhang belongs to the front axle, found position = 'rear'")
-         call choice(reading, 'drive_reaction', [character(12) :: 'wheel_centre', 'patch'], c, default=1)
+         call choice(reading, 'drive_reaction', c)
          this%drives_at_patch = c == 2
-         call choice(reading, 'brake_reaction', [character(7) :: 'carrier', 'body'], c, default=1)
+         call choice(reading, 'brake_reaction', c)
          this%brakes_at_centre = c == 2
          this%has_axle = .true.
          this%where = where_of(reading)

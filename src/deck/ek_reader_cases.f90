@@ -5,7 +5,7 @@ module ek_reader_cases
    use ek_dimension, only: pure_number, length, force, angle
    use ek_rig_test, only: rig_test_t, rig_tests, needs_both, of_one_wheel, lifts, rig_test, rolls, steers, loads_wheels, &
       takes_table, covers_grid, drives_car
-   use ek_case, only: case_t, method_names, solver_names, follow_names, max_increments
+   use ek_case, only: case_t, max_increments
    use ek_record, only: value_t, right_side, element, is_given, own_name
    use ek_namelist, only: value_fault
    use ek_realise, only: steepest_roll
@@ -19,8 +19,6 @@ module ek_reader_cases
    implicit none(type, external)
    private
    public :: read_case, refuse_one_file_for_two
-
-   character(*), parameter :: verticals(4) = [character(6) :: 'centre', 'patch', 'force', 'road']
 
    ! limits of the tolerance: rounding of a metre is 1e-13 mm, and no case converges below that; above a millimetre
    ! the first guess of every state would be accepted
@@ -67,16 +65,16 @@ contains
       if (this%increments < 1 .or. this%increments > max_increments) call complain(reading, 'increments', &
          'increments must be 1 to '//str(max_increments)//', found '//str(this%increments))
       if (has_grid) call read_grid(reading, this, plan)
-      call choice(reading, 'method', method_names, c)
+      call choice(reading, 'method', c)
       this%says_solver = has_key(reading, 'solver')
-      call choice(reading, 'solver', solver_names, c)
+      call choice(reading, 'solver', c)
       this%uses_plan = c == 2
       tolerance = number_of(reading, 'tolerance', this%tolerance/unit_of(reading, 'tolerance'))*unit_of(reading, 'tolerance')
       if (has_key(reading, 'tolerance')) this%tolerance = tolerance
       if (tolerance < min_tolerance .or. tolerance > max_tolerance) call complain(reading, 'tolerance', 'tolerance must be '// &
          str(min_tolerance/millimetre)//' to '//str(max_tolerance/millimetre)//' mm, found '// &
          str(tolerance/millimetre)//' mm')
-      call choice(reading, 'quantities', [character(5) :: 'basic', 'all'], c, default=merge(2, 1, has_key(reading, 'test')))
+      call choice(reading, 'quantities', c, default=merge(2, 1, has_key(reading, 'test')))
       this%has_all = c == 2
       this%method = lower(text_of(reading, 'method', 'equilibrium'))
       call read_target(reading, this)
@@ -87,7 +85,7 @@ contains
       this%is_good = reading%cards(reading%k)%is_good
       if (.not. has_table) call slot(reading, 'from', plan%from, default=-reach)
       if (.not. has_table) call slot(reading, 'to', plan%to, default=reach)
-      if (test%has_trail) call slot(reading, 'offset', plan%offset, default=0.0_wp)
+      if (test%has_trail) call slot(reading, 'offset', plan%offset)
       this%from = from*unit_of(reading, 'from')
       this%to = to*unit_of(reading, 'to')
       reading%plan%cases = [reading%plan%cases, plan]
@@ -162,7 +160,7 @@ contains
       type(case_t), intent(inout) :: this      !! with its method and target
       integer :: c
 
-      call choice(reading, 'follow', follow_names, c)
+      call choice(reading, 'follow', c)
       this%follows_arc = c == 2
       if (c /= 2) return
       if (any(test%action == [takes_table, covers_grid, drives_car])) then
@@ -270,7 +268,7 @@ contains
       type(rig_test_t) :: test
       integer :: c, swept, steered, wheels(2)
 
-      call choice(reading, 'test', rig_tests%name, c)
+      call choice(reading, 'test', c)
       this%load = ''
       if (c == 0) return
       test = rig_tests(c)
@@ -296,18 +294,17 @@ contains
       call refuse_in_test('target', test%action == covers_grid, 'the states of a grid form no path to search')
 
       call count_wheels(reading, wheels)
-      call choice(reading, 'vertical', verticals, c)
-      if (c > 0) this%vertical = trim(verticals(c))
+      call choice(reading, 'vertical', c, word=this%vertical)
       if (any(test%action == [rolls, covers_grid])) call refuse_in_test('vertical', c == 3, &
          'the test prescribes heights: ''centre'', ''patch'' or ''road''')
       if ((test%action == loads_wheels .and. lifts(test)) .or. test%action == drives_car) call refuse_in_test('vertical', &
          c > 0 .and. c /= 3, 'the test prescribes the force')
       if (c == 4) call check_tyres(reading)
-      call choice(reading, 'pose', [character(7) :: 'settled', 'design'], c)
+      call choice(reading, 'pose', c)
       this%holds_springs = c == 2
       if (this%holds_springs .and. .not. any(reading%cards%group == spring_group)) call complain(reading, 'pose', &
          "pose = 'design' needs a &spring, whose length it keeps")
-      call choice(reading, 'phase', [character(4) :: 'in', 'anti'], c)
+      call choice(reading, 'phase', c)
       this%is_anti = c == 2
       if (this%is_anti .or. needs_both(test)) then
          if (any(wheels == 0)) call complain(reading, 'test', 'a left and a right wheel are needed; the deck has '// &

@@ -8,7 +8,7 @@ module ek_reader_elements
    use ek_record, only: takes_image
    use ek_number_range, only: only_zero
    use ek_curve, only: curve_t, look_up_curve
-   use ek_new_curve, only: new_curve, curve_kinds, min_step
+   use ek_new_curve, only: new_curve, min_step
    use ek_dimension, only: unit_size, length, angle, force, moment
    use ek_measure, only: measure_t, distance, rotation
    use ek_element, only: element_t, set_kind, axial_spring, measure_spring, damper, stop_spring, torsion_spring, bushing_element, &
@@ -39,7 +39,7 @@ contains
 
       reading%plan%curves = [reading%plan%curves, plan]
       reading%cards(reading%k)%index = size(reading%plan%curves)
-      call choice(reading, 'kind', curve_kinds, c, default=1)
+      call choice(reading, 'kind', c, word=plan%kind)
       if (.not. reading%cards(reading%k)%is_good) return
       plan%points = value_count(reading, 'x')
       if (value_count(reading, 'y') /= plan%points) call complain(reading, 'y', 'y needs as many values as x, '// &
@@ -54,7 +54,6 @@ contains
          return
       end do
       plan%name = text_of(reading, 'name')
-      plan%kind = trim(curve_kinds(c))
       call slot(reading, 'x', plan%x, count=plan%points)
       call slot(reading, 'y', plan%y, count=plan%points)
       reading%plan%curves(size(reading%plan%curves)) = plan
@@ -98,7 +97,7 @@ contains
       if (.not. reading%cards(reading%k)%is_good) return
       call slot(reading, 'free_length', plan%numbers(free_length_number))
       if (plan%numbers(free_length_number) == 0) &
-         call slot(reading, 'preload', plan%numbers(preload_number), default=0.0_wp)
+         call slot(reading, 'preload', plan%numbers(preload_number))
       call add(reading, plan, merge(axial_spring, measure_spring, measure%kind == distance), measure)
 
    contains
@@ -131,8 +130,8 @@ contains
 
       call find_link(reading, plan, measure)
       if (.not. reading%cards(reading%k)%is_good) return
-      call slot(reading, 'gas_rate', plan%numbers(rate_number), default=0.0_wp)
-      call slot(reading, 'gas_force', plan%numbers(preload_number), default=0.0_wp)
+      call slot(reading, 'gas_rate', plan%numbers(rate_number))
+      call slot(reading, 'gas_force', plan%numbers(preload_number))
       call add(reading, plan, damper, measure)
    end subroutine read_damper
 
@@ -146,7 +145,7 @@ contains
       integer :: c
 
       call set_dimensions(reading, plan, length, force)
-      call choice(reading, 'type', [character(7) :: 'bump', 'rebound'], c)
+      call choice(reading, 'type', c)
       call find_link(reading, plan, measure)
       call find_law(reading, plan)
       if (plan%curve > 0) then
@@ -178,7 +177,7 @@ contains
       if (.not. has_axis) call complain(reading, '', "give 'axis' or 'axis_vector'")
       call find_law(reading, plan)
       if (.not. reading%cards(reading%k)%is_good) return
-      call slot(reading, 'preload', plan%numbers(preload_number), default=0.0_wp)
+      call slot(reading, 'preload', plan%numbers(preload_number))
       call add(reading, plan, torsion_spring, measure_t(kind=rotation, body_i=bodies(1), body_j=bodies(2)))
    end subroutine read_torsion
 
@@ -259,10 +258,10 @@ contains
       call read_rating(reading, 1, .false., rating)
       if (.not. reading%cards(reading%k)%is_good) return
 
-      call slot(reading, 'kt', plan%kt, default=0.0_wp)
-      call slot(reading, 'kr', plan%kr, default=0.0_wp)
-      call slot(reading, 'preload_force', plan%preload_force, default=0.0_wp)
-      call slot(reading, 'preload_moment', plan%preload_moment, default=0.0_wp)
+      call slot(reading, 'kt', plan%kt)
+      call slot(reading, 'kr', plan%kr)
+      call slot(reading, 'preload_force', plan%preload_force)
+      call slot(reading, 'preload_moment', plan%preload_moment)
       if (element%bushing%has_curves) then
          associate (list => reading%parameters%list)
             where (element%bushing%laws(1:3)%has_curve) list(plan%kt:plan%kt + 2)%range = only_zero

@@ -19,8 +19,7 @@ module ek_reader_joints
    private
    public :: read_measure, read_joint
 
-   character(*), parameter :: measure_types(5) = [character(10) :: 'axes', 'gap', 'global_gap', 'distance', 'rotation']
-   integer, parameter :: measure_kinds(5) = [axis_axis, body_gap, global_gap, distance, rotation]
+   integer, parameter :: measure_kinds(5) = [axis_axis, body_gap, global_gap, distance, rotation]      !! in the order of ek_choices
 
 contains
 
@@ -34,7 +33,7 @@ contains
       integer :: kind, number(2)
 
       type = text_of(reading, 'type')
-      call choice(reading, 'type', measure_types, kind)
+      call choice(reading, 'type', kind)
       call find_bodies(reading, number)
       call find_ends(reading, .true., plan%ends, has_points)
       call find_direction(reading, 'axis', 'axis_vector', plan%u, has_u, is_set)
@@ -80,7 +79,7 @@ contains
       type(deck_reading_t), intent(inout) :: reading
       integer :: number, bodies(2)
 
-      call choice(reading, 'type', joint_kinds, number)
+      call choice(reading, 'type', number)
       if (number == 0) then
          ! bodies of a joint of unknown type count as attached: no second message about them
          call find_bodies(reading, bodies)

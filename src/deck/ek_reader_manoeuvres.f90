@@ -5,7 +5,6 @@ module ek_reader_manoeuvres
    use ek_case, only: manoeuvre_t
    use ek_text, only: lower, str
    use ek_group, only: axle_group, manoeuvre_group, wheel_group, steering_group, joint_group
-   use ek_manoeuvre_records, only: set_names
    use ek_record, only: is_given, element
    use ek_reference, only: find_card, is_driver
    use ek_deck_reading, only: deck_reading_t, complain, refuse, where_of, line_of, has_key, choice, text_of, number_of, slot, &
@@ -23,7 +22,7 @@ contains
       integer :: c, usual
 
       if (has_key(reading, 'set')) then
-         call choice(reading, 'set', set_names, c)
+         call choice(reading, 'set', c)
          call refuse(reading, [character(16) :: 'name', 'vertical', 'longitudinal', 'lateral', 'longitudinal_by', 'side', &
             'wheels', 'downforce', 'steer'], &
             'a set has its own numbers; to replace a manoeuvre of the set, give a &manoeuvre with its name')
@@ -42,7 +41,7 @@ contains
          call read_side(reading, this%side)
          usual = merge(1, 2, this%longitudinal < 0.0_wp)
          if (this%side > 0) usual = 3
-         call choice(reading, 'longitudinal_by', [character(8) :: 'brake', 'drive', 'obstacle'], c, default=usual)
+         call choice(reading, 'longitudinal_by', c, default=usual)
          this%is_braked = c == 1
          this%hits_obstacle = c == 3
          if (c == 3 .and. this%side == 0) call complain(reading, 'longitudinal_by', "longitudinal_by = 'obstacle' needs side: "// &
@@ -54,9 +53,9 @@ contains
          call check_car(reading, this%side == 0 .and. (abs(this%longitudinal) > 0.0_wp .or. abs(this%lateral) > 0.0_wp))
       end associate
       if (.not. reading%cards(reading%k)%is_good) return
-      if (.not. plan%manoeuvre%has_wheels) call slot(reading, 'vertical', plan%vertical, default=1.0_wp)
-      call slot(reading, 'longitudinal', plan%longitudinal, default=0.0_wp)
-      call slot(reading, 'lateral', plan%lateral, default=0.0_wp)
+      if (.not. plan%manoeuvre%has_wheels) call slot(reading, 'vertical', plan%vertical)
+      call slot(reading, 'longitudinal', plan%longitudinal)
+      call slot(reading, 'lateral', plan%lateral)
       call slot(reading, 'wheels', plan%wheels)
       call slot(reading, 'downforce', plan%downforce)
       call slot(reading, 'steer', plan%steer)
@@ -68,10 +67,10 @@ contains
    subroutine read_side(reading, side)
       type(deck_reading_t), intent(inout) :: reading
       integer, intent(out) :: side           !! 1 left, 2 right, 0: not given
-      character(5), parameter :: sides(2) = [character(5) :: 'left', 'right']
+      character(5), parameter :: sides(2) = [character(5) :: 'left', 'right']      ! as in ek_choices
       integer :: j
 
-      call choice(reading, 'side', sides, side)
+      call choice(reading, 'side', side)
       if (side == 0 .or. .not. any(reading%cards%group == wheel_group)) return
       if (.not. any([(reading%cards(j)%group == wheel_group .and. lower(element(reading%records(j), 'side', 1)) == sides(side), &
          j=1, size(reading%cards))])) call complain(reading, 'side', 'side: the deck has no '//trim(sides(side))//' wheel')

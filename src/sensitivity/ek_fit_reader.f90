@@ -8,8 +8,8 @@ module ek_fit_reader
    use ek_group, only: group_number, fit_groups, fit_group, factor_group, fit_target_group, group_names, record_head, max_paths
    use ek_namelist, only: check_record, is_legal_name
    use ek_deck, only: deck_t, read_deck
-   use ek_deck_reading, only: deck_reading_t, complain, complain_of_all, refuse, choice, has_key, where_of, line_of, is_second, &
-      text_of, number_of, numbers_of, whole_of, switch_of, value_count, raw
+   use ek_deck_reading, only: deck_reading_t, complain, complain_of_all, refuse, choice_among, has_key, where_of, line_of, &
+      is_second, text_of, number_of, numbers_of, whole_of, switch_of, value_count, raw
    use ek_study, only: max_factors, change_names, by_value, not_given, is_given
    use ek_fit, only: fit_t, fit_factor_t, fit_target_t
    implicit none(type, external)
@@ -121,7 +121,7 @@ contains
          this%paths(k) = raw(reading, 'path', k)
       end do
       this%is_each = switch_of(reading, 'each', .false.)
-      call choice(reading, 'change', change_names, this%change, default=by_value)
+      call choice_among(reading, 'change', change_names, this%change, default=by_value)
       this%lower = number_of(reading, 'lower', not_given())
       this%upper = number_of(reading, 'upper', not_given())
       this%nominal = number_of(reading, 'nominal', not_given())
@@ -156,7 +156,7 @@ contains
       this%name = text_of(reading, 'name')
       this%quantity = text_of(reading, 'quantity')
       this%case = text_of(reading, 'case')
-      call choice(reading, 'of', [character(6) :: 'value', 'slope', 'change'], of, default=1)
+      call choice_among(reading, 'of', [character(6) :: 'value', 'slope', 'change'], of, default=1)
       this%is_slope = of == 2
       this%is_change = of == 3
       this%over = text_of(reading, 'over', 'factor')

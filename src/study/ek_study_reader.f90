@@ -12,7 +12,7 @@ module ek_study_reader
       word_length, is_deck_group, names_of_groups, max_values, max_paths, find_key, key_t
    use ek_namelist, only: check_record, is_legal_name
    use ek_deck, only: deck_t, read_deck, include_records
-   use ek_deck_reading, only: deck_reading_t, complain, complain_of_all, refuse, choice, choose, has_key, where_of, line_of, &
+   use ek_deck_reading, only: deck_reading_t, complain, complain_of_all, refuse, choice_among, choose, has_key, where_of, line_of, &
       text_of, texts_of, number_of, whole_of, long_of, switch_of, value_count, raw, numbers_of
    use ek_sampler_kind, only: sampler_kinds, grid_kind, list_kind
    use ek_study, only: study_t, study_factor_t, response_t, surplus_factors, of_names, step_size_kind, kind_names, change_names, &
@@ -145,11 +145,11 @@ contains
          call complain(reading, '', 'a second &study; a file may hold only one')
          return
       end if
-      call choice(reading, 'kind', kind_names, c)
+      call choice_among(reading, 'kind', kind_names, c)
       study%kind = c
       if (c > step_size_kind) study%kind = grid_kind                  ! 'sweep', its older name
       study%settings%kind = study%kind
-      call choice(reading, 'end', [character(4) :: 'from', 'to'], c)
+      call choice_among(reading, 'end', [character(4) :: 'from', 'to'], c)
       study%end = lower(text_of(reading, 'end', 'to'))
       texts = texts_of(reading, 'methods', size(texts))
       study%methods = pack(texts, texts /= '')
@@ -163,7 +163,7 @@ contains
       study%case = text_of(reading, 'case')
       study%plot = text_of(reading, 'plot', 'plot.gp')
       study%list = text_of(reading, 'list')
-      call choice(reading, 'format', format_names, c)
+      call choice_among(reading, 'format', format_names, c)
       study%format = lower(text_of(reading, 'format'))
       allocate (study%columns(value_count(reading, 'columns')))
       do c = 1, size(study%columns)
@@ -253,7 +253,7 @@ contains
       logical :: is_known                                  ! the kind of the response
       integer :: c
 
-      call choice(reading, 'of', of_names, c)
+      call choice_among(reading, 'of', of_names, c)
       is_known = c > 0 .or. (text_of(reading, 'of') == '' .and. .not. is_lost(reading, 'of'))
       this%name = text_of(reading, 'name')
       this%column = text_of(reading, 'column')
@@ -264,7 +264,7 @@ contains
       this%window = number_of(reading, 'window', merge(0.0_wp, this%window, this%of == 'gradient'))
       this%has_window = has_key(reading, 'window')
       this%side = lower(text_of(reading, 'side'))
-      call choice(reading, 'side', [character(5) :: 'left', 'right'], c)
+      call choice_among(reading, 'side', [character(5) :: 'left', 'right'], c)
       do c = 1, size(of_slopes)
          if (this%of == 'gradient' .and. has_key(reading, trim(of_slopes(c)))) call complain(reading, trim(of_slopes(c)), &
             'a gradient has no '//quoted(trim(of_slopes(c)))//', it is taken at design over the input of its test')
@@ -337,8 +337,8 @@ contains
          this%paths(k) = raw(reading, 'path', k)
       end do
       this%is_each = switch_of(reading, 'each', .false.)
-      call choice(reading, 'change', change_names, this%change, default=by_value)
-      call choice(reading, 'distribution', distribution_kinds, this%distribution, default=uniform_kind)
+      call choice_among(reading, 'change', change_names, this%change, default=by_value)
+      call choice_among(reading, 'distribution', distribution_kinds, this%distribution, default=uniform_kind)
       this%lower = number_of(reading, 'lower', not_given())
       this%upper = number_of(reading, 'upper', not_given())
       this%nominal = number_of(reading, 'nominal', not_given())
@@ -366,7 +366,7 @@ contains
       real(wp) :: from, to
       integer :: count, spacing, j
 
-      call choice(reading, 'spacing', [character(6) :: 'linear', 'log'], spacing, default=1)
+      call choice_among(reading, 'spacing', [character(6) :: 'linear', 'log'], spacing, default=1)
       count = whole_of(reading, 'count', 2)
       from = number_of(reading, 'from', 1.0_wp)
       to = number_of(reading, 'to', 1.0_wp)

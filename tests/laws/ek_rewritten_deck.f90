@@ -40,6 +40,7 @@ contains
       real(wp) :: value
       integer :: k, e, v, j
 
+      dimension = ''
       do k = 1, deck%used
          associate (record => deck%records(k))
             do e = 1, record%used
@@ -47,7 +48,7 @@ contains
                   dimension = dimension_text(deck, record, trim(record%entries(e)%key), record%entries(e)%first + v - 1)
                   if (dimension == '' .or. record%entries(e)%values(v)%is_string) cycle
                   value = checked_number(record%entries(e)%values(v)%text)/size_of(dimension, sizes)
-                  record%entries(e)%values(v)%text = digits(value)
+                  record%entries(e)%values(v)%text = written(value)
                end do
             end do
             if (record%group /= 'model') cycle
@@ -65,15 +66,15 @@ contains
       end do
    end subroutine rewrite_units
 
-   !> A number with 17 digits, which give the same number back.
-   function digits(value) result(text)
+   !> A number with 17 written, which give the same number back.
+   function written(value) result(text)
       real(wp), intent(in) :: value
       character(:), allocatable :: text
       character(32) :: buffer
 
       write (buffer, '(es25.16e3)') value
       text = trim(adjustl(buffer))
-   end function digits
+   end function written
 
    !> The SI-free size of a dimension: the product of the sizes of its units.
    pure real(wp) function size_of(dimension, sizes)

@@ -1,6 +1,6 @@
 #!/bin/sh
 # renew_references.sh [BUILD_DIR]: write the kept outputs in tests/reference anew, from a build of the
-# program and of the tests that compare with them; then look through `git diff tests/reference`.
+# program and of the tests that compare with them, and schema/deck.schema.json; then look through `git diff tests/reference schema`.
 set -eu
 cd "$(dirname "$0")/../.."
 build=$(cd "${1:-build/release}" && pwd)
@@ -11,4 +11,5 @@ cmake --build "$build" --target elastokin "$@" >/dev/null
 for program; do
   EK_RENEW_REFERENCES=1 EK_PROGRAM=$build/bin/elastokin "$build/tests/$program"
 done
-git --no-pager diff --stat -- tests/reference
+"$build/bin/elastokin" schema >schema/deck.schema.json
+git --no-pager diff --stat -- tests/reference schema
