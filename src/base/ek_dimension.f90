@@ -5,20 +5,20 @@
 !> and a moment), `reaction_rate` is their quotient, and `swept` is the dimension of the swept value of a case. `dimension_of`
 !> replaces these four by the dimension that they have in a record.
 module ek_dimension
-   use ek_kinds, only: wp, units_t, millimetre, degree
+   use ek_kinds, only: wp, units_t, millimetre, degree, inch, pound, standard_gravity
    use ek_text, only: lower
    implicit none(type, external)
    private
    public :: unit_size, unit_name, unit_formula, dimension_of, is_relative, units_of
 
    integer, parameter, public :: pure_number = 0, length = 1, force = 2, angle = 3, moment = 4, rate = 5, rotation_rate = 6, &
-      mass = 7, acceleration = 8, gravities = 9      !! gravities: an acceleration in g
-   integer, parameter, public :: deflection = 10, reaction = 11, reaction_rate = 12, swept = 13
+      mass = 7, kilograms = 8, acceleration = 9, gravities = 10      !! kilograms: a mass that is always in kg; gravities: in g
+   integer, parameter, public :: deflection = 11, reaction = 12, reaction_rate = 13, swept = 14
 
-   !> The unit of each dimension from pure_number on: L, F and A are length, force and angle in the units of the deck. A blank
-   !> separates factors; '/' precedes the divisor.
-   character(5), parameter :: patterns(pure_number:gravities) = [character(5) :: '', 'L', 'F', 'A', 'F L', 'F/L', 'F L/A', 'kg', &
-      'm/s²', 'g']
+   !> The unit of each dimension from pure_number on: L, F, A and M are length, force, angle and mass in the units of the deck. A
+   !> blank separates factors; '/' precedes the divisor.
+   character(5), parameter :: patterns(pure_number:gravities) = [character(5) :: '', 'L', 'F', 'A', 'F L', 'F/L', 'F L/A', 'M', &
+      'kg', 'm/s²', 'g']
 
    !> A unit that &model may select.
    type :: unit_t
@@ -26,24 +26,27 @@ module ek_dimension
       real(wp) :: size        !! SI value
    end type unit_t
 
-   type(unit_t), parameter :: length_units(*) = [unit_t('mm', millimetre), unit_t('m', 1.0_wp)]
-   type(unit_t), parameter :: force_units(*) = [unit_t('N', 1.0_wp), unit_t('kN', 1000.0_wp)]
+   type(unit_t), parameter :: length_units(*) = [unit_t('mm', millimetre), unit_t('m', 1.0_wp), unit_t('in', inch)]
+   type(unit_t), parameter :: force_units(*) = [unit_t('N', 1.0_wp), unit_t('kN', 1000.0_wp), &
+      unit_t('lbf', pound*standard_gravity)]
    type(unit_t), parameter :: angle_units(*) = [unit_t('deg', degree), unit_t('rad', 1.0_wp)]
+   type(unit_t), parameter :: mass_units(*) = [unit_t('kg', 1.0_wp), unit_t('lb', pound)]
    character(*), parameter, public :: length_names(*) = length_units%name, force_names(*) = force_units%name, &
-      angle_names(*) = angle_units%name      !! units that &model may select, the default first
+      angle_names(*) = angle_units%name, mass_names(*) = mass_units%name      !! units that &model may select, the default first
 
    !> The unit of each dimension in terms of the keys of &model, or as a fixed unit.
    character(20), parameter :: formulas(pure_number:swept) = [character(20) :: '', 'length', 'force', 'angle', 'force*length', &
-      'force/length', 'force*length/angle', 'kg', 'm/s2', 'g', 'deflection', 'reaction', 'reaction/deflection', 'swept']
+      'force/length', 'force*length/angle', 'mass', 'kg', 'm/s2', 'g', 'deflection', 'reaction', 'reaction/deflection', 'swept']
 
 contains
 
-   !> The units with these names. Letter case is ignored; an unknown or blank name gives the default mm, N or deg.
-   pure function units_of(length_name, force_name, angle_name) result(units)
-      character(*), intent(in) :: length_name, force_name, angle_name
+   !> The units with these names. Letter case is ignored; an unknown or blank name gives the default mm, N, deg or kg.
+   pure function units_of(length_name, force_name, angle_name, mass_name) result(units)
+      character(*), intent(in) :: length_name, force_name, angle_name, mass_name
       type(units_t) :: units
 
-      units = units_t(size_in(length_units, length_name), size_in(force_units, force_name), size_in(angle_units, angle_name))
+      units = units_t(size_in(length_units, length_name), size_in(force_units, force_name), size_in(angle_units, angle_name), &
+         size_in(mass_units, mass_name))
    end function units_of
 
    !> The SI value of the unit with a name; the value of the first unit if there is no such name.
@@ -111,7 +114,9 @@ contains
          unit_size = units%force/units%length
       case (rotation_rate)
          unit_size = units%force*units%length/units%angle
-      case default                              ! masses and accelerations are in kg, m/s² and g in every deck
+      case (mass)
+         unit_size = units%mass
+      case default                              ! kilograms and accelerations are in kg, m/s² and g in every deck
          unit_size = 1.0_wp
       end select
    end function unit_size
@@ -132,14 +137,16 @@ contains
             name = name//name_in(force_units, units%force)
          case ('A')
             name = name//name_in(angle_units, units%angle)
+         case ('M')
+            name = name//name_in(mass_units, units%mass)
          case default
             name = name//patterns(dimension) (j:j)
          end select
       end do
    end function unit_name
 
-   !> The unit of a dimension in any deck, for instance 'force/length' in terms of the keys of &model, or 'kg'; '' for a pure number.
-   !> The unit of a relative dimension is the name of the dimension.
+   !> The unit of a dimension in any deck, for instance 'force/length' in terms of the keys of &model, or 'kg'; '' for a pure
+   !> number. The unit of a relative dimension is the name of the dimension.
    pure function unit_formula(dimension) result(formula)
       integer, intent(in) :: dimension
       character(:), allocatable :: formula

@@ -126,7 +126,7 @@ module ek_command
       'Prints a JSON Schema (version 2020-12) of a deck as data: an object with a list of records for each group, and one'//nl// &
       'record for model, mirror, axle and steering. For each key, the schema gives type, number of values, range,'//nl// &
       'accepted strings, default, unit (x-unit) and meaning. Editors and scripts can complete and check a deck with it.'//nl// &
-      'x-unit is a product of the units that model selects (length, force, angle), or a fixed unit. deflection and'//nl// &
+      'x-unit is a product of the units that model selects (length, force, angle, mass), or a fixed unit. deflection and'//nl// &
       'reaction are length and force, or angle and moment, of the measure, driver or element that the record names;'//nl// &
       'swept is the swept value of a case. The schema does not cover rules between keys; `elastokin check` covers all.', '', -1)]
 

@@ -36,8 +36,8 @@ contains
       call json%item('$schema', json_string('https://json-schema.org/draft/2020-12/schema'))
       call json%item('title', json_string('deck'))
       call json%item('description', json_string('A deck of elastokin as data: a list of records for each group. '// &
-         'x-unit: length, force and angle are the units that model selects; deflection and reaction are those of the measure, '// &
-         'driver or element that the record names; swept is the swept value of a case.'))
+         'x-unit: length, force, angle and mass are the units that model selects; deflection and reaction are those of the '// &
+         'measure, driver or element that the record names; swept is the swept value of a case.'))
       call json%item('type', json_string('object'))
       call json%open('{', 'properties')
       do g = 1, size(group_names)

@@ -15,8 +15,9 @@ module ek_deck_difference
       right(2) = [character(12) :: '.right_', 'wheel.right.'], both(2) = [character(12) :: '.', 'wheel.']
 
    !> Keys that decks often give although the value is the default.
-   character(*), parameter :: defaults(2, 6) = reshape([character(16) :: 'model.length', 'mm', 'model.force', 'N', &
-      'model.angle', 'deg', 'model.axes', 'x-rear', 'model.balance', 'none', 'model.gravity', '0'], [2, 6])
+   character(*), parameter :: defaults(2, 7) = reshape([character(16) :: 'model.length', 'mm', 'model.force', 'N', &
+      'model.angle', 'deg', 'model.axes', 'x-rear', 'model.balance', 'none', 'model.gravity', '0', &
+      'model.mass', 'kg'], [2, 7])
 
    type :: deck_difference_t
       character(:), allocatable :: path           !! path of a value: 'point.left_tie_rod_outer.z'; or fact: 'Deck checksum'

@@ -27,7 +27,8 @@ contains
       is_iso = .false.
       do k = 1, size(records)
          if (records(k)%group /= 'model') cycle
-         units = units_of(element(records(k), 'length', 1), element(records(k), 'force', 1), element(records(k), 'angle', 1))
+         units = units_of(element(records(k), 'length', 1), element(records(k), 'force', 1), element(records(k), 'angle', 1), &
+            element(records(k), 'mass', 1))
          is_iso = lower(element(records(k), 'axes', 1)) == 'iso'
          return
       end do

@@ -2,7 +2,7 @@
 !>
 !> Letter case is ignored. The readers use the index of a string in its list.
 module ek_choices
-   use ek_dimension, only: length_names, force_names, angle_names
+   use ek_dimension, only: length_names, force_names, angle_names, mass_names
    use ek_rig_test, only: rig_tests
    use ek_joint, only: joint_kinds
    use ek_new_curve, only: curve_kinds
@@ -28,6 +28,8 @@ contains
          words = [character(word_length) :: force_names]
       case ('model.angle')
          words = [character(word_length) :: angle_names]
+      case ('model.mass')
+         words = [character(word_length) :: mass_names]
       case ('model.axes', 'hardpoints.axes')
          words = [character(word_length) :: 'x-rear', 'iso']
       case ('model.balance')

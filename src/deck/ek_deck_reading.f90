@@ -301,17 +301,26 @@ contains
          list = list//', '//quoted(trim(choices(j)))
       end do
       call complain(reading, key, key//' must be one of '//list//', found '//quoted(word)// &
-         imperial_hint(word))
+         imperial_hint(key, word))
    end subroutine choose
 
-   !> A hint if a string is an imperial unit; otherwise ''.
-   pure function imperial_hint(word) result(hint)
-      character(*), intent(in) :: word
+   !> A hint if a string is another name of a unit that &model accepts, or a unit that is not supported; otherwise ''.
+   pure function imperial_hint(key, word) result(hint)
+      character(*), intent(in) :: key, word
       character(:), allocatable :: hint
-      character(*), parameter :: units(*) = [character(6) :: 'in', 'inch', 'inches', 'ft', 'lb', 'lbf', 'kip', 'psi']
 
       hint = ''
-      if (any(units == lower(word))) hint = '; imperial units are not supported: convert the numbers of the deck'
+      select case (lower(word))
+      case ('inch', 'inches', '"')
+         if (key == 'length') hint = '; for inches give ''in'''
+      case ('lb', 'lbs', 'pound', 'pounds')
+         if (key == 'force') hint = '; for pounds-force give ''lbf'''
+         if (key == 'mass') hint = '; for pounds give ''lb'''
+      case ('lbf')
+         if (key == 'mass') hint = '; for pounds give ''lb'''
+      case ('ft', 'foot', 'feet', 'kip', 'kips', 'psi', 'slug', 'slugs', 'slinch')
+         hint = '; this unit is not supported: convert the numbers of the deck'
+      end select
    end function imperial_hint
 
    !> SI value of the deck's unit of a key of the record being read, by the dimension in the row of the key.

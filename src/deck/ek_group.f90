@@ -6,8 +6,8 @@
 module ek_group
    use ek_text, only: quoted, did_you_mean
    use ek_quantity, only: name_length
-   use ek_dimension, only: pure_number, length, force, angle, moment, rate, rotation_rate, mass, acceleration, gravities, &
-      deflection, reaction, reaction_rate, swept
+   use ek_dimension, only: pure_number, length, force, angle, moment, rate, rotation_rate, mass, kilograms, acceleration, &
+      gravities, deflection, reaction, reaction_rate, swept
    use ek_number_range, only: any_number, positive, not_negative, not_zero, share, acute
    implicit none(type, external)
    private
@@ -95,6 +95,7 @@ module ek_group
       key_t(model_group, 'length', word, 1, 1, .false., default='mm', about='unit of length'), &
       key_t(model_group, 'force', word, 1, 1, .false., default='N', about='unit of force'), &
       key_t(model_group, 'angle', word, 1, 1, .false., default='deg', about='unit of angle'), &
+      key_t(model_group, 'mass', word, 1, 1, .false., default='kg', about='unit of mass'), &
       key_t(model_group, 'axes', word, 1, 1, .false., default='x-rear', &
       about='frame: x-rear is x rearward, y to the right; iso is x forward, y to the left; z is up'), &
       key_t(model_group, 'balance', word, 1, 1, .false., default='none', &
@@ -104,10 +105,10 @@ module ek_group
       key_t(model_group, 'plausible', switch, 1, 1, .false., default='.true.', about='whether implausible numbers are reported'), &
       key_t(point_group, 'at', number, 3, 3, .true., role=polar, dimension=length, about='coordinates in the design position'), &
       key_t(body_group, 'origin', word, 1, 1, .false., role=point_group, about='reference point, for method recursive only'), &
-      key_t(body_group, 'mass', number, 1, 1, .false., positive, ' kg', dimension=mass, about='mass; requires centre'), &
+      key_t(body_group, 'mass', number, 1, 1, .false., positive, dimension=mass, about='mass; requires centre'), &
       key_t(body_group, 'centre', word, 1, 1, .false., role=point_group, about='point at the centre of gravity; requires mass'), &
       key_t(mass_group, 'body', word, 1, 1, .true., role=body_group, about='body that carries the mass'), &
-      key_t(mass_group, 'kg', number, 1, 1, .true., positive, dimension=mass, about='additional mass, in kg in every deck'), &
+      key_t(mass_group, 'kg', number, 1, 1, .true., positive, dimension=kilograms, about='additional mass, in kg in every deck'), &
       key_t(mass_group, 'at', word, 1, 1, .true., role=point_group, about='point at the centre of gravity of this mass'), &
       key_t(measure_group, 'type', word, 1, 1, .true., about='type of the measure'), &
       key_t(measure_group, 'bodies', word, 2, 2, .true., role=body_group, about='first and second body'), &
@@ -244,7 +245,7 @@ module ek_group
       about='radius; height of the centre above the contact point if not given'), &
       key_t(wheel_group, 'tyre_rate', number, 1, 1, .false., positive, dimension=rate, about='vertical stiffness of the tyre'), &
       key_t(wheel_group, 'tyre_width', number, 1, 1, .false., positive, dimension=length, about='width of the tyre'), &
-      key_t(wheel_group, 'sprung_mass', number, 1, 1, .false., positive, ' kg', dimension=mass, &
+      key_t(wheel_group, 'sprung_mass', number, 1, 1, .false., positive, dimension=mass, &
       about='sprung mass on this wheel; from the wheel load if not given'), &
       key_t(wheel_group, 'steer_axis', word, 2, 2, .false., role=point_group, about='two points on the geometric steering axis'), &
       key_t(axle_group, 'name', word, 1, 1, .false., about='name in messages'), &

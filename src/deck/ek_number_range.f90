@@ -36,10 +36,10 @@ contains
       end select
    end function is_inside
 
-   !> Message about a number outside the range of its key: 'must be above 0 kg, found -1'.
+   !> Message about a number outside the range of its key: 'must be above -90 and below 90 deg, found 95 deg'.
    pure function range_text(range, unit, shown) result(words)
       integer, intent(in) :: range            !! not any_number
-      character(*), intent(in) :: unit        !! unit of the limits: ' kg'; '' for none
+      character(*), intent(in) :: unit        !! unit of the limits: ' deg'; '' for none
       character(*), intent(in) :: shown       !! the value as a string
       character(:), allocatable :: words
       character(*), parameter :: ranges(6) = [character(32) :: 'above 0', '0 or more', 'not be zero', '0 to 1', &

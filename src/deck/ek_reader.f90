@@ -412,6 +412,7 @@ contains
       call choice(reading, 'length', c)
       call choice(reading, 'force', c)
       call choice(reading, 'angle', c)
+      call choice(reading, 'mass', c)
       call choice(reading, 'axes', c)
       call choice(reading, 'balance', c, word=balance)
       call units_in_deck(reading%records(reading%k:reading%k), reading%units, reading%plan%is_iso)

@@ -11,7 +11,7 @@ module ek_reader_bodies
    use ek_design_vector, only: plane
    use ek_group, only: joint_group, measure_group
    use ek_deck_reading, only: deck_reading_t, complain, where_of, has_key, choice, text_of, switch_of, number_of, numbers_of, &
-      is_second, slot
+      is_second, slot, unit_of
    use ek_reference, only: look_up, find_card, find_point, find_points, find_moving_body, check_apart, is_driver, new_vector
    implicit none(type, external)
    private
@@ -54,7 +54,7 @@ contains
       body%name = text_of(reading, 'name')
       body%where = where_of(reading)
       body%has_origin = plan%origin > 0
-      body%mass = number_of(reading, 'mass', 0.0_wp)
+      body%mass = number_of(reading, 'mass', 0.0_wp)*unit_of(reading, 'mass')
       reading%plan%prototype%bodies = [reading%plan%prototype%bodies, body]
       reading%plan%bodies = [reading%plan%bodies, plan]
       reading%cards(reading%k)%index = size(reading%plan%bodies)
@@ -71,7 +71,7 @@ contains
       if (.not. reading%cards(reading%k)%is_good .or. .not. has_body .or. .not. has_place) return
       call slot(reading, 'kg', plan%kg)
       associate (body => reading%plan%prototype%bodies(plan%body))      ! whether it has a weight
-         body%mass = body%mass + number_of(reading, 'kg', 1.0_wp)
+         body%mass = body%mass + number_of(reading, 'kg', 1.0_wp)*unit_of(reading, 'kg')
       end associate
       reading%plan%masses = [reading%plan%masses, plan]
    end subroutine read_mass

@@ -1,6 +1,7 @@
 !> &manoeuvre: load factor and accelerations of the car, for the wheel loads of test 'manoeuvres'.
 module ek_reader_manoeuvres
    use ek_kinds, only: wp
+   use ek_dimension, only: mass, unit_name
    use ek_blueprint, only: manoeuvre_plan_t
    use ek_case, only: manoeuvre_t
    use ek_text, only: lower, str
@@ -115,7 +116,7 @@ contains
       else if (is_accelerated) then
          if (.not. is_given(reading%records(axle), 'mass')) call complain(reading, '', &
             'longitudinal and lateral need the mass of the car, found no mass in &axle in '//line_of(reading, axle)// &
-            ': add mass, in kg')
+            ': add mass, in '//unit_name(mass, reading%units))
       end if
       if (any(reading%plan%prototype%bodies%mass > 0.0_wp) .and. .not. reading%plan%prototype%gravity > 0.0_wp) call complain( &
          reading, '', 'bodies have masses, which need their weight in manoeuvres, found no gravity in &model: add gravity = 9.81')

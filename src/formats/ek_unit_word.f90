@@ -1,6 +1,6 @@
 !> Names of units in files of other programs, with their values in SI.
 module ek_unit_word
-   use ek_kinds, only: wp, degree
+   use ek_kinds, only: wp, degree, inch, pound, standard_gravity
    use ek_text, only: lower
    implicit none(type, external)
    private
@@ -14,8 +14,6 @@ module ek_unit_word
       character(14) :: word
       real(wp) :: value
    end type word_t
-
-   real(wp), parameter :: inch = 0.0254_wp, pound = 0.45359237_wp, standard_gravity = 9.80665_wp
 
    type(word_t), parameter :: words(*) = [ &
       word_t(length_unit, 'mm', 1.0e-3_wp), word_t(length_unit, 'millimeter', 1.0e-3_wp), &

@@ -4,7 +4,9 @@
 !> A value outside its range is converted with the other units of its dimension. The remark names all units that bring the value
 !> well into the range, or else into the range. Without such a unit, the remark gives the cause in the table row. No finding is an error.
 module ek_plausible_range
-   use ek_kinds, only: wp, units_t, degree
+   use ek_kinds, only: wp, units_t, millimetre, degree, inch, pound, standard_gravity
+   use ek_dimension, only: unit_size, unit_name, pure_number, length_ => length, force_ => force, angle_ => angle, mass_ => mass, &
+      rate_ => rate, rotation_rate_ => rotation_rate
    use ek_error, only: message_list_t
    use ek_text, only: str
    implicit none(type, external)
@@ -17,6 +19,12 @@ module ek_plausible_range
       frequency = 11, slope = 12, derived_rate = 13, &
       wheel_angle = 14, computed_angle = 15     ! toe and camber, which are also measured in minutes; an angle between points
 
+   !> The dimension of a key of the deck with the same unit; the name of a unit that is the same for all decks.
+   integer, parameter :: kinds(15) = [length_, rate_, rotation_rate_, force_, pure_number, angle_, mass_, pure_number, &
+      pure_number, length_, pure_number, pure_number, rate_, angle_, angle_]
+   character(5), parameter :: fixed_names(15) = [character(5) :: '', '', '', '', 'N m', '', '', '1', 'm/s²', '', 'Hz', 'deg/m', &
+      '', '', '']
+
    !> A unit that may have been used by error.
    type :: unit_t
       integer :: dimension
@@ -24,22 +32,20 @@ module ek_plausible_range
       real(wp) :: size          !! SI value of the unit
    end type unit_t
 
-   real(wp), parameter :: pound = 4.4482216_wp      !! pound-force [N]
-
    !> The units to which a value may belong, in order of likelihood.
    type(unit_t), parameter :: units_tried(*) = [ &
-      unit_t(length, 'm', 1.0_wp), unit_t(length, 'mm', 1.0e-3_wp), unit_t(length, 'inches', 0.0254_wp), &
+      unit_t(length, 'm', 1.0_wp), unit_t(length, 'mm', 1.0e-3_wp), unit_t(length, 'inches', inch), &
       unit_t(length, 'cm', 0.01_wp), &
       unit_t(rate, 'N/m', 1.0_wp), unit_t(rate, 'kN/mm', 1.0e6_wp), unit_t(rate, 'N/mm', 1.0e3_wp), &
-      unit_t(rate, 'lbf/in', pound/0.0254_wp), &
+      unit_t(rate, 'lbf/in', pound*standard_gravity/inch), &
       unit_t(rotation_rate, 'N m/rad', 1.0_wp), unit_t(rotation_rate, 'N m/deg', 1.0_wp/degree), &
       unit_t(rotation_rate, 'N mm/rad', 1.0e-3_wp), unit_t(rotation_rate, 'N mm/deg', 1.0e-3_wp/degree), &
-      unit_t(force, 'kN', 1.0e3_wp), unit_t(force, 'N', 1.0_wp), unit_t(force, 'kgf', 9.80665_wp), &
+      unit_t(force, 'kN', 1.0e3_wp), unit_t(force, 'N', 1.0_wp), unit_t(force, 'kgf', standard_gravity), &
       unit_t(moment, 'N mm', 1.0e-3_wp), unit_t(moment, 'kN m', 1.0e3_wp), unit_t(moment, 'N m', 1.0_wp), &
       unit_t(angle, 'rad', 1.0_wp), unit_t(angle, 'deg', degree), &
       unit_t(wheel_angle, 'minutes', degree/60.0_wp), unit_t(wheel_angle, 'rad', 1.0_wp), unit_t(wheel_angle, 'deg', degree), &
-      unit_t(mass, 'g', 1.0e-3_wp), unit_t(mass, 't', 1.0e3_wp), unit_t(share, 'per cent', 0.01_wp), &
-      unit_t(acceleration, 'mm/s²', 1.0e-3_wp), unit_t(acceleration, 'g', 9.80665_wp)]
+      unit_t(mass, 'g', 1.0e-3_wp), unit_t(mass, 't', 1.0e3_wp), unit_t(mass, 'kg', 1.0_wp), unit_t(share, 'per cent', 0.01_wp), &
+      unit_t(acceleration, 'mm/s²', 1.0e-3_wp), unit_t(acceleration, 'g', standard_gravity)]
 
    !> The usual range of one quantity. The range applies to the magnitude unless `low` is negative.
    type :: range_t
@@ -245,7 +251,7 @@ contains
             if (units_tried(u)%dimension == row%dimension .and. units_tried(u)%name /= deck_name(row%dimension, self%units)) &
                call try(trim(units_tried(u)%name), x/unit*units_tried(u)%size, inside, names, meanings)
          end do
-         if (present(rim) .and. self%units%length < 0.5_wp) &
+         if (present(rim) .and. abs(self%units%length - millimetre) <= 0.0_wp) &
             call try('mm at the rim', atan(x/unit*1.0e-3_wp/rim), inside, names, meanings)
       end subroutine try_units
 
@@ -388,28 +394,19 @@ contains
    pure real(wp) function deck_unit(dimension, units) result(unit)
       integer, intent(in) :: dimension
       type(units_t), intent(in) :: units
-      real(wp) :: sizes(15)
 
-      sizes = [units%length, units%force/units%length, units%force*units%length/units%angle, units%force, 1.0_wp, units%angle, &
-         1.0_wp, 1.0_wp, 1.0_wp, units%length, 1.0_wp, degree, &
-         units%force/units%length, units%angle, units%angle]
-      unit = sizes(dimension)
+      unit = unit_size(kinds(dimension), units)
+      if (dimension == slope) unit = degree
    end function deck_unit
 
    !> Name of the deck's unit of a dimension.
    pure function deck_name(dimension, units) result(name)
       integer, intent(in) :: dimension
       type(units_t), intent(in) :: units
-      character(:), allocatable :: name, force_name, length_name, angle_name
-      character(12) :: names(15)
+      character(:), allocatable :: name
 
-      force_name = trim(merge('kN', 'N ', units%force > 1.0_wp))
-      length_name = trim(merge('m ', 'mm', units%length > 0.5_wp))
-      angle_name = merge('rad', 'deg', units%angle > 0.5_wp)
-      names = [character(12) :: length_name, force_name//'/'//length_name, force_name//' '//length_name//'/'//angle_name, &
-         force_name, 'N m', angle_name, 'kg', '1', 'm/s²', length_name, 'Hz', &
-         'deg/m', force_name//'/'//length_name, angle_name, angle_name]
-      name = trim(names(dimension))
+      name = trim(fixed_names(dimension))
+      if (name == '') name = unit_name(kinds(dimension), units)
    end function deck_name
 
 end module ek_plausible_range

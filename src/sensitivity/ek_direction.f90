@@ -14,7 +14,8 @@ module ek_direction
    use ek_study, only: by_scale
    use ek_factor_numbers, only: factor_paths_t
    use ek_factor_paths, only: is_held_in_plane
-   use ek_factor_unit, only: parameter_unit
+   use ek_dimension, only: length, angle
+   use ek_factor_unit, only: parameter_unit, parameter_dimension
    implicit none(type, external)
    private
    public :: direction_t, all_directions, find_directions, factor_direction, move_along, shared_number, refuse_shared
@@ -196,18 +197,17 @@ contains
    real(wp) function step_of(design, number) result(step)
       type(definition_t), intent(in) :: design
       integer, intent(in) :: number
-      character(:), allocatable :: unit
       type(parameter_t) :: this
       real(wp) :: largest
       integer :: k
 
       this = design%parameters%list(number)
-      unit = parameter_unit(design, number)
-      if (unit == 'mm' .or. unit == 'm') then
+      select case (parameter_dimension(design, number))
+      case (length)
          step = length_step
-      else if (unit == 'deg' .or. unit == 'rad') then
+      case (angle)
          step = angle_step
-      else
+      case default
          largest = 0.0_wp
          do k = 1, design%parameters%used
             associate (other => design%parameters%list(k))
@@ -216,7 +216,7 @@ contains
          end do
          if (.not. largest > 0.0_wp) largest = 1.0e3_wp*this%unit      ! nothing else is known of a number that is zero
          step = share_of_value*largest
-      end if
+      end select
    end function step_of
 
    !> The reason why a path leads to no number that can be varied.

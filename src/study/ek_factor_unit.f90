@@ -11,7 +11,7 @@ module ek_factor_unit
    use ek_factor_numbers, only: factor_paths_t
    implicit none(type, external)
    private
-   public :: factor_unit, parameter_unit, unit_ending
+   public :: factor_unit, parameter_unit, parameter_dimension, unit_ending
 
 contains
 
@@ -38,21 +38,28 @@ contains
       type(definition_t), intent(in) :: design
       integer, intent(in) :: number
       character(:), allocatable :: unit
+      unit = unit_name(parameter_dimension(design, number), design%plan%prototype%units)
+   end function parameter_unit
+
+   !> The dimension of a number of the deck (ek_dimension); pure_number also if the dimension is not known.
+   integer function parameter_dimension(design, number) result(dimension)
+      type(definition_t), intent(in) :: design
+      integer, intent(in) :: number
       type(key_t) :: row
       logical :: is_known
-      integer :: dimension
 
-      unit = ''
       associate (this => design%parameters%list(number), record => design%records(design%parameters%list(number)%record))
          call find_key(group_number(record%group), trim(this%key), row, is_known)
          dimension = row%dimension
          if (is_relative(dimension)) then      ! a unit is named only if it follows from the record itself
-            if (group_number(record%group) /= spring_group .or. is_given(record, 'measure')) return
-            dimension = dimension_of(dimension, length, force, pure_number)
+            if (group_number(record%group) /= spring_group .or. is_given(record, 'measure')) then
+               dimension = pure_number
+            else
+               dimension = dimension_of(dimension, length, force, pure_number)
+            end if
          end if
-         unit = unit_name(dimension, design%plan%prototype%units)
       end associate
-   end function parameter_unit
+   end function parameter_dimension
 
    !> A unit as the suffix of a heading: 'n_per_mm' for 'N/mm', 'nmm_per_deg' for 'N mm/deg', 'm_per_s2' for 'm/s²'.
    pure function unit_ending(unit) result(ending)

@@ -96,7 +96,7 @@ contains
       end do
    end function size_of
 
-   !> The dimension of element `at` of a key; '' for words, pure numbers and numbers in fixed units.
+   !> The dimension of element `at` of a key; '' for strings, pure numbers and numbers in fixed units.
    function dimension_text(deck, record, key, at) result(dimension)
       type(deck_t), intent(in) :: deck
       type(record_t), intent(in) :: record
