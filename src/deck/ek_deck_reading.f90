@@ -260,7 +260,7 @@ contains
       type(key_t) :: row
       logical :: is_known
 
-      words = choices_of(reading%cards(reading%k)%group, key)
+      allocate (words, source=choices_of(reading%cards(reading%k)%group, key))
       call choose(reading, key, text_of(reading, key), words, number)
       call find_key(reading%cards(reading%k)%group, key, row, is_known)
       if (text_of(reading, key) == '') then
