@@ -18,6 +18,7 @@ module ek_command
    use ek_export, only: export
    use ek_explain, only: explain
    use ek_schema, only: print_schema
+   use ek_list, only: list_names
    implicit none(type, external)
    private
    public :: commands, options, exit_status_text, help_text, obey
@@ -122,6 +123,13 @@ module ek_command
       'the factors at a bound, and the undetermined factors. Writes DIR/<fit>_factors.csv, <fit>_points.csv, <fit>.set'//nl// &
       'for --set-file, and the figure <fit>.png and .svg.', &
       exit_status_text), &
+      command_t('list', 'list DECK [options]', 'list DECK', 'list paths of numbers, cases and key numbers of a deck', &
+      'Prints the names that other commands accept for a deck. Nothing is solved.'//nl// &
+      '  numbers of the deck: path, value and unit; for settings, factors, derivatives and solve;'//nl// &
+      '  cases and standard tests: name, kind, swept value, range, unit and increments;'//nl// &
+      '  key numbers: name, unit and definition; for responses, fit and solve.'//nl// &
+      'In a mirrored deck, a path without a side is the number of both sides. If only one of the lists is requested, it'//nl// &
+      'is printed without a heading, and its first column contains the names alone.', ''), &
       command_t('schema', 'schema', 'schema', 'print all keys of a deck as JSON Schema', &
       'Prints a JSON Schema (version 2020-12) of a deck as data: an object with a list of records for each group, and one'//nl// &
       'record for model, mirror, axle and steering. For each key, the schema gives type, number of values, range,'//nl// &
@@ -280,6 +288,12 @@ module ek_command
       option_t('derivatives', '--out DIR', 'output folder (default: out); --out - writes the CSV to standard output'), &
       option_t('derivatives', '--set path=value', 'as for run'), option_t('derivatives', '--set-file FILE', 'as for run'), &
       option_t('derivatives', '--quiet', quiet_help), &
+      option_t('list', '--paths', 'print the numbers of the deck'), &
+      option_t('list', '--cases', 'print the cases and standard tests'), &
+      option_t('list', '--numbers', 'print the key numbers'), &
+      option_t('list', '--like PATTERN', 'print only names that match; * stands for any letters: --like "bushing.*"'), &
+      option_t('list', '--json', 'print one JSON object (schema/list.schema.json)'), &
+      option_t('list', '--set path=value', 'as for run'), option_t('list', '--set-file FILE', 'as for run'), &
       ! of every command
       option_t('', '--log FILE', 'append a record of this run (one line of JSON: arguments, messages, results, exit status)'), &
       option_t('', '--help', 'print this description'), &
@@ -322,6 +336,8 @@ contains
          call run_fit(line, error)
       case ('schema')
          call print_schema(error)
+      case ('list')
+         call list_names(line, error)
       end select
    end subroutine obey
 
