@@ -105,6 +105,8 @@ for shell in bash zsh fish; do
   ! grep -q deck "$work/offer" || bad "$shell: a file for --out"
   "offered_by_$shell" elastokin run --method '' >"$work/offer"
   expect_offer $shell 'elastokin run --method ' recursive corrected equilibrium
+  "offered_by_$shell" elastokin new '' >"$work/offer"
+  expect_offer $shell 'elastokin new ' double_wishbone mcpherson push_rod
 done
 # bash splits --method=c
 offered_by_bash elastokin run --method = c >"$work/offer"

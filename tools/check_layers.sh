@@ -29,6 +29,7 @@ find . -name '*.[fF]90' | sort | sed 's|^\./||' | awk -v tables='CMakeLists.txt 
     } while (more)
     for (a in layers) if ((a, a) in may) {print "layer " a " stands below itself"; wrong = 1}
     from["ek_page_assets"] = "pages"     # made by the build
+    from["ek_library_decks"] = "commands"
     from["ek_build_facts"] = "top"
   }
   {

@@ -19,6 +19,7 @@ module ek_command
    use ek_explain, only: explain
    use ek_schema, only: print_schema
    use ek_list, only: list_names
+   use ek_new, only: print_new_deck
    implicit none(type, external)
    private
    public :: commands, options, exit_status_text, help_text, obey
@@ -130,6 +131,11 @@ module ek_command
       '  key numbers: name, unit and definition; for responses, fit and solve.'//nl// &
       'In a mirrored deck, a path without a side is the number of both sides. If only one of the lists is requested, it'//nl// &
       'is printed without a heading, and its first column contains the names alone.', ''), &
+      command_t('new', 'new [KIND]', 'new [KIND]', 'print a commented deck of the library as a start', &
+      'Prints a deck of the library to standard output: elastokin new mcpherson > front.nml. The deck is one file and gives'// &
+      nl//'the numbers of the deck of the library. Without KIND, lists the kinds with one line each. KIND is'//nl// &
+      'double_wishbone | mcpherson | mcpherson_split_link | five_link | integral_link | semi_trailing | trailing_arm |'//nl// &
+      'twist_beam | solid | push_rod.', '', -2), &
       command_t('schema', 'schema', 'schema', 'print all keys of a deck as JSON Schema', &
       'Prints a JSON Schema (version 2020-12) of a deck as data: an object with a list of records for each group, and one'//nl// &
       'record for model, mirror, axle and steering. For each key, the schema gives type, number of values, range,'//nl// &
@@ -338,6 +344,8 @@ contains
          call print_schema(error)
       case ('list')
          call list_names(line, error)
+      case ('new')
+         call print_new_deck(line, error)
       end select
    end subroutine obey
 

@@ -19,7 +19,8 @@ module ek_command_line
       character(60) :: summary    !! description in the overview
       character(960) :: text      !! description in the help of the command
       character(230) :: ending    !! last paragraph of the help, after the options
-      integer :: files = 1        !! code for the number of files: 1: one; 2: two or more; 0: one or more; -1: none
+      integer :: files = 1        !! code for the number of files: 1: one; 2: two or more; 0: one or more; -1: none;
+      !!                              -2: none, or one of the choices in its text: 'a | b | c'
       character(15) :: alone = '' !! option that can replace the files; '' for no such option
    end type command_t
 
@@ -150,8 +151,9 @@ contains
             end if
          else if (commands(n)%files == -1) then
             call fail(error, exit_usage, line%command//' does not accept a file, found '//quoted(word))
-         else if (line%files%count() > 0 .and. commands(n)%files == 1) then
-            call fail(error, exit_usage, 'expected one file, found '//quoted(line%files%line(1))//' and '//quoted(word))
+         else if (line%files%count() > 0 .and. any(commands(n)%files == [1, -2])) then
+            call fail(error, exit_usage, 'expected one '//merge('file', 'kind', commands(n)%files == 1)//', found '// &
+               quoted(line%files%line(1))//' and '//quoted(word))
          else
             call line%files%add(word)
          end if
@@ -177,7 +179,7 @@ contains
       type(command_t), intent(in) :: command
 
       least_files = max(command%files, 1)
-      if (command%files == -1) least_files = 0
+      if (command%files < 0) least_files = 0
    end function least_files
 
    !> Reads an option with its value: --out DIR or --out=DIR.

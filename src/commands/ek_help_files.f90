@@ -241,15 +241,28 @@ contains
       call script%line('  case $command in')
       call script%line('    "") list="'//names//option_list(options, '')//'" ;;')
       do k = 1, size(commands)
-         call script%line('    '//trim(commands(k)%name)//') list="'//option_list(options, trim(commands(k)%name))//'" ;;')
+         call script%line('    '//trim(commands(k)%name)//') list="'//trim(choices_of(commands(k))// &
+            option_list(options, trim(commands(k)%name)))//'" ;;')
       end do
       call script%line('  esac')
       call script%line('  # the files of a command: by the default of bash')
-      call script%line('  if [[ -z $command || $word == -* ]]; then mapfile -t COMPREPLY < <(compgen -W "$list" -- "$word"); fi')
+      call script%line('  if [[ -z $command || $word == -* || $command == @('// &
+         command_names(pack(commands, commands%files == -2), '|')//') ]]; then')
+      call script%line('    mapfile -t COMPREPLY < <(compgen -W "$list" -- "$word")')
+      call script%line('  fi')
       call script%line('}')
       call script%line('complete -o default -F _elastokin elastokin')
       text = script%text()
    end function bash_completion
+
+   !> The choices that a command accepts in place of a file, separated by blanks; '' for other commands.
+   pure function choices_of(command) result(list)
+      type(command_t), intent(in) :: command
+      character(:), allocatable :: list
+
+      list = ''
+      if (command%files == -2) list = choices(trim(command%text))
+   end function choices_of
 
    !> The options of a command with blanks in front: ' --out --case'.
    pure function option_list(options, command) result(list)
@@ -306,6 +319,8 @@ contains
          end do
          if (commands(k)%files >= 0) then
             call script%line(' '//backslash//nl//'  "'//trim(merge(' ', '*', commands(k)%files == 1))//':file:_files" ;;')
+         else if (commands(k)%files == -2) then
+            call script%line(' '//backslash//nl//'  "1:kind:('//choices_of(commands(k))//')" ;;')
          else
             call script%line(' ;;')
          end if
@@ -355,6 +370,8 @@ contains
       do k = 1, size(commands)
          call script%line('complete -c elastokin -n __fish_use_subcommand -f -a '//trim(commands(k)%name)//' -d '// &
             quoted_word(trim(commands(k)%summary), is_fish=.true.))
+         if (commands(k)%files == -2) call script%line('complete -c elastokin -n "__fish_seen_subcommand_from '// &
+            trim(commands(k)%name)//'" -f -a "'//choices_of(commands(k))//'"')
       end do
       do k = 1, size(options)
          if (options(k)%command == '' .and. options(k)%help == '') cycle
