@@ -91,7 +91,7 @@ upward_use_does_not_compile() {
   local work=$logs/layering file module target wrong=0
   rm -rf "$work"
   mkdir -p "$work"
-  cp -r CMakeLists.txt src "$work"
+  cp -r CMakeLists.txt src input "$work"      # the program contains decks of input
   cmake -S "$work" -B "$work/build" -DBUILD_TESTING=OFF -DCMAKE_BUILD_TYPE=Quick -DCMAKE_Fortran_FLAGS_QUICK=-O0 || return 1
   # everything compiles first, so that the module files exist that must not be found
   cmake --build "$work/build" --parallel "$EK_JOBS" || return 1
