@@ -22,7 +22,7 @@ module ek_session
    use ek_model_remark, only: model_remarks_t, find_model_remarks
    implicit none(type, external)
    private
-   public :: session_t, prepared_t, derived_t, open_file, open_text, open_deck, take_deck, take_new_numbers, changed_deck, &
+   public :: session_t, prepared_t, derived_t, open_file, open_text, open_deck, take_deck, take_new_numbers, changed_deck, reread, &
       checksum_of, without_option, begin_opened, begin_again, begin_workspace, empty_session, copy_session, opened_files, &
       open_files, used_deck, find_remarks
 
@@ -187,6 +187,23 @@ contains
       call apply_settings(session%numbers, session%workspace%definition, deck, error)
    end subroutine changed_deck
 
+   !> Reads the deck again with the current numbers as settings, for numbers that the blueprint cannot take: outside of its range, or a
+   !> design that may have a defect. Only one thread at a time may call this procedure.
+   subroutine reread(deck, numbers, of_deck, definition, workspace, error)
+      type(deck_t), intent(in) :: deck
+      type(design_numbers_t), intent(in) :: numbers        !! of a session of the deck
+      type(definition_t), intent(in) :: of_deck            !! of this session
+      type(definition_t), target, intent(inout) :: definition !! replaced; must outlive the workspace
+      type(workspace_t), intent(inout) :: workspace        !! of the deck read again
+      type(error_t), allocatable, intent(out) :: error     !! exit_usage, exit_deck: a number is outside its range
+      type(deck_t) :: changed
+
+      changed = deck
+      call apply_settings(numbers, of_deck, changed, error)
+      if (.not. allocated(error)) call open_workspace(changed, definition, workspace, error)
+      call without_option(error)
+   end subroutine reread
+
    !> Removes '--set' from a message about a setting, so that the message gives only the path.
    subroutine without_option(error)
       type(error_t), allocatable, intent(inout) :: error
@@ -276,7 +293,6 @@ contains
       type(error_t), allocatable, intent(out) :: error     !! exit_usage, exit_deck: a number is outside its range
       class(workspace_t), allocatable :: other
       type(definition_t), target :: definition
-      type(deck_t) :: changed
       logical :: is_done
 
       call take_new_numbers(session)
@@ -284,10 +300,8 @@ contains
       call find_of(session%workspace, remarks, is_done)
       if (.not. is_done) then
          allocate (other)
-         call changed_deck(session, changed, error)
-         if (.not. allocated(error)) call open_workspace(changed, definition, other, error)
+         call reread(session%deck, session%numbers, session%workspace%definition, definition, other, error)
          if (.not. allocated(error)) call find_of(other, remarks, is_done)
-         call without_option(error)
       end if
       !$omp end critical (ek_words)
    end subroutine find_remarks

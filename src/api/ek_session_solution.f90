@@ -5,7 +5,6 @@ module ek_session_solution
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t, fail, exit_usage
    use ek_text, only: str, quoted, is_like, did_you_mean
-   use ek_deck, only: deck_t
    use ek_reader, only: definition_t
    use ek_case_result, only: case_result_t, solve_options_t, add_remarks, failure_of
    use ek_remark, only: remark_t, remark_list_t, note, warning
@@ -17,8 +16,8 @@ module ek_session_solution
    use ek_wheel_side, only: deck_frame
    use ek_workspace, only: workspace_t, solve_numbers, solve_or_explain, succeeded, out_of_range, settle_numbers, &
       settle_or_explain
-   use ek_workspace_cases, only: open_workspace, heads_of_case, case_number, report_cases
-   use ek_session, only: session_t, without_option, prepared_t, take_new_numbers, changed_deck, derived_t
+   use ek_workspace_cases, only: heads_of_case, case_number, report_cases
+   use ek_session, only: session_t, without_option, prepared_t, take_new_numbers, reread, derived_t
    use ek_direction, only: direction_t, find_directions, refuse_shared
    use ek_derivatives, only: derivatives_t, begin_derivatives, find_derivatives, refuse_case
    use ek_case, only: case_t
@@ -78,7 +77,6 @@ contains
       character(*), intent(in) :: name
       character(name_length), intent(in) :: asked(:)
       type(error_t), allocatable, intent(out) :: error
-      type(deck_t) :: changed
       type(prepared_t) :: prepared
       logical :: is_done
       integer :: k
@@ -91,8 +89,7 @@ contains
       if (.not. is_done) then
          if (allocated(session%other_definition)) deallocate (session%other_definition)
          allocate (session%other, session%other_definition)
-         call changed_deck(session, changed, error)
-         if (.not. allocated(error)) call open_workspace(changed, session%other_definition, session%other, error)
+         call reread(session%deck, session%numbers, session%workspace%definition, session%other_definition, session%other, error)
          if (.not. allocated(error)) call find_case(name, session%other, session%deck%file, k, error)
          if (.not. allocated(error)) call prepare(session%other, k, asked, prepared, error)
          if (.not. allocated(error)) call solve_or_explain(k, prepared%options, session%other, is_done, error)
@@ -470,7 +467,6 @@ contains
       class(workspace_t), allocatable :: other
       type(definition_t), target :: definition
       class(named_numbers_t), allocatable :: named
-      type(deck_t) :: changed
       logical :: is_done
 
       session%is_named_ready = .false.
@@ -481,8 +477,7 @@ contains
       session%is_named_ready = is_done
       if (is_done) return
       allocate (other, named)
-      call changed_deck(session, changed, error)
-      if (.not. allocated(error)) call open_workspace(changed, definition, other, error)
+      call reread(session%deck, session%numbers, session%workspace%definition, definition, other, error)
       if (.not. allocated(error)) call read_of(other, named, is_done)
       call without_option(error)
 

@@ -23,8 +23,8 @@ module ek_case_result
    use ek_test_result, only: frame_line, test_result_t, find_wheels
    implicit none(type, external)
    private
-   public :: case_result_t, solve_options_t, solve_case, solve_mounted, keep_schedule, add_remarks, failure_of, &
-      test_of, add_header
+   public :: case_result_t, solve_options_t, solve_case, solve_with_remarks, solve_mounted, add_remarks, failure_of, test_of, &
+      add_header
    public :: solved, partly_solved, not_solvable, not_mountable, out_of_memory
 
    ! outcomes
@@ -85,6 +85,26 @@ contains
       call mount_case(base, case, result%mounted_case_t)
       call solve_mounted(options, result, progress, observer)
    end subroutine solve_case
+
+   !> Solves a case as solve_case does, and adds its messages. Only one thread at a time may call this procedure.
+   subroutine solve_with_remarks(base, case, options, result, error, progress, read)
+      type(suspension_t), intent(in) :: base           !! after the preload trim (`balance`); not changed
+      type(case_t), intent(in) :: case
+      type(solve_options_t), intent(in) :: options
+      type(case_result_t), intent(out) :: result
+      type(error_t), allocatable, intent(out) :: error !! failures of the result (failure_of)
+      procedure(progress_procedure), optional :: progress
+      type(table_t), allocatable, intent(out), optional :: read      !! the table with the states where numbers are read, if there
+                                                       !! are such states; the result then has the states of the schedule only
+
+      call solve_case(base, case, options, result, progress)
+      if (present(read)) then
+         if (allocated(result%table%is_scheduled)) allocate (read, source=result%table)
+         call keep_schedule(result)
+      end if
+      call add_remarks(options, result)
+      call failure_of(result, error)
+   end subroutine solve_with_remarks
 
    !> Solves the path of a case that was put on the rig (mount_case), and creates the table of the case. If the states do not fit
    !> into memory, only the outcome is set.

@@ -16,7 +16,7 @@ module ek_explain
    use ek_examination, only: examination_t
    use ek_schedule, only: new_schedule
    use ek_path_states, only: nearest_state, nearest_reached
-   use ek_case_result, only: case_result_t, solve_options_t, solve_case, add_remarks, failure_of
+   use ek_case_result, only: case_result_t, solve_options_t, solve_with_remarks
    use ek_contribution_table, only: contribution_table_t, start_contributions, choose_contributions, find_contributions, &
       key_compliances
    use ek_explain_files, only: explain_files_t, begin_explain_files, add_explain_state, end_explain_files, begin_explain_json, &
@@ -144,10 +144,8 @@ contains
       allocate (result)
       options%fault = fault
       allocate (options%columns(0))
-      call solve_case(base, wanted, options, result, show_progress)
-      call add_remarks(options, result)
+      call solve_with_remarks(base, wanted, options, result, error, show_progress)
       call print_remarks(settings%is_quiet, result%remarks)
-      call failure_of(result, error)
       if (.not. result%is_run()) return
       call find_printed(settings, result, printed, error)
       if (settings%has_place .and. printed == 0) return

@@ -48,7 +48,7 @@ module ek_report
    use ek_console, only: print_note, print_error, print_model_remarks
    use ek_kinds, only: wp, millimetre
    use ek_path, only: path_t
-   use ek_case_result, only: case_result_t, solve_options_t, solve_case, keep_schedule, add_remarks, failure_of, add_header
+   use ek_case_result, only: case_result_t, solve_options_t, solve_with_remarks, add_header
    use ek_remark, only: remark_t, failure, on_case, on_end, on_stability, on_settling, on_rack, on_curve, on_closure
    use ek_compliance_table, only: compliance_table
    use ek_member_loads, only: load_record_t, begin_loads, add_loads, peak_loads
@@ -423,11 +423,7 @@ contains
       options%checksum = checksum
       options%is_compared = .false.
       options%min_settling = 1.0e-5_wp           ! m, seen on a rig: the design state should be in equilibrium
-      call solve_case(base, case, options, result)
-      if (allocated(result%table%is_scheduled)) test%read = result%table
-      call keep_schedule(result)
-      call add_remarks(options, result)
-      call failure_of(result, error)
+      call solve_with_remarks(base, case, options, result, error, read=test%read)
       do topic = 1, size(topics)
          do k = 1, result%remarks%count()
             remark = result%remarks%item(k)

@@ -12,7 +12,7 @@ module ek_run
    use ek_workspace, only: workspace_t, balance_or_explain
    use ek_reader, only: definition_t
    use ek_examination, only: examination_t
-   use ek_case_result, only: case_result_t, solve_options_t, solve_case, add_remarks, failure_of, add_header
+   use ek_case_result, only: case_result_t, solve_options_t, solve_with_remarks, add_header
    use ek_compliance_table, only: compliance_table
    use ek_target, only: target_t, find_target
    use ek_table, only: table_t, print_csv, name_length
@@ -235,11 +235,9 @@ contains
       options%fault = fault
       options%checksum = checksum
       if (allocated(settings%columns)) options%columns = settings%columns
-      call solve_case(base, wanted, options, result, show_progress)
-      call add_remarks(options, result)
+      call solve_with_remarks(base, wanted, options, result, error, show_progress)
       if (result%path%states > 1000) call clear_progress()
       call print_remarks(settings%is_quiet, result%remarks)
-      call failure_of(result, error)
       if (settings%has_json) call add_run_json(result, wanted, json)
       if (.not. result%is_run()) return
       if (allocated(loads)) call add_loads(result%suspension, result%case, result%path, result%kkt, loads)

@@ -5,7 +5,7 @@ module ek_export_sources
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t
    use ek_wheel_side, only: left_and_right, prefix_of, deck_frame
-   use ek_case_result, only: case_result_t, solve_options_t, solve_case, add_remarks, failure_of
+   use ek_case_result, only: case_result_t, solve_options_t, solve_with_remarks
    use ek_table, only: table_t, column
    use ek_kandc_map, only: kandc_map_t
    use ek_map_request, only: map_request_t, over_steer, over_opposite
@@ -76,9 +76,7 @@ contains
 
          allocate (result)
          options%is_compared = .false.
-         call solve_case(suspension, this, options, result)
-         call add_remarks(options, result)
-         call failure_of(result, error)
+         call solve_with_remarks(suspension, this, options, result, error)
          if (.not. allocated(error)) table = result%table
       end subroutine run
 
