@@ -21,8 +21,8 @@ module ek_named_numbers
    use ek_test_result, only: test_result_t
    use ek_gradient, only: gradient_windows
    use ek_gradient_definition, only: windows_t
-   use ek_key_number, only: key_number_t, nothing, read_source, largest_of_all
-   use ek_number_reach, only: reach_of, lacks_state
+   use ek_key_number, only: key_number_t, nothing, read_source, is_slope, largest_of_all
+   use ek_number_reach, only: reach_of, required_reach, lacks_state
    use ek_missing_number, only: missing_reason
    use ek_number_names, only: list_all, find_number, side_of_only_wheel, stems_of, explain_unknown
    implicit none(type, external)
@@ -155,8 +155,9 @@ contains
       logical, intent(in), optional :: is_solvable(:)    !! whether each case can be solved. Absent: all cases can
       real(wp) :: both(2)
       logical :: is_final
-      integer :: k, j, c
+      integer :: k, j, c, first_missed
 
+      first_missed = 0
       numbers%cases%is_solved = .false.
       numbers%cases%is_missed = .false.
       numbers%is_lost = .false.
@@ -169,16 +170,19 @@ contains
                if (.not. is_solvable(c)) cycle
             end if
             if (.not. numbers%cases(c)%is_solved) call solve(suspension, cases(c), numbers%cases(c))
-            if (lacks_state(numbers%cases(c)%result, numbers%reach(j, k))) then
-               numbers%cases(c)%is_missed = .true.
+            if (lacks_state(numbers%cases(c)%result, required_reach(numbers%numbers(k)%how, numbers%reach(j, k)))) then
+               if (.not. numbers%is_lost(k)) first_missed = c
                numbers%is_lost(k) = .true.
-               exit
+               if (is_slope(numbers%numbers(k)%how) .or. numbers%numbers(k)%how == largest_of_all) exit
+               cycle                               ! a further test may have the number, as in the report
             end if
             call read_source(numbers%numbers(k)%how, numbers%numbers(k)%sources(j), numbers%cases(c)%result%table, both, is_final)
             if (is_final) exit
          end do
          values(k) = both(numbers%wheel(k))
-         if (numbers%is_lost(k)) values(k) = nothing()
+         if (numbers%numbers(k)%how == largest_of_all .and. numbers%is_lost(k)) values(k) = nothing()
+         numbers%is_lost(k) = numbers%is_lost(k) .and. .not. ieee_is_finite(values(k))
+         if (numbers%is_lost(k)) numbers%cases(first_missed)%is_missed = .true.
       end do
       is_whole = all(ieee_is_finite(values))
    end subroutine read_numbers

@@ -49,6 +49,7 @@ module ek_report
    use ek_kinds, only: wp, millimetre
    use ek_path, only: path_t
    use ek_case_result, only: case_result_t, solve_options_t, solve_with_remarks, add_header
+   use ek_number_reach, only: lacks_state
    use ek_remark, only: remark_t, failure, on_case, on_end, on_stability, on_settling, on_rack, on_curve, on_closure
    use ek_compliance_table, only: compliance_table
    use ek_member_loads, only: load_record_t, begin_loads, add_loads, peak_loads
@@ -433,6 +434,7 @@ contains
          end do
       end do
       test%is_run = result%is_run()
+      test%is_whole = fault /= '' .or. .not. lacks_state(result, huge(1.0_wp))
       if (.not. test%is_run) then
          test%table = new_table([character(1) ::], 0)
          return

@@ -11,7 +11,7 @@ module ek_key_number
    use ek_gradient, only: fit_slope
    implicit none(type, external)
    private
-   public :: key_number_t, key_source_t, nothing, read_source, has_value, needs_path, is_slope
+   public :: key_number_t, key_source_t, nothing, read_source, has_value, needs_path, needs_all, is_slope
    public :: at_design, largest, least, slope, in_phase, anti_phase, at_place, to_contact, largest_of_all
 
    !> The source of a key number: a column at design; its maximum or minimum over the test; a gradient, or a gradient with only
@@ -67,6 +67,13 @@ contains
       integer, intent(in) :: how
       needs_path = .not. (how == at_design .or. is_slope(how))
    end function needs_path
+
+   !> Whether a key number needs every state of its tests: without a state, an extreme of the others is another number. A value
+   !> where another column has a given value, and a travel to contact, need only the states up to there.
+   pure logical function needs_all(how)
+      integer, intent(in) :: how
+      needs_all = how == largest .or. how == least .or. how == largest_of_all
+   end function needs_all
 
    !> Whether a key number is a gradient.
    pure logical function is_slope(how)

@@ -10,8 +10,8 @@ module ek_key_numbers
    use ek_test_result, only: test_result_t
    use ek_gradient, only: gradient_t
    use ek_gradient_definition, only: fitted
-   use ek_key_number, only: key_number_t, key_source_t, nothing, read_source, has_value, is_slope, at_design, largest, least, &
-      slope, in_phase, anti_phase
+   use ek_key_number, only: key_number_t, key_source_t, nothing, read_source, has_value, is_slope, needs_all, at_design, &
+      largest, least, slope, in_phase, anti_phase, largest_of_all
    use ek_missing_number, only: missing_reason
    use ek_place_numbers, only: number_list_t, new_number, add_source, append, numbers_of, place_numbers
    use ek_text, only: spaced, str
@@ -111,6 +111,11 @@ contains
          values = nothing()
          is_final = .false.
          do j = 1, size(listed(k)%sources)
+            if (needs_all(listed(k)%how) .and. .not. tests(listed(k)%sources(j)%test)%is_whole) then
+               if (listed(k)%how /= largest_of_all) cycle
+               values = nothing()
+               exit
+            end if
             call read_test(listed(k)%how, listed(k)%sources(j), tests(listed(k)%sources(j)%test), values, is_final)
             if (is_final) exit
          end do
@@ -161,6 +166,8 @@ contains
 
       if (is_slope(number%how) .and. allocated(test%read)) then
          text = missing_reason(number, 1, 1, test%read)
+      else if (needs_all(number%how) .and. .not. test%is_whole) then
+         text = 'a state of the test did not converge'
       else
          text = missing_reason(number, 1, 1, test%table)
       end if

@@ -6,11 +6,12 @@ module ek_missing_number
    use ek_text, only: str
    use ek_table, only: table_t, column_index, name_length, row_count
    use ek_test_result, only: design_row, state_range
+   use ek_table_reading, only: row_at
    use ek_gradient, only: fit_slope, slope_note
    use ek_key_number, only: key_number_t, at_design, slope, anti_phase, at_place, to_contact, largest_of_all
    implicit none(type, external)
    private
-   public :: missing_reason
+   public :: missing_reason, missing_value
 
 contains
 
@@ -44,14 +45,32 @@ contains
             text = slope_note(table, reason, points, undefined, trim(column), trim(table%columns(over)))
          end if
       else if (number%how == at_design .or. number%how == to_contact .and. design_row(table) == 0) then
-         text = trim(column)//' is not a number (nan) at this state'
-         if (design_row(table) == 0) text = no_design(table)
+         text = missing_value(table, trim(column), 'factor', 0.0_wp)
       else if (number%how == at_place .or. number%how == to_contact) then
-         text = trim(number%sources(source)%over(wheel))//' does not reach '//str(number%sources(source)%wanted(wheel), 4)
+         text = missing_value(table, trim(column), trim(number%sources(source)%over(wheel)), number%sources(source)%wanted(wheel))
       else
          text = trim(column)//' is not a number (nan) at any state'
       end if
    end function missing_reason
+
+   !> The reason why a column has no value where another column has a given value: the states do not reach this value, or the
+   !> column is not defined there. Creates strings.
+   function missing_value(table, column, over, at) result(text)
+      type(table_t), intent(in) :: table
+      character(*), intent(in) :: column, over
+      real(wp), intent(in) :: at                !! value of the column `over`, in its unit
+      character(:), allocatable :: text
+
+      if (over /= 'factor') then
+         text = over//' does not reach '//str(at, 4)//range_of(table)
+      else if (row_at(table, at) > 0) then
+         text = column//' is not a number (nan) at this state'
+      else if (abs(at) > 0.0_wp) then
+         text = 'no state at '//str(at, 6)//range_of(table)
+      else
+         text = no_design(table)
+      end if
+   end function missing_value
 
    !> Why a table has no design state: it did not converge, or it lies outside the states.
    function no_design(table) result(text)

@@ -6,10 +6,10 @@ module ek_number_reach
    use ek_standard_tests, only: unit_of_swept_value
    use ek_case_result, only: case_result_t, solved
    use ek_sweep_table, only: open_states
-   use ek_key_number, only: key_source_t, needs_path, at_design
+   use ek_key_number, only: key_source_t, needs_path, needs_all, at_design
    implicit none(type, external)
    private
-   public :: reach_of, reach_of_place, lacks_state
+   public :: reach_of, reach_of_place, required_reach, lacks_state
 
    real(wp), parameter :: margin = 1.001_wp    !! factor on a window: its states may be off their swept values by the tolerance
 
@@ -28,6 +28,16 @@ contains
       if (needs_path(how) .or. how == at_design .or. case%follows_arc) return
       reach = margin*source%width*unit_of_swept_value(suspension, case)
    end function reach_of
+
+   !> The swept value within which no state may be missing [SI]. A number that is found anywhere on the path (a travel to contact)
+   !> is searched for on all states, but exists if the states up to there were found.
+   pure real(wp) function required_reach(how, reach) result(required)
+      integer, intent(in) :: how                        !! of ek_key_number
+      real(wp), intent(in) :: reach                     !! from reach_of
+
+      required = reach
+      if (needs_path(how) .and. .not. needs_all(how)) required = 0.0_wp
+   end function required_reach
 
    !> The swept value beyond which a number that is read at a swept value does not need a state [SI].
    pure real(wp) function reach_of_place(suspension, case, place) result(reach)

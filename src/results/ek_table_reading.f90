@@ -12,7 +12,7 @@ module ek_table_reading
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
    use ek_window, only: window_points, window_places, window_slope, polynomial, has_place, both_sides
-   use ek_table, only: table_t, column_index, keep_rows
+   use ek_table, only: table_t, column_index, keep_rows, scheduled_rows
    use ek_test_result, only: unfolded_rows
    implicit none(type, external)
    private
@@ -219,8 +219,9 @@ contains
    end subroutine fit_rows
 
    !> Value of column y at which column x has a given value. At a state with this value, the result is the value of the state.
-   !> Otherwise the result is interpolated by the cubic curve through two states on either side (next to an end, by a straight
-   !> line). If x has the value several times, the point nearest to design is used. NaN outside the range of x.
+   !> Otherwise the result is interpolated by the cubic curve through two states of the schedule on either side (next to an end, by
+   !> a straight line); states where other numbers are read have no influence. If x has the value several times, the point nearest to
+   !> design is used. NaN outside the range of x.
    pure real(wp) function value_where(table, x, at, y) result(value)
       type(table_t), intent(in) :: table
       integer, intent(in) :: x, y                          !! indices of the columns
@@ -234,7 +235,8 @@ contains
       value = ieee_value(1.0_wp, ieee_quiet_nan)
       f = column_index(table, 'factor')
       if (min(x, y, f) == 0) return
-      is_good = unfolded_rows(table) .and. ieee_is_finite(table%values(x, :)) .and. ieee_is_finite(table%values(y, :))
+      is_good = unfolded_rows(table) .and. scheduled_rows(table) .and. ieee_is_finite(table%values(x, :)) .and. &
+         ieee_is_finite(table%values(y, :))
       rows = pack([(k, k=1, size(is_good))], is_good)
       if (size(rows) == 0) return
       slack = rounding*(maxval(table%values(x, rows)) - minval(table%values(x, rows)))

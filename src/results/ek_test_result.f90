@@ -45,6 +45,7 @@ module ek_test_result
       character(name_length), allocatable :: prefixes(:)   !! prefixes of the columns of the wheels: '', or 'left_' and 'right_'
       integer, allocatable :: sides(:)       !! sides of the wheels: −1 left, +1 right
       logical :: is_run = .true.             !! false: the model could not be solved, and the table is empty
+      logical :: is_whole = .true.           !! false: the solution lacks a state, so that its extremes are not those of the test
       type(table_t) :: table
       type(test_grid_t), allocatable :: grid !! grid of the states; not allocated: no grid
       character(:), allocatable :: envelope  !! file of the wheel envelope of a grid, in the folder of the report

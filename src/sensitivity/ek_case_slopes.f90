@@ -16,6 +16,7 @@ module ek_case_slopes
    type :: case_slopes_t
       integer :: case = 0                                    !! index of the case in the workspace
       type(solve_options_t) :: options                       !! required columns, and required distance of the states from design
+      real(wp) :: required = huge(1.0_wp)                    !! swept value within which no state may be missing
       logical :: reads_all = .false.                         !! numbers are read at all states, not only at the places of the case
       type(derivatives_t), allocatable :: derivatives        !! derivatives of the columns at the states
       type(table_t) :: table !! table of the last solved design: quantities and entries of the compliance matrix
@@ -46,7 +47,7 @@ contains
          call solve_or_explain(this%case, this%options, workspace, is_valid, error)      ! with another proof that it is sound
          is_valid = is_valid .and. .not. allocated(error)
       end if
-      if (is_valid) is_valid = .not. lacks_state(workspace%cases(this%case)%result, this%options%reach)
+      if (is_valid) is_valid = .not. lacks_state(workspace%cases(this%case)%result, this%required)
       if (.not. is_valid) return
       associate (result => workspace%cases(this%case)%result, derivatives => this%derivatives)
          states = pack([(k, k=1, result%path%states)], result%path%is_reached .and. (this%reads_all .or. result%path%is_read))

@@ -11,7 +11,7 @@ module ek_swept_range
 contains
 
    !> The reason why a requested number has no value in its case: its swept value lies outside the range of the case, or the case
-   !> does not contain design, which a change needs; '' without such a reason. The case must have been solved.
+   !> does not contain design, which a change needs; '' without such a reason, and of a case that was refused without a solution.
    function range_fault(wanted, workspace) result(text)
       type(wanted_number_t), intent(in) :: wanted
       type(workspace_t), intent(in) :: workspace
@@ -21,6 +21,7 @@ contains
 
       text = ''
       if (wanted%column == '' .or. wanted%case == 0) return
+      if (.not. allocated(workspace%cases(wanted%case)%result)) return
       associate (case => workspace%cases(wanted%case)%result%case)
          low = min(case%from, case%to)/case%unit
          high = max(case%from, case%to)/case%unit

@@ -21,8 +21,8 @@ module ek_wanted_values
    use ek_case, only: add_place, add_window
    use ek_table_reading, only: usual_width
    use ek_key_number, only: nothing, largest_of_all, is_slope, needs_path
-   use ek_missing_number, only: missing_reason
-   use ek_number_reach, only: lacks_state
+   use ek_missing_number, only: missing_reason, missing_value
+   use ek_number_reach, only: required_reach, lacks_state
    use ek_workspace, only: workspace_t, put_numbers, solve_or_explain
    use ek_direction, only: direction_t, move_along
    use ek_derivatives, only: begin_derivatives, refuse_case
@@ -114,9 +114,11 @@ contains
          needed(j)%case = wanted%cases(source)
          allocate (needed(j)%options%columns(0))
          needed(j)%options%reach = 0.0_wp
+         needed(j)%required = 0.0_wp
       end if
       associate (options => needed(j)%options)
          options%reach = max(options%reach, wanted%reach(source))
+         needed(j)%required = max(needed(j)%required, required_of(wanted, source))
          call add(wanted%column)
          call add(wanted%over)
          if (.not. allocated(wanted%key)) needed(j)%reads_all = needed(j)%reads_all .or. wanted%over /= 'factor'
@@ -222,17 +224,25 @@ contains
          n = needed_number(wanted%cases(j), needed)
          if (allocated(error)) deallocate (error)
          call refuse_case(workspace%cases(wanted%cases(j))%case, error)
-         if (.not. allocated(error)) call solve_first(needed(n), wanted%reach(j), workspace, error)
-         if (allocated(error)) cycle
+         if (allocated(error)) return                      ! a further test would give another number than that of the report
+         call solve_first(needed(n), required_of(wanted, j), workspace, error)
+         if (allocated(error)) then
+            if (.not. allocated(wanted%key)) return
+            ! the slope of another test, and a maximum of the other tests, are other numbers
+            if ((is_slope(wanted%key%how) .or. wanted%key%how == largest_of_all) .and. error%code /= exit_model) return
+            cycle
+         end if
          wanted%case = wanted%cases(j)
          call read_number(wanted, j, needed(n)%table, value)
          if (wanted%column /= '') then
             ! an entry of the compliance matrix is no column of the table of the case
             if (.not. ieee_is_finite(value) .and. column_index(needed(n)%table, trim(wanted%column)) > 0) &
                call fail(error, exit_model, 'no value at '//trim(wanted%over)//' = '//str(wanted%at)//' in case '// &
-               quoted(workspace%cases(wanted%case)%case%name))
+               quoted(workspace%cases(wanted%case)%case%name)//': '//missing_value(needed(n)%table, trim(wanted%column), &
+               trim(wanted%over), wanted%at))
             return
          end if
+         if (is_slope(wanted%key%how) .and. .not. ieee_is_finite(value)) exit
          if (.not. ieee_is_finite(value)) cycle
          if (wanted%key%how == largest_of_all) cycle
          wanted%source = j
@@ -246,11 +256,20 @@ contains
       end if
    end subroutine settle
 
+   !> The swept value within which a requested number needs every state of a source.
+   pure real(wp) function required_of(wanted, source) result(required)
+      type(wanted_number_t), intent(in) :: wanted
+      integer, intent(in) :: source
+
+      required = wanted%reach(source)
+      if (allocated(wanted%key)) required = required_reach(wanted%key%how, required)
+   end function required_of
+
    !> Solves a case for the first time, unless the case was already solved. An error is returned if a state that the number needs
    !> did not converge.
    subroutine solve_first(this, reach, workspace, error)
       type(needed_t), intent(inout) :: this
-      real(wp), intent(in) :: reach                          !! swept value up to which the number needs the path
+      real(wp), intent(in) :: reach                          !! swept value within which no state may be missing
       type(workspace_t), intent(inout) :: workspace
       type(error_t), allocatable, intent(out) :: error
       logical :: is_done
