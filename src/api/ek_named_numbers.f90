@@ -31,7 +31,7 @@ module ek_named_numbers
 
    !> One of the cases: its required columns and range, and its last solution.
    type :: needed_case_t
-      logical :: is_first = .false.     !! whether a number always needs this case; else only if earlier cases give no value
+      logical :: is_first = .false.     !! whether the case must be examined: a number always needs it, or needs its slope
       logical :: is_solved = .false.              !! whether the case is solved for the present design
       logical :: is_missed = .false.              !! whether a number has no value because this case lacks a state
       type(solve_options_t) :: options            !! required columns; swept value beyond which no state is required
@@ -103,7 +103,8 @@ contains
 
       do k = 1, size(number%sources)
          associate (source => number%sources(k), this => needed(number%sources(k)%test))
-            this%is_first = this%is_first .or. k == 1 .or. number%how == largest_of_all
+            ! a test with a defect has no slopes: the next one gives the number, and must be known to have no defect
+            this%is_first = this%is_first .or. k == 1 .or. number%how == largest_of_all .or. is_slope(number%how)
             do wheel = 1, 2
                call add(source%column(wheel))
                call add(source%over(wheel))
@@ -135,8 +136,8 @@ contains
       unit = self%numbers(k)%unit
    end function number_unit
 
-   !> Whether each case is solved in any event. Cases that are solved in any event must be examined (examine_case) before the
-   !> preload trim (`balance`).
+   !> Whether each case must be examined (examine_case) before the preload trim (`balance`): it is solved in any event, or gives a
+   !> slope that an earlier case with a defect does not give.
    pure function needed_tests(numbers) result(is_needed)
       type(named_numbers_t), intent(in) :: numbers
       logical :: is_needed(size(numbers%cases))
