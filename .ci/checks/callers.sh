@@ -81,6 +81,15 @@ callers_agree() {
     tests/api/callers_agree.py build/release/bin/elastokin "$folder/callers_c" "$folder/callers_fortran" "$folder/fit_c" "$folder/fit_fortran"
 }
 
+# Report, `run --responses`, C, Python and solve: of each number of 40 decks that lack some on purpose a value, or the same reason.
+# What solve, fit and study print, what they write, and a fresh run of the settings are the same numbers
+one_outcome() {
+  python_with venv_numpy numpy || { skip "numpy could not be installed from PyPI"; return; }
+  PYTHONPATH=python/src PYTHONDONTWRITEBYTECODE=1 "$logs/venv_numpy/bin/python" \
+    tests/support/one_outcome.py build/release/bin/elastokin build/release/lib/libelastokin.so.0 | sed '$s/^/remark: /'
+  [ "${PIPESTATUS[0]}" -eq 0 ]
+}
+
 # 10,000 models are opened, solved and closed: the memory does not grow; 20 below valgrind lose nothing
 handles_leak_nothing() {
   local deck=input/mcpherson/mcpherson.nml
