@@ -97,7 +97,8 @@ module ek_branch
       type(tangent_t) :: work
       type(chord_t) :: chord
       type(factors_t) :: factors            !! stored factors of N at the newest state
-      type(state_t) :: before, shifted
+      type(state_t) :: before(2)            !! the newest state, and the state before it. One component: of two of one type, gfortran
+                                            !! 12 may release only the first with an object of a class
    end type branch_t
 
 contains
@@ -116,8 +117,8 @@ contains
          self%tangent_b(suspension%unknowns() + suspension%constraints()), self%motion(suspension%unknowns()), &
          self%motion_before(suspension%unknowns()), self%twist(suspension%unknowns()), source=0.0_wp)
       allocate (self%chord_a(size(self%tangent_a)), self%chord_b(size(self%tangent_a)), source=0.0_wp)
-      self%before = design_state(suspension)
-      self%shifted = self%before
+      self%before(1) = design_state(suspension)
+      self%before(2) = self%before(1)
    end function new_branch
 
    !> Renews a branch in place for other numbers of the same model. An empty branch, or a branch of another size, is created again.
@@ -139,8 +140,8 @@ contains
       call renew_tangent(suspension, self%work)
       call renew_chord(suspension, self%chord)
       call mark(self%factors, -1)
-      call return_to_design(suspension, self%before)
-      call return_to_design(suspension, self%shifted)
+      call return_to_design(suspension, self%before(1))
+      call return_to_design(suspension, self%before(2))
       self%tangent_a(:) = 0.0_wp
       self%tangent_b(:) = 0.0_wp
       self%motion_before(:) = 0.0_wp
@@ -192,15 +193,15 @@ contains
       self%missed = outcome%missed
       self%is_over = .false.
       self%is_singular = .false.
-      call unpack_state(self%predictor%packed(:, self%predictor%newest), self%before)
-      call motion_between(self%before, state_b, self%motion)
+      call unpack_state(self%predictor%packed(:, self%predictor%newest), self%before(1))
+      call motion_between(self%before(1), state_b, self%motion)
       older = modulo(self%predictor%newest - 2, depth) + 1
       self%width_before = 0.0_wp
       if (self%predictor%count > 1) &
          self%width_before = self%predictor%abscissa(self%predictor%newest) - self%predictor%abscissa(older)
       if (abs(self%width_before) > 0.0_wp .and. .not. self%has_tangent) then
-         call unpack_state(self%predictor%packed(:, older), self%shifted)
-         call motion_between(self%shifted, self%before, self%motion_before)
+         call unpack_state(self%predictor%packed(:, older), self%before(2))
+         call motion_between(self%before(2), self%before(1), self%motion_before)
       end if
       call find_tangent(self%work, suspension, state_b, inputs_b, step%rate, kkt, self%tangent_b, is_found)
       verdict = doubtful
@@ -226,7 +227,7 @@ contains
             verdict = crossing
          else if (step%rest > exact .or. is_uneven(self, outcome) .or. &
             largest_motion(self%motion, kkt%length) > long*kkt%length) then
-            call compare_orientation(self%orientation, suspension, self%before%poses, state_b%poses, kkt%scale, self%is_over, &
+            call compare_orientation(self%orientation, suspension, self%before(1)%poses, state_b%poses, kkt%scale, self%is_over, &
                self%is_singular)
             if (self%is_over) verdict = crossing
             if (self%is_singular .and. abs(width) > tiny_step*self%least) verdict = doubtful
@@ -247,7 +248,7 @@ contains
       type(kkt_t), intent(inout) :: kkt          !! factors at or near b
       logical :: knows_a, is_found
 
-      call straighten(self%chord, suspension, self%before, state_b, step%is_bent)
+      call straighten(self%chord, suspension, self%before(1), state_b, step%is_bent)
       knows_a = self%negative >= 0 .and. self%factors%is_kept
       if (knows_a) then
          call exchange(self%factors, kkt)
@@ -290,13 +291,13 @@ contains
       type(kkt_t), intent(inout) :: kkt
 
       if (is_anew) then
-         call assemble(suspension, self%before, step%inputs_a, whole_tangent, kkt)
+         call assemble(suspension, self%before(1), step%inputs_a, whole_tangent, kkt)
          call factorise(kkt)
          self%factorisations = self%factorisations + 1
          self%negative = kkt%negative
          step%is_new_at_a = .true.
       end if
-      call find_tangent(self%work, suspension, self%before, step%inputs_a, step%rate, kkt, self%tangent_a, self%has_tangent)
+      call find_tangent(self%work, suspension, self%before(1), step%inputs_a, step%rate, kkt, self%tangent_a, self%has_tangent)
       self%is_at_end = .not. self%has_tangent
       step%rest = huge(step%rest)
       step%is_regular(at_a) = .false.
@@ -305,7 +306,7 @@ contains
       step%rest = trapezoidal_rest(self%motion, self%tangent_a, self%tangent_b, step%width, kkt%length)
       step%is_explained = step%rest <= smooth
       if (step%is_bent .and. .not. step%is_explained) call evaluate_along_chord(self%chord, suspension, self%work, at_a, &
-         self%before, step%inputs_a, step%rate, kkt, self%chord_a, step%is_regular(at_a))
+         self%before(1), step%inputs_a, step%rate, kkt, self%chord_a, step%is_regular(at_a))
    end subroutine evaluate_beginning
 
    !> Decides whether the tangents agree with the motion. If the tangents do not agree, decides whether the tangents along the
@@ -393,8 +394,8 @@ contains
       real(wp), intent(in) :: scale(:)                       !! D of ek_scale
       logical :: is_singular
 
-      call unpack_state(self%predictor%packed(:, self%predictor%newest), self%before)
-      call compare_orientation(self%orientation, suspension, self%before%poses, state_b%poses, scale, is_overturning, &
+      call unpack_state(self%predictor%packed(:, self%predictor%newest), self%before(1))
+      call compare_orientation(self%orientation, suspension, self%before(1)%poses, state_b%poses, scale, is_overturning, &
          is_singular)
       is_overturning = is_overturning .or. is_singular
    end function is_overturning

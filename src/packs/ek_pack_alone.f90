@@ -142,10 +142,10 @@ contains
 
       call refresh(self, member, lane)
       associate (branch => self%branch(lane))
-         call unpack_state(member%path%packed(:, before), branch%before)
+         call unpack_state(member%path%packed(:, before), branch%before(1))
          call take_state(self, lane)
-         call compare_orientation(branch%orientation, member%suspension, branch%before%poses, self%state%poses, self%pack%scale, &
-            is_over, is_singular)
+         call compare_orientation(branch%orientation, member%suspension, branch%before(1)%poses, self%state%poses, &
+            self%pack%scale, is_over, is_singular)
       end associate
       is_same_assembly = .not. (is_over .or. is_singular)
    end function is_same_assembly
