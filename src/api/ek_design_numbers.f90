@@ -44,11 +44,13 @@ contains
       integer :: n, k
 
       n = design%parameters%used
-      associate (list => design%parameters%list(:n))
-         numbers%first_x = design%parameters%x(:n)
-         numbers%unit = list%unit
-         numbers%first_value = [(written(design%parameters%x(k)/list(k)%unit), k=1, n)]
-      end associate
+      ! an assignment to what is not allocated reads its bounds
+      allocate (numbers%first_x, source=design%parameters%x(:n))
+      allocate (numbers%unit(n), numbers%first_value(n))
+      do k = 1, n
+         numbers%unit(k) = design%parameters%list(k)%unit
+         numbers%first_value(k) = written(design%parameters%x(k)/design%parameters%list(k)%unit)
+      end do
       allocate (numbers%settings(16))
       call reset_numbers(numbers)
    end subroutine begin_numbers
