@@ -24,7 +24,6 @@ module ek_check
    use ek_model_remark, only: model_remarks_t, find_model_remarks
    use ek_command_line, only: command_line_t
    use ek_load_deck, only: deck_settings_t, read_deck_settings, load_deck, chosen_cases
-   use ek_version, only: version
    use ek_json, only: json_t, json_string
    use ek_letters, only: as_utf8
    use ek_group, only: key_t, group_number, group_names, find_key
@@ -344,11 +343,7 @@ contains
       character(:), allocatable :: text
       type(json_t) :: json
 
-      call json%open('{')
-      call json%item('program', json_string('elastokin '//version))
-      call json%item('deck', json_string(as_utf8(file)))
-      call json%item('model', json_string(as_utf8(model)))
-      call json%item('checksum', json_string(checksum))
+      call json%begin_record(model, checksum, deck=file)
       call json%open('[', 'messages')
       call add(messages%errors, 'error')
       call add(messages%warnings, 'warning')

@@ -50,6 +50,7 @@ module ek_command
       '  report.html: one self-contained page;'//nl// &
       '  one CSV file per test, and compliance.csv: the compliance matrix at every state of the first test;'//nl// &
       '  key_numbers.csv and .json; gradients.csv and .json: slopes with window, unit and sign;'//nl// &
+      '  windows/: the states of each test from which the slopes were read;'//nl// &
       '  picture.png and .svg; figures/: every chart (SVG and gnuplot script), views.svg with hardpoint names;'//nl// &
       '  deck.csv: every value of the deck; deck_as_used.nml: one deck with the same results;'//nl// &
       '  report-files.csv: list of all files of the report.', ''), &

@@ -13,7 +13,6 @@ module ek_explain_files
    use ek_contribution, only: of_element, of_joint
    use ek_contribution_table, only: contribution_table_t
    use ek_wheel_side, only: prefix_of, deck_frame
-   use ek_version, only: version
    implicit none(type, external)
    private
    public :: explain_files_t, begin_explain_files, add_explain_state, end_explain_files, begin_explain_json, begin_explain_case, &
@@ -167,10 +166,7 @@ contains
       character(*), intent(in) :: model, checksum
       type(json_t), intent(inout) :: json
 
-      call json%open('{')
-      call json%item('program', json_string('elastokin '//version))
-      call json%item('model', json_string(model))
-      call json%item('checksum', json_string(checksum))
+      call json%begin_record(model, checksum)
       call json%open('[', 'cases')
    end subroutine begin_explain_json
 

@@ -7,7 +7,6 @@ module ek_list
    use ek_letters, only: as_utf8
    use ek_buffer, only: buffer_t
    use ek_json, only: json_t, json_string
-   use ek_version, only: version
    use ek_reader, only: definition_t
    use ek_case, only: case_t, is_mountable
    use ek_suspension, only: suspension_t
@@ -269,11 +268,7 @@ contains
       character(:), allocatable :: text
       type(json_t) :: json
 
-      call json%open('{')
-      call json%item('program', json_string('elastokin '//version))
-      call json%item('deck', json_string(as_utf8(file)))
-      call json%item('model', json_string(as_utf8(model)))
-      call json%item('checksum', json_string(checksum))
+      call json%begin_record(model, checksum, deck=file)
       if (wants(1)) call add_list('paths', paths, [character(10) :: 'path', 'value', 'unit'])
       if (wants(2)) call add_list('cases', cases, [character(10) :: 'name', 'kind', 'swept', 'range', 'unit', 'increments'])
       if (wants(3)) call add_list('numbers', key_numbers, [character(10) :: 'name', 'unit', 'definition'])

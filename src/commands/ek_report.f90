@@ -22,7 +22,7 @@ module ek_report
    use ek_report_files, only: contents_csv, test_line, name_files
    use ek_report_names, only: contents_file, gradients_file, gradients_json_file, compliance_file, numbers_file, &
       numbers_json_file, deck_file, used_deck_file, data_file, page_file, loads_file, peaks_file, list_file, files_of_reports, &
-      files_of_loads
+      files_of_loads, windows_folder
    use ek_deck_file, only: deck_csv
    use ek_deck, only: deck_t
    use ek_deck_values, only: list_values
@@ -63,7 +63,6 @@ module ek_report
    public :: report, run_planned
 
    integer, parameter :: most_live = 24      ! rates: more make the page slow and large
-   character(*), parameter :: windows_folder = 'windows'
 
    type, extends(deck_settings_t) :: settings_t
       type(windows_t) :: windows                     !! windows of the gradients

@@ -345,10 +345,7 @@ contains
       character(*), intent(in) :: model, checksum
       type(json_t), intent(out) :: json
 
-      call json%open('{')
-      call json%item('program', json_string('elastokin '//version))
-      call json%item('model', json_string(model))
-      call json%item('checksum', json_string(checksum))
+      call json%begin_record(model, checksum)
       call json%open('[', 'cases')
    end subroutine begin_run_json
 

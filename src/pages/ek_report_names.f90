@@ -5,13 +5,14 @@ module ek_report_names
    private
    public :: contents_file, gradients_file, compliance_file, numbers_file, deck_file, used_deck_file, gradients_json_file, &
       numbers_json_file, data_file, page_file, loads_file, peaks_file, list_file, files_of_reports, files_of_loads, &
-      is_table_of_report, envelope_file, loads_json_file, parts_folder, part_file
+      is_table_of_report, envelope_file, loads_json_file, parts_folder, part_file, windows_folder
 
    character(*), parameter :: contents_file = 'tests.csv', gradients_file = 'gradients.csv', compliance_file = 'compliance.csv', &
       numbers_file = 'key_numbers.csv', deck_file = 'deck.csv', used_deck_file = 'deck_as_used.nml', &
       gradients_json_file = 'gradients.json', numbers_json_file = 'key_numbers.json', data_file = 'data.json', &
       page_file = 'report.html', loads_file = 'loads.csv', peaks_file = 'peak-loads.csv', &
-      envelope_file = 'load-envelope.csv', loads_json_file = 'loads.json', parts_folder = 'parts'
+      envelope_file = 'load-envelope.csv', loads_json_file = 'loads.json', parts_folder = 'parts', &
+      windows_folder = 'windows'
    character(*), parameter :: list_file = 'report-files.csv'     !! no test has a hyphen in its name
 
    !> Files that every report can have.

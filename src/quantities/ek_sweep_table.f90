@@ -240,8 +240,9 @@ contains
    !> Whether a column of the table is a K&C quantity (ek_kandc_list).
    pure logical function is_kandc_column(observer, column)
       type(observer_t), intent(in) :: observer              !! of make_observer
-      integer, intent(in) :: column                         !! index of a column of the table
-      is_kandc_column = observer%kept(column) > observer%shown .and. observer%kept(column) <= observer%reported
+      integer, intent(in) :: column                         !! index of a column of the table; 0: none
+      is_kandc_column = column > 0
+      if (is_kandc_column) is_kandc_column = observer%kept(column) > observer%shown .and. observer%kept(column) <= observer%reported
    end function is_kandc_column
 
    !> Whether all columns follow from the poses and the data of the wheels.

@@ -13,6 +13,7 @@ module ek_json
    use ek_decimal, only: decimal
    use ek_error, only: message_list_t
    use ek_letters, only: as_utf8
+   use ek_version, only: version
    implicit none(type, external)
    private
    public :: json_t, json_string, json_strings, json_number, json_numbers
@@ -26,10 +27,24 @@ module ek_json
       logical, public :: is_one_line = .false.     !! blanks instead of lines and indents; set before the first item
       logical :: is_empty = .true.     !! the innermost list or object has no item yet
    contains
+      procedure :: begin_record => json_begin_record
       procedure :: open => json_open, close => json_close, item => json_item, item_of_list => json_item_of_list, text => json_text
    end type json_t
 
 contains
+
+   !> Begins the object that a command prints or writes: the program, the file of the deck, the model and the checksum of the deck.
+   subroutine json_begin_record(self, model, checksum, deck)
+      class(json_t), intent(inout) :: self
+      character(*), intent(in) :: model, checksum           !! '' if the deck could not be read
+      character(*), intent(in), optional :: deck            !! path of the deck
+
+      call self%open('{')
+      call self%item('program', json_string('elastokin '//version))
+      if (present(deck)) call self%item('deck', json_string(as_utf8(deck)))
+      call self%item('model', json_string(as_utf8(model)))
+      call self%item('checksum', json_string(checksum))
+   end subroutine json_begin_record
 
    !> Begins an object '{' or a list '['. `key` is required inside an object.
    pure subroutine json_open(self, bracket, key)

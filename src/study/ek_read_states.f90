@@ -30,20 +30,12 @@ contains
 
       reads_few_states = reads_matrix(observer)
       do j = 1, size(columns)
-         if (is_kandc(column_index(table, trim(columns(j))))) reads_few_states = .false.
+         if (is_kandc_column(observer, column_index(table, trim(columns(j))))) reads_few_states = .false.
       end do
       do j = 1, size(readings)
          if (case_of(j) /= case .or. is_difference(readings(j))) cycle
-         if (reads_all_states(readings(j)) .and. is_kandc(readings(j)%at_column)) reads_few_states = .false.
+         if (reads_all_states(readings(j)) .and. is_kandc_column(observer, readings(j)%at_column)) reads_few_states = .false.
       end do
-
-   contains
-
-      pure logical function is_kandc(column)
-         integer, intent(in) :: column                     !! 0: none
-         is_kandc = column > 0
-         if (is_kandc) is_kandc = is_kandc_column(observer, column)
-      end function is_kandc
 
    end function reads_few_states
 
@@ -63,17 +55,10 @@ contains
          over = 0
          if (is_slope(readings(j))) over = place_of_column(result%table, readings(j)%over, readings(j)%at_over)
          if (column == 0) cycle                            ! the model of this design does not define it
-         if (is_kandc(column) .or. is_kandc(over)) call mark_states(readings(j), result%table, is_read)
+         if (is_kandc_column(observer, column) .or. is_kandc_column(observer, over)) &
+            call mark_states(readings(j), result%table, is_read)
       end do
       call observe_kandc_at(is_read, result%suspension, result%case, result%path, result%kkt, observer, result%table)
-
-   contains
-
-      pure logical function is_kandc(column)
-         integer, intent(in) :: column                     !! 0: none
-         is_kandc = column > 0
-         if (is_kandc) is_kandc = is_kandc_column(observer, column)
-      end function is_kandc
 
    end subroutine observe_read_states
 

@@ -1,21 +1,8 @@
 # Makes ek_library_decks.f90 of decks of the library, for `elastokin new`:
 #   cmake "-DDECKS=kind=folder/deck.nml,..." -DINPUT=input -DMODULE=ek_library_decks.f90 -P embed.cmake
 # Each deck becomes one text: included files take the place of their &include, without the comment at their beginning. The
-# references of the first comment to other files are renewed. A line is cut into constants of the source.
-string(REPEAT "[^\n]" 60 ek_piece)
-
-# Statements that append a text to the buffer `out`, in the variable `result`
-function(ek_statements result text)
-  string(ASCII 1 cut)
-  string(REGEX REPLACE "\n$" "" text "${text}")
-  string(REGEX REPLACE "(${ek_piece})" "\\1${cut}" text "${text}")
-  string(REPLACE "'" "''" text "${text}")
-  string(REPLACE "${cut}" "')\n         call out%add('" text "${text}")
-  string(REPLACE "\n         call" "${cut}" text "${text}")
-  string(REPLACE "\n" "'//nl)\n         call out%add('" text "${text}")
-  string(REPLACE "${cut}" "\n         call" text "${text}")
-  set(${result} "         call out%add('${text}'//nl)\n" PARENT_SCOPE)
-endfunction()
+# references of the first comment to other files are renewed.
+include(${CMAKE_CURRENT_LIST_DIR}/../../embed.cmake)
 
 set(cases "")
 string(REPLACE "," ";" DECKS "${DECKS}")
@@ -33,7 +20,7 @@ foreach(deck IN LISTS DECKS)
     string(REGEX REPLACE "The left half is described here and in\n! ${name}; " "The deck describes the left half;\n! " text "${text}")
   endwhile()
   string(REPLACE " See README.md." " See input/${folder}/README.md of elastokin." text "${text}")
-  ek_statements(statements "${text}")
+  ek_statements(statements "         " "${text}")
   string(APPEND cases "      case ('${kind}')\n${statements}")
 endforeach()
 file(WRITE ${MODULE} "!> Decks of the library as text, made by embed.cmake from the folder input.

@@ -2,38 +2,31 @@
 #   cmake -DSTYLE=page.css "-DSCRIPT=chart.js,page.js" -DLIVE_STYLE=live.css -DLIVE_SCRIPT=live.js \
 #     -DTURNTABLE_SCRIPT=turntable.js -DMODULE=ek_page_assets.f90 -P embed.cmake
 # The parts of pages whose rates can be changed, and of those with a turntable, are added to those of all pages.
-# Comments of a whole line and indents are left out; a long line becomes several constants.
-string(REPEAT "[^\n]" 80 ek_piece)
+# Comments of a whole line and indents are left out.
+include(${CMAKE_CURRENT_LIST_DIR}/../../embed.cmake)
 
 # Statements that append the lines of files to the buffer `out`, in the variable `result`
-function(ek_statements result)
+function(ek_statements_of_files result)
   set(text "")
   foreach(file IN LISTS ARGN)
     file(READ ${file} content)
     string(APPEND text "\n${content}")
   endforeach()
-  string(ASCII 1 cut)
   string(REGEX REPLACE "\n[ ]+" "\n" text "${text}")
   string(REGEX REPLACE "\n//[^\n]*" "" text "${text}")
   string(REGEX REPLACE "\n/[*][^\n]*[*]/" "" text "${text}")
   string(REGEX REPLACE "\n\n+" "\n" text "${text}")
   string(REGEX REPLACE "^\n" "" text "${text}")
-  string(REGEX REPLACE "\n$" "" text "${text}")
-  string(REGEX REPLACE "(${ek_piece})" "\\1${cut}" text "${text}")
-  string(REPLACE "'" "''" text "${text}")
-  string(REPLACE "${cut}" "')\n      call out%add('" text "${text}")
-  string(REPLACE "\n      call" "${cut}" text "${text}")
-  string(REPLACE "\n" "'//nl)\n      call out%add('" text "${text}")
-  string(REPLACE "${cut}" "\n      call" text "${text}")
-  set(${result} "      call out%add('${text}'//nl)\n" PARENT_SCOPE)
+  ek_statements(statements "      " "${text}")
+  set(${result} "${statements}" PARENT_SCOPE)
 endfunction()
 
 string(REPLACE "," ";" SCRIPT "${SCRIPT}")
-ek_statements(style ${STYLE})
-ek_statements(script ${SCRIPT})
-ek_statements(live_style ${LIVE_STYLE})
-ek_statements(live_script ${LIVE_SCRIPT})
-ek_statements(turntable_script ${TURNTABLE_SCRIPT})
+ek_statements_of_files(style ${STYLE})
+ek_statements_of_files(script ${SCRIPT})
+ek_statements_of_files(live_style ${LIVE_STYLE})
+ek_statements_of_files(live_script ${LIVE_SCRIPT})
+ek_statements_of_files(turntable_script ${TURNTABLE_SCRIPT})
 file(WRITE ${MODULE} "!> Style sheet and script of the pages, made by embed.cmake from the files in src/pages/page.
 module ek_page_assets
    use ek_buffer, only: buffer_t
