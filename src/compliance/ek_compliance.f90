@@ -14,6 +14,12 @@
 !> Under a constant moment or a load that rotates with its body, the matrix is not symmetric and is factorised in full
 !> (ek_skew_system). The left responses of unit_responses are then solutions with the transpose.
 !>
+!> If nothing carries the wheels (ek_free_wheels), the matrix without the rows of the rig is singular. These rows are then not
+!> released: each keeps its gradient and gets the compliance c. On a model whose joints and rig leave no motion, C = c N Nᵀ, with
+!> a column of N for each row of the rig: the motion of the ports per unit of the row, from the null space of the joints. c cancels
+!> in every column that does not depend on a rate. On any other model, the response depends on the springs that are missing, and is
+!> not known.
+!>
 !> The contact point given by the deck is fixed to the carrier at the arm a from the wheel centre: a force F there equals the same
 !> force at the centre with the moment a×F, and the point moves by δ + θ×a. Moments and rotations do not depend on the point.
 !>
@@ -26,6 +32,7 @@ module ek_compliance
    use ek_block, only: rotated, add_gradient
    use ek_element, only: element_kinds
    use ek_suspension, only: suspension_t
+   use ek_free_wheels, only: is_rigid
    use ek_state, only: state_t, inputs_t
    use ek_kkt, only: kkt_t, assemble, release, factorise, solve_many, whole_matrix, whole_tangent, lapack_factors
    use ek_skew_system, only: skew_system_t, has_skew_part, factorise_skew, solve_skew
@@ -34,6 +41,7 @@ module ek_compliance
    public :: compliance_t, new_compliance, ask, wheel_compliance, wheel_compliance_nearby, respond, keep_responses, move_of, &
       unit_responses, solve_further
 
+   real(wp), parameter :: stand_in = 1.0e-5_wp    !! m/N: compliance c of the rows of the rig if nothing carries the wheels
    real(wp), parameter :: singular = 1.0e-14_wp   !! pivot ratio up to which the scaled matrix counts as singular
 
    !> The responses at one state, and the work space for them, allocated once for a model.
@@ -152,9 +160,7 @@ contains
       n = size(kept, 1)
       if (are_checked) call require(self%solved >= n .and. size(kept, 2) == kkt%n, 'wheel_compliance_nearby: of another model')
       call assemble(suspension, state, inputs, whole_tangent, kkt)
-      do j = suspension%own_rows() + 1, suspension%constraints()
-         call release(j, kkt)
-      end do
+      call release_rig(suspension, kkt)
       call set_ports(suspension, state, self)
       self%columns(:, :n) = transpose(kept)
       do j = 1, n
@@ -176,9 +182,7 @@ contains
       type(compliance_t), intent(inout) :: self   !! of new_compliance
       integer :: j
 
-      do j = suspension%own_rows() + 1, suspension%constraints()
-         call release(j, kkt)
-      end do
+      call release_rig(suspension, kkt)
       call set_ports(suspension, state, self)
       call set_loads(kkt%nq + steer_row, self)
       self%is_skew = has_skew_part(suspension, inputs)
@@ -193,11 +197,28 @@ contains
       else
          call solve_symmetric(kkt, self)
       end if
+      if (suspension%free_wheels > 0) self%is_known = self%is_known .and. is_rigid(suspension)
       if (.not. self%is_known) self%response = ieee_value(1.0_wp, ieee_quiet_nan)
       do j = 1, merge(self%solved, 0, self%is_known)
          call read_ports(j, self)
       end do
    end subroutine respond
+
+   !> Clears the rows of the rig (`release`). If nothing carries the wheels, the rows become compliant instead.
+   !> Equation (C.5) of docs/theory/compliance.md.
+   pure subroutine release_rig(suspension, kkt)
+      type(suspension_t), intent(in) :: suspension
+      type(kkt_t), intent(inout) :: kkt           !! assembled
+      integer :: j
+
+      do j = suspension%own_rows() + 1, suspension%constraints()
+         if (suspension%free_wheels > 0) then
+            kkt%store(kkt%pattern%diagonal + j) = -stand_in
+         else
+            call release(j, kkt)
+         end if
+      end do
+   end subroutine release_rig
 
    !> Factorises the assembled matrix and, unless it is singular, solves for the columns. Input and output are not scaled.
    !> Equation (C.3) of docs/theory/compliance.md.

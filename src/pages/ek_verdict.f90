@@ -5,6 +5,7 @@ module ek_verdict
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
    use ek_text, only: str, plural
+   use ek_missing_number, only: no_spring
    use ek_key_number, only: key_number_t, has_value
    use ek_number_words, only: steer_effect, target_verdict, short_name, is_equal, is_opposite, sides_text
    use ek_plausible_range, only: size_t, usual_range
@@ -240,7 +241,10 @@ contains
       verdict = ''
       if (.not. has_value(number)) then
          words = ''
-         if (allocated(number%reason)) words = 'no value of '//without_capital(short_name(number))//' ('//number%reason//')'
+         if (allocated(number%reason)) then
+            if (number%reason == no_spring) return         ! nobody expects this number
+            words = 'no value of '//without_capital(short_name(number))//' ('//number%reason//')'
+         end if
          return
       end if
       words = without_capital(short_name(number))

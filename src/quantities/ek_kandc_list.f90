@@ -84,6 +84,7 @@ contains
          allocate (self%has(0:wheels))
          call conditions_of(suspension, self%compliance%order, self%steer_row > 0, self%has)
          call begin_list(self, 256)
+         self%lacks_rate = suspension%free_wheels > 0
          do k = 1, wheels
             call add_wheel(suspension, k, self)
          end do
@@ -254,6 +255,7 @@ contains
       integer :: has(0:size(suspension%wheels))
 
       same_columns = .false.
+      if (self%lacks_rate .neqv. suspension%free_wheels > 0) return
       if (size(has) /= size(self%has)) return
       call conditions_of(suspension, self%compliance%order, self%steer_row > 0, has)
       same_columns = all(has == self%has)
