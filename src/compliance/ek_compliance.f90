@@ -14,11 +14,10 @@
 !> Under a constant moment or a load that rotates with its body, the matrix is not symmetric and is factorised in full
 !> (ek_skew_system). The left responses of unit_responses are then solutions with the transpose.
 !>
-!> If nothing carries the wheels (ek_free_wheels), the matrix without the rows of the rig is singular. These rows are then not
-!> released: each keeps its gradient and gets the compliance c. On a model whose joints and rig leave no motion, C = c N Nᵀ, with
-!> a column of N for each row of the rig: the motion of the ports per unit of the row, from the null space of the joints. c cancels
-!> in every column that does not depend on a rate. On any other model, the response depends on the springs that are missing, and is
-!> not known.
+!> If nothing carries the wheels (ek_free_wheels), the matrix without the rows of the rig is singular. The rows of the rig are then
+!> not released. The motion n of all bodies per unit of each row needs no force, and C = c Σ n nᵀ describes wheels that the rows
+!> carry with the compliance c. c cancels in every column that does not depend on a rate. A displacement of the steering driver
+!> moves the bodies with the rows held.
 !>
 !> The contact point given by the deck is fixed to the carrier at the arm a from the wheel centre: a force F there equals the same
 !> force at the centre with the moment a×F, and the point moves by δ + θ×a. Moments and rotations do not depend on the point.
@@ -32,7 +31,6 @@ module ek_compliance
    use ek_block, only: rotated, add_gradient
    use ek_element, only: element_kinds
    use ek_suspension, only: suspension_t
-   use ek_free_wheels, only: is_rigid
    use ek_state, only: state_t, inputs_t
    use ek_kkt, only: kkt_t, assemble, release, factorise, solve_many, whole_matrix, whole_tangent, lapack_factors
    use ek_skew_system, only: skew_system_t, has_skew_part, factorise_skew, solve_skew
@@ -160,7 +158,9 @@ contains
       n = size(kept, 1)
       if (are_checked) call require(self%solved >= n .and. size(kept, 2) == kkt%n, 'wheel_compliance_nearby: of another model')
       call assemble(suspension, state, inputs, whole_tangent, kkt)
-      call release_rig(suspension, kkt)
+      do j = suspension%own_rows() + 1, suspension%constraints()
+         call release(j, kkt)
+      end do
       call set_ports(suspension, state, self)
       self%columns(:, :n) = transpose(kept)
       do j = 1, n
@@ -182,11 +182,15 @@ contains
       type(compliance_t), intent(inout) :: self   !! of new_compliance
       integer :: j
 
-      call release_rig(suspension, kkt)
       call set_ports(suspension, state, self)
       call set_loads(kkt%nq + steer_row, self)
-      self%is_skew = has_skew_part(suspension, inputs)
-      if (self%is_skew) then
+      self%is_skew = has_skew_part(suspension, inputs) .and. suspension%free_wheels == 0
+      do j = suspension%own_rows() + 1, merge(suspension%constraints(), 0, suspension%free_wheels == 0)
+         call release(j, kkt)
+      end do
+      if (suspension%free_wheels > 0) then
+         call follow_rig(suspension, steer_row, kkt, self)
+      else if (self%is_skew) then
          call factorise_skew(suspension, state, inputs, singular, kkt, self%skew_system)
          self%is_known = .not. self%skew_system%is_singular
          if (self%is_known) then
@@ -197,28 +201,48 @@ contains
       else
          call solve_symmetric(kkt, self)
       end if
-      if (suspension%free_wheels > 0) self%is_known = self%is_known .and. is_rigid(suspension)
       if (.not. self%is_known) self%response = ieee_value(1.0_wp, ieee_quiet_nan)
       do j = 1, merge(self%solved, 0, self%is_known)
          call read_ports(j, self)
       end do
    end subroutine respond
 
-   !> Clears the rows of the rig (`release`). If nothing carries the wheels, the rows become compliant instead.
+   !> Computes the responses of a model in which nothing carries the wheels, from the motion per unit of each row of the rig.
    !> Equation (C.5) of docs/theory/compliance.md.
-   pure subroutine release_rig(suspension, kkt)
+   subroutine follow_rig(suspension, steer_row, kkt, self)
       type(suspension_t), intent(in) :: suspension
-      type(kkt_t), intent(inout) :: kkt           !! assembled
-      integer :: j
+      integer, intent(in) :: steer_row            !! row of the steering driver, 0: none
+      type(kkt_t), intent(inout) :: kkt           !! assembled; on return, with the factors of the matrix with all rows
+      type(compliance_t), intent(inout) :: self   !! with the loads in `columns`
+      real(wp) :: motions(kkt%n, suspension%rig_rows + 1), along_row(suspension%rig_rows)
+      integer :: j, k, rows
 
-      do j = suspension%own_rows() + 1, suspension%constraints()
-         if (suspension%free_wheels > 0) then
-            kkt%store(kkt%pattern%diagonal + j) = -stand_in
-         else
-            call release(j, kkt)
-         end if
+      rows = suspension%rig_rows
+      motions = 0.0_wp
+      do j = 1, rows
+         k = suspension%own_rows() + j
+         kkt%store(kkt%pattern%diagonal + k) = 0.0_wp
+         motions(kkt%nq + k, j) = 1.0_wp
       end do
-   end subroutine release_rig
+      if (steer_row > 0) motions(kkt%nq + steer_row, rows + 1) = 1.0_wp
+      call factorise(kkt)
+      self%is_known = rows >= suspension%free_wheels .and. .not. kkt%is_singular .and. kkt%pivot_ratio > singular
+      if (.not. self%is_known) return
+      call solve_many(kkt, rows + 1, motions)
+      do k = 1, self%solved
+         if (self%load(k) > size(self%response, 1)) then
+            self%columns(:, k) = motions(:, rows + 1)
+            cycle
+         end if
+         do j = 1, rows
+            along_row(j) = stand_in*dot_product(motions(:kkt%nq, j), self%columns(:kkt%nq, k))
+         end do
+         self%columns(:, k) = 0.0_wp
+         do j = 1, rows
+            self%columns(:kkt%nq, k) = self%columns(:kkt%nq, k) + along_row(j)*motions(:kkt%nq, j)
+         end do
+      end do
+   end subroutine follow_rig
 
    !> Factorises the assembled matrix and, unless it is singular, solves for the columns. Input and output are not scaled.
    !> Equation (C.3) of docs/theory/compliance.md.

@@ -231,7 +231,8 @@ contains
       call wheel_compliance(result%suspension, state, inputs, 0, result%kkt, compliance)
       if (.not. compliance%is_known .or. result%suspension%free_wheels > 0) then
          call fail(error, exit_model, 'the stiffness matrix of the design state is singular without the rig, so there is no '// &
-            'compliance to export: elastokin check shows the motion that nothing holds')
+            'compliance to export: '//trim(merge('no spring carries the wheels                       ', &
+            'elastokin check shows the motion that nothing holds', result%suspension%free_wheels > 0)))
          return
       end if
       allocate (arm(3, compliance%wheels), rates(compliance%wheels), signs(n))

@@ -313,6 +313,7 @@ contains
       type(report_t), intent(in) :: report
       character(:), allocatable :: text
       integer, parameter :: resultant = 4
+      real(wp), parameter :: nothing = 1.0e-6_wp    ! N: links without load
       integer :: e, k
 
       text = ''
@@ -325,7 +326,7 @@ contains
       end if
       if (size(report%loads%ends) == 0) return
       e = maxloc(report%loads%peaks(resultant, :size(report%loads%ends)), dim=1)
-      if (report%loads%case(resultant, e) == 0) return
+      if (report%loads%case(resultant, e) == 0 .or. .not. report%loads%peaks(resultant, e) > nothing) return
       text = 'largest force on a member '//page_number(report%loads%peaks(resultant, e))//' N: '// &
          trim(report%loads%ends(e)%member)//' at '//trim(report%loads%ends(e)%point)//', '// &
          trim(report%loads%cases(report%loads%case(resultant, e)))

@@ -20,6 +20,7 @@ module ek_column_list
       logical, allocatable :: is_of_matrix(:)          !! the value of this column comes from the compliance matrix
       logical, allocatable :: is_of_rate(:)            !! the value of this column depends on the springs that carry the wheels
       logical :: lacks_rate = .false.                  !! nothing carries the wheels: such a column has no value
+      logical :: is_elastic = .false.                  !! forces deform the model, also with the heights of the wheels held
       logical :: is_matrix_wanted = .true.             !! a requested column needs the compliance matrix
       integer, allocatable :: place(:)                 !! index of the value of each column in the vector of its block
       real(wp), allocatable :: unit(:)                 !! unit of each column in SI; 0 for a quantity not yet requested
@@ -62,7 +63,7 @@ contains
          end if
          call add_column(list, prefix, iand(section(k)%needs, matrix) /= 0)
          list%unit(list%used) = 0.0_wp
-         list%is_of_rate(list%used) = iand(section(k)%needs, rate) /= 0 .and. held == 1
+         list%is_of_rate(list%used) = iand(section(k)%needs, rate) /= 0 .and. (held == 1 .or. list%is_elastic)
          associate (name => list%names(list%used))          ! not put together first: that asks for memory
             name(first:) = section(k)%name
             if (index(section(k)%name, '*') > 0) name(first:) = held_name(section(k)%name, held)

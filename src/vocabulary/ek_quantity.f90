@@ -23,8 +23,8 @@ module ek_quantity
    end type quantity_t
 
    ! Conditions: without one of them the model has no such column; without a known matrix the value is not a number. A quantity with
-   ! `rate` depends on the rates of the springs that carry the wheels (with '*' in its name: load held only); if nothing carries
-   ! the wheels, its value is not a number
+   ! `rate` depends on the rates of the springs that carry the wheels; if nothing carries the wheels, its value is not a number.
+   ! With '*' in its name, this holds for load_held, and for height_held if forces deform the model
    integer, parameter, public :: matrix = 1, pair = 2, tyres = 4, axis = 8, rack = 16, ratio = 32, car = 64, front = 128, &
       rear = 256, mass = 512, sprung = 1024, width = 2048, corner = 4096, rate = 8192
    integer, parameter :: turning = pair + car + rack, own = matrix + pair, shod = matrix + tyres + rate, steered = matrix + axis, &
