@@ -37,7 +37,7 @@ contains
 
       if (is_balanced) call preload_remarks(suspension, remarks%notes)
       call patch_remarks(suspension, remarks%warnings)
-      call spring_remarks(suspension, chosen, remarks%warnings)
+      call spring_remarks(suspension, chosen, remarks%warnings, cases)
       call half_turn_remarks(suspension, chosen, remarks%warnings)
       if (is_balanced) then
          call balance_remarks(suspension, remarks%warnings)

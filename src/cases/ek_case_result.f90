@@ -280,6 +280,8 @@ contains
       end if
       call table%header%add(frame_line(suspension%is_iso, single_side(suspension)))
       call table%header%add('elastokin '//version//', deck checksum '//checksum)
+      if (suspension%free_wheels > 0) call table%header%add('kinematics only: no spring carries the wheels; columns that '// &
+         'depend on a rate are nan')
       call table%header%add('spring force > 0: compression. Bushing force and moment: on its second body, axes of its first '// &
          'marker. Joint force and moment: on its second body, at its point, frame of the deck')
    end subroutine add_header

@@ -9,7 +9,7 @@ module ek_examination
    use ek_text, only: quoted
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t, is_mountable
-   use ek_rig, only: mount, mounted_case_t, mount_case, mount_again
+   use ek_rig, only: mount, mounted_case_t, mount_case, mount_again, lacks_springs
    use ek_state, only: design_state
    use ek_kkt, only: kkt_t
    use ek_diagnosis, only: diagnosis_t, diagnose
@@ -19,7 +19,7 @@ module ek_examination
    use ek_table, only: name_length, name_index
    implicit none(type, external)
    private
-   public :: examination_t, examine_cases, examine_case, recognise_case, known_case_t, add_distinct, check_inputs
+   public :: spring_hint, examination_t, examine_cases, examine_case, recognise_case, known_case_t, add_distinct, check_inputs
 
    !> Data from a design of a case that was examined before. One variable serves all designs of a case.
    type :: known_case_t
@@ -57,13 +57,24 @@ contains
             cycle
          end if
          words = diagnosis%words()
-         head = 'case '//quoted(cases(k)%name)//': the model cannot be solved'
+         head = 'case '//quoted(cases(k)%name)//': the model cannot be solved'//spring_hint(base, cases(k))
          call add_distinct(found%distinct, words, is_new)
          if (.not. is_new) words = ', for the reason given above'
          if (is_new) words = new_line('a')//words
          call found%faults%add(head//words)
       end do
    end subroutine examine_cases
+
+   !> The hint that a case needs springs: ', as no spring carries the wheels (…)'; '' if they would not help.
+   function spring_hint(base, case) result(hint)
+      type(suspension_t), intent(in) :: base
+      type(case_t), intent(in) :: case
+      character(:), allocatable :: hint
+
+      hint = ''
+      if (lacks_springs(base, case)) hint = ', as no spring carries the wheels and this case needs forces (tests of travel, '// &
+         'roll and steering do not)'
+   end function spring_hint
 
    !> Adds the lines of a string that are not yet in the list. Numbers are ignored in the comparison, because the message on one
    !> defect may differ in the last digit between two drivers.

@@ -3,6 +3,7 @@
 module ek_remark
    use ek_kinds, only: wp, millimetre, degree, pi
    use ek_text, only: str, quoted
+   use ek_rig, only: lacks_springs
    use ek_case, only: case_t
    use ek_error, only: message_list_t
    use ek_element, only: element_kinds, torsion_spring
@@ -158,17 +159,39 @@ contains
 
    !> Warns of a deck without a spring, whose equilibrium rests on bushings and stops. No warning is added if every case prescribes
    !> a wheel travel or a driver and does not request all columns (kinematics): such cases do not need a spring.
-   subroutine spring_remarks(suspension, cases, words)
+   subroutine spring_remarks(suspension, cases, words, all_cases)
       type(suspension_t), intent(in) :: suspension
-      type(case_t), intent(in) :: cases(:)
+      type(case_t), intent(in) :: cases(:)              !! cases to be run
       type(message_list_t), intent(inout) :: words
+      type(case_t), intent(in) :: all_cases(:)          !! cases of the deck
       integer :: k
 
-      if (size(suspension%wheels) == 0 .or. has_spring(suspension)) return
+      if (size(suspension%wheels) == 0) return
+      if (suspension%free_wheels == 0 .and. has_spring(suspension)) return
       if (all([(.not. cases(k)%has_all .and. len(cases(k)%drive) > 0, k=1, size(cases))])) return
+      if (suspension%free_wheels > 0) then
+         call kinematic_remark(suspension, all_cases, words)
+         return
+      end if
       call words%add('the deck has no spring: the wheels are carried by bushings, anti-roll bars and stops alone, '// &
          'and the reported rates are those of these elements')
    end subroutine spring_remarks
+
+   !> Warns of a deck in which nothing carries the wheels, and lists the cases that need forces.
+   subroutine kinematic_remark(suspension, cases, words)
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: cases(:)
+      type(message_list_t), intent(inout) :: words
+      character(:), allocatable :: names
+      integer :: k
+
+      names = ''
+      do k = 1, size(cases)
+         if (lacks_springs(suspension, cases(k))) names = names//', '//quoted(cases(k)%name)
+      end do
+      if (names /= '') names = '; cases that need forces: '//names(3:)
+      call words%add('kinematics only: no spring carries the wheels, so that rates and forces have no value'//names)
+   end subroutine kinematic_remark
 
    !> Warns of cases that drive a rotation beyond the limit of a rotation measure.
    subroutine half_turn_remarks(suspension, cases, words)

@@ -9,7 +9,7 @@ module ek_standard_tests
    use ek_kkt, only: kkt_t, new_kkt
    use ek_path, only: path_t, sweep
    use ek_test_result, only: test_result_t
-   use ek_rig, only: mount
+   use ek_rig, only: mount, lacks_springs
    use ek_characteristics, only: trail
    use ek_wheel_side, only: left_and_right
    implicit none(type, external)
@@ -63,9 +63,10 @@ contains
    !>
    !> A test that the deck contains (with this kind, phase and offset, and the vertical control of the test) is taken from the deck
    !> with its range. The other cases of the deck follow. A test whose name the deck uses for another case gets the suffix '_test'.
-   !> Travel and roll end at 95 % of a lock of the axle inside their range. Steering covers the travel of the rack given in &steering;
+   !> Travel and roll end at 95 % of a lock of the axle inside their range. Steering covers the travel of the rack of &steering;
    !> a grid also covers the range of the parallel travel. A grid costs
-   !> as much as several other tests, so a grid is listed only if it is requested.
+   !> as much as several other tests, so a grid is listed only if it is requested. If nothing carries the wheels, only tests that
+   !> hold the heights of the wheels are listed.
    subroutine standard_tests(suspension, own, tests, asked)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: own(:)             !! cases of the deck
@@ -92,7 +93,7 @@ contains
          end do
       end do
       do t = 1, size(own)
-         if (.not. is_taken(t)) call append(own(t))
+         if (.not. (is_taken(t) .or. lacks_springs(suspension, own(t)))) call append(own(t))
       end do
 
    contains
@@ -109,7 +110,7 @@ contains
             if (own(k)%test /= test%name .or. (own(k)%is_anti .neqv. is_anti)) cycle
             if (abs(own(k)%offset - offset) > 1.0e-6_wp .or. own(k)%vertical /= '') cycle
             is_taken(k) = .true.
-            call append(own(k))
+            if (.not. lacks_springs(suspension, own(k))) call append(own(k))
             return
          end do
          this%name = trim(test%name)
@@ -138,6 +139,7 @@ contains
          this%offset = offset
          this%file = ''
          this%target = ''
+         if (lacks_springs(suspension, this)) return
          if (any(test%action == [moves_heights, rolls])) call stay_inside_locks(suspension, this)
          this%has_all = .true.
          call append(this)
@@ -193,9 +195,10 @@ contains
    end subroutine cover_rack_travel
 
    !> The title of a test: 'Lateral force, anti-phase, 30 mm aft of the contact point'.
-   pure function test_title(this, wheels) result(title)
+   pure function test_title(this, wheels, holds_heave) result(title)
       type(case_t), intent(in) :: this
       integer, intent(in) :: wheels              !! number of wheels of the model; a single wheel has no phase
+      logical, intent(in), optional :: holds_heave   !! nothing carries the wheels: a roll test holds their mean height
       character(:), allocatable :: title
       type(rig_test_t) :: test
 
@@ -211,6 +214,9 @@ contains
       if (this%vertical == 'centre') title = title//', wheel centres held'
       if (this%vertical == 'force') title = title//', by vertical force'
       if (this%vertical == 'road') title = title//', on the road'
+      if (present(holds_heave)) then
+         if (holds_heave .and. test%action == rolls) title = title//', heave held'
+      end if
       if (is_shortened(this, test)) title = title//', '//str(this%from/swept_unit(test%unit), 3)//' to '// &
          str(this%to/swept_unit(test%unit), 3)//' '//trim(test%unit)//' (95 % of the way to the lock)'
    end function test_title
@@ -229,8 +235,9 @@ contains
    end function is_shortened
 
    !> The condition of the wheels in a test: 'vertical force held'; '' for a case that is not a test.
-   pure function held_text(this) result(held)
+   pure function held_text(this, holds_heave) result(held)
       type(case_t), intent(in) :: this
+      logical, intent(in) :: holds_heave         !! nothing carries the wheels: a roll test holds their mean height
       character(48) :: held
       type(rig_test_t) :: test
       character(6) :: control, word
@@ -252,7 +259,9 @@ contains
       case ('force')
          held = 'vertical force held'
       end select
-      if (test%action == rolls .and. control /= 'force') held = 'height difference driven, axle load held'
+      if (test%action /= rolls .or. control == 'force') return
+      held = 'height difference driven, axle load held'
+      if (holds_heave) held = 'height difference driven, heave held'
    end function held_text
 
 end module ek_standard_tests

@@ -13,7 +13,7 @@ module ek_check
    use ek_element, only: element_kinds
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t, default_tolerance
-   use ek_rig, only: mounted_case_t
+   use ek_rig, only: lacks_springs, mounted_case_t
    use ek_examination, only: add_distinct, examine_case
    use ek_state, only: design_state
    use ek_kkt, only: kkt_t, new_kkt
@@ -123,6 +123,7 @@ contains
          call add_lines(error%message, messages%errors)
          return
       end if
+      if (workspace%raw%free_wheels > 0 .and. settings%case == '') call keep_kinematic(workspace%raw, chosen)
 
       kkt = new_kkt(workspace%raw)
       call diagnose(workspace%raw, design_state(workspace%raw), kkt, diagnosis)
@@ -148,6 +149,26 @@ contains
       end if
       if (size(chosen) > 0) call move_alloc(trouble, error)
    end subroutine examine
+
+   !> Leaves only the cases that do not need forces, of a model in which nothing carries the wheels; without any, a travel test.
+   subroutine keep_kinematic(suspension, chosen)
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), allocatable, intent(inout) :: chosen(:)
+      type(case_t), allocatable :: tests(:)
+      integer :: k
+
+      allocate (tests(0))
+      do k = 1, size(chosen)
+         if (.not. lacks_springs(suspension, chosen(k))) tests = [tests, chosen(k)]
+      end do
+      if (size(tests) > 0) then
+         call move_alloc(tests, chosen)
+         return
+      end if
+      call standard_tests(suspension, chosen(:0), tests)
+      deallocate (chosen)
+      allocate (chosen, source=tests(:min(1, size(tests))))
+   end subroutine keep_kinematic
 
    !> Adds each line of a string as a message.
    subroutine add_lines(text, list)

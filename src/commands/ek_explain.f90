@@ -260,7 +260,8 @@ contains
             end do
             if (settings%has_scan) call add_scan(suspension, result%kkt, table, text)
          else
-            call text%line('  the compliance matrix is singular at this state')
+            call text%line(trim(merge('  no spring carries the wheels: no contributions ', &
+               '  the compliance matrix is singular at this state', suspension%free_wheels > 0)))
          end if
       end associate
       call print_text(text%text(), error)

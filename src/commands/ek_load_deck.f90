@@ -215,6 +215,7 @@ contains
          end do
          if (size(names) == 0) hint = hint//' no case'
          if (size(known) > size(names)) hint = hint//', and the standard tests'
+         if (suspension%free_wheels > 0) hint = hint//' of travel, roll and steering, as no spring carries the wheels'
          call fail(error, exit_usage, '--case: no case '//quoted(settings%case)//' in '//settings%file//hint)
       else if (settings%method /= '' .and. .not. any(method_names == settings%method)) then
          call fail(error, exit_usage, '--method: expected recursive, corrected or equilibrium, found '//quoted(settings%method))

@@ -6,6 +6,7 @@ module ek_new
    use ek_text, only: quoted, did_you_mean
    use ek_buffer, only: buffer_t
    use ek_library_decks, only: add_deck
+   use ek_points_only, only: keep_points
    use ek_command_line, only: command_line_t
    use ek_console, only: print_text
    implicit none(type, external)
@@ -32,11 +33,13 @@ module ek_new
 
 contains
 
-   !> Prints the deck of a kind to standard output; without a kind, prints the list of kinds.
+   !> Prints the deck of a kind to standard output; without a kind, prints the list of kinds. With --points-only, the
+   !> deck has points and links only.
    subroutine print_new_deck(line, error)
       type(command_line_t), intent(in) :: line
       type(error_t), allocatable, intent(out) :: error      !! exit_usage: unknown kind
-      type(buffer_t) :: out
+      type(buffer_t) :: out, deck, joints
+      character(:), allocatable :: title
       integer :: k
 
       if (line%files%count() == 0) then
@@ -44,7 +47,18 @@ contains
             call out%line(kinds(k)%name//'  '//trim(kinds(k)%summary))
          end do
       else if (any(kinds%name == line%files%line(1))) then
-         call add_deck(line%files%line(1), out)
+         if (.not. line%has('--points-only')) then
+            call add_deck(line%files%line(1), out)
+         else
+            call add_deck(line%files%line(1), deck)
+            call add_deck(line%files%line(1)//'/points', joints)
+            do k = 1, size(kinds)
+               if (kinds(k)%name /= line%files%line(1)) cycle
+               title = trim(kinds(k)%summary)
+               title(1:1) = achar(iachar(title(1:1)) - merge(32, 0, title(1:1) >= 'a'))
+               call keep_points(deck%text(), joints%text(), title, out)
+            end do
+         end if
       else
          call fail(error, exit_usage, 'there is no kind '//quoted(line%files%line(1))// &
             did_you_mean(line%files%line(1), kinds%name)//'; elastokin new lists the kinds')

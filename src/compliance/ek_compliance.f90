@@ -14,6 +14,11 @@
 !> Under a constant moment or a load that rotates with its body, the matrix is not symmetric and is factorised in full
 !> (ek_skew_system). The left responses of unit_responses are then solutions with the transpose.
 !>
+!> If nothing carries the wheels (ek_free_wheels), the matrix without the rows of the rig is singular. The rows of the rig are then
+!> not released. The motion n of all bodies per unit of each row needs no force, and C = c Σ n nᵀ describes wheels that the rows
+!> carry with the compliance c. c cancels in every column that does not depend on a rate. A displacement of the steering driver
+!> moves the bodies with the rows held.
+!>
 !> The contact point given by the deck is fixed to the carrier at the arm a from the wheel centre: a force F there equals the same
 !> force at the centre with the moment a×F, and the point moves by δ + θ×a. Moments and rotations do not depend on the point.
 !>
@@ -34,6 +39,7 @@ module ek_compliance
    public :: compliance_t, new_compliance, ask, wheel_compliance, wheel_compliance_nearby, respond, keep_responses, move_of, &
       unit_responses, solve_further
 
+   real(wp), parameter :: stand_in = 1.0e-5_wp    !! m/N: compliance c of the rows of the rig if nothing carries the wheels
    real(wp), parameter :: singular = 1.0e-14_wp   !! pivot ratio up to which the scaled matrix counts as singular
 
    !> The responses at one state, and the work space for them, allocated once for a model.
@@ -176,13 +182,15 @@ contains
       type(compliance_t), intent(inout) :: self   !! of new_compliance
       integer :: j
 
-      do j = suspension%own_rows() + 1, suspension%constraints()
-         call release(j, kkt)
-      end do
       call set_ports(suspension, state, self)
       call set_loads(kkt%nq + steer_row, self)
-      self%is_skew = has_skew_part(suspension, inputs)
-      if (self%is_skew) then
+      self%is_skew = has_skew_part(suspension, inputs) .and. suspension%free_wheels == 0
+      do j = suspension%own_rows() + 1, merge(suspension%constraints(), 0, suspension%free_wheels == 0)
+         call release(j, kkt)
+      end do
+      if (suspension%free_wheels > 0) then
+         call follow_rig(suspension, steer_row, kkt, self)
+      else if (self%is_skew) then
          call factorise_skew(suspension, state, inputs, singular, kkt, self%skew_system)
          self%is_known = .not. self%skew_system%is_singular
          if (self%is_known) then
@@ -198,6 +206,43 @@ contains
          call read_ports(j, self)
       end do
    end subroutine respond
+
+   !> Computes the responses of a model in which nothing carries the wheels, from the motion per unit of each row of the rig.
+   !> Equation (C.5) of docs/theory/compliance.md.
+   subroutine follow_rig(suspension, steer_row, kkt, self)
+      type(suspension_t), intent(in) :: suspension
+      integer, intent(in) :: steer_row            !! row of the steering driver, 0: none
+      type(kkt_t), intent(inout) :: kkt           !! assembled; on return, with the factors of the matrix with all rows
+      type(compliance_t), intent(inout) :: self   !! with the loads in `columns`
+      real(wp) :: motions(kkt%n, suspension%rig_rows + 1), along_row(suspension%rig_rows)
+      integer :: j, k, rows
+
+      rows = suspension%rig_rows
+      motions = 0.0_wp
+      do j = 1, rows
+         k = suspension%own_rows() + j
+         kkt%store(kkt%pattern%diagonal + k) = 0.0_wp
+         motions(kkt%nq + k, j) = 1.0_wp
+      end do
+      if (steer_row > 0) motions(kkt%nq + steer_row, rows + 1) = 1.0_wp
+      call factorise(kkt)
+      self%is_known = rows >= suspension%free_wheels .and. .not. kkt%is_singular .and. kkt%pivot_ratio > singular
+      if (.not. self%is_known) return
+      call solve_many(kkt, rows + 1, motions)
+      do k = 1, self%solved
+         if (self%load(k) > size(self%response, 1)) then
+            self%columns(:, k) = motions(:, rows + 1)
+            cycle
+         end if
+         do j = 1, rows
+            along_row(j) = stand_in*dot_product(motions(:kkt%nq, j), self%columns(:kkt%nq, k))
+         end do
+         self%columns(:, k) = 0.0_wp
+         do j = 1, rows
+            self%columns(:kkt%nq, k) = self%columns(:kkt%nq, k) + along_row(j)*motions(:kkt%nq, j)
+         end do
+      end do
+   end subroutine follow_rig
 
    !> Factorises the assembled matrix and, unless it is singular, solves for the columns. Input and output are not scaled.
    !> Equation (C.3) of docs/theory/compliance.md.

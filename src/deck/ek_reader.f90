@@ -27,6 +27,7 @@ module ek_reader
    use ek_suspension, only: suspension_t, point_t
    use ek_assembly, only: add_gravity
    use ek_blueprint, only: blueprint_t, new_blueprint
+   use ek_free_wheels, only: count_free_wheels
    use ek_realise, only: new_design, realise
    use ek_case, only: case_t, manoeuvre_t
    implicit none(type, external)
@@ -79,7 +80,9 @@ contains
       if (.not. (is_whole .or. allocated(error))) call fail(error, exit_deck, deck%file//': its numbers give no model (an axis '// &
          'without length, a point on the wrong side, or a number outside its range); please report this deck, as a message '// &
          'should name the line')
-      if (is_whole) call check_manoeuvres(suspension, design%cases, error)
+      if (.not. is_whole) return
+      suspension%free_wheels = count_free_wheels(suspension)
+      call check_manoeuvres(suspension, design%cases, error)
    end subroutine build_design
 
    !> Adds an error for each manoeuvre whose forces the axle cannot carry at the numbers of the deck.

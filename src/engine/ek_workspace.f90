@@ -25,7 +25,7 @@ module ek_workspace
    use ek_preload_problem, only: preload_problem_t
    use ek_diagnosis, only: diagnosis_t
    use ek_case_result, only: solve_options_t, solve_case, solve_mounted, add_remarks, failure_of
-   use ek_examination, only: examine_case, add_distinct
+   use ek_examination, only: examine_case, add_distinct, spring_hint
    use ek_case_work, only: case_work_t, renew_case, make_room, examine_again, put_on_rig, not_examined, examined
    implicit none(type, external)
    private
@@ -234,8 +234,8 @@ contains
          end if
          call prove_case(k, workspace, defects)
          if (this%stage == not_examined) then
-            call fail(error, exit_model, 'case '//quoted(this%case%name)//': the model cannot be solved'//new_line('a')// &
-               defects)
+            call fail(error, exit_model, 'case '//quoted(this%case%name)//': the model cannot be solved'// &
+               spring_hint(workspace%raw, this%case)//new_line('a')//defects)
             return
          end if
       end associate

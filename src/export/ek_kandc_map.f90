@@ -229,9 +229,10 @@ contains
       call unpack_state(result%path%packed(:, 1), state)
       call inputs_at(schedule, result%path%value(1), inputs)
       call wheel_compliance(result%suspension, state, inputs, 0, result%kkt, compliance)
-      if (.not. compliance%is_known) then
+      if (.not. compliance%is_known .or. result%suspension%free_wheels > 0) then
          call fail(error, exit_model, 'the stiffness matrix of the design state is singular without the rig, so there is no '// &
-            'compliance to export: elastokin check shows the motion that nothing holds')
+            'compliance to export: '//trim(merge('no spring carries the wheels                       ', &
+            'elastokin check shows the motion that nothing holds', result%suspension%free_wheels > 0)))
          return
       end if
       allocate (arm(3, compliance%wheels), rates(compliance%wheels), signs(n))

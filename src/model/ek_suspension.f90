@@ -107,6 +107,7 @@ module ek_suspension
       type(load_t), allocatable :: loads(:)
       integer :: rig_rows = 0                  !! number of rows of the rig, which are the last rows, see ek_rig
       type(wheel_t), allocatable :: wheels(:)
+      integer :: free_wheels = 0               !! number of wheels whose height nothing carries, see ek_free_wheels
       type(readout_t), allocatable :: readouts(:)
       type(tilt_t), allocatable :: tilts(:)    !! rated tilts of joints and bushings
       type(axle_t) :: axle = axle_t()

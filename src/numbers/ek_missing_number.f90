@@ -4,6 +4,7 @@ module ek_missing_number
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
    use ek_text, only: str
+   use ek_quantity, only: needs_rate
    use ek_table, only: table_t, column_index, name_length, row_count
    use ek_test_result, only: design_row, state_range
    use ek_table_reading, only: row_at
@@ -11,7 +12,9 @@ module ek_missing_number
    use ek_key_number, only: key_number_t, at_design, slope, anti_phase, at_place, to_contact, largest_of_all
    implicit none(type, external)
    private
-   public :: missing_reason, missing_value
+   public :: missing_reason, missing_value, no_spring
+
+   character(*), parameter :: no_spring = 'no spring carries the wheels'
 
 contains
 
@@ -37,6 +40,8 @@ contains
          text = 'the test was not solved'
       else if (place == 0) then
          text = 'the model does not define '//trim(column)
+      else if (lacks_rate(table, trim(column))) then
+         text = no_spring
       else if (number%how >= slope .and. number%how <= anti_phase) then
          text = 'the model does not define '//trim(number%sources(source)%over(wheel))
          if (over > 0) then
@@ -63,6 +68,8 @@ contains
 
       if (over /= 'factor') then
          text = over//' does not reach '//str(at, 4)//range_of(table)
+      else if (lacks_rate(table, column)) then
+         text = no_spring
       else if (row_at(table, at) > 0) then
          text = column//' is not a number (nan) at this state'
       else if (abs(at) > 0.0_wp) then
@@ -71,6 +78,19 @@ contains
          text = no_design(table)
       end if
    end function missing_value
+
+   !> Whether a column has no value because nothing carries the wheels.
+   pure logical function lacks_rate(table, column)
+      type(table_t), intent(in) :: table
+      character(*), intent(in) :: column
+      integer :: first
+
+      first = 1
+      if (index(column, 'left_') == 1) first = 6
+      if (index(column, 'right_') == 1) first = 7
+      lacks_rate = table%lacks_springs
+      if (lacks_rate) lacks_rate = needs_rate(column(first:))
+   end function lacks_rate
 
    !> Why a table has no design state: it did not converge, or it lies outside the states.
    function no_design(table) result(text)

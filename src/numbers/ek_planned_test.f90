@@ -29,9 +29,9 @@ contains
             allocate (test%prefixes(0), test%sides(0))
             if (len(case%test) > 0) then
                test%kind = case%test
-               test%title = test_title(case, size(suspension%wheels))
+               test%title = test_title(case, size(suspension%wheels), suspension%free_wheels > 0)
                test%is_anti = case%is_anti
-               test%held = held_text(case)
+               test%held = held_text(case, suspension%free_wheels > 0)
             else
                call kind_of_case(suspension, case, test%kind, test%factor_size)
                test%title = title_of(case%name)

@@ -5,6 +5,7 @@ module ek_verdict
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
    use ek_text, only: str, plural
+   use ek_missing_number, only: no_spring
    use ek_key_number, only: key_number_t, has_value
    use ek_number_words, only: steer_effect, target_verdict, short_name, is_equal, is_opposite, sides_text
    use ek_plausible_range, only: size_t, usual_range
@@ -240,7 +241,10 @@ contains
       verdict = ''
       if (.not. has_value(number)) then
          words = ''
-         if (allocated(number%reason)) words = 'no value of '//without_capital(short_name(number))//' ('//number%reason//')'
+         if (allocated(number%reason)) then
+            if (number%reason == no_spring) return         ! nobody expects this number
+            words = 'no value of '//without_capital(short_name(number))//' ('//number%reason//')'
+         end if
          return
       end if
       words = without_capital(short_name(number))
@@ -309,6 +313,7 @@ contains
       type(report_t), intent(in) :: report
       character(:), allocatable :: text
       integer, parameter :: resultant = 4
+      real(wp), parameter :: nothing = 1.0e-6_wp    ! N: links without load
       integer :: e, k
 
       text = ''
@@ -321,7 +326,7 @@ contains
       end if
       if (size(report%loads%ends) == 0) return
       e = maxloc(report%loads%peaks(resultant, :size(report%loads%ends)), dim=1)
-      if (report%loads%case(resultant, e) == 0) return
+      if (report%loads%case(resultant, e) == 0 .or. .not. report%loads%peaks(resultant, e) > nothing) return
       text = 'largest force on a member '//page_number(report%loads%peaks(resultant, e))//' N: '// &
          trim(report%loads%ends(e)%member)//' at '//trim(report%loads%ends(e)%point)//', '// &
          trim(report%loads%cases(report%loads%case(resultant, e)))

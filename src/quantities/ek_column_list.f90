@@ -5,7 +5,7 @@ module ek_column_list
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
    use ek_quantity, only: quantity_t, held_name, unit_size, matrix, pair, tyres, axis, rack, ratio, &
-      car, front, rear, mass, sprung, width, corner
+      car, front, rear, mass, sprung, width, corner, rate
    use ek_suspension, only: suspension_t
    use ek_wheel_side, only: is_axle
    use ek_geometry_columns, only: mass_on
@@ -18,6 +18,9 @@ module ek_column_list
       integer :: used = 0                              !! number of columns
       character(name_length), allocatable :: names(:)
       logical, allocatable :: is_of_matrix(:)          !! the value of this column comes from the compliance matrix
+      logical, allocatable :: is_of_rate(:)            !! the value of this column depends on the springs that carry the wheels
+      logical :: lacks_rate = .false.                  !! nothing carries the wheels: such a column has no value
+      logical :: is_elastic = .false.                  !! forces deform the model, also with the heights of the wheels held
       logical :: is_matrix_wanted = .true.             !! a requested column needs the compliance matrix
       integer, allocatable :: place(:)                 !! index of the value of each column in the vector of its block
       real(wp), allocatable :: unit(:)                 !! unit of each column in SI; 0 for a quantity not yet requested
@@ -36,8 +39,8 @@ contains
       class(column_list_t), intent(inout) :: list
       integer, intent(in) :: n
 
-      allocate (list%names(n), list%is_of_matrix(n), list%place(n), list%unit(n), list%last(0), list%section(0), &
-         list%item(0))
+      allocate (list%names(n), list%is_of_matrix(n), list%is_of_rate(n), list%place(n), list%unit(n), list%last(0), &
+         list%section(0), list%item(0))
    end subroutine begin_list
 
    !> Adds to the current block the quantities of a section that the model defines. A quantity that the model does not define has an
@@ -54,12 +57,13 @@ contains
       if (present(condition)) held = condition
       first = len(prefix) + 1
       do k = 1, size(section)
-         if (iand(section(k)%needs, not(ior(has, matrix))) /= 0) then
+         if (iand(section(k)%needs, not(ior(has, matrix + rate))) /= 0) then
             list%offered = list%offered + 1
             cycle
          end if
          call add_column(list, prefix, iand(section(k)%needs, matrix) /= 0)
          list%unit(list%used) = 0.0_wp
+         list%is_of_rate(list%used) = iand(section(k)%needs, rate) /= 0 .and. (held == 1 .or. list%is_elastic)
          associate (name => list%names(list%used))          ! not put together first: that asks for memory
             name(first:) = section(k)%name
             if (index(section(k)%name, '*') > 0) name(first:) = held_name(section(k)%name, held)
@@ -78,6 +82,7 @@ contains
       if (list%used == n) then
          list%names = [character(name_length) :: list%names, list%names]
          list%is_of_matrix = [list%is_of_matrix, list%is_of_matrix]
+         list%is_of_rate = [list%is_of_rate, list%is_of_rate]
          list%place = [list%place, list%place]
          list%unit = [list%unit, list%unit]
       end if
@@ -87,6 +92,7 @@ contains
       list%names(n) = name
       list%is_of_matrix(n) = .false.
       if (present(is_of_matrix)) list%is_of_matrix(n) = is_of_matrix
+      list%is_of_rate(n) = .false.
       list%place(n) = list%offered
       list%unit(n) = 1.0_wp
    end subroutine add_column
@@ -102,7 +108,8 @@ contains
       list%offered = 0
    end subroutine end_block
 
-   !> Copies the requested values of a block from its vector. Values are NaN if they need a matrix that is unknown.
+   !> Copies the requested values of a block from its vector. Values are NaN if they need a matrix that is unknown, or a rate that
+   !> the model does not have.
    pure subroutine fill_block(list, block, vector, is_known, values)
       class(column_list_t), intent(in) :: list
       integer, intent(in) :: block
@@ -125,6 +132,10 @@ contains
             if (.not. list%is_of_matrix(k)) values(k) = column_value(list, k, vector)
          end do
       end if
+      if (.not. list%lacks_rate) return
+      do j = first, list%last_asked(block)
+         if (list%is_of_rate(list%asked(j))) values(list%asked(j)) = ieee_value(1.0_wp, ieee_quiet_nan)
+      end do
    end subroutine fill_block
 
    !> The value of a column in its unit, from the vector of its block.

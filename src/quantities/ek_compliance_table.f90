@@ -1,5 +1,6 @@
 !> The compliance matrix as a table over the states of a sweep, and at a single state.
 module ek_compliance_table
+   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp, degree
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t
@@ -119,6 +120,7 @@ contains
          end associate
       end do
       c = compliance%response(:size(c, 1), :size(c, 2))
+      if (suspension%free_wheels > 0) c = ieee_value(1.0_wp, ieee_quiet_nan)      ! without limit
    end subroutine read_compliance
 
    !> Writes the entries of a matrix, row by row, in the units of the columns and the frame of the deck.

@@ -119,6 +119,7 @@ contains
       table = new_table(observer%columns, last - first + 1)
       table%is_along_arc = case%follows_arc
       table%is_of_rows = path%is_table
+      table%lacks_springs = suspension%free_wheels > 0
       if (allocated(path%is_scheduled)) then
          if (.not. all(path%is_scheduled)) table%is_scheduled = path%is_scheduled(first:last)
       end if

@@ -34,6 +34,7 @@ module ek_table
       logical, allocatable :: is_scheduled(:)             !! .false.: the state of the row is not of the schedule of its case; a
                                                           !! number is read there. Not allocated: all are
       logical :: is_along_arc = .false.                   !! the states are at equal distances along a path
+      logical :: lacks_springs = .false.                  !! nothing carries the wheels: columns that depend on a rate are NaN
       logical :: is_of_rows = .false.                     !! the states are those of the rows of a load table or of a grid
       type(message_list_t) :: header                      !! lines above the columns, each written after '# '
       type(row_name_t), allocatable :: names(:)           !! name of each row, in a last column `name`; without names: not allocated

@@ -14,6 +14,9 @@
 !> is fixed to its carrier, as with a locked brake; a freely rolling wheel transmits a force at its centre only.
 !> If a solid axle reacts the drive torque, the driving force acts at the contact point.
 !>
+!> In a roll test, the wheels find their mean height by their loads. If nothing carries the wheels (ek_free_wheels), a second driver
+!> holds this height at design.
+!>
 !> The parts of a rig are created once, with their names. `set_rig_numbers` computes every number of these parts that a design can
 !> change: the points of its heights and loads, the tyres on its road, the range of the swept value.
 module ek_rig
@@ -34,7 +37,8 @@ module ek_rig
    use ek_measure, only: measure_t, global_gap
    implicit none(type, external)
    private
-   public :: rig_t, mounted_case_t, new_rig, rig_of, add_height, put_on, mount, mount_case, mount_again, take_off, set_rig_numbers
+   public :: rig_t, mounted_case_t, new_rig, rig_of, add_height, put_on, mount, mount_case, mount_again, take_off, &
+      set_rig_numbers, lacks_springs
 
    real(wp), parameter :: up(3) = [0.0_wp, 0.0_wp, 1.0_wp]
 
@@ -166,6 +170,19 @@ contains
       suspension%rig_rows = base%rig_rows + size(rig%rows)
    end subroutine put_on
 
+   !> Whether a case cannot be solved because nothing carries the wheels: its rig does not hold the height of every free wheel. A
+   !> case that cannot be mounted has its own reason.
+   pure logical function lacks_springs(suspension, case)
+      type(suspension_t), intent(in) :: suspension    !! completed, not on a rig
+      type(case_t), intent(in) :: case
+      type(rig_t) :: rig
+
+      lacks_springs = .false.
+      if (suspension%free_wheels == 0 .or. .not. is_mountable(case)) return
+      rig = rig_of(suspension, case)
+      lacks_springs = size(rig%rows) < suspension%free_wheels
+   end function lacks_springs
+
    !> The rig of a case. A case without a test uses the driver or load that it names.
    pure type(rig_t) function rig_of(suspension, case) result(rig)
       type(suspension_t), intent(in) :: suspension    !! completed, not on a rig
@@ -208,8 +225,11 @@ contains
          call move_heights(test, suspension, case, wheels, control, rig)
       case (rolls)
          call add_height(rig, suspension, 'rig_roll', case%where, wheels, [1.0_wp, -1.0_wp], control)
+         if (suspension%free_wheels > 0) &
+            call add_height(rig, suspension, 'rig_heave', case%where, wheels, [1.0_wp, 1.0_wp], control)
          call append_actuation(rig%actuations, '', 'rig_roll', 1.0_wp, follows_tangent)      ! times the track
          if (control == 'road') rig%place_name = 'roll of the road, left up'
+         if (suspension%free_wheels > 0) rig%place_name = rig%place_name//', heave held'
       case (steers)
          call append_actuation(rig%actuations, '', case%drive, 1.0_wp, follows_place)
          rig%place_name = 'travel of '//case%drive

@@ -133,7 +133,7 @@ contains
       call inputs_at(schedule, path%value(k), inputs)
       call find_linear_columns(suspension, state, inputs, kkt, self%columns, self%values)
       associate (compliance => self%columns%kandc%compliance)
-         self%is_known = compliance%is_known
+         self%is_known = compliance%is_known .and. suspension%free_wheels == 0
          if (.not. self%is_known) return
          call split_compliance(suspension, state, inputs, kkt, compliance, self%shares)
          n = 6*compliance%wheels

@@ -219,7 +219,7 @@ contains
       allocate (values(size(columns%columns%asked)))
       call find_linear_columns(suspension, state, inputs, kkt, columns%columns, values)
       associate (compliance => columns%columns%kandc%compliance, shares => columns%shares)
-         self%is_known = compliance%is_known
+         self%is_known = compliance%is_known .and. suspension%free_wheels == 0
          if (.not. self%is_known) return
          call split_compliance(suspension, state, inputs, kkt, compliance, shares)
          call find_drivers(suspension, state, shares)

@@ -9,7 +9,7 @@ module ek_quantity
    use ek_kinds, only: wp, degree, millimetre
    implicit none(type, external)
    private
-   public :: name_length, quantity_t, quantity_named, held_name, label_of, without_phase, column_of_stem
+   public :: name_length, quantity_t, quantity_named, needs_rate, held_name, label_of, without_phase, column_of_stem
    public :: unit_of, unit_text, unit_ending, unit_size, slope_unit, head_with_unit
 
    integer, parameter :: name_length = 192    !! longest column name: two names of a deck (63 letters each) and their suffixes
@@ -22,10 +22,13 @@ module ek_quantity
       real(wp) :: span = 0.0_wp       !! least span of a chart, in the unit of the column; smaller spans are drawn flat; 0: no chart
    end type quantity_t
 
-   ! Conditions: without one of them the model has no such column; without a known matrix the value is not a number
+   ! Conditions: without one of them the model has no such column; without a known matrix the value is not a number. A quantity with
+   ! `rate` depends on the rates of the springs that carry the wheels; if nothing carries the wheels, its value is not a number.
+   ! With '*' in its name, this holds for load_held, and for height_held if forces deform the model
    integer, parameter, public :: matrix = 1, pair = 2, tyres = 4, axis = 8, rack = 16, ratio = 32, car = 64, front = 128, &
-      rear = 256, mass = 512, sprung = 1024, width = 2048, corner = 4096
-   integer, parameter :: turning = pair + car + rack, own = matrix + pair, shod = matrix + tyres, steered = matrix + axis
+      rear = 256, mass = 512, sprung = 1024, width = 2048, corner = 4096, rate = 8192
+   integer, parameter :: turning = pair + car + rack, own = matrix + pair, shod = matrix + tyres + rate, steered = matrix + axis, &
+      soft = matrix + rate, both = own + rate, soft_axis = steered + rate
 
    real(wp), parameter :: fine = 0.05_wp, middle = 1.0_wp, wide = 10.0_wp
    character(*), parameter :: inward = '+ top inward', outward = '+ top outward', rearward = '+ top rearward', &
@@ -56,7 +59,7 @@ module ek_quantity
       quantity_t('inclination_deg', pair, 'Camber relative to the road', outward, fine)]
 
    type(quantity_t), parameter, public :: wheel_load(*) = [ &
-      quantity_t('vertical_force_n', 0, 'Wheel load', 'ground on wheel', wide)]
+      quantity_t('vertical_force_n', rate, 'Wheel load', 'ground on wheel', wide)]
 
    type(quantity_t), parameter, public :: instant_axis(*) = [ &
       quantity_t('instant_caster_deg', matrix, 'Caster, instant axis', rearward, fine), &
@@ -66,8 +69,8 @@ module ek_quantity
       quantity_t('instant_spindle_length_mm', matrix), quantity_t('instant_spindle_offset_mm', matrix)]
 
    type(quantity_t), parameter, public :: wheel_rates(*) = [ &
-      quantity_t('wheel_rate_n_per_mm', matrix, 'Wheel rate', 'wheels in parallel travel', middle), &
-      quantity_t('single_wheel_rate_load_held_n_per_mm', own), quantity_t('single_wheel_rate_height_held_n_per_mm', own), &
+      quantity_t('wheel_rate_n_per_mm', soft, 'Wheel rate', 'wheels in parallel travel', middle), &
+      quantity_t('single_wheel_rate_load_held_n_per_mm', both), quantity_t('single_wheel_rate_height_held_n_per_mm', both), &
       quantity_t('ride_rate_n_per_mm', shod, 'Ride rate', 'with the tyre', middle), &
       quantity_t('hop_rate_n_per_mm', shod, 'Hop rate', 'tyre in parallel')]
 
@@ -97,68 +100,68 @@ module ek_quantity
 
    ! twice: load_held: constant vertical forces; height_held: constant heights of the wheel centres
    type(quantity_t), parameter, public :: wheel_forces(*) = [ &
-      quantity_t('lateral_in_*_deflection_mm_per_kn', matrix, 'Lateral deflection'//in_phase, right, 0.02_wp), &
-      quantity_t('lateral_in_*_centre_deflection_mm_per_kn', matrix), &
-      quantity_t('lateral_in_*_steer_deg_per_kn', matrix, 'Lateral force steer'//in_phase, to_left//under, 0.002_wp), &
-      quantity_t('lateral_in_*_camber_deg_per_kn', matrix, 'Lateral force camber'//in_phase, outward//under, 0.002_wp), &
-      quantity_t('lateral_in_trail_*_deflection_mm_per_kn', matrix), &
-      quantity_t('lateral_in_trail_*_centre_deflection_mm_per_kn', matrix), &
-      quantity_t('lateral_in_trail_*_steer_deg_per_kn', matrix), quantity_t('lateral_in_trail_*_camber_deg_per_kn', matrix), &
-      quantity_t('aligning_in_*_steer_deg_per_100nm', matrix, 'Aligning torque steer'//in_phase, &
+      quantity_t('lateral_in_*_deflection_mm_per_kn', soft, 'Lateral deflection'//in_phase, right, 0.02_wp), &
+      quantity_t('lateral_in_*_centre_deflection_mm_per_kn', soft), &
+      quantity_t('lateral_in_*_steer_deg_per_kn', soft, 'Lateral force steer'//in_phase, to_left//under, 0.002_wp), &
+      quantity_t('lateral_in_*_camber_deg_per_kn', soft, 'Lateral force camber'//in_phase, outward//under, 0.002_wp), &
+      quantity_t('lateral_in_trail_*_deflection_mm_per_kn', soft), &
+      quantity_t('lateral_in_trail_*_centre_deflection_mm_per_kn', soft), &
+      quantity_t('lateral_in_trail_*_steer_deg_per_kn', soft), quantity_t('lateral_in_trail_*_camber_deg_per_kn', soft), &
+      quantity_t('aligning_in_*_steer_deg_per_100nm', soft, 'Aligning torque steer'//in_phase, &
       '+ to the left under a torque to the left'), &
-      quantity_t('aligning_in_*_camber_deg_per_100nm', matrix), &
-      quantity_t('lateral_anti_*_deflection_mm_per_kn', own), quantity_t('lateral_anti_*_centre_deflection_mm_per_kn', own), &
-      quantity_t('lateral_anti_*_steer_deg_per_kn', own), quantity_t('lateral_anti_*_camber_deg_per_kn', own), &
-      quantity_t('lateral_anti_trail_*_deflection_mm_per_kn', own), &
-      quantity_t('lateral_anti_trail_*_centre_deflection_mm_per_kn', own), &
-      quantity_t('lateral_anti_trail_*_steer_deg_per_kn', own), quantity_t('lateral_anti_trail_*_camber_deg_per_kn', own), &
-      quantity_t('aligning_anti_*_steer_deg_per_100nm', own), quantity_t('aligning_anti_*_camber_deg_per_100nm', own), &
-      quantity_t('braking_*_deflection_mm_per_kn', matrix, 'Braking deflection, *', '+ patch moves rearward'), &
-      quantity_t('braking_*_steer_deg_per_kn', matrix, 'Braking steer, *', to_left), &
-      quantity_t('braking_*_camber_deg_per_kn', matrix), quantity_t('braking_*_caster_deg_per_kn', steered), &
-      quantity_t('braking_*_toe_deg_per_kn', matrix), quantity_t('braking_*_rotation_x_deg_per_kn', matrix), &
-      quantity_t('braking_*_rotation_y_deg_per_kn', matrix), quantity_t('braking_*_rotation_z_deg_per_kn', matrix), &
-      quantity_t('braking_*_centre_deflection_mm_per_kn', matrix), quantity_t('traction_*_deflection_mm_per_kn', matrix), &
-      quantity_t('traction_*_steer_deg_per_kn', matrix), quantity_t('traction_*_camber_deg_per_kn', matrix), &
-      quantity_t('traction_*_caster_deg_per_kn', steered), quantity_t('traction_*_toe_deg_per_kn', matrix), &
-      quantity_t('traction_*_rotation_x_deg_per_kn', matrix), &
-      quantity_t('traction_*_rotation_y_deg_per_kn', matrix, 'Traction wind-up, *', 'rotation of the carrier about y'), &
-      quantity_t('traction_*_rotation_z_deg_per_kn', matrix)]
+      quantity_t('aligning_in_*_camber_deg_per_100nm', soft), &
+      quantity_t('lateral_anti_*_deflection_mm_per_kn', both), quantity_t('lateral_anti_*_centre_deflection_mm_per_kn', both), &
+      quantity_t('lateral_anti_*_steer_deg_per_kn', both), quantity_t('lateral_anti_*_camber_deg_per_kn', both), &
+      quantity_t('lateral_anti_trail_*_deflection_mm_per_kn', both), &
+      quantity_t('lateral_anti_trail_*_centre_deflection_mm_per_kn', both), &
+      quantity_t('lateral_anti_trail_*_steer_deg_per_kn', both), quantity_t('lateral_anti_trail_*_camber_deg_per_kn', both), &
+      quantity_t('aligning_anti_*_steer_deg_per_100nm', both), quantity_t('aligning_anti_*_camber_deg_per_100nm', both), &
+      quantity_t('braking_*_deflection_mm_per_kn', soft, 'Braking deflection, *', '+ patch moves rearward'), &
+      quantity_t('braking_*_steer_deg_per_kn', soft, 'Braking steer, *', to_left), &
+      quantity_t('braking_*_camber_deg_per_kn', soft), quantity_t('braking_*_caster_deg_per_kn', soft_axis), &
+      quantity_t('braking_*_toe_deg_per_kn', soft), quantity_t('braking_*_rotation_x_deg_per_kn', soft), &
+      quantity_t('braking_*_rotation_y_deg_per_kn', soft), quantity_t('braking_*_rotation_z_deg_per_kn', soft), &
+      quantity_t('braking_*_centre_deflection_mm_per_kn', soft), quantity_t('traction_*_deflection_mm_per_kn', soft), &
+      quantity_t('traction_*_steer_deg_per_kn', soft), quantity_t('traction_*_camber_deg_per_kn', soft), &
+      quantity_t('traction_*_caster_deg_per_kn', soft_axis), quantity_t('traction_*_toe_deg_per_kn', soft), &
+      quantity_t('traction_*_rotation_x_deg_per_kn', soft), &
+      quantity_t('traction_*_rotation_y_deg_per_kn', soft, 'Traction wind-up, *', 'rotation of the carrier about y'), &
+      quantity_t('traction_*_rotation_z_deg_per_kn', soft)]
 
    type(quantity_t), parameter, public :: wheel_jacking(*) = [ &
       quantity_t('lateral_in_jacking_n_per_kn', own, 'Jacking, in phase', '+ the ground pushes up'//under), &
       quantity_t('lateral_anti_jacking_n_per_kn', own)]
 
    type(quantity_t), parameter, public :: wheel_stiffness(*) = [ &
-      quantity_t('fore_aft_stiffness_n_per_mm', matrix, 'Fore-aft stiffness', at_centre), &
-      quantity_t('lateral_stiffness_n_per_mm', matrix, 'Lateral stiffness', at_centre), &
-      quantity_t('vertical_stiffness_n_per_mm', matrix, 'Vertical stiffness', at_centre), &
-      quantity_t('rotational_stiffness_x_nm_per_deg', matrix), quantity_t('rotational_stiffness_y_nm_per_deg', matrix), &
-      quantity_t('rotational_stiffness_z_nm_per_deg', matrix)]
+      quantity_t('fore_aft_stiffness_n_per_mm', soft, 'Fore-aft stiffness', at_centre), &
+      quantity_t('lateral_stiffness_n_per_mm', soft, 'Lateral stiffness', at_centre), &
+      quantity_t('vertical_stiffness_n_per_mm', soft, 'Vertical stiffness', at_centre), &
+      quantity_t('rotational_stiffness_x_nm_per_deg', soft), quantity_t('rotational_stiffness_y_nm_per_deg', soft), &
+      quantity_t('rotational_stiffness_z_nm_per_deg', soft)]
 
    type(quantity_t), parameter, public :: wheel_pitch(*) = [ &
       quantity_t('anti_dive_percent', matrix + front, 'Anti-dive', 'braking, front', middle), &
       quantity_t('anti_lift_drive_percent', matrix + front, 'Anti-lift, drive', 'drive, front', middle), &
       quantity_t('anti_lift_brake_percent', matrix + rear, 'Anti-lift, braking', 'braking, rear', middle), &
       quantity_t('anti_squat_percent', matrix + rear, 'Anti-squat', 'drive, rear', middle), &
-      quantity_t('brake_dive_mm_per_g', matrix + front + mass, 'Dive, braking', body_down), &
-      quantity_t('drive_lift_mm_per_g', matrix + front + mass, 'Lift, drive', body_up), &
-      quantity_t('brake_lift_mm_per_g', matrix + rear + mass, 'Lift, braking', body_up), &
-      quantity_t('drive_squat_mm_per_g', matrix + rear + mass, 'Squat, drive', body_down)]
+      quantity_t('brake_dive_mm_per_g', soft + front + mass, 'Dive, braking', body_down), &
+      quantity_t('drive_lift_mm_per_g', soft + front + mass, 'Lift, drive', body_up), &
+      quantity_t('brake_lift_mm_per_g', soft + rear + mass, 'Lift, braking', body_up), &
+      quantity_t('drive_squat_mm_per_g', soft + rear + mass, 'Squat, drive', body_down)]
 
    type(quantity_t), parameter, public :: axle_rates(*) = [ &
-      quantity_t('suspension_roll_rate_nm_per_deg', own, 'Suspension roll rate', '', wide), &
-      quantity_t('total_roll_rate_nm_per_deg', own + tyres, 'Total roll rate', 'with the tyres', wide), &
-      quantity_t('tramp_rate_nm_per_deg', own + tyres, 'Tramp rate', 'tyres in parallel')]
+      quantity_t('suspension_roll_rate_nm_per_deg', both, 'Suspension roll rate', '', wide), &
+      quantity_t('total_roll_rate_nm_per_deg', both + tyres, 'Total roll rate', 'with the tyres', wide), &
+      quantity_t('tramp_rate_nm_per_deg', both + tyres, 'Tramp rate', 'tyres in parallel')]
 
    type(quantity_t), parameter, public :: axle_now(*) = [ &
-      quantity_t('roll_moment_nm', pair, 'Roll moment', '+ left wheel loaded', wide), quantity_t('axle_roll_deg', pair)]
+      quantity_t('roll_moment_nm', pair + rate, 'Roll moment', '+ left wheel loaded', wide), quantity_t('axle_roll_deg', pair)]
 
    type(quantity_t), parameter, public :: roll_centres(*) = [ &
       quantity_t('roll_centre_y_mm', own, 'Roll centre, lateral', 'y of the deck', middle), &
       quantity_t('roll_centre_z_mm', own, 'Roll centre, vertical', 'z of the deck', middle), &
       quantity_t('roll_centre_height_mm', own, 'Roll centre height', '+ above the ground', middle), &
-      quantity_t('roll_centre_with_tyres_y_mm', own + tyres), quantity_t('roll_centre_with_tyres_height_mm', own + tyres), &
+      quantity_t('roll_centre_with_tyres_y_mm', both + tyres), quantity_t('roll_centre_with_tyres_height_mm', both + tyres), &
       quantity_t('force_roll_centre_height_mm', own, 'Force-based roll centre height', '+ above the ground')]
 
    type(quantity_t), parameter, public :: of_turn(*) = [ &
@@ -185,7 +188,7 @@ module ek_quantity
    type(quantity_t), parameter, public :: wheel_slopes(*) = [ &
       quantity_t('recession_gradient_mm_per_m', matrix, 'Recession gradient', '+ rearward in bump', middle), &
       quantity_t('steer_camber_deg_per_deg', matrix + rack, 'Camber per steer', '+ top outward, steer to the left', 0.01_wp), &
-      quantity_t('ride_frequency_hz', matrix + sprung, 'Ride frequency', 'ride rate; sprung mass or whole wheel load', 0.05_wp)]
+      quantity_t('ride_frequency_hz', soft + sprung, 'Ride frequency', 'ride rate; sprung mass or whole wheel load', 0.05_wp)]
 
    type(quantity_t), parameter, public :: axle_geometry(*) = [ &
       quantity_t('total_track_mm', pair, 'Total track', 'distance of the patches', middle), &
@@ -195,7 +198,7 @@ module ek_quantity
       quantity_t('wall_to_wall_m', turning + corner, 'Turning circle, wall to wall', '', middle)]
 
    type(quantity_t), parameter, public :: of_rack(*) = [ &
-      quantity_t('steering_rack_force_n', rack, 'Rack force', 'reaction of the driver', wide)]
+      quantity_t('steering_rack_force_n', rack + rate, 'Rack force', 'reaction of the driver', wide)]
 
    type(quantity_t), parameter, public :: of_state(*) = [quantity_t('state'), quantity_t('factor'), quantity_t('converged'), &
       quantity_t('stable'), quantity_t('near_singular'), quantity_t('iterations'), quantity_t('constraint_error')]
@@ -246,6 +249,17 @@ contains
       quantity%name = name
       quantity%title = name
    end function quantity_named
+
+   !> Whether a column depends on the rates of the springs that carry the wheels.
+   pure logical function needs_rate(name)
+      character(*), intent(in) :: name      !! column without the wheel's prefix
+      integer :: k
+
+      needs_rate = .false.
+      do k = 1, size(all_quantities)
+         if (iand(all_quantities(k)%needs, rate) /= 0) needs_rate = needs_rate .or. held_name(all_quantities(k)%name, 1) == name
+      end do
+   end function needs_rate
 
    !> A name in which '*' is replaced by the condition: load_held (1) or height_held (2).
    pure function held_name(name, condition) result(full)

@@ -1,7 +1,7 @@
 # Makes ek_library_decks.f90 of decks of the library, for `elastokin new`:
 #   cmake "-DDECKS=kind=folder/deck.nml,..." -DINPUT=input -DMODULE=ek_library_decks.f90 -P embed.cmake
 # Each deck becomes one text: included files take the place of their &include, without the comment at their beginning. The
-# references of the first comment to other files are renewed.
+# references of the first comment to other files are renewed. points/kind.nml becomes the text of `kind/points`.
 include(${CMAKE_CURRENT_LIST_DIR}/../../embed.cmake)
 
 set(cases "")
@@ -22,6 +22,9 @@ foreach(deck IN LISTS DECKS)
   string(REPLACE " See README.md." " See input/${folder}/README.md of elastokin." text "${text}")
   ek_statements(statements "         " "${text}")
   string(APPEND cases "      case ('${kind}')\n${statements}")
+  file(READ "${CMAKE_CURRENT_LIST_DIR}/points/${kind}.nml" text)
+  ek_statements(statements "         " "${text}")
+  string(APPEND cases "      case ('${kind}/points')\n${statements}")
 endforeach()
 file(WRITE ${MODULE} "!> Decks of the library as text, made by embed.cmake from the folder input.
 module ek_library_decks
@@ -34,7 +37,7 @@ module ek_library_decks
 
 contains
 
-   !> Appends the deck of a kind; nothing if there is no such kind.
+   !> Appends the deck of a kind, or the joints of `kind/points`; nothing if there is no such kind.
    pure subroutine add_deck(kind, out)
       character(*), intent(in) :: kind
       type(buffer_t), intent(inout) :: out
