@@ -100,6 +100,12 @@ module ek_group
       about='frame: x-rear is x rearward, y to the right; iso is x forward, y to the left; z is up'), &
       key_t(model_group, 'balance', word, 1, 1, .false., default='none', &
       about='preload trim, by which the design position is an equilibrium under the constant loads'), &
+      key_t(model_group, 'start', word, 1, 1, .false., &
+      about='state from which all tests start, if neither balance nor the constant loads hold the design height'), &
+      key_t(model_group, 'start_height', number, 1, 1, .false., dimension=length, &
+      about='height of the wheels above design from which all tests start, instead of start'), &
+      key_t(model_group, 'start_load', number, 1, 1, .false., positive, dimension=force, &
+      about='vertical force of the road on each wheel from which all tests start, instead of start'), &
       key_t(model_group, 'gravity', number, 1, 1, .false., not_negative, ' (m/s², downward)', dimension=acceleration, &
       about='gravity, downward; 0 if not given'), &
       key_t(model_group, 'plausible', switch, 1, 1, .false., default='.true.', about='whether implausible numbers are reported'), &

@@ -14,7 +14,7 @@ module ek_reader
    use ek_deck, only: deck_t, finish_deck
    use ek_attachment, only: units_in_deck
    use ek_deck_reading, only: deck_reading_t, complain, complain_of_all, where_of, line_of, choice, text_of, switch_of, &
-      number_of, is_second, slot
+      number_of, is_second, slot, has_key, refuse
    use ek_parameter, only: parameters_t
    use ek_reader_bodies, only: read_point, read_body, read_mass, read_load, read_wheel, read_axle, read_steering
    use ek_reader_joints, only: read_measure, read_joint
@@ -25,7 +25,7 @@ module ek_reader
    use ek_reader_cases, only: read_case, refuse_one_file_for_two
    use ek_load_table, only: read_tables
    use ek_suspension, only: suspension_t, point_t
-   use ek_assembly, only: add_gravity
+   use ek_assembly, only: add_gravity, add_start_loads
    use ek_blueprint, only: blueprint_t, new_blueprint
    use ek_realise, only: new_design, realise
    use ek_case, only: case_t, manoeuvre_t
@@ -284,7 +284,38 @@ contains
       end do
       call move_alloc(points, reading%plan%prototype%points)
       call add_gravity(reading%plan%prototype)
+      call choose_start(reading)
    end subroutine complete_prototype
+
+   !> Selects the start state of the tests (ek_start), and adds the loads that it needs. A preload trim holds the design position,
+   !> so that only a height or a load of the deck gives another state.
+   subroutine choose_start(reading)
+      type(deck_reading_t), intent(inout) :: reading
+      logical :: has_loads
+      integer :: k
+
+      has_loads = .false.
+      associate (plan => reading%plan, model => reading%plan%prototype)
+         do k = 1, size(plan%loads)
+            if (model%loads(k)%is_case .or. all(model%wheels%body /= model%loads(k)%body)) cycle
+            if (plan%loads(k)%force == 0) cycle
+            has_loads = has_loads .or. abs(reading%parameters%x(plan%loads(k)%force + 2)) > 0.0_wp
+         end do
+         model%must_start = model%start /= '' .or. any(plan%start > 0)
+         if (plan%start(2) > 0) then
+            model%start = 'wheel_load'
+         else if (plan%start(1) > 0) then
+            model%start = 'height'
+         else if (model%balance /= 'none') then
+            model%start = ''
+         else if (model%start == '') then
+            model%start = merge('loads ', 'height', has_loads)
+            model%start = trim(model%start)
+         end if
+         if (size(model%wheels) == 0) model%start = ''
+         if (model%start == 'height' .or. model%start == 'wheel_load') call add_start_loads(model)
+      end associate
+   end subroutine choose_start
 
    !> Whether a file contains groups of a study or of a fit, and no groups of a deck.
    pure logical function is_study(records)
@@ -405,7 +436,7 @@ contains
    !> Reads &model: name, title, units, axes, preload trim (`balance`), gravity, and whether implausible numbers are reported.
    subroutine read_model(reading)
       type(deck_reading_t), intent(inout) :: reading
-      character(:), allocatable :: balance
+      character(:), allocatable :: balance, start
       integer :: c, gravity
 
       if (is_second(reading)) return
@@ -415,14 +446,22 @@ contains
       call choice(reading, 'mass', c)
       call choice(reading, 'axes', c)
       call choice(reading, 'balance', c, word=balance)
+      call choice(reading, 'start', c, word=start)
       call units_in_deck(reading%records(reading%k:reading%k), reading%units, reading%plan%is_iso)
       call slot(reading, 'gravity', gravity)
       reading%plan%gravity = gravity
+      call slot(reading, 'start_height', reading%plan%start(1))
+      call slot(reading, 'start_load', reading%plan%start(2))
+      if (has_key(reading, 'start_load')) call refuse(reading, [character(12) :: 'start', 'start_height'], &
+         'start_load gives the start state; remove one of the two')
+      if (start == 'loads') call refuse(reading, ['start_height'], &
+         'start = ''loads'' lets the wheels settle; remove one of the two')
       associate (model => reading%plan%prototype)
          model%gravity = number_of(reading, 'gravity', 0.0_wp)
          model%name = text_of(reading, 'name')
          model%title = text_of(reading, 'title')
          model%balance = balance
+         model%start = start
          model%is_iso = reading%plan%is_iso
          model%units = reading%units
          model%is_plausible_wanted = switch_of(reading, 'plausible')
