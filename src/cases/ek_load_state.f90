@@ -111,6 +111,7 @@ contains
       else
          text = 'the deck''s loads are '//stand_text(own, 'N')
       end if
+      if (suspension%state /= '') text = 'load state '//quoted(suspension%state)//': '//text
       if (suspension%start == 'loads') then
          text = text//'; all tests start where the wheels settle under them, '//stand_text(rise/millimetre, 'mm')// &
             ' from design height'

@@ -9,7 +9,8 @@ module ek_reader
    use ek_record, only: single, record_t, hand_over, element, place_of, own_name
    use ek_group, only: group_names, group_number, is_deck_group, names_of_groups, model_group, point_group, body_group, &
       measure_group, joint_group, bushing_group, spring_groups, case_group, curve_group, mass_group, wheel_group, axle_group, &
-      steering_group, load_group, manoeuvre_group, target_group, word_length, record_head, has_results
+      steering_group, load_group, manoeuvre_group, target_group, word_length, record_head, has_results, &
+      load_state_group
    use ek_namelist, only: check_record, name_fault
    use ek_deck, only: deck_t, finish_deck
    use ek_attachment, only: units_in_deck
@@ -34,8 +35,9 @@ module ek_reader
    public :: definition_t, read_design, build_design, build_model
 
    !> The order of reading: groups to which others refer come first.
-   integer, parameter :: reading_order(*) = [model_group, point_group, curve_group, body_group, mass_group, measure_group, &
-      joint_group, bushing_group, spring_groups, wheel_group, axle_group, steering_group, load_group, manoeuvre_group]
+   integer, parameter :: reading_order(*) = [model_group, load_state_group, point_group, curve_group, body_group, mass_group, &
+      measure_group, joint_group, bushing_group, spring_groups, wheel_group, axle_group, steering_group, load_group, &
+      manoeuvre_group]
 
    !> A deck as a design space: realise(plan, x) is a suspension.
    type :: definition_t
@@ -236,6 +238,8 @@ contains
       select case (reading%cards(reading%k)%group)
       case (model_group)
          call read_model(reading)
+      case (load_state_group)
+         call read_load_state(reading)
       case (point_group)
          call read_point(reading)
       case (curve_group)
@@ -456,6 +460,7 @@ contains
          'start_load gives the start state; remove one of the two')
       if (start == 'loads') call refuse(reading, ['start_height'], &
          'start = ''loads'' lets the wheels settle; remove one of the two')
+      call check_state(reading)
       associate (model => reading%plan%prototype)
          model%gravity = number_of(reading, 'gravity', 0.0_wp)
          model%name = text_of(reading, 'name')
@@ -468,5 +473,34 @@ contains
          model%where = where_of(reading)
       end associate
    end subroutine read_model
+
+   !> Checks that the deck has the load state that &model names, and no other start state.
+   subroutine check_state(reading)
+      type(deck_reading_t), intent(inout) :: reading
+      character(word_length), allocatable :: names(:)
+      character(:), allocatable :: state
+      integer :: k
+
+      state = text_of(reading, 'state')
+      reading%plan%prototype%state = state
+      if (state == '') return
+      call refuse(reading, [character(12) :: 'start', 'start_height', 'start_load'], &
+         'state names the start state; remove one of the two')
+      names = pack([(reading%cards(k)%name, k=1, size(reading%cards))], reading%cards%group == load_state_group)
+      if (any([(lower(names(k)) == lower(state), k=1, size(names))])) return
+      call complain(reading, 'state', 'there is no &load_state '//quoted(state)//did_you_mean(state, names))
+   end subroutine check_state
+
+   !> Reads &load_state: its height or its wheel load, which are the numbers of the start state if &model names this load state.
+   subroutine read_load_state(reading)
+      type(deck_reading_t), intent(inout) :: reading
+      integer :: height, load
+
+      if (has_key(reading, 'height') .eqv. has_key(reading, 'wheel_load')) &
+         call complain(reading, '', "give either 'height' or 'wheel_load'")
+      call slot(reading, 'height', height)
+      call slot(reading, 'wheel_load', load)
+      if (lower(text_of(reading, 'name')) == lower(reading%plan%prototype%state)) reading%plan%start = [height, load]
+   end subroutine read_load_state
 
 end module ek_reader

@@ -99,6 +99,7 @@ module ek_suspension
       character(:), allocatable :: balance   !! 'none', 'spring' or 'all'
       character(:), allocatable :: start     !! start state of the tests: '' (as trimmed), 'height', 'loads' or 'wheel_load', see
                                              !! ek_start
+      character(:), allocatable :: state     !! name of the &load_state that gives the start state; '': none
       logical :: must_start = .false.        !! the deck asks for this start state: an error if there is no such state
       real(wp) :: start_height = 0.0_wp      !! 'height': rise of the wheel centres from design [m]
       real(wp) :: start_load = 0.0_wp        !! 'wheel_load': vertical force of the road on each wheel [N]
@@ -133,6 +134,7 @@ contains
          self%wheels(0), self%readouts(0), self%tilts(0))
       self%balance = 'none'
       self%start = ''
+      self%state = ''
       self%name = ''
       self%title = ''
       self%where = ''
