@@ -20,7 +20,7 @@ module ek_start
    use ek_noise, only: is_noise, solved
    use ek_suspension, only: suspension_t
    use ek_state, only: state_t, inputs_t, design_state
-   use ek_kkt, only: kkt_t, assemble, factorise, solve, whole_tangent
+   use ek_kkt, only: kkt_t, assemble, factorise, solve, whole_tangent, residual_only
    use ek_newton, only: outcome_t, find_equilibrium
    use ek_reach, only: settle, failure_t
    use ek_block, only: rotated
@@ -118,6 +118,10 @@ contains
       logical :: is_at_design
 
       is_at_design = .not. any(abs(suspension%wheels%start_rise(1)) > 0.0_wp)
+      if (is_at_design) then
+         call find_residual(suspension, tolerance, space, is_found)
+         if (is_found) return
+      end if
       call hold(suspension, tolerance, space, state, is_found)
       if (.not. is_found) return
       force = 0.0_wp
@@ -142,6 +146,21 @@ contains
          suspension%wheels(k)%start_rise(2) = height_of(suspension, state, k, suspension%wheels(k)%contact)
       end do
    end subroutine find_force
+
+   !> Whether the design position is in equilibrium under the constant loads without a force on the wheels, but for rounding noise.
+   !> This takes one assembly, so that a design of a study without preloads and loads costs almost nothing.
+   subroutine find_residual(suspension, tolerance, space, is_noise_alone)
+      type(suspension_t), intent(in) :: suspension
+      real(wp), intent(in) :: tolerance
+      type(start_space_t), intent(inout) :: space
+      logical, intent(out) :: is_noise_alone
+
+      call mount_again(suspension, standing('parallel_travel', tolerance), space%mounted)
+      associate (on_rig => space%mounted%suspension, kkt => space%mounted%kkt)
+         call assemble(on_rig, design_state(on_rig), inputs_t(), residual_only, kkt)
+         is_noise_alone = are_noise(kkt%rhs(:kkt%nq))
+      end associate
+   end subroutine find_residual
 
    !> Finds static equilibrium with the wheels held at start_rise.
    subroutine hold(suspension, tolerance, space, state, is_found)
