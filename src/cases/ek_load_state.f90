@@ -1,73 +1,133 @@
-!> The load states of tests. Tests of travel and steering hold the wheels at the height of the design position. In all other
-!> tests, the wheels settle under the constant loads of the deck. The heights differ if the springs do not carry these loads in the
-!> design position (`free_length` or `preload` in the deck, no preload trim, changed loads). The numbers of both kinds of tests
-!> then belong to two load states.
+!> The load states of tests. All tests of a report start from one state (ek_start), which these procedures describe. A case that
+!> names a load or a driver of its own begins at design: with the wheels held there, or under the constant loads of the deck
+!> alone. Its numbers may then belong to another load state than the numbers of the tests.
 module ek_load_state
    use ek_kinds, only: wp, millimetre
    use ek_error, only: message_list_t
    use ek_text, only: str, quoted
    use ek_suspension, only: suspension_t
-   use ek_case, only: case_t, is_mountable
-   use ek_rig_test, only: rig_test_t, rig_test, moves_heights, rolls
-   use ek_rig, only: mounted_case_t, mount_case
+   use ek_case, only: case_t, is_mountable, default_tolerance
+   use ek_manoeuvre, only: standing_load
+   use ek_rig, only: mounted_case_t, mount_case, counts_from_start
+   use ek_start, only: needed_force
    use ek_state, only: state_t, inputs_t, design_state
    use ek_reach, only: settle, failure_t
    use ek_attitude, only: attitude_t, wheel_attitude, vertical_force
    implicit none(type, external)
    private
-   public :: holds_height, load_state_remarks, stand_text, differ
+   public :: load_state_remarks, start_text, stand_text, differ
 
    real(wp), parameter :: noticeable = 0.1_wp       !! mm: smaller differences of heights do not change a number noticeably
 
+   ! kinds of starts of cases
+   integer, parameter :: by_start = 1, by_height = 2, by_loads = 3
+
 contains
 
-   !> Whether a case holds the wheels at the height of the design position, or moves them from this height.
-   pure logical function holds_height(case)
-      type(case_t), intent(in) :: case
-      type(rig_test_t) :: test
-
-      holds_height = case%drive == 'wheel_travel'
-      if (len(case%test) == 0) return
-      test = rig_test(case%test)
-      holds_height = test%control /= 'force' .and. test%action /= rolls
-      if (case%vertical /= '') holds_height = case%vertical /= 'force' .and. test%action /= rolls
-   end function holds_height
-
-   !> Warns if the cases do not stand at one height before a load or a travel is applied. No warning is added without a case of each
-   !> kind, for method 'recursive', and if no equilibrium is found under the constant loads.
+   !> Warns if the tests start from a state that neither the preload trim nor the loads of the deck hold at design height, and if
+   !> the cases do not stand at one height before a load or a travel is applied. Nothing is added for method 'recursive', and if
+   !> no equilibrium is found under the constant loads.
    subroutine load_state_remarks(suspension, cases, words)
-      type(suspension_t), intent(in) :: suspension       !! with trimmed preloads; on no rig
+      type(suspension_t), intent(in) :: suspension       !! with trimmed preloads and start state; on no rig
       type(case_t), intent(in) :: cases(:)
       type(message_list_t), intent(inout) :: words
-      real(wp), allocatable :: heights(:), loads(:), unused(:), held(:)
-      integer :: k, driven, free
+      real(wp), allocatable :: heights(:), loads(:), first_heights(:), first_loads(:)
+      character(:), allocatable :: text
+      integer :: k, kind, first, found(by_start:by_loads)
       logical :: is_known
 
-      driven = 0
-      free = 0
+      if (size(suspension%wheels) == 0) return
+      found = 0
       do k = size(cases), 1, -1
          if (.not. is_mountable(cases(k)) .or. cases(k)%method == 'recursive') cycle
-         if (holds_height(cases(k))) driven = k
-         if (.not. holds_height(cases(k))) free = k
+         found(kind_of_start(cases(k))) = k
       end do
-      if (driven == 0 .or. free == 0 .or. size(suspension%wheels) == 0) return
-      call find_stand(suspension, cases(free), heights, loads, is_known)
-      if (.not. is_known) return
-      if (.not. maxval(abs(heights)) > noticeable) return
-      call find_stand(suspension, cases(driven), unused, held, is_known)
-      if (.not. is_known) return
-      call words%add('the tests stand at two heights: '//quoted(cases(driven)%name)//' and all tests that hold the wheels at '// &
-         'design stand under '//stand_text(held, 'N')//' per wheel; in '//quoted(cases(free)%name)//' and all tests that hold '// &
-         'the loads, the wheels settle to a travel of '//stand_text(heights, 'mm')//' under the loads of the deck, '// &
-         stand_text(loads, 'N')//' per wheel. Their numbers belong to two load states; loads that hold the design position, '// &
-         'or balance = ''spring'', give one')
+      if (found(by_start) > 0) then
+         text = start_text(suspension)
+         if (text /= '') call words%add(text)
+      end if
+      first = 0
+      do kind = by_start, by_loads
+         if (found(kind) == 0) cycle
+         call find_stand(suspension, cases(found(kind)), heights, loads, is_known)
+         if (.not. is_known) cycle
+         if (first == 0) then
+            first = found(kind)
+            first_heights = heights
+            first_loads = loads
+         else if (maxval(abs(heights - first_heights)) > noticeable) then
+            call words%add('the cases stand at two heights: '//stand_of(cases(first), first_heights, first_loads)//'; '// &
+               stand_of(cases(found(kind)), heights, loads)//'. Their numbers belong to two load states; loads that hold the '// &
+               'design position, or balance = ''spring'', give one')
+         end if
+      end do
    end subroutine load_state_remarks
+
+   !> How a case begins.
+   pure integer function kind_of_start(case) result(kind)
+      type(case_t), intent(in) :: case
+
+      kind = by_loads
+      if (counts_from_start(case)) then
+         kind = by_start
+      else if (case%drive == 'wheel_travel') then
+         kind = by_height
+      end if
+   end function kind_of_start
+
+   !> The height and the load of the wheels before a case begins: ''travel' begins at a travel of 0 mm under 1786 N per wheel'.
+   function stand_of(case, heights, loads) result(text)
+      type(case_t), intent(in) :: case
+      real(wp), intent(in) :: heights(:), loads(:)
+      character(:), allocatable :: text
+      text = quoted(case%name)//' begins at a travel of '//stand_text(heights, 'mm')//' from design under '// &
+         stand_text(loads, 'N')//' per wheel'
+   end function stand_of
+
+   !> The start state of the tests: 'design height needs 1786 N per wheel; the deck's loads are 0 N; all tests start at design
+   !> height, where the rig carries the difference'. '' if the deck holds the design height and the tests start there.
+   function start_text(suspension) result(text)
+      type(suspension_t), intent(in) :: suspension       !! with trimmed preloads and start state; on no rig
+      character(:), allocatable :: text
+      real(wp), dimension(size(suspension%wheels)) :: own, added, rise
+      real(wp), allocatable :: needed(:)
+      logical :: is_known
+      integer :: k
+
+      text = ''
+      if (suspension%start == '' .or. size(suspension%wheels) == 0) return
+      added = 0.0_wp
+      do k = 1, size(suspension%loads)
+         if (suspension%loads(k)%start_of > 0) added(suspension%loads(k)%start_of) = suspension%loads(k)%force(3)
+      end do
+      own = [(standing_load(suspension, k), k=1, size(own))] - added
+      rise = suspension%wheels%start_rise(1)
+      if (.not. (any(abs(added) > 0.0_wp) .or. any(abs(rise) > 0.0_wp))) return
+      needed = own + added
+      is_known = .true.
+      if (any(abs(rise) > 0.0_wp)) call needed_force(suspension, default_tolerance, needed, is_known)
+      if (is_known) then
+         text = 'design height needs '//stand_text(needed, 'N')//' per wheel; the deck''s loads are '//stand_text(own, 'N')
+      else
+         text = 'the deck''s loads are '//stand_text(own, 'N')
+      end if
+      if (suspension%state /= '') text = 'load state '//quoted(suspension%state)//': '//text
+      if (suspension%start == 'loads') then
+         text = text//'; all tests start where the wheels settle under them, '//stand_text(rise/millimetre, 'mm')// &
+            ' from design height'
+      else if (any(abs(rise) > 0.0_wp)) then
+         text = text//'; all tests start '//stand_text(rise/millimetre, 'mm')//' from design height under '// &
+            stand_text(own + added, 'N')//' per wheel'
+      else
+         text = text//'; all tests start at design height, where the rig carries the difference'
+      end if
+   end function start_text
 
    !> Finds the heights and the vertical forces of the wheels in a case before a load or a travel is applied.
    subroutine find_stand(suspension, case, heights, loads, is_known)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
-      real(wp), allocatable, intent(out) :: heights(:), loads(:)     !! wheel travel [mm], vertical force [N] of each wheel
+      real(wp), allocatable, intent(out) :: heights(:), loads(:)     !! travel from design [mm], vertical force [N] of each wheel
       logical, intent(out) :: is_known
       type(mounted_case_t) :: mounted
       type(state_t) :: state

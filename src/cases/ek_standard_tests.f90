@@ -3,13 +3,16 @@ module ek_standard_tests
    use ek_kinds, only: wp, millimetre
    use ek_text, only: str, lower, spaced
    use ek_rig_test, only: rig_test_t, rig_tests, rig_test, needs_both, swept_unit, steers, rolls, moves_heights, covers_grid
-   use ek_case, only: case_t
+   use ek_case, only: case_t, default_tolerance
    use ek_grid, only: is_grid
    use ek_suspension, only: suspension_t, driver_unit
    use ek_kkt, only: kkt_t, new_kkt
    use ek_path, only: path_t, sweep
    use ek_test_result, only: test_result_t
    use ek_rig, only: mount, lacks_springs
+   use ek_balance, only: balance
+   use ek_start, only: start_space_t, find_start
+   use ek_error, only: error_t
    use ek_characteristics, only: trail
    use ek_wheel_side, only: left_and_right
    implicit none(type, external)
@@ -72,9 +75,11 @@ contains
       type(case_t), intent(in) :: own(:)             !! cases of the deck
       type(case_t), allocatable, intent(out) :: tests(:)
       character(*), intent(in), optional :: asked    !! name of a test that runs on request only; '*': all such tests
+      type(suspension_t) :: started
       logical :: is_taken(size(own))
       integer :: wheels(2), place, trails, phase, k, t
 
+      call set_heights(suspension, started)
       call left_and_right(suspension, wheels)
       is_taken = .false.
       allocate (tests(0))
@@ -140,7 +145,7 @@ contains
          this%file = ''
          this%target = ''
          if (lacks_springs(suspension, this)) return
-         if (any(test%action == [moves_heights, rolls])) call stay_inside_locks(suspension, this)
+         if (any(test%action == [moves_heights, rolls])) call stay_inside_locks(started, this)
          this%has_all = .true.
          call append(this)
       end subroutine include
@@ -151,6 +156,30 @@ contains
       end subroutine append
 
    end subroutine standard_tests
+
+   !> Copies a suspension and sets the heights of its start state (ek_start), for the ranges of tests. If there is no such state, the
+   !> heights are the design heights.
+   subroutine set_heights(suspension, started)
+      type(suspension_t), intent(in) :: suspension
+      type(suspension_t), intent(out) :: started
+      type(start_space_t) :: space
+      type(error_t), allocatable :: error
+      logical :: is_found
+      integer :: k
+
+      started = suspension
+      do k = 1, size(started%wheels)
+         if (any(abs(started%wheels(k)%start_rise) > 0.0_wp)) return
+      end do
+      if (started%start == 'height') then
+         do k = 1, size(started%wheels)
+            started%wheels(k)%start_rise = started%start_height
+         end do
+      else if (started%start /= '') then
+         call balance(started, default_tolerance, error)
+         if (.not. allocated(error)) call find_start(started, default_tolerance, space, is_found)
+      end if
+   end subroutine set_heights
 
    !> Restricts the range of a standard test whose axle locks inside it: to 95 % of the travel or roll that the axle reaches on this
    !> side of design. The numbers are those of the deck, without its preload trim: the wheels are held by height, so that preloads

@@ -156,6 +156,8 @@ module ek_command
       'change a value of the deck; the new value is checked as in the deck; may be repeated:'//indent// &
       '--set point.lower_ball_joint.z=-105 --set "bushing.top_mount.kt(1)=500"'), &
       option_t('run', '--set-file FILE', 'read settings from a file, one per line: path = value'), &
+      option_t('run', '--height H', 'start all tests H above design height, in the unit of the deck (model.start_height)'), &
+      option_t('run', '--state NAME', 'start all tests in this &load_state of the deck (model.state)'), &
       option_t('run', '--responses a,b', &
       'write only these key numbers of the report (names as in key_numbers.csv), and no other files'), &
       option_t('run', '--results FILE', &
@@ -175,10 +177,12 @@ module ek_command
       option_t('loads', '--case NAME', 'solve only this case; without names of states, no parts, envelope and JSON'), &
       option_t('loads', '--solver S', 'as for run'), &
       option_t('loads', '--set path=value', 'as for run'), option_t('loads', '--set-file FILE', 'as for run'), &
+      option_t('loads', '--height H', 'as for run'), option_t('loads', '--state NAME', 'as for run'), &
       option_t('loads', '--json', 'as for run'), option_t('loads', '--quiet', quiet_help), &
       option_t('check', '--case NAME', 'check only this case or standard test'), &
       option_t('check', '--set path=value', 'as for run'), &
       option_t('check', '--set-file FILE', 'as for run'), &
+      option_t('check', '--height H', 'as for run'), option_t('check', '--state NAME', 'as for run'), &
       option_t('check', '--json', 'print the messages as one JSON object: severity, file, line, group, key, text'), &
       option_t('check', '--write-deck FILE', &
       'write to FILE the deck as it was used, with the contents of included, property and'// &
@@ -192,6 +196,7 @@ module ek_command
       option_t('report', '--method M', 'as for run'), option_t('report', '--solver S', 'as for run'), &
       option_t('report', '--increments N', 'as for run'), &
       option_t('report', '--set path=value', 'as for run'), option_t('report', '--set-file FILE', 'as for run'), &
+      option_t('report', '--height H', 'as for run'), option_t('report', '--state NAME', 'as for run'), &
       option_t('report', '--loads', &
       'also write loads.csv (loads of every member at every state of every test) and peak-loads.csv'), &
       option_t('report', '--no-plots', no_plots_help), &
@@ -214,6 +219,7 @@ module ek_command
       option_t('explain', '--json', 'also write DIR/<model>_contributions.json'), &
       option_t('explain', '--increments N', 'as for run'), option_t('explain', '--solver S', 'as for run'), &
       option_t('explain', '--set path=value', 'as for run'), option_t('explain', '--set-file FILE', 'as for run'), &
+      option_t('explain', '--height H', 'as for run'), option_t('explain', '--state NAME', 'as for run'), &
       option_t('explain', '--quiet', quiet_help), &
       option_t('solve', '--vary path=lo:hi', 'a number that may change, and its bounds; may be repeated:'//indent// &
       '--vary point.tie_rod_inner.z=-80:-50'), &
@@ -225,9 +231,11 @@ module ek_command
       option_t('solve', '--at VALUE', 'swept value at which columns are read (default: design)'), &
       option_t('solve', '--out DIR', 'output folder (default: out)'), &
       option_t('solve', '--set path=value', 'as for run'), option_t('solve', '--set-file FILE', 'as for run'), &
+      option_t('solve', '--height H', 'as for run'), option_t('solve', '--state NAME', 'as for run'), &
       option_t('solve', '--quiet', quiet_help), &
       option_t('fit', '--out DIR', 'output folder (default: out, in the folder of the fit file)'), &
       option_t('fit', '--set path=value', 'change a value of the deck of the fit'), &
+      option_t('fit', '--height H', 'as for run'), option_t('fit', '--state NAME', 'as for run'), &
       option_t('fit', '--no-plots', no_plots_help), option_t('fit', '--quiet', quiet_help), &
       option_t('compare', '--out DIR', 'output folder (default: out)'), &
       option_t('compare', '--window what=half', 'as for report, if gradients are computed from CSV files'), &
@@ -246,10 +254,12 @@ module ek_command
       option_t('study', '--status', 'print the progress of the study and exit'), &
       option_t('study', '--accept-failed', 'return exit status 0 even if designs failed'), &
       option_t('study', '--set path=value', 'change a value of the deck of the study'), &
+      option_t('study', '--height H', 'as for run'), option_t('study', '--state NAME', 'as for run'), &
       option_t('study', '--quiet', quiet_help), &
       option_t('study', '--no-plots', no_plots_help), &
       option_t('merge', '--out DIR', ''), option_t('merge', '--samples N', ''), option_t('merge', '--accept-failed', ''), &
       option_t('merge', '--set path=value', ''), &
+      option_t('merge', '--height H', ''), option_t('merge', '--state NAME', ''), &
       option_t('merge', '--no-plots', ''), option_t('merge', '--quiet', ''), &
       option_t('plot', '--kind NAME', &
       'draw only this figure; may be repeated: tornado | sobol | morris | line | map | carpet |'//indent// &
@@ -257,6 +267,7 @@ module ek_command
       option_t('plot', '--out DIR', 'folder of the tables (default: out, in the folder of the study file)'), &
       option_t('plot', '--samples N', 'number of designs, as in the run of the study'), &
       option_t('plot', '--set path=value', 'change a value of the deck, as in the run of the study'), &
+      option_t('plot', '--height H', 'as for run'), option_t('plot', '--state NAME', 'as for run'), &
       option_t('plot', '--quiet', quiet_help), &
       option_t('export', '--to TARGET', 'carmaker | carsim | matlab-kc | csv'), &
       option_t('export', '--out DIR', 'output folder (default: out)'), &
@@ -282,6 +293,7 @@ module ek_command
       'largest force [N], largest moment [N m] and n points of target csv (default: 2000:100:21)'), &
       option_t('export', '--plot', 'also draw the written tables together with separately solved curves, for comparison'), &
       option_t('export', '--set path=value', 'as for run'), &
+      option_t('export', '--height H', 'as for run'), option_t('export', '--state NAME', 'as for run'), &
       option_t('export', '--quiet', quiet_help), &
       option_t('import', '--out FILE', 'write this file (default: -, standard output)'), &
       option_t('import', '--quiet', quiet_help), &
@@ -294,6 +306,7 @@ module ek_command
       'write only the states nearest to these swept values; all: every state'//indent//'(default: 0, the design state)'), &
       option_t('derivatives', '--out DIR', 'output folder (default: out); --out - writes the CSV to standard output'), &
       option_t('derivatives', '--set path=value', 'as for run'), option_t('derivatives', '--set-file FILE', 'as for run'), &
+      option_t('derivatives', '--height H', 'as for run'), option_t('derivatives', '--state NAME', 'as for run'), &
       option_t('derivatives', '--quiet', quiet_help), &
       option_t('new', '--points-only', 'print points and links only: no springs, joints in the place of bushings'), &
       option_t('list', '--paths', 'print the numbers of the deck'), &
@@ -302,6 +315,7 @@ module ek_command
       option_t('list', '--like PATTERN', 'print only names that match; * stands for any letters: --like "bushing.*"'), &
       option_t('list', '--json', 'print one JSON object (schema/list.schema.json)'), &
       option_t('list', '--set path=value', 'as for run'), option_t('list', '--set-file FILE', 'as for run'), &
+      option_t('list', '--height H', 'as for run'), option_t('list', '--state NAME', 'as for run'), &
       ! of every command
       option_t('', '--log FILE', 'append a record of this run (one line of JSON: arguments, messages, results, exit status)'), &
       option_t('', '--help', 'print this description'), &

@@ -16,7 +16,7 @@ module ek_fit_command
    use ek_fit_factors, only: fit_factors
    use ek_fit_files, only: write_fit_files, changed_numbers, note_of
    use ek_command_line, only: command_line_t
-   use ek_load_deck, only: read_changed
+   use ek_load_deck, only: read_changed, settings_of
    use ek_console, only: print_text
    use ek_kinds, only: wp
    use ek_noise, only: is_noise, solved
@@ -57,7 +57,7 @@ contains
          return
       end if
       call read_fit(line%files%line(1), fit, error)
-      if (.not. allocated(error)) call read_changed(join_path(home, fit%deck), line%values('--set'), deck, error)
+      if (.not. allocated(error)) call read_changed(join_path(home, fit%deck), settings_of(line), deck, error)
       if (.not. allocated(error)) call open_deck(deck, session, error)
       if (.not. allocated(error)) call make_problem(fit, join_path(home, ''), deck, session%workspace, problem, error)
       if (.not. allocated(error)) call make_folder(out, error)

@@ -18,7 +18,8 @@ module ek_load_deck
    use ek_setting_log, only: applied_t, add_applied, overridden_settings
    implicit none(type, external)
    private
-   public :: deck_settings_t, read_deck_settings, load_deck, load_session, read_changed, chosen_cases, examine_chosen, spare_results
+   public :: deck_settings_t, read_deck_settings, settings_of, load_deck, load_session, read_changed, chosen_cases, &
+      examine_chosen, spare_results
 
    !> Options of a command with a deck. A command extends the type by its own settings. An option that the command does not accept
    !> has the value of an option that is not given.
@@ -48,9 +49,22 @@ contains
       settings%out = line%value('--out', 'out')
       settings%increments = line%number('--increments')
       settings%is_quiet = line%has('--quiet')
-      settings%changes = line%values('--set')
+      settings%changes = settings_of(line)
       settings%set_files = line%values('--set-file')
    end subroutine read_deck_settings
+
+   !> The settings of a command line: --set, then the start state of --height and --state as settings of &model.
+   type(message_list_t) function settings_of(line) result(settings)
+      type(command_line_t), intent(in) :: line
+      character(:), allocatable :: height
+
+      settings = line%values('--set')
+      if (line%has('--state')) call settings%add('model.state='//line%value('--state'))
+      if (.not. line%has('--height')) return
+      height = line%value('--height')
+      if (height(1:min(1, len(height))) == '+') height = height(2:)      ! in a setting, + adds to the number of the deck
+      call settings%add('model.start_height='//height)
+   end function settings_of
 
    !> Reads a deck, applies --set-file and --set, builds the model, and checks the tables and targets of its cases. All errors in
    !> the deck are reported together.

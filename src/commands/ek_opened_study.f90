@@ -16,7 +16,7 @@ module ek_opened_study
    use ek_store, only: store_texts_t, keep_texts, store_name
    use ek_tolerance, only: tolerance_t
    use ek_command_line, only: command_line_t
-   use ek_load_deck, only: read_changed
+   use ek_load_deck, only: read_changed, settings_of
    implicit none(type, external)
    private
    public :: opened_study_t, open_study, plan_study, results_name
@@ -50,7 +50,7 @@ contains
       this%out = line%value('--out', join_path(this%home, 'out'))
       call read_study(line%files%line(1), this%study, error)
       if (.not. allocated(error) .and. line%has('--samples')) call set_samples(line%number('--samples'), this%study, error)
-      if (.not. allocated(error)) call read_changed(join_path(this%home, this%study%deck), line%values('--set'), this%deck, error)
+      if (.not. allocated(error)) call read_changed(join_path(this%home, this%study%deck), settings_of(line), this%deck, error)
       if (allocated(error) .and. allocated(this%study%where)) then         ! a file that cannot be read: where it is named
          if (error%code == exit_file .and. index(error%message, line%files%line(1)) == 0) &
             error%message = this%study%where//': deck: '//error%message
@@ -58,7 +58,7 @@ contains
       if (.not. allocated(error) .and. this%study%kind /= step_size_kind) call expand_factors(this%study, this%deck, error)
       if (.not. allocated(error) .and. this%study%kind /= step_size_kind) call expand_columns(this%study, this%deck, error)
       if (.not. allocated(error)) call keep_texts(line%files%line(1), &
-         join_path(this%home, this%study%deck), line%values('--set'), this%texts)
+         join_path(this%home, this%study%deck), settings_of(line), this%texts)
    end subroutine open_study
 
    !> Plans the study: creates the design of the deck, checks the study against the deck, and creates the plan.

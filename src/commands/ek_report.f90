@@ -57,6 +57,8 @@ module ek_report
    use ek_part_files, only: put_parts, remove_parts
    use ek_listed_files, only: renew_file_list
    use ek_outbox, only: outbox_t, outbox_in
+   use ek_load_state, only: start_text
+   use ek_rig, only: counts_from_start
    use ek_test_result, only: test_result_t, find_wheels, choose_abscissa
    implicit none(type, external)
    private
@@ -89,6 +91,7 @@ contains
       type(error_t), allocatable :: incomplete
       type(outbox_t) :: box
       character(:), allocatable :: checksum
+      integer :: k
 
       allocate (page)
       call read_settings(line, settings, error)
@@ -115,6 +118,7 @@ contains
       call stop_at_windows(settings%windows, page%tests, chosen)
       call find_model_remarks(workspace%suspension, workspace%raw, workspace%deck_cases, chosen, .true., remarks)
       call print_model_remarks(settings%is_quiet, remarks, page%warnings)
+      if (any([(counts_from_start(chosen(k)), k=1, size(chosen))])) page%start = start_text(workspace%suspension)
       call box%remove([character(18) :: page_file, contents_file, compliance_file, deck_file, used_deck_file, files_of_loads])
       call remove_parts(workspace%suspension, page%folder)
 
@@ -193,7 +197,7 @@ contains
          call key_numbers(page%tests, page%gradients, page%numbers, page%missing)
          call set_targets(workspace%definition%targets, page%numbers, page%warnings)
          call box%put(numbers_file, key_numbers_csv(page%numbers, is_pair))
-         call box%put(numbers_json_file, key_numbers_json(page%numbers, is_pair, model, checksum))
+         call box%put(numbers_json_file, key_numbers_json(page%numbers, is_pair, model, checksum, page%start))
          call box%write(contents_file, contents_csv(page%tests))
       end associate
    end subroutine put_numbers

@@ -13,7 +13,7 @@ module ek_study_results
    use ek_quantity, only: quantity_t, quantity_named, unit_of, unit_text
    use ek_deck, only: deck_t, deck_checksum
    use ek_reader, only: definition_t
-   use ek_rig, only: rig_t, rig_of
+   use ek_rig, only: rig_t, rig_of, counts_from_start
    use ek_study, only: study_t, by_delta, by_scale, response_t
    use ek_sampler, only: sampler_t, designs_of, sample
    use ek_sampler_kind, only: sampler_kinds, tolerance_kind
@@ -21,6 +21,7 @@ module ek_study_results
    use ek_designer, only: designer_t, begin_designer
    use ek_study_plan, only: plan_sampler
    use ek_study_tables, only: responses_name, curves_name, has_limits, limits_of
+   use ek_load_state, only: start_text
    use ek_study_data, only: extreme_t, study_data_t, study_axis_t, percents
    use ek_store, only: wants_store, read_store, store_name
    use ek_store_description, only: keeps
@@ -75,6 +76,11 @@ contains
       data%kind = trim(sampler_kinds(study%kind)%name)
       data%deck = study%deck
       data%case = trim(designer%workspace%cases(1)%case%name)
+      data%start = ''
+      associate (workspace => designer%workspace)
+         if (any([(counts_from_start(workspace%cases(k)%case), k=1, size(workspace%cases))]) .and. &
+            allocated(workspace%suspension%bodies)) data%start = start_text(workspace%suspension)
+      end associate
       data%designs = int(designs_of(sampler))
       call name_axes(study, designer, data)
       call set_bands(designer%workspace%definition%targets, study%responses, data%responses)

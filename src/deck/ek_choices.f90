@@ -34,6 +34,8 @@ contains
          words = [character(word_length) :: 'x-rear', 'iso']
       case ('model.balance')
          words = [character(word_length) :: 'none', 'spring', 'all']
+      case ('model.start')
+         words = [character(word_length) :: 'height', 'loads']
       case ('hardpoints.side')
          words = [character(word_length) :: 'left', 'right', 'both']
       case ('measure.type')

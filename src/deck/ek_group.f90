@@ -20,11 +20,11 @@ module ek_group
       study_group = 11, factor_group = 12, response_group = 13, include_group = 14, mirror_group = 15, &
       curve_group = 16, damper_group = 17, stop_group = 18, torsion_group = 19, axle_group = 20, steering_group = 21, &
       mass_group = 22, correlation_group = 23, hardpoints_group = 24, target_group = 25, fit_group = 26, fit_target_group = 27, &
-      manoeuvre_group = 28
+      manoeuvre_group = 28, load_state_group = 29
    character(*), parameter :: group_names(*) = [character(11) :: 'model', 'point', 'body', 'measure', 'joint', &
       'bushing', 'spring', 'wheel', 'load', 'case', 'study', 'factor', 'response', 'include', 'mirror', 'curve', 'damper', &
       'stop', 'torsion', 'axle', 'steering', 'mass', 'correlation', 'hardpoints', 'target_band', &
-      'fit', 'target', 'manoeuvre']
+      'fit', 'target', 'manoeuvre', 'load_state']
 
    !> What a record of each group describes, for `elastokin schema`; '' for groups of a study or a fit.
    character(*), parameter :: group_summaries(*) = [character(90) :: 'the model: name, units, frame and preload trim', &
@@ -34,7 +34,8 @@ module ek_group
       'the deck is the left half of an axle', 'a law for springs, stops, torsion springs and bushings', &
       'a damper, of which the gas force acts', 'a bump stop or a rebound stop', 'a torsion spring between two bodies', &
       'the axle and the car around it', 'the steering wheel and the rack', 'an additional mass on a body', '', &
-      'points from a file', 'a range in which a key number should lie', '', '', 'load factor and accelerations of the car']
+      'points from a file', 'a range in which a key number should lie', '', '', 'load factor and accelerations of the car', &
+      'a state from which all tests can start']
 
    integer, parameter :: every_group = 0      !! group, in the table of keys, of a key that every group has
    integer, parameter :: spring_groups(*) = [spring_group, damper_group, stop_group, torsion_group]   ! elements of one measure
@@ -84,7 +85,7 @@ module ek_group
 
    integer, parameter :: named(*) = [model_group, point_group, body_group, mass_group, measure_group, joint_group, &
       bushing_group, spring_group, curve_group, damper_group, stop_group, torsion_group, wheel_group, load_group, case_group, &
-      study_group, factor_group, response_group, fit_group, fit_target_group]
+      study_group, factor_group, response_group, fit_group, fit_target_group, load_state_group]
    integer :: j     ! implied-do index of the table, not used elsewhere
 
    type(key_t), parameter :: keys_of_names(*) = [(key_t(named(j), 'name', word, 1, 1, .true., about='name of the item'), &
@@ -100,6 +101,16 @@ module ek_group
       about='frame: x-rear is x rearward, y to the right; iso is x forward, y to the left; z is up'), &
       key_t(model_group, 'balance', word, 1, 1, .false., default='none', &
       about='preload trim, by which the design position is an equilibrium under the constant loads'), &
+      key_t(model_group, 'start', word, 1, 1, .false., &
+      about='state from which all tests start, if neither balance nor the constant loads hold the design height'), &
+      key_t(model_group, 'start_height', number, 1, 1, .false., dimension=length, &
+      about='height of the wheels above design from which all tests start, instead of start'), &
+      key_t(model_group, 'start_load', number, 1, 1, .false., positive, dimension=force, &
+      about='vertical force of the road on each wheel from which all tests start, instead of start'), &
+      key_t(model_group, 'state', word, 1, 1, .false., about='name of the &load_state from which all tests start'), &
+      key_t(load_state_group, 'height', number, 1, 1, .false., dimension=length, about='height of the wheels above design'), &
+      key_t(load_state_group, 'wheel_load', number, 1, 1, .false., positive, dimension=force, &
+      about='vertical force of the road on each wheel'), &
       key_t(model_group, 'gravity', number, 1, 1, .false., not_negative, ' (m/s², downward)', dimension=acceleration, &
       about='gravity, downward; 0 if not given'), &
       key_t(model_group, 'plausible', switch, 1, 1, .false., default='.true.', about='whether implausible numbers are reported'), &

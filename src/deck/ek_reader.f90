@@ -9,12 +9,13 @@ module ek_reader
    use ek_record, only: single, record_t, hand_over, element, place_of, own_name
    use ek_group, only: group_names, group_number, is_deck_group, names_of_groups, model_group, point_group, body_group, &
       measure_group, joint_group, bushing_group, spring_groups, case_group, curve_group, mass_group, wheel_group, axle_group, &
-      steering_group, load_group, manoeuvre_group, target_group, word_length, record_head, has_results
+      steering_group, load_group, manoeuvre_group, target_group, word_length, record_head, has_results, &
+      load_state_group
    use ek_namelist, only: check_record, name_fault
    use ek_deck, only: deck_t, finish_deck
    use ek_attachment, only: units_in_deck
    use ek_deck_reading, only: deck_reading_t, complain, complain_of_all, where_of, line_of, choice, text_of, switch_of, &
-      number_of, is_second, slot
+      number_of, is_second, slot, has_key, refuse
    use ek_parameter, only: parameters_t
    use ek_reader_bodies, only: read_point, read_body, read_mass, read_load, read_wheel, read_axle, read_steering
    use ek_reader_joints, only: read_measure, read_joint
@@ -25,7 +26,7 @@ module ek_reader
    use ek_reader_cases, only: read_case, refuse_one_file_for_two
    use ek_load_table, only: read_tables
    use ek_suspension, only: suspension_t, point_t
-   use ek_assembly, only: add_gravity
+   use ek_assembly, only: add_gravity, add_start_loads
    use ek_blueprint, only: blueprint_t, new_blueprint
    use ek_free_wheels, only: count_free_wheels
    use ek_realise, only: new_design, realise
@@ -35,8 +36,9 @@ module ek_reader
    public :: definition_t, read_design, build_design, build_model
 
    !> The order of reading: groups to which others refer come first.
-   integer, parameter :: reading_order(*) = [model_group, point_group, curve_group, body_group, mass_group, measure_group, &
-      joint_group, bushing_group, spring_groups, wheel_group, axle_group, steering_group, load_group, manoeuvre_group]
+   integer, parameter :: reading_order(*) = [model_group, load_state_group, point_group, curve_group, body_group, mass_group, &
+      measure_group, joint_group, bushing_group, spring_groups, wheel_group, axle_group, steering_group, load_group, &
+      manoeuvre_group]
 
    !> A deck as a design space: realise(plan, x) is a suspension.
    type :: definition_t
@@ -239,6 +241,8 @@ contains
       select case (reading%cards(reading%k)%group)
       case (model_group)
          call read_model(reading)
+      case (load_state_group)
+         call read_load_state(reading)
       case (point_group)
          call read_point(reading)
       case (curve_group)
@@ -287,7 +291,38 @@ contains
       end do
       call move_alloc(points, reading%plan%prototype%points)
       call add_gravity(reading%plan%prototype)
+      call choose_start(reading)
    end subroutine complete_prototype
+
+   !> Selects the start state of the tests (ek_start), and adds the loads that it needs. A preload trim holds the design position,
+   !> so that only a height or a load of the deck gives another state.
+   subroutine choose_start(reading)
+      type(deck_reading_t), intent(inout) :: reading
+      logical :: has_loads
+      integer :: k
+
+      has_loads = .false.
+      associate (plan => reading%plan, model => reading%plan%prototype)
+         do k = 1, size(plan%loads)
+            if (model%loads(k)%is_case .or. all(model%wheels%body /= model%loads(k)%body)) cycle
+            if (plan%loads(k)%force == 0) cycle
+            has_loads = has_loads .or. abs(reading%parameters%x(plan%loads(k)%force + 2)) > 0.0_wp
+         end do
+         model%must_start = model%start /= '' .or. any(plan%start > 0)
+         if (plan%start(2) > 0) then
+            model%start = 'wheel_load'
+         else if (plan%start(1) > 0) then
+            model%start = 'height'
+         else if (model%balance /= 'none') then
+            model%start = ''
+         else if (model%start == '') then
+            model%start = merge('loads ', 'height', has_loads)
+            model%start = trim(model%start)
+         end if
+         if (size(model%wheels) == 0) model%start = ''
+         if (model%start == 'height' .or. model%start == 'wheel_load') call add_start_loads(model)
+      end associate
+   end subroutine choose_start
 
    !> Whether a file contains groups of a study or of a fit, and no groups of a deck.
    pure logical function is_study(records)
@@ -408,7 +443,7 @@ contains
    !> Reads &model: name, title, units, axes, preload trim (`balance`), gravity, and whether implausible numbers are reported.
    subroutine read_model(reading)
       type(deck_reading_t), intent(inout) :: reading
-      character(:), allocatable :: balance
+      character(:), allocatable :: balance, start
       integer :: c, gravity
 
       if (is_second(reading)) return
@@ -418,19 +453,57 @@ contains
       call choice(reading, 'mass', c)
       call choice(reading, 'axes', c)
       call choice(reading, 'balance', c, word=balance)
+      call choice(reading, 'start', c, word=start)
       call units_in_deck(reading%records(reading%k:reading%k), reading%units, reading%plan%is_iso)
       call slot(reading, 'gravity', gravity)
       reading%plan%gravity = gravity
+      call slot(reading, 'start_height', reading%plan%start(1))
+      call slot(reading, 'start_load', reading%plan%start(2))
+      if (has_key(reading, 'start_load')) call refuse(reading, [character(12) :: 'start', 'start_height'], &
+         'start_load gives the start state; remove one of the two')
+      if (start == 'loads') call refuse(reading, ['start_height'], &
+         'start = ''loads'' lets the wheels settle; remove one of the two')
+      call check_state(reading)
       associate (model => reading%plan%prototype)
          model%gravity = number_of(reading, 'gravity', 0.0_wp)
          model%name = text_of(reading, 'name')
          model%title = text_of(reading, 'title')
          model%balance = balance
+         model%start = start
          model%is_iso = reading%plan%is_iso
          model%units = reading%units
          model%is_plausible_wanted = switch_of(reading, 'plausible')
          model%where = where_of(reading)
       end associate
    end subroutine read_model
+
+   !> Checks that the deck has the load state that &model names, and no other start state.
+   subroutine check_state(reading)
+      type(deck_reading_t), intent(inout) :: reading
+      character(word_length), allocatable :: names(:)
+      character(:), allocatable :: state
+      integer :: k
+
+      state = text_of(reading, 'state')
+      reading%plan%prototype%state = state
+      if (state == '') return
+      call refuse(reading, [character(12) :: 'start', 'start_height', 'start_load'], &
+         'state names the start state; remove one of the two')
+      names = pack([(reading%cards(k)%name, k=1, size(reading%cards))], reading%cards%group == load_state_group)
+      if (any([(lower(names(k)) == lower(state), k=1, size(names))])) return
+      call complain(reading, 'state', 'there is no &load_state '//quoted(state)//did_you_mean(state, names))
+   end subroutine check_state
+
+   !> Reads &load_state: its height or its wheel load, which are the numbers of the start state if &model names this load state.
+   subroutine read_load_state(reading)
+      type(deck_reading_t), intent(inout) :: reading
+      integer :: height, load
+
+      if (has_key(reading, 'height') .eqv. has_key(reading, 'wheel_load')) &
+         call complain(reading, '', "give either 'height' or 'wheel_load'")
+      call slot(reading, 'height', height)
+      call slot(reading, 'wheel_load', load)
+      if (lower(text_of(reading, 'name')) == lower(reading%plan%prototype%state)) reading%plan%start = [height, load]
+   end subroutine read_load_state
 
 end module ek_reader

@@ -68,14 +68,14 @@ contains
       if (is_sound) this%stage = on_rig
    end subroutine examine_again
 
-   !> Puts a case on the rig with a balanced model. If the model needs no preload trim (balance = 'none'), a case that is already on
-   !> the rig is unchanged.
+   !> Puts a case on the rig with a balanced model. If the model needs neither a preload trim nor a start state, a case that is
+   !> already on the rig is unchanged.
    subroutine put_on_rig(suspension, this, keeps_scales)
       type(suspension_t), intent(in) :: suspension         !! balanced
       type(case_work_t), intent(inout) :: this
       logical, intent(in), optional :: keeps_scales        !! as for renew_kkt
 
-      if (this%stage == on_rig .and. suspension%balance == 'none') return
+      if (this%stage == on_rig .and. suspension%balance == 'none' .and. suspension%start == '') return
       call make_room(this)
       call mount_again(suspension, this%case, this%result%mounted_case_t, keeps_scales)
       if (this%stage == on_rig) this%stage = examined      ! with the preloads of balance

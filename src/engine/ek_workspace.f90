@@ -21,7 +21,8 @@ module ek_workspace
    use ek_suspension, only: suspension_t, copy_numbers
    use ek_case, only: case_t, is_mountable, default_tolerance
    use ek_manoeuvre, only: can_drive
-   use ek_balance, only: balance_failure_t, set_preloads, fail_balance
+   use ek_balance, only: balance_failure_t, set_preloads, fail_balance, no_start
+   use ek_start, only: start_space_t, find_start
    use ek_preload_problem, only: preload_problem_t
    use ek_diagnosis, only: diagnosis_t
    use ek_case_result, only: solve_options_t, solve_case, solve_mounted, add_remarks, failure_of
@@ -36,7 +37,8 @@ module ek_workspace
    ! stages of the numbers, each after the one before
    integer, parameter :: numbers_given = 0
    integer, parameter :: realised = 1       !! `raw` and the cases of the design have these numbers
-   integer, parameter :: balanced = 2       !! `suspension` has these numbers and the preloads of the preload trim (`balance`)
+   integer, parameter :: balanced = 2       !! `suspension` has these numbers, the preloads of the preload trim (`balance`), and
+                                            !! the start state of the tests
 
    ! outcomes of solve_numbers and settle_numbers
    integer, parameter :: succeeded = 0
@@ -58,6 +60,7 @@ module ek_workspace
       real(wp), private :: tolerance = 0.0_wp           !! tolerance of the last preload trim [m]
       type(balance_failure_t), private :: failure       !! outcome of the last preload trim
       type(preload_problem_t), private :: space         !! work space of the preload trim
+      type(start_space_t), private :: start_space       !! work space of the start state
    end type workspace_t
 
 contains
@@ -108,6 +111,7 @@ contains
    subroutine balance_once(tolerance, workspace)
       real(wp), intent(in) :: tolerance                    !! tolerance of the preload trim [m]
       type(workspace_t), intent(inout) :: workspace        !! realised
+      logical :: is_found
 
       if (workspace%stage == balanced .and. abs(tolerance - workspace%tolerance) <= 0.0_wp) return
       if (allocated(workspace%suspension%bodies)) then
@@ -116,6 +120,10 @@ contains
          workspace%suspension = workspace%raw
       end if
       call set_preloads(workspace%suspension, tolerance, workspace%space, workspace%failure)
+      if (workspace%failure%reason == 0) then
+         call find_start(workspace%suspension, tolerance, workspace%start_space, is_found)
+         if (.not. is_found .and. workspace%suspension%must_start) workspace%failure%reason = no_start
+      end if
       workspace%stage = merge(balanced, realised, workspace%failure%reason == 0)
       workspace%tolerance = tolerance
    end subroutine balance_once

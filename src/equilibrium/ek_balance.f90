@@ -25,7 +25,7 @@ module ek_balance
    use ek_singular_values, only: singular_values_t, decompose, min_norm
    implicit none(type, external)
    private
-   public :: balance_failure_t, balance, set_preloads, fail_balance, balance_remarks
+   public :: balance_failure_t, balance, set_preloads, fail_balance, balance_remarks, no_start
 
    ! why no preloads were found; fail_balance has the messages
    integer, parameter :: has_no_spring = 1          !! no spring, or no wheel
@@ -35,6 +35,7 @@ module ek_balance
    integer, parameter :: springs_not_finite = 5
    integer, parameter :: all_not_finite = 6
    integer, parameter :: does_not_hold = 7
+   integer, parameter :: no_start = 8               !! the start state of the tests was not found (ek_start)
 
    type :: balance_failure_t
       integer :: reason = 0                         !! one of the constants above; 0: none
@@ -95,8 +96,28 @@ contains
       case (does_not_hold)
          call fail(error, exit_model, "balance = 'all': no preload of springs and bushings holds the constant loads at design"// &
             kept_out(suspension))
+      case (no_start)
+         call fail(error, exit_convergence, 'there is no start state'//start_words(suspension))
       end select
    end subroutine fail_balance
+
+   !> Phrase about a start state that was not found, for an error message: ' with start_height = 20 mm: no equilibrium …'.
+   function start_words(suspension) result(text)
+      type(suspension_t), intent(in) :: suspension
+      character(:), allocatable :: text
+
+      select case (suspension%start)
+      case ('height')
+         text = ' at start_height = '//str(suspension%start_height*1000.0_wp, 6)//' mm: with the wheels held there, no '// &
+            'equilibrium was found; give a height that the suspension reaches'
+      case ('wheel_load')
+         text = ' under start_load = '//str(suspension%start_load, 6)//' N: the wheels find no equilibrium '// &
+            'under this load; give a load that the springs carry'
+      case default
+         text = ' under the constant loads (start = ''loads''): the wheels find no equilibrium; give start = ''height'', '// &
+            'or loads that the springs carry'
+      end select
+   end function start_words
 
    !> Lists warnings on the preload trim (`balance`): excluded drivers, and preloads that are not unique.
    subroutine balance_remarks(suspension, words)

@@ -50,7 +50,7 @@ contains
       allocate (kkt%store(kkt%pattern%stored), kkt%scaling(kkt%pattern%entries), source=0.0_wp)
       allocate (kkt%rhs(kkt%n), kkt%scale(kkt%n), kkt%values(kkt%nc), source=0.0_wp)
       allocate (kkt%factor(size(suspension%loads)), kkt%change(kkt%nc), source=0.0_wp)
-      allocate (kkt%gradients(12, size(suspension%terms)), kkt%imbalance(kkt%nq), source=0.0_wp)
+      allocate (kkt%gradients(12, size(suspension%terms)), kkt%imbalance(kkt%n), source=0.0_wp)
       allocate (kkt%iwork(kkt%n), source=0)
       allocate (kkt%work(64*max(kkt%n, 1)), source=0.0_wp)   ! 64 is LAPACK's block size of dsytrf
       call set_scales(suspension, kkt)

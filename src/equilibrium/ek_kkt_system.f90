@@ -44,7 +44,8 @@ module ek_kkt_system
       real(wp), allocatable :: values(:)     !! Φ(q) − c − Cλ of each row [m, -, rad]: constraint violation
       real(wp), allocatable :: scale(:)      !! D: scale factors of the unknowns and of the rows (ek_scale)
       real(wp), allocatable :: factor(:), change(:)   !! factor of each load, change of each row, from the inputs [-; m, -, rad]
-      real(wp), allocatable :: imbalance(:)  !! f_ext − f_el at design, for the homotopy to static equilibrium
+      real(wp), allocatable :: imbalance(:)  !! for the homotopy to static equilibrium: f_ext − f_el at design, and c − Φ of
+                                             !! the rows of the rig; 0 in all other rows
       integer, allocatable :: pivots(:), iwork(:)
       real(wp), allocatable :: work(:)
       real(wp) :: length = 1.0_wp            !! characteristic length [m]
@@ -104,7 +105,7 @@ contains
             kkt%store(kkt%pattern%diagonal + k) = -suspension%rows(k)%compliance
          end do
       end if
-      if (inputs%homotopy > 0.0_wp) call add_multiple(kkt%nq, -inputs%homotopy, kkt%imbalance, kkt%rhs)
+      if (inputs%homotopy > 0.0_wp) call add_multiple(kkt%n, -inputs%homotopy, kkt%imbalance, kkt%rhs)
    end subroutine assemble
 
    !> Assembles only the rows of Φ at a state: gradients and violations, equal to the results of `assemble`.
@@ -171,7 +172,7 @@ contains
       end do
       call set_change(rate, kkt%change)
       call assemble_rate_terms(kkt%nq, suspension%loads, state%poses, kkt%factor, kkt%change, kkt%rhs)
-      if (abs(rate%homotopy) > 0.0_wp) call add_multiple(kkt%nq, -rate%homotopy, kkt%imbalance, kkt%rhs)
+      if (abs(rate%homotopy) > 0.0_wp) call add_multiple(kkt%n, -rate%homotopy, kkt%imbalance, kkt%rhs)
    end subroutine assemble_rate
 
    !> The scale factor of a load that a case scales; 0 if the inputs do not include the load.

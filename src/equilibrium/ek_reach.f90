@@ -52,8 +52,8 @@ contains
 
    !> Moves from design to equilibrium under the constant loads and preloads only.
    !>
-   !> This takes one step if possible. Otherwise the imbalance of the design position is applied gradually (homotopy): the share of
-   !> the imbalance that acts is the swept value of the path.
+   !> This takes one step if possible. Otherwise the imbalance of the design position is applied gradually (homotopy), together with
+   !> the heights of the rig: the share that acts is the swept value of the path.
    subroutine settle(suspension, tolerance, state, kkt, failure, space)
       type(suspension_t), intent(in) :: suspension
       real(wp), intent(in) :: tolerance          !! m
@@ -65,7 +65,7 @@ contains
       type(branch_t), pointer :: branch
       type(schedule_t) :: schedule
       real(wp), parameter :: min_share = 1.0e-6_wp
-      integer :: iterations
+      integer :: iterations, rig
 
       if (present(space)) then
          branch => space
@@ -74,7 +74,10 @@ contains
          branch => own
       end if
       if (.not. holds(kkt, suspension, state, inputs_t())) call assemble(suspension, state, inputs_t(), residual_only, kkt)
-      kkt%imbalance(:) = kkt%rhs(:kkt%nq)
+      kkt%imbalance(:kkt%nq) = kkt%rhs(:kkt%nq)
+      kkt%imbalance(kkt%nq + 1:) = 0.0_wp
+      rig = kkt%nq + suspension%own_rows()
+      kkt%imbalance(rig + 1:) = kkt%rhs(rig + 1:)      ! heights of the start state that are not the heights of design
       call renew_branch(suspension, branch)
       branch%least = min_share
       call store(branch%predictor, 0.0_wp, state, .true.)

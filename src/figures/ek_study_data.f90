@@ -75,6 +75,7 @@ module ek_study_data
 
    type :: study_data_t
       character(:), allocatable :: name, title, kind, deck, case
+      character(:), allocatable :: start               !! start state of the tests at the deck's own design; '': design position
       integer :: designs = 0, within = 0, failed = 0
       type(study_axis_t), allocatable :: factors(:), responses(:), columns(:)
       real(wp), allocatable :: x(:, :), y(:, :)        !! factors, responses: (factor or response, design); NaN: no value

@@ -5,7 +5,7 @@ module ek_assembly
    use ek_suspension, only: suspension_t, load_t
    implicit none(type, external)
    private
-   public :: append_joint, add_gravity
+   public :: append_joint, add_gravity, add_start_loads
 
 contains
 
@@ -59,5 +59,21 @@ contains
          self%loads = [self%loads, load]
       end do
    end subroutine add_gravity
+
+   !> Adds the constant vertical load that holds each wheel in the start state (ek_start). `find_start` sets the force; before, it
+   !> is 0.
+   pure subroutine add_start_loads(self)
+      type(suspension_t), intent(inout) :: self
+      type(load_t) :: load
+      integer :: k
+
+      do k = 1, size(self%wheels)
+         load%name = 'rig_start_'//self%wheels(k)%name
+         load%where = self%wheels(k)%where
+         load%body = self%wheels(k)%body
+         load%start_of = k
+         self%loads = [self%loads, load]
+      end do
+   end subroutine add_start_loads
 
 end module ek_assembly

@@ -116,6 +116,7 @@ module ek_blueprint
       type(suspension_t) :: prototype       !! names, connections, and the numbers of the deck
       logical :: is_iso = .false.           !! the axes of the deck are ISO 8855
       integer :: gravity = 0                !! index of the parameter
+      integer :: start(2) = 0               !! indices of the parameters start_height and start_load of &model
       integer, allocatable :: points(:)     !! index of the vector of each point of the prototype
       type(vector_t), allocatable :: vectors(:)
       type(body_plan_t), allocatable :: bodies(:)
@@ -209,7 +210,7 @@ contains
          is_used_elsewhere = any(self%vectors%kind /= fixed .and. number >= self%vectors%first .and. &
             number <= self%vectors%first + 2 .and. self%vectors%first > 0) .or. any(self%bodies%mass == number) .or. &
             any(self%masses%kg == number) .or. any(self%joints%stiffness == number) .or. self%gravity == number .or. &
-            any(self%axle == number) .or. any(self%steering == number)
+            any(self%start == number) .or. any(self%axle == number) .or. any(self%steering == number)
          do j = 1, size(self%joints)
             if (.not. allocated(self%joints(j)%ratios)) cycle
             is_used_elsewhere = is_used_elsewhere .or. any(self%joints(j)%ratios == number)

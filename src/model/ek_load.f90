@@ -19,6 +19,7 @@ module ek_load
       logical :: follows = .false.        !! force and moment rotate with the body
       logical :: is_case = .false.        !! scaled by the case that refers to this load; otherwise constant
       logical :: is_weight = .false.      !! gravity of the body, not a load of the deck or the rig
+      integer :: start_of = 0             !! index of the wheel that this constant load holds in the start state (ek_start); 0: none
    end type load_t
 
 contains

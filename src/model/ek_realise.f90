@@ -276,6 +276,8 @@ contains
       integer :: k, used
 
       suspension%gravity = number_at(x, plan%gravity)
+      suspension%start_height = number_at(x, plan%start(1))
+      suspension%start_load = number_at(x, plan%start(2))
       used = size(plan%loads)
       do k = 1, used
          associate (load => suspension%loads(k), this => plan%loads(k))
@@ -285,10 +287,15 @@ contains
          end associate
       end do
       ! a weight for every body with a mass, or none
-      if ((suspension%gravity > 0.0_wp) .neqv. size(suspension%loads) > used) &
+      if ((suspension%gravity > 0.0_wp) .neqv. any(suspension%loads%is_weight)) &
          is_good = is_good .and. .not. any(suspension%bodies%mass > 0.0_wp)
       do k = used + 1, size(suspension%loads)
          associate (load => suspension%loads(k), body => suspension%bodies(suspension%loads(k)%body))
+            if (load%start_of > 0) then
+               load%arm = suspension%vectors(:, plan%wheels(load%start_of)%contact)
+               load%force = 0.0_wp                     ! of find_start
+               cycle
+            end if
             load%arm = body%centre
             load%force = [0.0_wp, 0.0_wp, -body%mass*suspension%gravity]
          end associate

@@ -48,7 +48,8 @@ contains
    elemental logical function same_wheel(a, b)
       type(wheel_t), intent(in) :: a, b
       same_wheel = .not. (any(abs(a%centre - b%centre) > 0.0_wp) .or. any(abs(a%contact - b%contact) > 0.0_wp) .or. &
-         any(abs(a%spin - b%spin) > 0.0_wp) .or. any(abs(a%steer_axis - b%steer_axis) > 0.0_wp))
+         any(abs(a%spin - b%spin) > 0.0_wp) .or. any(abs(a%steer_axis - b%steer_axis) > 0.0_wp) .or. &
+         any(abs(a%start_rise - b%start_rise) > 0.0_wp))
    end function same_wheel
 
    pure logical function same_law(a, b)

@@ -48,6 +48,7 @@ module ek_suspension
       real(wp) :: tyre_rate = 0.0_wp      !! vertical stiffness of the tyre [N/m]; 0: not given
       real(wp) :: tyre_width = 0.0_wp     !! width of the tread [m]; 0: not given
       real(wp) :: sprung_mass = 0.0_wp    !! sprung mass carried by this wheel [kg]; 0: not given
+      real(wp) :: start_rise(2) = 0.0_wp  !! rise of wheel centre and contact point in the start state (ek_start) from design [m]
       logical :: gives_spin = .false.     !! the deck gives the spin axis instead of toe and camber
       logical :: has_steer_axis = .false.
       real(wp) :: steer_axis(3, 2) = 0.0_wp             !! two points on the carrier, arms [m]
@@ -96,6 +97,12 @@ module ek_suspension
       real(wp) :: gravity = 0.0_wp        !! m/s²
       logical :: is_iso = .false.         !! the deck uses ISO 8855 axes: vectors are written in that frame
       character(:), allocatable :: balance   !! 'none', 'spring' or 'all'
+      character(:), allocatable :: start     !! start state of the tests: '' (as trimmed), 'height', 'loads' or 'wheel_load', see
+                                             !! ek_start
+      character(:), allocatable :: state     !! name of the &load_state that gives the start state; '': none
+      logical :: must_start = .false.        !! the deck asks for this start state: an error if there is no such state
+      real(wp) :: start_height = 0.0_wp      !! 'height': rise of the wheel centres from design [m]
+      real(wp) :: start_load = 0.0_wp        !! 'wheel_load': vertical force of the road on each wheel [N]
       type(body_t), allocatable :: bodies(:)
       type(point_t), allocatable :: points(:)
       type(joint_t), allocatable :: joints(:)
@@ -127,6 +134,8 @@ contains
       allocate (self%bodies(0), self%points(0), self%joints(0), self%rows(0), self%terms(0), self%elements(0), self%loads(0), &
          self%wheels(0), self%readouts(0), self%tilts(0))
       self%balance = 'none'
+      self%start = ''
+      self%state = ''
       self%name = ''
       self%title = ''
       self%where = ''
@@ -136,8 +145,8 @@ contains
    end subroutine allocate_lists
 
    !> Copies the numbers of a suspension to another suspension with the same parts. The latter may also have rows, terms and loads
-   !> of a rig after these parts (ek_rig). Copies every number that `realise`, `settle_design` or `balance` sets,
-   !> without allocation.
+   !> of a rig after these parts (ek_rig). Copies every number that `realise`, `settle_design`, `balance` or `find_start`
+   !> sets, without allocation.
    pure subroutine copy_numbers(from, to)
       type(suspension_t), intent(in) :: from
       type(suspension_t), intent(inout) :: to
@@ -147,6 +156,8 @@ contains
          size(from%terms) <= size(to%terms) .and. size(from%elements) == size(to%elements) .and. &
          size(from%loads) <= size(to%loads), 'copy_numbers: the suspensions are of different models')
       to%gravity = from%gravity
+      to%start_height = from%start_height
+      to%start_load = from%start_load
       do k = 1, size(from%bodies)
          to%bodies(k)%origin = from%bodies(k)%origin
          to%bodies(k)%attached = from%bodies(k)%attached
@@ -206,6 +217,7 @@ contains
       to%tyre_width = from%tyre_width
       to%sprung_mass = from%sprung_mass
       to%steer_axis = from%steer_axis
+      to%start_rise = from%start_rise
    end subroutine copy_wheel
 
    !> Copies the numbers of a load.

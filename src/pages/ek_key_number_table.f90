@@ -25,10 +25,11 @@ contains
    end function key_numbers_csv
 
    !> The key numbers as JSON: { "model", "checksum", "key_numbers": [ { … } ] }.
-   function key_numbers_json(numbers, is_pair, model, checksum) result(text)
+   function key_numbers_json(numbers, is_pair, model, checksum, start) result(text)
       type(key_number_t), intent(in) :: numbers(:)
       logical, intent(in) :: is_pair
       character(*), intent(in) :: model, checksum
+      character(:), allocatable, intent(in), optional :: start     !! start state, if the deck does not hold it; '': it does
       character(:), allocatable :: text
       type(frame_t) :: frame
       type(json_t) :: json
@@ -36,6 +37,11 @@ contains
       call json%open('{')
       call json%item('model', json_string(model))
       call json%item('checksum', json_string(checksum))
+      if (present(start)) then
+         if (allocated(start)) then
+            if (start /= '') call json%item('start_state', json_string(start))
+         end if
+      end if
       frame = frame_of(numbers, is_pair)
       call frame%add_json('key_numbers', json)
       call json%close('}')

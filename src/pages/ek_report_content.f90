@@ -21,6 +21,7 @@ module ek_report_content
    type :: report_t
       character(:), allocatable :: title, folder
       type(message_list_t) :: names, values            !! facts for the top of the page
+      character(:), allocatable :: start               !! start state of the tests, if the deck does not hold it (ek_load_state)
       type(message_list_t) :: warnings                 !! warnings on the model as a whole
       type(message_list_t) :: deck_paths, deck_texts   !! paths and values of the deck (ek_deck_values)
       type(test_result_t), allocatable :: tests(:)

@@ -48,6 +48,9 @@ contains
       call add('Factors', str(size(study%factors)))
       call add('Responses', str(size(study%responses)))
       call add('Case', study%case)
+      if (allocated(study%start)) then
+         if (study%start /= '') call add('Start state of the deck', study%start)
+      end if
       call add('Failed', str(study%failed))
       name = 'Within all limits'
       if (any(study%responses%is_target)) name = 'Within the limits of the study'

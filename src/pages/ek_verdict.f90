@@ -56,8 +56,9 @@ module ek_verdict
 
 contains
 
-   !> Lists the lines: incomplete tests, load at design, heights of the tests if they differ, one line per domain, tilt of joints,
-   !> largest load. A line is omitted if the report does not have the numbers of this line.
+   !> Lists the lines: start state if the deck does not hold it, incomplete tests, load at design, heights of the tests if they
+   !> differ, one line per domain, tilt of joints, largest load. A line is omitted if the report does not have the numbers of this
+   !> line.
    subroutine verdict_lines(report, lines)
       type(report_t), intent(in) :: report
       type(verdict_t), allocatable, intent(out) :: lines(:)
@@ -65,6 +66,11 @@ contains
       integer :: d
 
       allocate (lines(0))
+      if (allocated(report%start)) then
+         line%domain = 'start state'
+         line%text = report%start
+         if (line%text /= '') call append(lines, line)
+      end if
       line%domain = 'tests'
       line%text = str(report%incomplete)//' of '//str(size(report%tests))//' incomplete'
       call append(lines, line)

@@ -201,6 +201,7 @@ contains
       end do
       do k = 1, size(suspension%loads)
          associate (load => suspension%loads(k))
+            if (load%start_of > 0) cycle
             call doubts%examine(load%where, 'load '//quoted(load%name))
             if (max(norm2(load%force), norm2(load%moment)) <= 0.0_wp) call doubts%add('nothing', 'its force and moment are zero')
          end associate
@@ -208,7 +209,7 @@ contains
       do w = 1, size(suspension%wheels)
          do k = 1, size(suspension%loads)
             associate (load => suspension%loads(k), wheel => suspension%wheels(w))
-               if (load%is_case .or. load%is_weight .or. load%body /= wheel%body) cycle
+               if (load%is_case .or. load%is_weight .or. load%start_of > 0 .or. load%body /= wheel%body) cycle
                if (min(norm2(load%arm - wheel%contact), norm2(load%arm - wheel%centre)) > same) cycle
                lift = load%force(3)
                call doubts%examine(load%where, 'load '//quoted(load%name))
@@ -226,8 +227,8 @@ contains
       end do
       if (suspension%balance == 'none') return
       call doubts%examine(suspension%where, '&model')
-      if (all(suspension%loads%is_case)) call doubts%add('balance', 'balance = '//quoted(suspension%balance)// &
-         ', but the deck has no constant load and no weight to balance')
+      if (all(suspension%loads%is_case .or. suspension%loads%start_of > 0)) call doubts%add('balance', &
+         'balance = '//quoted(suspension%balance)//', but the deck has no constant load and no weight to balance')
    end subroutine doubt_loads
 
    !> Examines &axle and &steering.

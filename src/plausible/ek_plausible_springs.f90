@@ -25,7 +25,8 @@ contains
          call doubt_copy(suspension, k, doubts)
          if (suspension%elements(k)%kind == torsion_spring) call doubt_bar_side(suspension, k, doubts)
       end do
-      if (suspension%gravity > 0.0_wp .or. all(suspension%loads%is_case)) return      ! without constant loads, no state has weights
+      if (suspension%gravity > 0.0_wp) return
+      if (all(suspension%loads%is_case .or. suspension%loads%start_of > 0)) return      ! no state has weights
       k = findloc(suspension%bodies%mass > 0.0_wp, .true., dim=1)
       if (k == 0) return
       call doubts%examine(suspension%bodies(k)%where, 'body '//quoted(suspension%bodies(k)%name))

@@ -49,7 +49,8 @@ module ek_attitude
 
    !> The attitude of one wheel at one state. Changes are relative to design.
    type :: attitude_t
-      real(wp) :: centre(3) = 0.0_wp     !! displacement of the wheel centre [m]; z is the wheel travel, bump positive
+      real(wp) :: centre(3) = 0.0_wp     !! displacement of the wheel centre [m]
+      real(wp) :: travel = 0.0_wp        !! wheel travel from the start state (ek_start) or from design [m], bump positive
       real(wp) :: contact(3) = 0.0_wp    !! displacement of the contact point [m]
       real(wp) :: toe = 0.0_wp           !! rad, positive: front edges inward
       real(wp) :: camber = 0.0_wp        !! rad, positive: top outward
@@ -91,6 +92,7 @@ contains
       attitude%at_centre = now%r + rotated(now%a, wheel%centre)
       attitude%at_contact = now%r + rotated(now%a, wheel%contact)
       attitude%centre = attitude%at_centre - (origin + wheel%centre)
+      attitude%travel = attitude%centre(3) - wheel%start_rise(1)
       attitude%contact = attitude%at_contact - (origin + wheel%contact)
       attitude%axes = axes_of(wheel, now)
       associate (w => attitude%axes%spin)

@@ -187,7 +187,7 @@ contains
       real(wp), intent(in) :: frame(3)
       real(wp), intent(inout) :: values(most_values)
 
-      values(1) = now%centre(3)
+      values(1) = now%travel
       values(2) = now%toe
       values(3) = now%camber
       values(4) = now%track_change

@@ -38,7 +38,7 @@ module ek_rig
    implicit none(type, external)
    private
    public :: rig_t, mounted_case_t, new_rig, rig_of, add_height, put_on, mount, mount_case, mount_again, take_off, &
-      set_rig_numbers, lacks_springs
+      set_rig_numbers, lacks_springs, counts_from_start
 
    real(wp), parameter :: up(3) = [0.0_wp, 0.0_wp, 1.0_wp]
 
@@ -80,6 +80,7 @@ contains
       rig = rig_of(base, given)
       call put_on(rig, base, suspension)
       if (given%holds_springs) call hold_springs(suspension)
+      call leave_start(given, suspension)
       this = given
       if (.not. allocated(this%test)) this%test = ''
       this%actuations = rig%actuations
@@ -120,6 +121,7 @@ contains
       associate (rig => mounted%rig, suspension => mounted%suspension, this => mounted%case)
          call copy_numbers(base, suspension)
          if (given%holds_springs) call hold_springs(suspension)
+         call leave_start(given, suspension)
          call set_rig_numbers(base, given, rig)
          call copy_rig_numbers(rig, suspension)
          do k = 1, size(rig%actuations)
@@ -149,6 +151,42 @@ contains
             (given%uses_plan .eqv. mounted%kkt%has_plan)
       end associate
    end function stands_there
+
+   !> Whether the states of a case count from the heights of the start state (ek_start). A case that names a load or a driver of its
+   !> own begins at design, and so does the recursion of the paper.
+   pure logical function counts_from_start(case)
+      type(case_t), intent(in) :: case
+
+      counts_from_start = is_test(case)
+      if (counts_from_start .and. allocated(case%method)) counts_from_start = case%method /= 'recursive'
+   end function counts_from_start
+
+   !> Whether a case is a test of the rig.
+   pure logical function is_test(case)
+      type(case_t), intent(in) :: case
+      is_test = .false.
+      if (allocated(case%test)) is_test = len(case%test) > 0
+   end function is_test
+
+   !> Removes the start state from a suspension on the rig of a case that begins at design. The forces of a start state at design
+   !> height remain in a test.
+   pure subroutine leave_start(case, suspension)
+      type(case_t), intent(in) :: case
+      type(suspension_t), intent(inout) :: suspension
+      logical :: is_at_design
+      integer :: k
+
+      if (counts_from_start(case)) return
+      is_at_design = .true.
+      do k = 1, size(suspension%wheels)
+         is_at_design = is_at_design .and. .not. any(abs(suspension%wheels(k)%start_rise) > 0.0_wp)
+         suspension%wheels(k)%start_rise = 0.0_wp
+      end do
+      if (is_at_design .and. is_test(case)) return
+      do k = 1, size(suspension%loads)
+         if (suspension%loads(k)%start_of > 0) suspension%loads(k)%force = 0.0_wp
+      end do
+   end subroutine leave_start
 
    !> Marks a case as not on the rig. It may then be put on the rig again with another model.
    pure subroutine take_off(mounted)
@@ -387,6 +425,9 @@ contains
       do h = 1, size(rig%heights)
          associate (this => rig%heights(h), row => rig%rows(h), joint => rig%joints(h))
             row%compliance = 0.0_wp
+            row%target = 0.0_wp
+            if (counts_from_start(case)) row%target = sum(this%signs(:row%terms)* &
+               suspension%wheels(this%wheels(:row%terms))%start_rise(merge(1, 2, this%is_at_centre)))
             if (this%is_road) row%compliance = sum(this%signs(:row%terms)**2/suspension%wheels(this%wheels(:row%terms))%tyre_rate)
             do k = 1, row%terms
                t = t + 1

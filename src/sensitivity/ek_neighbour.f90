@@ -253,13 +253,14 @@ contains
       end associate
    end subroutine go_to
 
-   !> Finds the elements that a direction changes, if it changes nothing else. With a preload trim, each number changes preloads, too.
+   !> Finds the elements that a direction changes, if it changes nothing else. With a preload trim, each number changes preloads,
+   !> too; with a start state, forces and heights of the wheels.
    pure subroutine find_own_elements(direction, self)
       type(direction_t), intent(in) :: direction
       type(neighbour_t), intent(inout) :: self
       integer :: j
 
-      self%has_elements_alone = self%workspace%raw%balance == 'none'
+      self%has_elements_alone = self%workspace%raw%balance == 'none' .and. self%workspace%raw%start == ''
       if (.not. self%has_elements_alone) return
       self%is_own(:) = .false.
       do j = 1, size(direction%found)

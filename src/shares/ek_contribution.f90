@@ -75,6 +75,7 @@ contains
             call add(of_joint, k, of_stiffness)
       end do
       do k = 1, size(suspension%loads)
+         if (suspension%loads(k)%start_of > 0 .and. .not. norm2(suspension%loads(k)%force) > 0.0_wp) cycle
          call add(of_load, k, geometric)
       end do
       call add(of_state, 0, geometric)

@@ -51,6 +51,7 @@ contains
          do k = 1, size(suspension%loads)
             associate (load => suspension%loads(k))
                if (load%body /= b) cycle
+               if (load%start_of > 0 .and. .not. norm2(load%force) > 0.0_wp) cycle
                if (load%is_weight .and. load%is_case) then
                   inertia = inertia + kkt%factor(k)*load%force
                   cycle

@@ -13,14 +13,14 @@ module ek_rewritten_deck
    !> Keys of one dimension: powers of length, force and angle, as L, F, A, M; a blank separates factors, '/' precedes the divisor.
    type :: row_t
       character(6) :: dimension
-      character(240) :: keys
+      character(320) :: keys
    end type row_t
 
    type(row_t), parameter :: rows(*) = [ &
       row_t('L', ' point.at wheel.radius wheel.tyre_width axle.wheelbase axle.cg_height axle.front_overhang'// &
          ' axle.front_width spring.free_length stop.clearance stop.rounding stop.property_offset steering.ratio steering.travel'// &
-         ' case.offset case.tolerance '), &
-      row_t('F', ' load.force bushing.preload_force damper.gas_force axle.axle_load '), &
+         ' case.offset case.tolerance model.start_height load_state.height '), &
+      row_t('F', ' load.force bushing.preload_force damper.gas_force axle.axle_load model.start_load load_state.wheel_load '), &
       row_t('FL', ' load.moment bushing.preload_moment torsion.preload '), &
       row_t('F/L', ' bushing.kt stop.rate damper.gas_rate wheel.tyre_rate '), &
       row_t('FL/A', ' bushing.kr torsion.rate '), &
