@@ -28,6 +28,10 @@ python_package() {
   rm -rf "$logs/venv_wheel"
   python_with venv_wheel "$logs"/wheels/repaired/elastokin-*.whl || return 1
   "$logs/venv_wheel/bin/python" examples/fit.py $deck || wrong=1
+  # its command line, with the kernels that it finds beside itself
+  diff <("$logs/venv_wheel/bin/elastokin" run $deck --quiet --responses left_bump_toe,left_wheel_rate) \
+    <(build/release/bin/elastokin run $deck --quiet --responses left_bump_toe,left_wheel_rate) || wrong=1
+  diff <("$logs/venv_wheel/bin/elastokin" --version | grep '^packs') <(build/release/bin/elastokin --version | grep '^packs') || wrong=1
   wheel_of_finished_build || wrong=1
   if compile_c "$logs/loop" tests/api/loop.c; then
     "$tools/python" tests/support/python_checks.py build/release/bin/elastokin "$logs/loop" || wrong=1

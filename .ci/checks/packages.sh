@@ -39,3 +39,16 @@ debian_packages() {
 recipes_are_sound() {
   packaging/check_recipes.sh "$logs"     # says why, with status 77, if it cannot run
 }
+
+# The files of a release by the commands that the workflow runs for a tag; only the upload is left out
+release() {
+  local workflow=.github/workflows/release.yml command count=0
+  git diff --quiet HEAD || { skip "files are changed, and a release is made of a commit"; return; }
+  while read -r command; do
+    echo "+ $command"
+    bash -c "$command" || return 1
+    count=$((count + 1))
+  done < <(sed -n 's/^ *- run: //p' $workflow | grep -v '^apt-get \|^git config ')
+  [ $count -eq 3 ] || { echo "$workflow has $count commands that could be tried, not 3"; return 1; }
+  echo "remark: $(du -sh dist | cut -f 1) in $(find dist -type f | wc -l) files"
+}

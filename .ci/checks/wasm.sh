@@ -25,10 +25,10 @@ wasm_toolchain() {
 # The wheel in an empty Python environment: installed, compared with the native program, without a cache that can be written, and
 # wasmtime for other systems
 wasm_wheel() {
-  local folder=$logs/venv_wasm wheel
-  wheel=$(ls build/wasm/elastokin_wasm-*-py3-none-any.whl) || return 1
+  local folder=$logs/venv_wasm wheel system
+  wheel=$(ls build/wasm/elastokin-*-py3-none-any.whl) || return 1
   rm -rf "$folder" "$logs/wasm_wheel"
-  if ! python3 -m venv "$folder" || ! "$folder/bin/pip" install --quiet --disable-pip-version-check "$wheel"; then
+  if ! python3 -m venv "$folder" || ! "$folder/bin/pip" install --quiet --disable-pip-version-check "$wheel" 'wasmtime>=30'; then
     echo "remark: the wheel was not tried, wasmtime could not be installed from PyPI"
     return
   fi
@@ -44,9 +44,28 @@ wasm_wheel() {
   EK_CACHE=$logs/wasm_wheel/cache timeout --kill-after=10 --signal=INT 5 "$folder/bin/elastokin" run input/mcpherson_axle/mcpherson_axle.nml \
     --increments 100000 --out "$logs/wasm_wheel/long" --quiet
   [ $? -eq 124 ] || { echo "an interrupt did not end the program of the wheel"; return 1; }
+  # the Python package on WebAssembly: its tests, and the numbers of the native library
+  EK_CACHE=$logs/wasm_wheel/cache PYTHONDONTWRITEBYTECODE=1 "$folder/bin/python" -m unittest discover --start-directory python/tests || return 1
+  EK_CACHE=$logs/wasm_wheel/cache "$folder/bin/python" tests/wasm/compare_libraries.py build/release/lib/libelastokin.so.0 || return 1
+  # wheels of wasmtime for other systems, by the names that pip asks for
+  for system in win_amd64 macosx_11_0_arm64 macosx_11_0_x86_64 manylinux_2_28_aarch64; do
+    "$folder/bin/pip" download --quiet --disable-pip-version-check --no-deps --only-binary :all: --platform "$system" \
+      --dest "$logs/wasm_wheel/$system" 'wasmtime>=30' || { echo "no wheel of wasmtime for $system"; return 1; }
+  done
 }
 
-# elastokin.wasm and elastokin.html by tools/wasm.sh; both against the native program, in node and in Chromium
+# The page in Firefox; where Firefox or puppeteer-core cannot be had, this is said
+wasm_firefox() {
+  command -v firefox-esr >/dev/null || tools/setup.sh firefox-esr || { echo "remark: the page was not opened in Firefox, which could not be installed"; return; }
+  mkdir -p "$logs/node"
+  (cd "$logs/node" && PUPPETEER_SKIP_DOWNLOAD=1 npm install --silent --no-fund --no-audit puppeteer-core) ||
+    { echo "remark: the page was not opened in Firefox, puppeteer-core could not be installed from npm"; return; }
+  node tests/wasm/page_in_firefox.mjs "$logs/node" build/wasm/elastokin.html "$logs/wasm_firefox" | tee "$logs/wasm_firefox.txt"
+  [ "${PIPESTATUS[0]}" -eq 0 ] || return 1
+  echo "remark: $(sed -n 's/^300 moves of a point: //p' "$logs/wasm_firefox.txt"), $(tail -n 1 "$logs/wasm_firefox.txt")"
+}
+
+# elastokin.wasm and elastokin.html by tools/wasm.sh; both against the native program, in node and in Chromium, the page in Firefox too
 wasm() {
   local tools=$logs/venv_browser wrong=0
   # shellcheck source=packaging/wasm/versions.sh
@@ -60,6 +79,7 @@ wasm() {
   [ "${PIPESTATUS[0]}" -eq 0 ] || wrong=1
   echo "remark: $(tail -n 1 "$logs/wasm_node.txt")"
   wasm_wheel || wrong=1
+  wasm_firefox || wrong=1
   if ! command -v chromium >/dev/null && ! tools/setup.sh chromium; then
     echo "remark: the page was not opened, chromium could not be installed"
     return $wrong
@@ -69,6 +89,7 @@ wasm() {
   "$tools/bin/python" tests/wasm/page_in_a_browser.py build/wasm/elastokin.html "$logs/wasm_page" | tee "$logs/wasm_page.txt"
   [ "${PIPESTATUS[0]}" -eq 0 ] || wrong=1
   echo "remark: $(tail -n 1 "$logs/wasm_page.txt")"
+  "$tools/bin/python" tests/wasm/opened_folder.py "$logs/venv_wasm/bin/python" "$logs/wasm_folder" || wrong=1
   "$tools/bin/python" tests/wasm/compare_programs.py build/release/bin/elastokin build/wasm/elastokin.html "$logs/wasm_browser" |
     tee "$logs/wasm_browser.txt"
   [ "${PIPESTATUS[0]}" -eq 0 ] || wrong=1

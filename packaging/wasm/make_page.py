@@ -69,14 +69,15 @@ parts = {
     "VERSION": re.search(r"project\(elastokin VERSION ([0-9.]+)", (top / "CMakeLists.txt").read_text()).group(1),
     "LICENCES": html.escape(texts),
     "DECKS": in_script(json.dumps(decks(), ensure_ascii=False)),
-    "PROGRAM": program,
     # one script: a worker of a page without a server loads no other
     "WORKER": re.sub(r"(?m)^export ", "", source("wasi.mjs")) + source("library.js") + source("worker.js"),
     "SCRIPT": "".join(source(f"{name}.js") for name in ("page", "deck", "workbench", "views", "tables", "curves", "ask", "start")),
 }
-page = re.sub(r"@([A-Z]+)@", lambda found: parts[found.group(1)], source("page.html"))
+frame = re.sub(r"@([A-Z]+)@", lambda found: parts.get(found.group(1), found.group()), source("page.html"))
+page = frame.replace("@FOLDER@", "null").replace("@PROGRAM@", program)
 size = len(page.encode())
 if size > largest:
     sys.exit(f"make_page: the page has {size} bytes, more than {largest}")
+(folder / "workbench.html").write_text(frame)          # without the program, for the Python package
 (folder / "elastokin.html.new").write_text(page)
 (folder / "elastokin.html.new").rename(folder / "elastokin.html")

@@ -19,7 +19,7 @@ module ek_explain
    use ek_case_result, only: case_result_t, solve_options_t, solve_with_remarks
    use ek_contribution_table, only: contribution_table_t, start_contributions, choose_contributions, find_contributions, &
       key_compliances
-   use ek_explain_files, only: explain_files_t, begin_explain_files, add_explain_state, end_explain_files, begin_explain_json, &
+   use ek_explain_files, only: explain_files_t, begin_explain_files, add_explain_state, end_explain_files, &
       begin_explain_case, end_explain_case, end_explain_json
    use ek_model_remark, only: model_remarks_t, find_model_remarks
    use ek_command_line, only: command_line_t
@@ -85,7 +85,10 @@ contains
       call print_model_remarks(settings%is_quiet, remarks)
       box = outbox_in(settings%out)
       files%has_json = settings%has_json
-      if (files%has_json) call begin_explain_json(workspace%suspension%name, checksum, files%json)
+      if (files%has_json) then
+         call files%json%begin_record(workspace%suspension%name, checksum)
+         call files%json%open('[', 'cases')
+      end if
       do k = 1, size(chosen)
          call explain_case(settings, workspace%suspension, chosen(k), found%faults%line(k), checksum, files, box, trouble)
          if (.not. allocated(trouble)) cycle

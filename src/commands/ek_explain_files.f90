@@ -15,7 +15,7 @@ module ek_explain_files
    use ek_wheel_side, only: prefix_of, deck_frame
    implicit none(type, external)
    private
-   public :: explain_files_t, begin_explain_files, add_explain_state, end_explain_files, begin_explain_json, begin_explain_case, &
+   public :: explain_files_t, begin_explain_files, add_explain_state, end_explain_files, begin_explain_case, &
       end_explain_case, end_explain_json
 
    character(1), parameter :: axes(3) = ['x', 'y', 'z']
@@ -160,15 +160,6 @@ contains
       share = 0.0_wp
       if (abs(whole) > 0.0_wp) share = value/whole
    end function share_of
-
-   !> Begins the JSON object: program, model, checksum, and the list of cases.
-   subroutine begin_explain_json(model, checksum, json)
-      character(*), intent(in) :: model, checksum
-      type(json_t), intent(inout) :: json
-
-      call json%begin_record(model, checksum)
-      call json%open('[', 'cases')
-   end subroutine begin_explain_json
 
    !> Begins the output of a case: its name, the unit of the swept value, and the list of rows, which does not depend on the state.
    subroutine begin_explain_case(name, unit_name, table, json)

@@ -98,7 +98,8 @@ contains
       failed = 0
       code = exit_convergence
       box = outbox_in(settings%out)
-      call begin_run_json(workspace%suspension%name, checksum, json)
+      call json%begin_record(workspace%suspension%name, checksum)
+      call json%open('[', 'cases')
       if (settings%has_loads) then
          call box%remove(files_of_loads)
          allocate (loads)
@@ -339,15 +340,6 @@ contains
       is_vertical = abs(suspension%loads(k)%force(3)) >= norm2(suspension%loads(k)%force(1:2)) &
          .and. norm2(suspension%loads(k)%moment) <= 0.0_wp
    end function is_vertical
-
-   !> Begins the JSON object: program, model, checksum, and the list of cases.
-   subroutine begin_run_json(model, checksum, json)
-      character(*), intent(in) :: model, checksum
-      type(json_t), intent(out) :: json
-
-      call json%begin_record(model, checksum)
-      call json%open('[', 'cases')
-   end subroutine begin_run_json
 
    !> Adds one case: its outcome, its messages, and its table column by column. A case that was not solved has no columns.
    subroutine add_run_json(result, case, json)

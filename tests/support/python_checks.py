@@ -52,7 +52,7 @@ with tempfile.TemporaryDirectory() as folder:
         assert len(model.solve(CASE)) == 21
 
         handle, values = model._handle, np.empty(10**6)
-        room = values.ctypes.data
+        room = values
         path, case, names = PATH.encode(), CASE.encode(), texts_for(NUMBERS)
         size = model.solve(CASE).values.size
 

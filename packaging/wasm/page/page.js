@@ -1,7 +1,10 @@
 // elastokin.html: a document (deck and the files that it names), the program in a worker, and what the last command wrote.
 "use strict";
 const element = (id) => document.getElementById(id);
-const library = JSON.parse(element("decks").textContent), storage = "elastokin.document", largest = 20e6;
+const library = JSON.parse(element("decks").textContent), largest = 20e6;
+// The folder with which the page was made (python -m elastokin.workbench): { name, files: [path, text] }, or null
+const folder = JSON.parse(element("given-folder").textContent);
+const storage = folder ? `elastokin.document ${folder.name}` : "elastokin.document";
 const isDeck = (text) => /^\s*&(model|study|fit)\b/im.test(text), isModel = (text) => /^\s*&model\b/im.test(text);
 
 // ---- the program ----------------------------------------------------------------------------------
@@ -122,7 +125,7 @@ function keep() {
 function restore() {
   try {
     const kept = JSON.parse(localStorage.getItem(storage) ?? "null");
-    if (!kept || kept.files.length === 0) return false;
+    if (!kept || kept.files.length === 0 || folder && !kept.isEdited) return false;       // the folder may have newer files
     openDocument(kept.files, { name: kept.deck, isNew: false });
     isEdited = kept.isEdited;
     return true;
@@ -338,6 +341,9 @@ element("save").addEventListener("click", () => {
   keep();
 });
 let pause;
+// also the last letters before the page is closed
+addEventListener("pagehide", () => { if (files.size > 0) keep(); });
+
 element("text").addEventListener("input", () => {
   if (!files.has(shown)) {
     shown = deck = "deck.nml";

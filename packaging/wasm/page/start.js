@@ -5,6 +5,7 @@ else {
   program = new Program();
   program.ready.then(() => {
     if (restore()) return;
+    if (folder) return openDocument(folder.files);
     say("Ready. Open a deck of the library, or drop a deck here.", "good");
   }, (error) => say(`The program cannot run in this browser: ${error.message}`, "bad"));
 }

@@ -17,6 +17,9 @@ int main(int count, char **words) {
 
 __attribute__((export_name("ek_initialize"))) void ek_initialize(void) { __wasm_call_ctors(); }
 
+/* Relative names of files start from a folder from now on; 0, or -1 if it does not exist */
+__attribute__((export_name("ek_enter"))) int ek_enter(const char *folder) { return chdir(folder); }
+
 __attribute__((export_name("_start"))) void _start(void) {
   int status;
   __wasm_call_ctors();

@@ -1,4 +1,4 @@
-"""The shared library and the prototypes of its functions (include/elastokin.h)."""
+"""The library, shared or as WebAssembly, and the prototypes of its functions (include/elastokin.h)."""
 
 from __future__ import annotations
 
@@ -11,7 +11,16 @@ from typing import Any
 
 from . import errors
 
-_DOUBLES = c_void_p              # address of an array of doubles
+
+class _Doubles:
+    """An array of doubles of numpy, in C order; None is a null pointer."""
+
+    @classmethod
+    def from_param(cls, array: Any) -> Any:
+        """The address of the array, for ctypes."""
+        return None if array is None else c_void_p(array.ctypes.data)
+
+
 _TEXTS = POINTER(c_char_p)
 
 # name: (result, arguments)
@@ -39,8 +48,8 @@ _PROTOTYPES: dict[str, tuple[Any, list[Any]]] = {
     "ek_parameter_unit": (c_char_p, [c_void_p, c_int]),
     "ek_parameter_is_given": (c_int, [c_void_p, c_int]),
     "ek_parameter_twin": (c_int, [c_void_p, c_int]),
-    "ek_get_all": (c_int, [c_void_p, c_int, _DOUBLES]),
-    "ek_set_all": (c_int, [c_void_p, c_int, _DOUBLES]),
+    "ek_get_all": (c_int, [c_void_p, c_int, _Doubles]),
+    "ek_set_all": (c_int, [c_void_p, c_int, _Doubles]),
     "ek_get": (c_int, [c_void_p, c_char_p, POINTER(c_double)]),
     "ek_set": (c_int, [c_void_p, c_char_p, c_double]),
     "ek_set_text": (c_int, [c_void_p, c_char_p, c_char_p]),
@@ -55,13 +64,13 @@ _PROTOTYPES: dict[str, tuple[Any, list[Any]]] = {
     "ek_column_unit": (c_char_p, [c_void_p, c_int]),
     "ek_column_title": (c_char_p, [c_void_p, c_int]),
     "ek_column_sign": (c_char_p, [c_void_p, c_int]),
-    "ek_values": (c_int, [c_void_p, c_int, _DOUBLES]),
+    "ek_values": (c_int, [c_void_p, c_int, _Doubles]),
     "ek_remark_count": (c_int, [c_void_p]),
     "ek_remark_text": (c_char_p, [c_void_p, c_int]),
     "ek_remark_severity": (c_char_p, [c_void_p, c_int]),
-    "ek_compliance": (c_int, [c_void_p, c_int, c_int, _DOUBLES]),
-    "ek_derivatives": (c_int, [c_void_p, c_int, c_int, _TEXTS, c_int, _TEXTS, _DOUBLES, _DOUBLES]),
-    "ek_numbers": (c_int, [c_void_p, c_int, _TEXTS, _DOUBLES]),
+    "ek_compliance": (c_int, [c_void_p, c_int, c_int, _Doubles]),
+    "ek_derivatives": (c_int, [c_void_p, c_int, c_int, _TEXTS, c_int, _TEXTS, _Doubles, _Doubles]),
+    "ek_numbers": (c_int, [c_void_p, c_int, _TEXTS, _Doubles]),
     "ek_number_count": (c_int, [c_void_p]),
     "ek_number_name": (c_char_p, [c_void_p, c_int]),
     "ek_number_unit": (c_char_p, [c_void_p, c_int]),
@@ -70,28 +79,39 @@ _PROTOTYPES: dict[str, tuple[Any, list[Any]]] = {
 
 
 def _path() -> str:
-    """Path of the library: the environment variable EK_LIBRARY, otherwise the library in this package."""
+    """Path of the library: the environment variable EK_LIBRARY, otherwise the library or elastokin.wasm in this package."""
     named = os.environ.get("EK_LIBRARY")
     if named:
         return named
     pattern = {"darwin": "libelastokin*.dylib", "win32": "*elastokin*.dll"}.get(sys.platform, "libelastokin.so*")
-    found = sorted(Path(__file__).parent.glob(pattern))
+    folder = Path(__file__).parent
+    found = sorted(folder.glob(pattern)) or sorted(folder.glob("elastokin.wasm"))
     if not found:
         raise ImportError(
-            f"the elastokin library is not in {Path(__file__).parent}: install the package with pip, "
-            "or set the environment variable EK_LIBRARY to the path of libelastokin.so.0"
+            f"the elastokin library is not in {folder}: install the package with pip, "
+            "or set the environment variable EK_LIBRARY to the path of libelastokin.so.0 or elastokin.wasm"
         )
     return str(found[0])
 
 
-def _load() -> ctypes.CDLL:
-    """Loads the library. If this also loads OpenBLAS, OpenBLAS uses one thread, because the matrices are small."""
+def _load() -> Any:
+    """Loads the library, or the WebAssembly program, which has the same functions."""
+    path = _path()
+    if not path.endswith(".wasm"):
+        return _load_shared(path)
+    from ._wasm import Library
+
+    return Library(Path(path), _PROTOTYPES, _Doubles)
+
+
+def _load_shared(path: str) -> ctypes.CDLL:
+    """Loads the shared library. If this also loads OpenBLAS, OpenBLAS uses one thread, because the matrices are small."""
     variable = "OPENBLAS_NUM_THREADS"
     is_ours = variable not in os.environ
     if is_ours:
         os.environ[variable] = "1"
     try:
-        library = ctypes.CDLL(_path())
+        library = ctypes.CDLL(path)
     finally:
         if is_ours:
             del os.environ[variable]

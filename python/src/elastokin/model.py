@@ -266,7 +266,7 @@ class Model:
         """Repeats earlier changes of the deck, made on this model or on the model of which this is a copy."""
         for path, value in changes:
             if path == "":
-                self._check(lib.ek_set_all(self._open, len(value), value.ctypes.data))
+                self._check(lib.ek_set_all(self._open, len(value), value))
             elif isinstance(value, str):
                 self._check(lib.ek_set_text(self._open, path.encode(), value.encode()))
             else:
@@ -295,7 +295,7 @@ class Model:
         """
         with self._lock:
             x = np.empty(lib.ek_parameter_count(self._open))
-            self._check(lib.ek_get_all(self._open, x.size, x.ctypes.data))
+            self._check(lib.ek_get_all(self._open, x.size, x))
         x.flags.writeable = False
         return x
 
@@ -308,7 +308,7 @@ class Model:
             n = lib.ek_parameter_count(self._open)
             if x.size != n:
                 raise errors.UsageError(f"x needs {n} numbers, one for each of parameters.paths, found {x.size}")
-            self._check(lib.ek_set_all(self._open, x.size, x.ctypes.data))
+            self._check(lib.ek_set_all(self._open, x.size, x))
             self._changes = [change for change in self._changes if isinstance(change[1], str)]
             self._changes.append(("", x))
 
@@ -340,7 +340,7 @@ class Model:
                 self._check(status)
             n = lib.ek_column_count(handle)
             values = np.empty((lib.ek_row_count(handle), n))
-            self._check(lib.ek_values(handle, values.size, values.ctypes.data))
+            self._check(lib.ek_values(handle, values.size, values))
             names, headings = self._columns_of((case, *wanted), n)
             remarks = tuple([
                 Remark(text_of(lib.ek_remark_severity(handle, k)), text_of(lib.ek_remark_text(handle, k)))
@@ -372,7 +372,7 @@ class Model:
                 raise errors.UsageError("the model has solved another case since; solve with compliance=True to keep the matrices")
             n = 6 * lib.ek_wheel_count(self._open)
             matrix = np.empty((n, n))
-            self._check(lib.ek_compliance(self._open, row, n * n, matrix.ctypes.data))
+            self._check(lib.ek_compliance(self._open, row, n * n, matrix))
         return matrix
 
     def _derivatives(self, serial: int, row: int, columns: list[str], numbers: list[str]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -384,7 +384,7 @@ class Model:
             self._check(
                 lib.ek_derivatives(
                     self._open, row, len(columns), texts_for(columns, "the name of a column"), len(numbers),
-                    texts_for(numbers, "a path"), slopes.ctypes.data, doubts.ctypes.data
+                    texts_for(numbers, "a path"), slopes, doubts
                 )
             )
         return slopes, doubts
@@ -403,7 +403,7 @@ class Model:
         wanted = texts_for(list(names), "the name of a key number")
         values = np.empty(len(names))
         with self._lock:
-            code = lib.ek_numbers(self._open, len(names), wanted, values.ctypes.data)
+            code = lib.ek_numbers(self._open, len(names), wanted, values)
             message = ""
             if code == errors.CONVERGENCE:
                 message = text_of(lib.ek_message(self._handle))
