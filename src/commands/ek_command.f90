@@ -308,7 +308,7 @@ module ek_command
       option_t('derivatives', '--set path=value', 'as for run'), option_t('derivatives', '--set-file FILE', 'as for run'), &
       option_t('derivatives', '--height H', 'as for run'), option_t('derivatives', '--state NAME', 'as for run'), &
       option_t('derivatives', '--quiet', quiet_help), &
-      option_t('new', '--points-only', 'print points and links only: no springs, joints in the place of bushings'), &
+      option_t('new', '--points-only', 'print points and links only: no springs, joints instead of bushings'), &
       option_t('list', '--paths', 'print the numbers of the deck'), &
       option_t('list', '--cases', 'print the cases and standard tests'), &
       option_t('list', '--numbers', 'print the key numbers'), &

@@ -1,9 +1,9 @@
-!> A deck of the library with points and links only, for elastokin new KIND --points-only: without springs, with joints in the place
-!> of bushings.
+!> A deck of the library with points and links only, for elastokin new KIND --points-only: without springs, with joints instead of
+!> bushings.
 !>
 !> The deck is changed as text, record by record. Each record begins on a line with & and ends on a line whose last character is /,
 !> as in all decks of the library. For each kind, a file of library/points contains the joints that replace the bushings. A record
-!> of this file with the name of a record of the deck, and &mirror, replace that record; all other records take the place of the
+!> of this file with the name of a record of the deck, and &mirror, replace that record; all other records are inserted at the
 !> first bushing. Its first line may list further records that are dropped: `! drop: 'arb_hinge', 'drop_link'`.
 module ek_points_only
    use ek_text, only: replace
@@ -76,7 +76,7 @@ contains
       call out%line('! '//title//': points and links only, for kinematics without springs.')
       call out%line('!')
       call out%line('! Coordinates: x rearward, y right, z up, origin on the wheel centre line; mm, deg. The deck describes')
-      call out%line('! the left half; the right half is its mirror image. Joints stand in the place of bushings.')
+      call out%line('! the left half; the right half is its mirror image. Joints replace the bushings.')
       pending = nl
       do k = findloc([(pieces(n)%group == 'model', n=1, size(pieces))], .true., dim=1), size(pieces)
          associate (this => pieces(k))
@@ -84,7 +84,7 @@ contains
                if (index(this%text, '! ----') == 1) pending = nl//this%text//nl
                if (this%text == nl .and. pending == '') pending = nl
             else if (this%group == 'bushing' .and. .not. all(is_placed .or. .not. news%is_kept)) then
-               call out%add(nl//'! ---- pivots and links, in the place of bushings '//rule//nl//nl)
+               call out%add(nl//'! ---- pivots and links, instead of bushings '//rule//nl//nl)
                do n = 1, size(news)
                   if (news(n)%is_kept .and. .not. is_placed(n)) call out%add(news(n)%text)
                   is_placed(n) = .true.
@@ -125,7 +125,7 @@ contains
       if (is_successor .and. new%group /= 'mirror') is_successor = new%name == old%name .and. new%name /= ''
    end function is_successor
 
-   !> Cuts a deck into its records and the lines between them.
+   !> Divides a deck into its records and the lines between them.
    pure subroutine cut(text, pieces)
       character(*), intent(in) :: text
       type(piece_t), allocatable, intent(out) :: pieces(:)
