@@ -61,6 +61,8 @@ module ek_workspace
       type(balance_failure_t), private :: failure       !! outcome of the last preload trim
       type(preload_problem_t), private :: space         !! work space of the preload trim
       type(start_space_t), private :: start_space       !! work space of the start state
+      logical, private :: has_started = .false.         !! an earlier design has a start state: a later design without
+                                                        !! one fails, so that all designs begin in states of one kind
    end type workspace_t
 
 contains
@@ -122,7 +124,8 @@ contains
       call set_preloads(workspace%suspension, tolerance, workspace%space, workspace%failure)
       if (workspace%failure%reason == 0) then
          call find_start(workspace%suspension, tolerance, workspace%start_space, is_found)
-         if (.not. is_found .and. workspace%suspension%must_start) workspace%failure%reason = no_start
+         if (.not. is_found .and. (workspace%suspension%must_start .or. workspace%has_started)) workspace%failure%reason = no_start
+         workspace%has_started = workspace%has_started .or. is_found
       end if
       workspace%stage = merge(balanced, realised, workspace%failure%reason == 0)
       workspace%tolerance = tolerance

@@ -3,6 +3,7 @@
 module ek_live
    use ek_kinds, only: wp
    use ek_text, only: is_like
+   use ek_suspension, only: suspension_t
    use ek_schedule, only: new_schedule
    use ek_case_result, only: case_result_t
    use ek_live_rates, only: live_rates_t, choose_rates
@@ -67,7 +68,7 @@ contains
             if (size(rates%rate) == 0) return
             allocate (live%rates, source=rates)
             live%balance = result%suspension%balance
-            if (live%balance == 'none' .and. result%suspension%start == 'height') live%balance = 'height'
+            if (live%balance == 'none' .and. carries_force(result%suspension)) live%balance = 'height'
             call find_test(result, test, rates, of_design, [design_row(result%table)], live%design)
          end if
          allocate (columns, source=quantities_of(test%kind))
@@ -119,5 +120,14 @@ contains
       end do
       if (size(self%shown) > 1) self%shown = [self%shown(1), self%shown(size(self%shown))]
    end subroutine find_test
+
+   !> Whether the rig carries a force that holds the wheels in the start state (ek_start).
+   pure logical function carries_force(suspension)
+      type(suspension_t), intent(in) :: suspension
+      integer :: k
+
+      carries_force = suspension%start == 'height' .and. any([(suspension%loads(k)%start_of > 0 .and. &
+         norm2(suspension%loads(k)%force) > 0.0_wp, k=1, size(suspension%loads))])
+   end function carries_force
 
 end module ek_live

@@ -147,7 +147,7 @@ contains
       end do
    end subroutine find_force
 
-   !> Whether the design position is in equilibrium under the constant loads without a force on the wheels, but for rounding noise.
+   !> Finds whether the design position is in equilibrium under the constant loads, but for rounding noise, if the wheels are held.
    !> This takes one assembly, so that a design of a study without preloads and loads costs almost nothing.
    subroutine find_residual(suspension, tolerance, space, is_noise_alone)
       type(suspension_t), intent(in) :: suspension
