@@ -3,6 +3,7 @@
 !> alone. Its numbers may then belong to another load state than the numbers of the tests.
 module ek_load_state
    use ek_kinds, only: wp, millimetre
+   use ek_noise, only: is_noise, solved
    use ek_error, only: message_list_t
    use ek_text, only: str, quoted
    use ek_suspension, only: suspension_t
@@ -85,13 +86,14 @@ contains
    end function stand_of
 
    !> The start state of the tests: 'design height needs 1786 N per wheel; the deck's loads are 0 N; all tests start at design
-   !> height, where the rig carries the difference'. '' if the deck holds the design height and the tests start there.
+   !> height, where the rig carries the difference'. '' if the deck holds the design height and the tests start there. If no start
+   !> state was found, the text says this.
    function start_text(suspension) result(text)
       type(suspension_t), intent(in) :: suspension       !! with trimmed preloads and start state; on no rig
       character(:), allocatable :: text
       real(wp), dimension(size(suspension%wheels)) :: own, added, rise
       real(wp), allocatable :: needed(:)
-      logical :: is_known
+      logical :: is_known, has_moved
       integer :: k
 
       text = ''
@@ -102,17 +104,24 @@ contains
       end do
       own = [(standing_load(suspension, k), k=1, size(own))] - added
       rise = suspension%wheels%start_rise(1)
-      if (.not. (any(abs(added) > 0.0_wp) .or. any(abs(rise) > 0.0_wp))) return
+      has_moved = any(abs(added) > 0.0_wp) .or. any(abs(rise) > 0.0_wp)
       needed = own + added
       is_known = .true.
-      if (any(abs(rise) > 0.0_wp)) call needed_force(suspension, default_tolerance, needed, is_known)
+      if (any(abs(rise) > 0.0_wp) .or. .not. has_moved) call needed_force(suspension, default_tolerance, needed, is_known)
+      if (.not. has_moved) then
+         if (.not. is_known) return
+         if (all([(is_noise(needed(k) - own(k), 'vertical_force_n', abs(needed(k)), solved), k=1, size(own))])) return
+      end if
       if (is_known) then
          text = 'design height needs '//stand_text(needed, 'N')//' per wheel; the deck''s loads are '//stand_text(own, 'N')
       else
          text = 'the deck''s loads are '//stand_text(own, 'N')
       end if
       if (suspension%state /= '') text = 'load state '//quoted(suspension%state)//': '//text
-      if (suspension%start == 'loads') then
+      if (.not. has_moved) then
+         text = text//'; no start state was found, so that tests that hold the wheels start at design height, and other tests '// &
+            'have values only where the wheels settle under these loads'
+      else if (suspension%start == 'loads') then
          text = text//'; all tests start where the wheels settle under them, '//stand_text(rise/millimetre, 'mm')// &
             ' from design height'
       else if (any(abs(rise) > 0.0_wp)) then
