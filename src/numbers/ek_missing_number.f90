@@ -4,17 +4,14 @@ module ek_missing_number
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
    use ek_text, only: str
-   use ek_quantity, only: needs_rate
    use ek_table, only: table_t, column_index, name_length, row_count
    use ek_test_result, only: design_row, state_range
    use ek_table_reading, only: row_at
-   use ek_gradient, only: fit_slope, slope_note
+   use ek_gradient, only: fit_slope, slope_note, lacks_rate, no_spring
    use ek_key_number, only: key_number_t, at_design, slope, anti_phase, at_place, to_contact, largest_of_all
    implicit none(type, external)
    private
-   public :: missing_reason, missing_value, no_spring
-
-   character(*), parameter :: no_spring = 'no spring carries the wheels'
+   public :: missing_reason, missing_value
 
 contains
 
@@ -47,7 +44,7 @@ contains
          if (over > 0) then
             call fit_slope(table, place, over, number%sources(source)%factor_size, number%sources(source)%width, &
                number%sources(source)%half, value, reason, points, undefined)
-            text = slope_note(table, reason, points, undefined, trim(column), trim(table%columns(over)))
+            text = slope_note(table, reason, points, undefined, trim(column), trim(table%columns(over)), .true.)
          end if
       else if (number%how == at_design .or. number%how == to_contact .and. design_row(table) == 0) then
          text = missing_value(table, trim(column), 'factor', 0.0_wp)
@@ -78,19 +75,6 @@ contains
          text = no_design(table)
       end if
    end function missing_value
-
-   !> Whether a column has no value because nothing carries the wheels.
-   pure logical function lacks_rate(table, column)
-      type(table_t), intent(in) :: table
-      character(*), intent(in) :: column
-      integer :: first
-
-      first = 1
-      if (index(column, 'left_') == 1) first = 6
-      if (index(column, 'right_') == 1) first = 7
-      lacks_rate = table%lacks_springs
-      if (lacks_rate) lacks_rate = needs_rate(column(first:))
-   end function lacks_rate
 
    !> Why a table has no design state: it did not converge, or it lies outside the states.
    function no_design(table) result(text)

@@ -18,7 +18,7 @@ module ek_gradient
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
    use ek_text, only: str, quoted, plural
-   use ek_quantity, only: slope_unit, unit_text
+   use ek_quantity, only: slope_unit, unit_text, needs_rate
    use ek_noise, only: noise_of, solved
    use ek_table, only: table_t, row_count, column_index, name_length
    use ek_case, only: case_t, add_window
@@ -32,8 +32,10 @@ module ek_gradient
    use ek_text_table, only: text_table_t, read_text_table, cell_of
    implicit none(type, external)
    private
-   public :: gradient_t, test_gradients, gradient_windows, fit_slope, slope_note, gradient_noise
+   public :: gradient_t, test_gradients, gradient_windows, fit_slope, slope_note, gradient_noise, lacks_rate, no_spring
    public :: gradients_csv, gradients_json, read_gradients
+
+   character(*), parameter :: no_spring = 'no spring carries the wheels'     !! reason of a column that depends on a rate
 
    !> One gradient of the report.
    type :: gradient_t
@@ -179,20 +181,25 @@ contains
       gradient%turn = turn_of(test, definition, side)
       gradient%value = slope
       if (.not. ieee_is_finite(slope)) then
-         gradient%note = slope_note(test%table, reason, gradient%points, undefined, '', trim(gradient%over))
+         gradient%note = slope_note(test%table, reason, gradient%points, undefined, gradient%column, trim(gradient%over), .false.)
          return
       end if
       gradient%value = slope*(gradient%size*gradient%turn)
    end function one_gradient
 
    !> The reason why a slope has no value.
-   function slope_note(table, reason, points, undefined, column, over) result(note)
+   function slope_note(table, reason, points, undefined, column, over, names_column) result(note)
       type(table_t), intent(in) :: table
       integer, intent(in) :: reason, points, undefined     !! of fit_slope
-      character(*), intent(in) :: column, over     !! names of both columns; column '': not named
+      character(*), intent(in) :: column, over     !! names of both columns
+      logical, intent(in) :: names_column          !! whether the reader needs the name of the first
       character(:), allocatable :: note
       real(wp) :: range(2)
 
+      if (lacks_rate(table, column)) then
+         note = no_spring
+         return
+      end if
       select case (reason)
       case (is_outside)
          note = 'no state was found'
@@ -201,7 +208,7 @@ contains
             ', do not cover the window'
       case (is_undefined)
          note = 'undefined at '//plural(undefined, 'state', 'states')//' in the window'
-         if (column /= '') note = column//' is '//note
+         if (names_column) note = column//' is '//note
       case (is_flat)
          note = over//' does not change'
       case default
@@ -210,6 +217,19 @@ contains
          note = note//'; use more increments, or a range around design'
       end select
    end function slope_note
+
+   !> Whether a column has no value because nothing carries the wheels.
+   pure logical function lacks_rate(table, column)
+      type(table_t), intent(in) :: table
+      character(*), intent(in) :: column
+      integer :: first
+
+      first = 1
+      if (index(column, 'left_') == 1) first = 6
+      if (index(column, 'right_') == 1) first = 7
+      lacks_rate = table%lacks_springs
+      if (lacks_rate) lacks_rate = needs_rate(column(first:))
+   end function lacks_rate
 
    !> Reads the slope of one column over another column in a window around design, in the units of both; 0 if the slope is within the
    !> noise. Creates no strings.
