@@ -35,7 +35,8 @@ ordinary = 1e-10
 # forces, moments, displacements and slopes that are zero but for rounding
 counts_as_one = {"n", "nm", "mm", "N", "N m", "deg/m"}
 # Forces that cancel, (table, column), and by how many N they may differ: the clamps of a twist beam carry the bending of a stiff beam
-cancelled = {(r"^twist_beam_axle/\w+/(twist_beam_axle_)?aligning_torque", r"\w+_beam_f[xyz]_n"): 1e-6}
+cancelled = {(r"^twist_beam_axle/\w+/(twist_beam_axle_)?aligning_torque", r"\w+_beam_f[xyz]_n"): 1e-6,
+             (r"^twist_beam_axle/report/windows/", r"\w+_beam_f[xyz]_n"): 1e-6}       # five states near design: small forces
 # checksums of files with other digits; orders and numbers of terms of equal size, which rounding decides
 not_compared = re.compile(r".*-files\.csv|_contributions\.csv|explain/.*")
 # where a curve has its largest difference: at several points of the same size, rounding decides
