@@ -3,6 +3,7 @@
 !> Every command and every study chooses options, solves its cases with this module, and prints or writes the result. A solution
 !> consists of numbers and of a code, the outcome. On request, add_remarks describes both in messages.
 module ek_case_result
+   use ek_load_state, only: start_line
    use ek_kinds, only: wp, i8, millimetre
    use ek_error, only: error_t, fail, exit_model, exit_convergence, exit_file
    use ek_text, only: str, quoted, plural
@@ -266,6 +267,7 @@ contains
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case              !! on the rig
       character(*), intent(in) :: checksum          !! of the deck
+      character(:), allocatable :: start
 
       call name_rows(case, table)
       call table%header%add('model '//suspension%name//', case '//case%name//', method '//case%method// &
@@ -282,6 +284,8 @@ contains
       call table%header%add('elastokin '//version//', deck checksum '//checksum)
       if (suspension%free_wheels > 0) call table%header%add('kinematics only: no spring carries the wheels; columns that '// &
          'depend on a rate are nan')
+      start = start_line(suspension)
+      if (start /= '') call table%header%add(start)
       call table%header%add('spring force > 0: compression. Bushing force and moment: on its second body, axes of its first '// &
          'marker. Joint force and moment: on its second body, at its point, frame of the deck')
    end subroutine add_header

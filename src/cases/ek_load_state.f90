@@ -16,7 +16,7 @@ module ek_load_state
    use ek_attitude, only: attitude_t, wheel_attitude, vertical_force
    implicit none(type, external)
    private
-   public :: load_state_remarks, start_text, stand_text, differ
+   public :: load_state_remarks, start_text, start_line, stand_text, differ
 
    real(wp), parameter :: noticeable = 0.1_wp       !! mm: smaller differences of heights do not change a number noticeably
 
@@ -131,6 +131,26 @@ contains
          text = text//'; all tests start at design height, where the rig carries the difference'
       end if
    end function start_text
+
+   !> The line on the start state in the table of a case: 'start state: wheels 20 mm from design height, where wheel travel is 0;
+   !> the rig adds 500 N per wheel'. '' if the case starts at design without an added force.
+   function start_line(suspension) result(text)
+      type(suspension_t), intent(in) :: suspension       !! with start state, on the rig of the case
+      character(:), allocatable :: text
+      real(wp), dimension(size(suspension%wheels)) :: added, rise
+      integer :: k
+
+      text = ''
+      if (size(suspension%wheels) == 0) return
+      added = 0.0_wp
+      do k = 1, size(suspension%loads)
+         if (suspension%loads(k)%start_of > 0) added(suspension%loads(k)%start_of) = suspension%loads(k)%force(3)
+      end do
+      rise = suspension%wheels%start_rise(1)
+      if (.not. (any(abs(added) > 0.0_wp) .or. any(abs(rise) > 0.0_wp))) return
+      text = 'start state: wheels '//stand_text(rise/millimetre, 'mm')//' from design height, where wheel travel is 0; '// &
+         'the rig adds '//stand_text(added, 'N')//' per wheel'
+   end function start_line
 
    !> Finds the heights and the vertical forces of the wheels in a case before a load or a travel is applied.
    subroutine find_stand(suspension, case, heights, loads, is_known)
