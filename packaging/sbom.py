@@ -38,6 +38,12 @@ parts = [
 ]
 
 
+# the packages of the editor; those only for development make it
+locked = json.loads((top / "packaging/wasm/editor/package-lock.json").read_text())["packages"]
+parts += [(path.removeprefix("node_modules/"), one["version"], one["license"], "pkg:npm/" + path.removeprefix("node_modules/").replace("@", "%40"), [page, any_wheel])
+          for path, one in locked.items() if path and not one.get("dev")]
+
+
 def files_of(patterns):
     """The files of the release that patterns name; each pattern names at least one."""
     found = []

@@ -6,7 +6,8 @@
 # Uses the compilers of Debian (packaging/wasm/versions.sh), and the sources of the Fortran runtime and of LAPACK. These are downloaded
 # from the archive that apt uses, examined by their SHA-256, and unpacked in a cache: EK_WASM_CACHE, by default
 # $XDG_CACHE_HOME/elastokin/wasm. Put a source archive there by hand where there is no network; the message says which. The cache also
-# contains the compiled runtime. EK_BUILD sets another folder than build/wasm, EK_JOBS the number of compilers at the same time.
+# contains the compiled runtime, and the editor component of the page. npm installs the latter by the versions and checksums of
+# packaging/wasm/editor/package-lock.json; no script of a package is run. EK_BUILD sets another folder than build/wasm, EK_JOBS the number of compilers at the same time.
 # `sources`, `runtime` or `program` stop after this step. About 15 minutes on one processor, 10 of them for the program; a second
 # run compiles what has changed.
 set -euo pipefail
@@ -175,6 +176,36 @@ build_program() {
   mv "$folder/elastokin.wasm.new" "$folder/elastokin.wasm"
 }
 
+# ---- editor of the page ---------------------------------------------------------------------------
+
+# get_editor: CodeMirror as one script with its licences in $editor, from the cache, where it is written if it is not there
+get_editor() {
+  local key work name
+  key=$(cat "$kit"/editor/{component.js,package-lock.json} | sum_of)
+  editor=$cache/editor-$key
+  [ ! -e "$editor/editor.js" ] || return 0
+  command -v npm >/dev/null || tools/setup.sh nodejs npm || fail "npm is needed for the editor of the page"
+  work=$folder/editor
+  rm -rf "$work" "$editor.$$"
+  mkdir -p "$work" "$editor.$$"
+  cp "$kit"/editor/{component.js,package.json,package-lock.json} "$work"
+  (cd "$work" && npm ci --ignore-scripts --no-fund --no-audit --prefer-offline --cache "$cache/npm") >>"$log" 2>&1 || fail "npm could not install the editor component (the attempts are in $log).
+  Put the folder
+      $editor
+  of a computer with a network there, where tools/wasm.sh or these commands in packaging/wasm/editor have made its files:
+      npm ci --ignore-scripts
+      npx esbuild component.js --bundle --minify --format=iife --global-name=codemirror --legal-comments=none --outfile=editor.js
+      for name in \$(npm ls --all --omit=dev --parseable | tail -n +2); do cat \$name/LICENSE; done >LICENCES.txt"
+  (cd "$work" && node_modules/.bin/esbuild component.js --bundle --minify --format=iife --global-name=codemirror \
+    --legal-comments=none --outfile="$editor.$$/editor.js") >>"$log" 2>&1 || fail "the editor component could not be bundled; the output is in $log"
+  (cd "$work" && npm ls --all --omit=dev --parseable) | tail -n +2 | sort | while read -r name; do
+    echo "${name#*/node_modules/}"
+    cat "$name/LICENSE"
+  done >"$editor.$$/LICENCES.txt"
+  mv "$editor.$$" "$editor" || [ -e "$editor/editor.js" ]     # another run may do the same
+  rm -rf "$work"
+}
+
 find_tools
 get_sources
 said "sources in $cache"
@@ -187,7 +218,9 @@ said "LAPACK and functions of the system"
 build_program
 said "$folder/elastokin.wasm: $(stat -c %s "$folder/elastokin.wasm") bytes, compressed $(gzip -9 <"$folder/elastokin.wasm" | wc -c)"
 [ "$last" != program ] || exit 0
-EK_LLVM=$cache/llvm-${llvm_sum:0:12} EK_LAPACK=$cache/lapack-${lapack_sum:0:12} "$kit/make_page.py" "$folder"
+get_editor
+said "editor of the page: $editor"
+EK_EDITOR=$editor EK_LLVM=$cache/llvm-${llvm_sum:0:12} EK_LAPACK=$cache/lapack-${lapack_sum:0:12} "$kit/make_page.py" "$folder"
 said "$folder/elastokin.html: $(stat -c %s "$folder/elastokin.html") bytes"
 "$kit/make_wheel.py" "$folder" >"$folder/wheel.txt"
 said "$(cat "$folder/wheel.txt"): $(stat -c %s "$(cat "$folder/wheel.txt")") bytes"

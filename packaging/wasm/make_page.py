@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """make_page.py FOLDER: writes FOLDER/elastokin.html, with FOLDER/elastokin.wasm, the library of decks and all licences inside, and
-FOLDER/LICENCES.txt, for tools/wasm.sh. EK_LLVM and EK_LAPACK name the folders with the sources of what the program is linked with.
+FOLDER/LICENCES.txt, for tools/wasm.sh. EK_LLVM and EK_LAPACK name the folders with the sources of what the program is linked with,
+EK_EDITOR names the folder with the editor component.
 """
 import base64
 import gzip
@@ -24,6 +25,7 @@ licences = [
     ("CC0 1.0, named above", common / "CC0-1.0"),
     ("Apache License 2.0, named above", common / "Apache-2.0"),
     ("LAPACK and BLAS", Path(os.environ["EK_LAPACK"]) / "LICENSE"),
+    ("CodeMirror, the editor of elastokin.html, and the packages that it uses", Path(os.environ["EK_EDITOR"]) / "LICENCES.txt"),
 ]
 
 
@@ -61,6 +63,14 @@ def source(name):
     return (here / "page" / name).read_text()
 
 
+def editor():
+    """The editor component as the content of a script element."""
+    text = (Path(os.environ["EK_EDITOR"]) / "editor.js").read_text()
+    if re.search(r"</script|<!--", text, re.I):
+        sys.exit("make_page: the editor component cannot be put into a script element")
+    return text
+
+
 texts = licence_texts()
 (folder / "LICENCES.txt").write_text(texts)
 program = base64.b64encode(gzip.compress((folder / "elastokin.wasm").read_bytes(), 9, mtime=0)).decode()
@@ -69,9 +79,10 @@ parts = {
     "VERSION": re.search(r"project\(elastokin VERSION ([0-9.]+)", (top / "CMakeLists.txt").read_text()).group(1),
     "LICENCES": html.escape(texts),
     "DECKS": in_script(json.dumps(decks(), ensure_ascii=False)),
+    "EDITOR": editor(),
     # one script: a worker of a page without a server loads no other
     "WORKER": re.sub(r"(?m)^export ", "", source("wasi.mjs")) + source("library.js") + source("worker.js"),
-    "SCRIPT": "".join(source(f"{name}.js") for name in ("page", "deck", "workbench", "views", "tables", "curves", "ask", "start")),
+    "SCRIPT": "".join(source(f"{name}.js") for name in ("page", "deck", "editor", "workbench", "views", "tables", "curves", "ask", "start")),
 }
 frame = re.sub(r"@([A-Z]+)@", lambda found: parts.get(found.group(1), found.group()), source("page.html"))
 page = frame.replace("@FOLDER@", "null").replace("@PROGRAM@", program)

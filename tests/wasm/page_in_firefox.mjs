@@ -2,7 +2,7 @@
 // check, run and report of a deck, ten seeded drags of points whose curves are those of `run --set-file`, a wrong deck, a document that
 // stays when the page is closed; no message on the console, no request. Exit status 1 with a line per failure.
 import { createRequire } from "node:module";
-import { mkdirSync } from "node:fs";
+import { mkdirSync, rmSync } from "node:fs";
 import { resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 
@@ -10,6 +10,7 @@ const [modules, pageFile, folder] = process.argv.slice(2).map((word) => resolve(
 const puppeteer = createRequire(`${modules}/`)("puppeteer-core");
 const patient = 120000, failures = [], messages = [], requests = [];
 const require_ = (isGood, text) => { if (!isGood) failures.push(text); };
+rmSync(`${folder}/profile`, { recursive: true, force: true });      // the document of an earlier run
 mkdirSync(folder, { recursive: true });
 
 const browser = await puppeteer.launch({ browser: "firefox", executablePath: process.env.EK_FIREFOX ?? "/usr/bin/firefox-esr", headless: true,
@@ -39,12 +40,6 @@ async function until(question, what, ...words) {
   throw new Error(`not seen: ${what}`);
 }
 const said = (text) => until((wanted) => document.getElementById("status").textContent.includes(wanted), text, text);
-const fill = (selector, text) => page.evaluate((where, value) => {
-  const field = document.querySelector(where);
-  field.value = value;
-  for (const kind of ["input", "change"]) field.dispatchEvent(new Event(kind, { bubbles: true }));
-}, selector, text);
-
 try {
   const start = Date.now();
   await said("Ready");
@@ -80,7 +75,7 @@ try {
     }
     return true;
   }
-  await page.evaluate(() => { globalThis.original = document.getElementById("text").value; });
+  await page.evaluate(() => { globalThis.original = elastokin.text(); });
   await agrees("as opened");
   let seed = 51;
   const chance = (n) => { seed = (seed * 48271) % 2147483647; return seed % n; };
@@ -118,14 +113,17 @@ try {
   await agrees("after 300 moves");
   await page.screenshot({ path: `${folder}/firefox.png` });
 
-  const text = await page.evaluate(() => document.getElementById("text").value);
   await page.click("[data-tab=messages]");
-  await fill("#text", text.replace("&joint", "&jiont"));
+  await page.focus("#text");
+  await page.keyboard.down("Control");
+  await page.keyboard.press("Home");
+  await page.keyboard.up("Control");
+  await page.keyboard.type("&jiont /");
   await said("check: error in the deck");
   require_((await page.evaluate(() => document.getElementById("messages").textContent)).includes("there is no group &jiont"), "no message on a wrong group");
   await page.close();
   page = await open();
-  await until(() => document.getElementById("text").value.includes("&jiont"), "the document of the closed page");
+  await until(() => elastokin.text().includes("&jiont"), "the document of the closed page");
 } catch (error) {
   failures.push(String(error));
 }

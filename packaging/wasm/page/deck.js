@@ -1,7 +1,7 @@
 // The numbers of a deck in its text, for workbench.js: points, and the numbers of other groups by the path that --set uses.
 
-// The groups of a deck: { name, keys: key -> { start, end, numbers } }, positions in the text. In `masked`, strings are ×, comments blank.
-function groupsOf(text) {
+// A text of the same length in which strings are ×, comments blank
+function maskOf(text) {
   let masked = "", quote = "";
   for (let k = 0; k < text.length; k++) {
     const c = text[k];
@@ -17,6 +17,12 @@ function groupsOf(text) {
       masked += c;
     }
   }
+  return masked;
+}
+
+// The groups of a deck: { name, keys: key -> { start, end, numbers } }, positions in the text
+function groupsOf(text) {
+  const masked = maskOf(text);
   return [...masked.matchAll(/^[ \t]*&(\w+)([^/]*)\//gm)].map((found) => {
     const start = found.index + found[0].length - found[2].length - 1, keys = {};
     const heads = [...found[2].matchAll(/([a-z_]\w*)[ \t]*=/gi)];
@@ -122,3 +128,23 @@ function replaceNumbers(text, list) {
   }
   return text;
 }
+
+// ---- changes --------------------------------------------------------------------------------------
+
+// What differs in two texts: [start, old part, new part]
+function differenceOf(old, now) {
+  const least = Math.min(old.length, now.length);
+  let start = 0, end = 0;
+  while (start < least && old[start] === now[start]) start++;
+  while (end < least - start && old[old.length - 1 - end] === now[now.length - 1 - end]) end++;
+  return [start, old.slice(start, old.length - end), now.slice(start, now.length - end)];
+}
+
+// What differs in two documents with the same files, path -> text: [path, start, old part, new part]
+function changesOf(old, now) {
+  return [...now].filter(([path, text]) => text !== old.get(path)).map(([path, text]) => [path, ...differenceOf(old.get(path) ?? "", text)]);
+}
+
+// A text with a change, or without it again
+const withChange = (text, [, start, old, now]) => text.slice(0, start) + now + text.slice(start + old.length);
+const withoutChange = (text, [path, start, old, now]) => withChange(text, [path, start, now, old]);

@@ -69,7 +69,7 @@ const wordsOf = (line) => [...line.matchAll(/(?:[^\s"']+|"[^"]*"|'[^']*')+/g)]
 // ---- the document ---------------------------------------------------------------------------------
 
 const files = new Map();           // path -> text
-let deck = "", shown = "", isEdited = false, results = [], busy = false, again = 0;
+let deck = "", shown = "", isEdited = false, results = [], remarks = [], busy = false, again = 0;      // remarks: of `check --json`
 
 function fill(select, names, chosen) {
   select.replaceChildren(...names.map((name) => new Option(name, name, false, name === chosen)));
@@ -78,21 +78,9 @@ function fill(select, names, chosen) {
 
 function showFile(name) {
   shown = name;
-  element("text").value = files.get(name) ?? "";
-  element("text").scrollTop = 0;
+  openText(name, files.get(name) ?? "");
   fill(element("file"), [...files.keys()], shown);
-  number();
-}
-
-function number(wrong = new Set()) {
-  const count = element("text").value.split("\n").length, lines = [];
-  for (let k = 1; k <= count; k++) {
-    const mark = document.createElement(wrong.has(k) ? "b" : "span");
-    mark.textContent = `${k}\n`;
-    lines.push(mark);
-  }
-  element("numbers").replaceChildren(...lines);
-  element("numbers").scrollTop = element("text").scrollTop;
+  markText(remarks);
 }
 
 // A document replaces the one before, unless it has no deck: tables are added to the document.
@@ -193,12 +181,24 @@ async function command(words) {
     const result = await program.run(words, [...files]);
     if (result === null) say("Stopped. The document is unchanged.");
     else show(words, result, (performance.now() - start) / 1000);
+    if (words[0] === "check" && result !== null) await mark(words);
   } catch (error) {
     say(`The program cannot run in this browser: ${error.message}`, "bad");
   }
   busy = false;
   element("stop").disabled = true;
   if (again) command(again);
+}
+
+// The messages of a check at their lines in the text
+async function mark(words) {
+  const before = files.get(shown), result = await program.run([...words, "--json"], [...files]);
+  try {
+    remarks = JSON.parse(result.output).messages;
+  } catch {
+    remarks = [];      // a study, or a wrong command
+  }
+  if (files.get(shown) === before) markText(remarks);
 }
 
 function show(words, result, seconds) {
@@ -223,7 +223,7 @@ function show(words, result, seconds) {
 
 // Messages, then output; a message with a line of a file of the document leads there
 function showMessages({ messages, output }) {
-  const wrong = new Set(), parts = [];
+  const parts = [];
   for (const [text, isMessage] of [[messages, true], [output, false]]) {
     const block = document.createElement("pre");
     for (const line of text.split("\n")) {
@@ -231,7 +231,6 @@ function showMessages({ messages, output }) {
       if (isMessage && /\berror\b|^\S+:\d+: /.test(line) && !/^(warning|note|remark)/.test(line)) span.className = "error";
       else if (/^(warning|note|remark)/.test(line)) span.className = "warning";
       if (place && files.has(place[1])) {
-        if (place[1] === shown) wrong.add(Number(place[2]));
         const button = document.createElement("button");
         button.type = "button";
         button.textContent = line;
@@ -243,16 +242,11 @@ function showMessages({ messages, output }) {
     if (text.trim() !== "") parts.push(block);
   }
   element("messages").replaceChildren(...parts);
-  number(wrong);
 }
 
 function goTo(name, line) {
-  const text = element("text");
   if (name !== shown) showFile(name);
-  const lines = text.value.split("\n"), at = lines.slice(0, line - 1).reduce((sum, one) => sum + one.length + 1, 0);
-  text.focus();
-  text.setSelectionRange(at, at + (lines[line - 1] ?? "").length);
-  text.scrollTop = (line - 8) * parseFloat(getComputedStyle(text).lineHeight);
+  goToLine(line);
 }
 
 const textOf = (content) => new TextDecoder().decode(content);
@@ -344,23 +338,21 @@ let pause;
 // also the last letters before the page is closed
 addEventListener("pagehide", () => { if (files.size > 0) keep(); });
 
-element("text").addEventListener("input", () => {
+function textEdited(text) {
   if (!files.has(shown)) {
     shown = deck = "deck.nml";
     fill(element("deck"), [deck], deck);
     fill(element("file"), [deck], deck);
   }
-  files.set(shown, element("text").value);
+  files.set(shown, text);
   isEdited = true;
-  number();
   document.dispatchEvent(new Event("edited"));
   clearTimeout(pause);
   pause = setTimeout(() => {
     keep();
     command(["check", deck]);
   }, 400);
-});
-element("text").addEventListener("scroll", () => { element("numbers").scrollTop = element("text").scrollTop; });
+}
 for (const button of document.querySelectorAll("[data-command]")) {
   button.addEventListener("click", () => {
     clearTimeout(pause);

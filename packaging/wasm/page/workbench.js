@@ -9,7 +9,7 @@ const drawing = "http://www.w3.org/2000/svg";
 const bench = {
   points: [], rows: [], links: [], axes: "x-rear", units: new Map(),    // readDocument; units of the paths that the program lists
   chosen: "", view: null,                                               // what is drawn
-  opened: new Map(), past: [], future: [], kept: "",                    // the document as opened, and its former texts
+  opened: new Map(), past: [], future: [], kept: new Map(),             // the document as opened, its changes, and as last remembered
   curves: null, baselines: [], shown: null, headings: [],               // { columns: name -> numbers, x: name }
   at: null, row: 0,                                                     // the state: its swept value, null at design; its row
   isRunning: false, isWaiting: false, runs: 0,
@@ -27,12 +27,7 @@ function setNumbers(list) {
   const { file } = changed[0][0], text = replaceNumbers(files.get(file), changed.map(([number, now]) => [number, textOfNumber(now)]));
   files.set(file, text);
   isEdited = true;
-  if (file === shown) {
-    const at = element("text").scrollTop;
-    element("text").value = text;
-    element("text").scrollTop = at;
-    number();
-  }
+  if (file === shown) replaceText(text);
   outdate();
   readPoints();
   drawViews();
@@ -52,27 +47,34 @@ function movePoint(name, values) {
 
 const snapshot = () => JSON.stringify([...files]);
 
+// Ends a step of the history: what has changed since the last one is undone together
 function remember() {
-  const now = snapshot();
-  if (now === bench.kept) return;
-  bench.past.push(bench.kept);
+  clearTimeout(rest);
+  bench.since = 0;
+  const changed = changesOf(bench.kept, files);
+  if (changed.length === 0) return;
+  bench.past.push(changed);
   if (bench.past.length > 300) bench.past.shift();
   bench.future = [];
-  bench.kept = now;
+  bench.kept = new Map(files);
   keep();
   setButtons();
 }
 
-function goBack(from, to) {
-  if (from.length === 0) return;
-  to.push(bench.kept);
-  bench.kept = from.pop();
-  files.clear();
-  for (const [path, text] of JSON.parse(bench.kept)) files.set(path, text);
+// Undoes the last step (`past`), or does one again (`future`)
+function goBack(from) {
+  remember();
+  const isUndo = from === "past", step = bench[from].pop();
+  if (!step) return;
+  bench[isUndo ? "future" : "past"].push(step);
+  for (const change of step) files.set(change[0], (isUndo ? withoutChange : withChange)(files.get(change[0]), change));
+  bench.kept = new Map(files);
   isEdited = true;
-  showFile(shown);
+  if (step.some(([path]) => path === shown)) replaceText(files.get(shown), true);
+  else showFile(step[0][0]);
   keep();
   setButtons();
+  command(["check", deck]);
   bench.isReset = true;      // also the field that has the focus
   renew();
   bench.isReset = false;
@@ -97,7 +99,6 @@ function changes() {
 
 function renew() {
   outdate();
-  outdate();
   readPoints();
   drawViews();
   solve();
@@ -105,7 +106,7 @@ function renew() {
 
 document.addEventListener("opened", ({ detail }) => {
   bench.opened = new Map(files);
-  Object.assign(bench, { past: [], future: [], kept: snapshot(), chosen: "", headings: [], columns: [], view: null, at: null });
+  Object.assign(bench, { past: [], future: [], kept: new Map(files), chosen: "", headings: [], columns: [], view: null, at: null });
   if (detail.isNew) bench.baselines = [];
   element("test").value = tests[0];
   setButtons();
@@ -114,6 +115,9 @@ document.addEventListener("opened", ({ detail }) => {
 let rest;
 document.addEventListener("edited", () => {
   clearTimeout(rest);
+  const now = performance.now();
+  bench.since ||= now;
+  if (now - bench.since > 3000) remember();      // who types without a pause undoes in steps, too
   rest = setTimeout(() => {
     remember();
     renew();
@@ -142,17 +146,17 @@ element("forget").addEventListener("click", () => {
   bench.baselines = bench.baselines.filter(({ name }) => name !== element("baselines").value);
   drawCharts();
 });
-element("undo").addEventListener("click", () => goBack(bench.past, bench.future));
-element("redo").addEventListener("click", () => goBack(bench.future, bench.past));
+element("undo").addEventListener("click", () => goBack("past"));
+element("redo").addEventListener("click", () => goBack("future"));
 element("fit").addEventListener("click", () => drawViews(true));
 element("changes").addEventListener("click", () => download(`${deck.replace(/\.nml$/i, "")}_changes.set`, changes()));
 addEventListener("keydown", (event) => {
-  if (!(event.ctrlKey || event.metaKey) || event.target === element("text") || element("points").hidden) return;
+  if (!(event.ctrlKey || event.metaKey) || editor.dom.contains(event.target) || element("points").hidden) return;
   const key = event.key.toLowerCase();
   if (key !== "z" && key !== "y") return;
   event.preventDefault();
-  if (key === "y" || event.shiftKey) goBack(bench.future, bench.past);
-  else goBack(bench.past, bench.future);
+  if (key === "y" || event.shiftKey) goBack("future");
+  else goBack("past");
 });
 document.querySelector("[data-tab=points]").addEventListener("click", renew);
 
