@@ -104,7 +104,7 @@ function openDocument(list, { name = "", isNew = true } = {}) {
 // The document in the storage of the browser, so that a closed page loses nothing
 function keep() {
   try {
-    localStorage.setItem(storage, JSON.stringify({ files: [...files], deck, isEdited }));
+    localStorage.setItem(storage, JSON.stringify({ files: [...files], deck, isEdited, hasCurves: !element("points").hidden }));
   } catch {
     element("status").title = "This browser does not store the document: save it before the page is closed.";
   }
@@ -114,6 +114,7 @@ function restore() {
   try {
     const kept = JSON.parse(localStorage.getItem(storage) ?? "null");
     if (!kept || kept.files.length === 0 || folder && !kept.isEdited) return false;       // the folder may have newer files
+    if (kept.hasCurves) openTab("points");      // the curves come first, then the check
     openDocument(kept.files, { name: kept.deck, isNew: false });
     isEdited = kept.isEdited;
     return true;

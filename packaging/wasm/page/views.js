@@ -1,9 +1,13 @@
-// The views of elastokin.html, behind workbench.js: the points from three sides, which are dragged.
-// Horizontal and vertical axis of each view with their sign on the screen; front to the left, right side to the right from behind
+// The views of elastokin.html, behind workbench.js: the points from three sides and obliquely, which are dragged.
+// Right and upward direction of each view on the screen, in the frame of the deck; front to the left, right side to the right from behind.
+// The oblique view is from above, and turns: `bench.turn` is its angle from the view from behind.
 function viewsOf() {
-  const forward = bench.axes === "x-rear" ? 1 : -1;
-  return [["Side", 0, forward, 2, 1], ["From behind", 1, forward, 2, 1], ["Top", 0, forward, 1, forward]];
+  const forward = bench.axes === "x-rear" ? 1 : -1, up = [0, 0, 1], [c, s] = [Math.cos(bench.turn), Math.sin(bench.turn)], tilt = 0.42;
+  return [["Side", [forward, 0, 0], up], ["From behind", [0, forward, 0], up], ["Top", [forward, 0, 0], [0, forward, 0]],
+    ["Oblique", [-s * forward, c * forward, 0], [-Math.sin(tilt) * c * forward, -Math.sin(tilt) * s * forward, Math.cos(tilt)]]];
 }
+
+const along = (p, direction) => p[0] * direction[0] + p[1] * direction[1] + p[2] * direction[2];
 
 function make(name, attributes, parent, text) {
   const node = document.createElementNS(drawing, name);
@@ -26,33 +30,34 @@ function drawViews(isNew = false) {
     bench.view = { middle: span.map(([a, b]) => (a + b) / 2), size: Math.max(1e-9, ...span.map(([a, b]) => b - a)) };
   }
   const { middle, size } = bench.view, scale = (height - 2 * edge) / size * 1.25, known = new Map(bench.points.map((p) => [p.name, p]));
-  const drawn = viewsOf().map(([title, h, hs, v, vs]) => {
+  const drawn = viewsOf().map(([title, right, up]) => {
     const svg = make("svg", { viewBox: `0 0 ${width} ${height}`, role: "group", "aria-label": `${title} view` });
     make("text", { x: 8, y: 16, class: "title" }, svg, title);
     const place = (point, body = point.body) => {
-      const at = positionOf(point, body);
-      return [width / 2 + hs * (at[h] - middle[h]) * scale, height / 2 - vs * (at[v] - middle[v]) * scale];
+      const at = positionOf(point, body).map((one, k) => one - middle[k]);
+      return [width / 2 + along(at, right) * scale, height / 2 - along(at, up) * scale];
     };
     for (const { ends, kind, bodies } of bench.links) {
       const [[x1, y1], [x2, y2]] = ends.map((end, k) => place(known.get(end), bodies[k]));
       make("line", { x1, y1, x2, y2, class: /spring|damper|stop/.test(kind) ? "spring" : kind === "body" ? "body" : "link" }, svg);
     }
     for (const { name, vector } of question.arrows.filter((one) => known.has(one.name))) {
-      drawArrow(svg, place(known.get(name)), [44 * hs * vector[h], -44 * vs * vector[v]], name);
+      drawArrow(svg, place(known.get(name)), [44 * along(vector, right), -44 * along(vector, up)], name);
     }
     for (const point of bench.points) {
       const [cx, cy] = place(point);
       const dot = make("circle", { cx, cy, r: 5, tabindex: 0, role: "button", "data-point": point.name, "aria-label": `${point.name}, ${title} view` }, svg);
       if (point.name === bench.chosen) dot.setAttribute("class", "chosen");
       make("title", {}, dot, `${point.name}: ${point.at.map((one) => one.text).join(", ")}`);
-      dot.addEventListener("pointerdown", (event) => drag(event, point.name, { h, hs, v, vs, scale }));
+      dot.addEventListener("pointerdown", (event) => drag(event, point.name, { right, up, scale }));
       dot.addEventListener("focus", () => choose(point.name));
-      dot.addEventListener("keydown", (event) => nudge(event, point.name, { h, hs, v, vs, title }));
+      dot.addEventListener("keydown", (event) => nudge(event, point.name, { right, up }));
     }
     if (known.has(bench.chosen)) {
       const [x, y] = place(known.get(bench.chosen));
       make("text", { x: Math.min(x + 8, width - 90), y: Math.max(24, y - 8), class: "name" }, svg, bench.chosen);
     }
+    if (title === "Oblique") turnable(svg);
     return svg;
   });
   const active = document.activeElement?.dataset?.point, label = document.activeElement?.getAttribute?.("aria-label");
@@ -90,35 +95,57 @@ function choose(name) {
 const stepOf = () => Number(element("step").value);
 const snap = (value, step) => Math.round(value / step) * step;
 
-function drag(event, name, { h, hs, v, vs, scale }) {
+// Follows the pointer from an event until it is released: `move` receives the way on the screen
+function follow(event, move, end) {
   event.preventDefault();
-  bench.chosen = name;
+  const start = [event.clientX, event.clientY], moved = ({ clientX, clientY }) => move(clientX - start[0], clientY - start[1]);
+  const ended = () => {
+    removeEventListener("pointermove", moved);
+    removeEventListener("pointerup", ended);
+    removeEventListener("pointercancel", ended);
+    end();
+  };
+  addEventListener("pointermove", moved);
+  addEventListener("pointerup", ended);
+  addEventListener("pointercancel", ended);
+}
+
+// A point follows the pointer in the plane of the view; each coordinate moves by whole steps
+function drag(event, name, { right, up, scale }) {
   const from = pointOf(name).at.map(({ value }) => value), box = event.target.ownerSVGElement.getBoundingClientRect();
-  const unit = width / box.width, start = [event.clientX, event.clientY], step = stepOf();
-  const move = ({ clientX, clientY }) => {
-    const values = [...from];
-    values[h] = from[h] + snap(hs * (clientX - start[0]) * unit / scale, step);
-    values[v] = from[v] - snap(vs * (clientY - start[1]) * unit / scale, step);
-    movePoint(name, values);
-  };
-  const end = () => {
-    removeEventListener("pointermove", move);
-    removeEventListener("pointerup", end);
-    removeEventListener("pointercancel", end);
-    remember();
-  };
-  addEventListener("pointermove", move);
-  addEventListener("pointerup", end);
-  addEventListener("pointercancel", end);
+  const unit = width / box.width / scale, step = stepOf();
+  bench.chosen = name;
+  follow(event, (x, y) => movePoint(name, from.map((one, k) => one + snap((right[k] * x - up[k] * y) * unit, step))), remember);
   drawViews();
 }
 
-function nudge(event, name, { h, hs, v, vs }) {
-  const way = { ArrowLeft: [h, -hs], ArrowRight: [h, hs], ArrowUp: [v, vs], ArrowDown: [v, -vs] }[event.key];
+// The arrow keys move a point by one step, along the axis that is nearest to the direction on the screen
+function nudge(event, name, { right, up }) {
+  const [way, sign] = { ArrowLeft: [right, -1], ArrowRight: [right, 1], ArrowUp: [up, 1], ArrowDown: [up, -1] }[event.key] ?? [];
   if (!way) return;
   event.preventDefault();
-  const values = pointOf(name).at.map(({ value }) => value);
-  values[way[0]] += way[1] * stepOf();
+  const values = pointOf(name).at.map(({ value }) => value), k = [0, 1, 2].reduce((best, m) => Math.abs(way[m]) > Math.abs(way[best]) ? m : best, 0);
+  values[k] += sign * Math.sign(way[k]) * stepOf();
   movePoint(name, values);
   remember();
+}
+
+// The oblique view is turned by a drag of its ground, or by the arrow keys
+function turnable(svg) {
+  const turn = (angle) => {
+    bench.turn = angle;
+    drawViews();
+  };
+  svg.setAttribute("tabindex", 0);
+  svg.setAttribute("aria-label", "Oblique view, turned by the left and right arrow keys");
+  svg.addEventListener("pointerdown", (event) => {
+    const from = bench.turn;
+    if (!event.target.dataset.point) follow(event, (x) => turn(from + 0.01 * x), () => {});
+  });
+  svg.addEventListener("keydown", (event) => {
+    if (event.target !== svg || event.key !== "ArrowLeft" && event.key !== "ArrowRight") return;
+    event.preventDefault();
+    turn(bench.turn + (event.key === "ArrowLeft" ? -0.1 : 0.1));
+    [...document.querySelectorAll("#views svg")].at(-1).focus({ preventScroll: true });
+  });
 }

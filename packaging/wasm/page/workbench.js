@@ -8,7 +8,7 @@ const colours = ["#b5651d", "#7a4fa3", "#1d8a6b", "#a8201a"];
 const drawing = "http://www.w3.org/2000/svg";
 const bench = {
   points: [], rows: [], links: [], axes: "x-rear", units: new Map(),    // readDocument; units of the paths that the program lists
-  chosen: "", view: null,                                               // what is drawn
+  chosen: "", view: null, turn: 0.6,                                              // what is drawn
   opened: new Map(), past: [], future: [], kept: new Map(),             // the document as opened, its changes, and as last remembered
   curves: null, baselines: [], shown: null, headings: [],               // { columns: name -> numbers, x: name }
   at: null, row: 0,                                                     // the state: its swept value, null at design; its row
