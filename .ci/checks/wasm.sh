@@ -93,6 +93,9 @@ wasm() {
   "$tools/bin/python" tests/wasm/drags_in_a_browser.py build/wasm/elastokin.html build/release/bin/elastokin | tee "$logs/wasm_drags.txt"
   [ "${PIPESTATUS[0]}" -eq 0 ] || wrong=1
   echo "remark: $(tail -n 1 "$logs/wasm_drags.txt")"
+  "$tools/bin/python" tests/wasm/tasks_in_a_browser.py build/wasm/elastokin.html build/release/bin/elastokin "$logs/wasm_tasks" | tee "$logs/wasm_tasks.txt"
+  [ "${PIPESTATUS[0]}" -eq 0 ] || wrong=1
+  echo "remark: $(tail -n 1 "$logs/wasm_tasks.txt")"
   "$tools/bin/python" tests/wasm/opened_folder.py "$logs/venv_wasm/bin/python" "$logs/wasm_folder" || wrong=1
   "$tools/bin/python" tests/wasm/compare_programs.py build/release/bin/elastokin build/wasm/elastokin.html "$logs/wasm_browser" |
     tee "$logs/wasm_browser.txt"

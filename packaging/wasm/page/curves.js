@@ -41,7 +41,7 @@ async function solve() {
     }
     if (isWhole) setColumns(Object.keys(columns));
     const { duration, bytes, openings, poses, bodies } = result;
-    bench.curves = { test, columns, x: abscissaOf(columns), duration, bytes, openings, poses, bodies };
+    bench.curves = { test, columns, x: abscissaOf(test, columns), duration, bytes, openings, poses, bodies };
     element("charts").classList.remove("stale");
     drawCharts();
     if (bench.at !== null) drawViews();
@@ -60,7 +60,11 @@ function tell(text, isBad) {
   element("said").className = isBad ? "bad" : "";
 }
 
-const abscissaOf = (columns) => ["wheel_travel_mm", "left_wheel_travel_mm"].find((name) => name in columns && spread(columns[name]) > 1e-6) ?? "factor";
+// Swept values other than the travel of the wheels, with the units of the table
+const swept = { roll: ["axle roll", "deg"], steering: ["steering driver", ""], lateral_force: ["lateral force", "N"], braking: ["braking force", "N"],
+  traction: ["driving force", "N"], aligning_torque: ["aligning torque", "N m"] };
+const abscissaOf = (test, columns) => test in swept ? "factor" :
+  ["wheel_travel_mm", "left_wheel_travel_mm"].find((name) => name in columns && spread(columns[name]) > 1e-6) ?? "factor";
 const finite = (values) => values.filter(Number.isFinite);
 const spread = (values) => {
   const known = finite(values);
@@ -112,8 +116,10 @@ function rowOf(solution) {
   return row < 0 ? rowOfDesign(solution) : row;
 }
 
-const stateText = () => bench.row === rowOfDesign(bench.curves) ? "at design" :
-  `at ${bench.curves.x.replace(/^left_/, "")} ${shortly(bench.curves.columns[bench.curves.x][bench.row])}`;
+function stateText() {
+  const { test, x, columns } = bench.curves, [words, unit] = x === "factor" && swept[test] || [x.replace(/^left_/, ""), ""];
+  return bench.row === rowOfDesign(bench.curves) ? "at design" : `at ${words} ${shortly(columns[x][bench.row])} ${unit}`.trim();
+}
 
 // Moves to a state of the test: row `row` of the solution
 function setState(row) {
@@ -135,8 +141,8 @@ function drawCharts() {
     const figure = document.createElement("figure"), caption = document.createElement("figcaption");
     const before = bench.baselines.filter(({ solution }) => solution.test === now.test);
     const lines = [...before.flatMap(({ solution, colour, name }) => curvesOf(solution, quantity).map(([side, values]) =>
-      ({ xs: solution.columns[solution.x], values, colour, side, name }))),
-      ...curvesOf(now, quantity).map(([side, values], k) => ({ xs: now.columns[now.x], values, colour: k ? "#c2185b" : "var(--link)", side, name: "" }))];
+      ({ xs: solution.columns[solution.x], at: solution.columns.factor, values, colour, side, name }))),
+      ...curvesOf(now, quantity).map(([side, values], k) => ({ xs: now.columns[now.x], at: now.columns.factor, values, colour: k ? "#c2185b" : "var(--link)", side, name: "" }))];
     const current = lines.filter(({ name }) => name === ""), last = lines.filter(({ name }) => name !== "" && name === before.at(-1)?.name);
     const value = current.map((line) => line.values[bench.row]), old = last.map((line) => line.values[rowOf(before.at(-1).solution)]);
     caption.textContent = `${quantity}: ${value.map(shortly).join(", ")} ${stateText()}`;
@@ -148,7 +154,7 @@ function drawCharts() {
       askFor();
       drawCharts();
     }));
-    figure.append(caption, chartOf(lines, now.x, (x) => pointAt(quantity, x), now.columns[now.x][bench.row]));
+    figure.append(caption, chartOf(lines, now.x === "factor" && swept[now.test] ? swept[now.test].filter((word) => word !== "").join(", ") : now.x, (x) => pointAt(quantity, x), now.columns[now.x][bench.row]));
     return figure;
   });
   element("charts").replaceChildren(...boxes);
@@ -156,11 +162,11 @@ function drawCharts() {
   element("forget").disabled = bench.baselines.length === 0;
 }
 
-// Largest difference of two sets of curves at the same abscissas
+// Largest difference of two sets of curves at the same swept values
 function largestChange(current, last) {
   let most = NaN;
-  current.forEach(({ xs, values }, k) => values.forEach((value, m) => {
-    const change = xs[m] === last[k].xs[m] ? Math.abs(difference(value, last[k].values[m])) : NaN;
+  current.forEach(({ at, values }, k) => values.forEach((value, m) => {
+    const change = Math.abs(at[m] - last[k].at[m]) <= 1e-9 * Math.max(1, Math.abs(at[m])) ? Math.abs(difference(value, last[k].values[m])) : NaN;
     if (Number.isFinite(change)) most = Math.max(change, most || 0);
   }));
   return most;

@@ -286,7 +286,10 @@ function showPage(page) {
   frame.title = "Report page";
   frame.sandbox = "allow-scripts allow-downloads";
   frame.srcdoc = textOf(page[1]);
-  return box.replaceChildren(frame);
+  const save = document.createElement("button");
+  Object.assign(save, { type: "button", id: "save-page", textContent: "Save page" });
+  save.addEventListener("click", () => download(...page));
+  return box.replaceChildren(save, frame);
 }
 
 function openTab(name) {
@@ -315,6 +318,18 @@ element("library").addEventListener("change", ({ target }) => {
   const chosen = library.find(({ name }) => name === target.value);
   target.value = "";
   if (chosen) openDocument(chosen.files, { name: chosen.deck });
+});
+// Kinds of decks that `elastokin new` prints, each with its words
+async function listKinds() {
+  const { output } = await program.run(["new"], []) ?? { output: "" };
+  const kinds = [...output.matchAll(/^(\w+) +(.+)$/gm)];
+  element("new").append(...kinds.map(([, kind, words]) => new Option(`${kind}: ${words}`, kind)));
+}
+element("new").addEventListener("change", async ({ target }) => {
+  const kind = target.value, result = await program.run(["new", kind], []);
+  target.value = "";
+  if (result?.status === 0) openDocument([[`${kind}.nml`, result.output]], { name: `${kind}.nml` });
+  else say(`There is no new deck: ${result?.messages ?? "stopped"}`, "bad");
 });
 element("open").addEventListener("click", () => element("files").click());
 element("open-folder").addEventListener("click", () => element("folder").click());

@@ -44,12 +44,13 @@ function drawViews(isNew = false) {
     for (const { name, vector } of question.arrows.filter((one) => known.has(one.name))) {
       drawArrow(svg, place(known.get(name)), [44 * along(vector, right), -44 * along(vector, up)], name);
     }
-    for (const point of bench.points) {
-      const [cx, cy] = place(point);
+    const places = bench.points.map((point) => [point, ...place(point)]);
+    places.sort(([a], [b]) => (a.name === bench.chosen) - (b.name === bench.chosen));      // the chosen point above the others
+    for (const [point, cx, cy] of places) {
       const dot = make("circle", { cx, cy, r: 5, tabindex: 0, role: "button", "data-point": point.name, "aria-label": `${point.name}, ${title} view` }, svg);
       if (point.name === bench.chosen) dot.setAttribute("class", "chosen");
       make("title", {}, dot, `${point.name}: ${point.at.map((one) => one.text).join(", ")}`);
-      dot.addEventListener("pointerdown", (event) => drag(event, point.name, { right, up, scale }));
+      dot.addEventListener("pointerdown", (event) => drag(event, nearest(event, svg, places), { title, right, up, scale }));
       dot.addEventListener("focus", () => choose(point.name));
       dot.addEventListener("keydown", (event) => nudge(event, point.name, { right, up }));
     }
@@ -110,13 +111,21 @@ function follow(event, move, end) {
   addEventListener("pointercancel", ended);
 }
 
+// The point that is nearest to the pointer, of those that cover each other
+function nearest({ clientX, clientY }, svg, places) {
+  const box = svg.getBoundingClientRect(), unit = width / box.width, [x, y] = [(clientX - box.x) * unit, (clientY - box.y) * unit];
+  const gap = ([, px, py]) => Math.hypot(px - x, py - y);
+  return places.reduce((best, one) => gap(one) <= gap(best) ? one : best)[0].name;
+}
+
 // A point follows the pointer in the plane of the view; each coordinate moves by whole steps
-function drag(event, name, { right, up, scale }) {
+function drag(event, name, { title, right, up, scale }) {
   const from = pointOf(name).at.map(({ value }) => value), box = event.target.ownerSVGElement.getBoundingClientRect();
   const unit = width / box.width / scale, step = stepOf();
   bench.chosen = name;
   follow(event, (x, y) => movePoint(name, from.map((one, k) => one + snap((right[k] * x - up[k] * y) * unit, step))), remember);
   drawViews();
+  document.querySelector(`#views circle[aria-label="${name}, ${title} view"]`).focus({ preventScroll: true });      // for the arrow keys
 }
 
 // The arrow keys move a point by one step, along the axis that is nearest to the direction on the screen
