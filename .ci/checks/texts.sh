@@ -70,7 +70,8 @@ tutorial_works() {
 }
 
 # The site of the documentation, with the reports of the library: every link and anchor exists; in the browser no page asks another server
-# for anything, writes to the console, or is wider than a phone
+# for anything, writes to the console, or is wider than a phone. The workbench in the tutorial solves the deck of the tutorial, where
+# tools/wasm.sh has made the page
 site() {
   local tools=$logs/venv_site folder=$logs/site
   if ! python_with venv_site -r docs/site/requirements.txt playwright; then
@@ -78,6 +79,8 @@ site() {
     return
   fi
   rm -rf "$folder"
+  [ ! -f build/wasm/elastokin.html ] || export EK_PAGE=$top/build/wasm/elastokin.html
+  [ -n "${EK_PAGE:-}" ] || echo "remark: the site has no workbench, because build/wasm/elastokin.html does not exist"
   EK_REPORTS=$logs/reports "$tools/bin/mkdocs" build --strict --site-dir "$folder" || return 1
   if ! command -v chromium >/dev/null && ! tools/setup.sh chromium; then
     skip "not opened, chromium could not be installed"

@@ -2,8 +2,10 @@
 
 Pages outside docs/ keep their path (input/README.md), except the README of the repository, which is project.md. A link to a page or a picture
 becomes one between the pages of the site; a link to a deck becomes one to a copy of it; a link to anything else (a folder, a source file)
-becomes plain text, because the site has no copy. gallery.md and api_c.md are written here.
+becomes plain text, because the site has no copy. gallery.md and api_c.md are written here. The tutorial contains the workbench with its
+deck, if EK_PAGE names an elastokin.html.
 """
+import json
 import os
 import re
 from glob import glob
@@ -72,6 +74,25 @@ def gallery(folder):
     return "\n".join(lines) + "\n"
 
 
+def workbench(page):
+    """The page elastokin.html with the deck of the tutorial: the first text of each file."""
+    found = {}
+    for name, text in re.findall(r"<!-- file: ([\w.]+) -->\n```\w+\n(.*?)^```", (top / "docs/tutorial.md").read_text(encoding="utf-8"), re.M | re.S):
+        found.setdefault(name, text)
+    deck = [(name, text) for name, text in found.items() if name == "front.nml" or f"'{name}'" in found["front.nml"]]
+    given, frame = json.dumps({"name": "tutorial", "files": deck}).replace("</", "<\\/").replace("<!--", "<\\!--"), Path(page).read_text(encoding="utf-8")
+    if frame.count(empty) != 1:
+        raise ValueError(f"{page} is not a page of tools/wasm.sh without a deck")
+    return frame.replace(empty, empty.replace("null", given))
+
+
+empty = '<script type="application/json" id="given-folder">null</script>'
+embedded = """<iframe src="workbench.html" title="Workbench with the deck of this page" loading="lazy" class="workbench"></iframe>
+
+[Open the workbench in a page of its own](workbench.html)
+"""
+
+
 def on_files(files, config):
     for path in paths():
         if path.endswith(".md") or not files.get_file_from_path(path):
@@ -80,6 +101,8 @@ def on_files(files, config):
     files.append(File.generated(config, "gallery.md", content=gallery(folder)))
     header = (top / "include/elastokin.h").read_text(encoding="utf-8")
     files.append(File.generated(config, "api_c.md", content="# The C interface\n\nThe header is the manual.\n\n```c\n" + header + "```\n"))
+    if os.environ.get("EK_PAGE"):
+        files.append(File.generated(config, "workbench.html", content=workbench(os.environ["EK_PAGE"])))
     if folder:
         for name, _, _ in decks():
             for result in ("report.html", "picture.png"):
@@ -139,4 +162,5 @@ def on_page_markdown(markdown, page, config, files):
                 return f"{found[1]}[{found[2]}]({target})"
             part = re.sub(r"(!?)\[((?:[^\[\]]|!\[[^\]]*\]\([^)]*\))*)\]\(([^)\s]+)\)", rewritten, part)
         result.append(part)
-    return "".join(result)
+    text = "".join(result)
+    return text.replace("<!-- workbench -->", embedded if os.environ.get("EK_PAGE") else "")

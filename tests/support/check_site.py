@@ -2,6 +2,7 @@
 """check_site.py FOLDER [PICTURES]: opens every page of a built site in headless Chromium, 1400 and 390 pixels wide, from a server of this machine.
 
 Status 1 if a page writes to the console, asks another server for anything, misses a file or is wider than the window; or if the search finds nothing.
+Where the tutorial contains the workbench, it must solve the deck of the tutorial, also in a page from file://.
 With PICTURES some pages are saved there as PNG. Requires playwright (PyPI) and chromium.
 """
 import functools
@@ -38,7 +39,7 @@ with sync_playwright() as play:
         here = ""
         tab.on("console", lambda message: message.type in ("error", "warning") and wrong.append(f"{here}: console: {message.text}"))
         tab.on("pageerror", lambda error: wrong.append(f"{here}: {error}"))
-        tab.on("request", lambda request: request.url.startswith((home, "data:")) or wrong.append(f"{here}: requests {request.url}"))
+        tab.on("request", lambda request: request.url.startswith((home, "data:", "blob:")) or wrong.append(f"{here}: requests {request.url}"))
         tab.on("response", lambda response: response.status < 400 or wrong.append(f"{here}: {response.status} {response.url}"))
         for here in pages:
             tab.goto(home + here)
@@ -54,6 +55,21 @@ with sync_playwright() as play:
         tab.goto(home + here + "?q=ackermann")
         tab.wait_for_selector("#mkdocs-search-results article", timeout=20000)
         found = tab.locator("#mkdocs-search-results article").count()
+    if (site / "workbench.html").exists():
+        for here in home + "tutorial.html", (site / "tutorial.html").as_uri():
+            tab = browser.new_page(viewport={"width": 1400, "height": 900})
+            tab.on("console", lambda message: message.type in ("error", "warning") and wrong.append(f"{here}: console: {message.text}"))
+            tab.goto(here)
+            tab.locator("iframe.workbench").scroll_into_view_if_needed()
+            frame = tab.frame_locator("iframe.workbench")
+            frame.locator("#status.good").wait_for(timeout=120000)
+            frame.locator("[data-tab=points]").click()
+            frame.locator("#charts figure").nth(5).wait_for(timeout=120000)
+            if frame.locator("#deck").input_value() != "front.nml" or frame.locator("#file option").count() != 2:
+                wrong.append(f"{here}: the workbench does not contain the deck of the tutorial")
+            if pictures:
+                tab.screenshot(path=pictures / "tutorial_workbench.png")
+            tab.close()
     browser.close()
 server.shutdown()
 
