@@ -103,11 +103,16 @@ function openDocument(list, { name = "", isNew = true } = {}) {
 
 // The document in the storage of the browser, so that a closed page loses nothing
 function keep() {
+  let isKept = true;
   try {
     localStorage.setItem(storage, JSON.stringify({ files: [...files], deck, isEdited, hasCurves: !element("points").hidden }));
-  } catch {
-    element("status").title = "This browser does not store the document: save it before the page is closed.";
+  } catch {      // too large, or no storage: an older document must not come back
+    isKept = false;
+    try { localStorage.removeItem(storage); } catch { /* no storage */ }
   }
+  element("kept").textContent = isKept ? "This browser keeps the document when the page is closed." :
+    "This browser does not keep the document: save it before you close the page.";
+  element("kept").className = isKept ? "" : "bad";
 }
 
 function restore() {
