@@ -1,27 +1,28 @@
 !> Sets one lane of a value for four designs from the value of one design.
 !>
-!> Kinds, bodies and other properties common to all designs are also copied, so that the value is complete after every call. Names
-!> are not copied.
+!> The numbers of a part are set as a list, so that no number can be forgotten. Kinds, bodies and other properties common to all
+!> designs are also copied, so that the value is complete after every call. Names are not copied.
 module ek_lane_copy
    use ek_contract, only: are_checked, require
    use ek_kinds, only: wp
    use ek_lanes, only: lanes_t
    use ek_curve, only: curve_t
-   use ek_law, only: law_t
+   use ek_law, only: law_t, law_list_t
    use ek_relative_rotation, only: pose_t
-   use ek_measure, only: measure_t
-   use ek_elastic, only: bushing_t
-   use ek_element, only: element_t
-   use ek_row, only: row_t, term_t
-   use ek_load, only: load_t
+   use ek_measure, only: measure_t, measure_list_t
+   use ek_elastic, only: bushing_t, bushing_list_t
+   use ek_element, only: element_t, element_list_t
+   use ek_row, only: row_t, row_list_t, term_t, term_list_t
+   use ek_load, only: load_t, load_list_t
    use ek_curve_lanes, only: curve_of_lanes_t => curve_t
-   use ek_law_lanes, only: law_of_lanes_t => law_t
+   use ek_law_lanes, only: law_of_lanes_t => law_t, lists_of_law_t => law_list_t
    use ek_relative_rotation_lanes, only: pose_of_lanes_t => pose_t
-   use ek_measure_lanes, only: measure_of_lanes_t => measure_t
-   use ek_elastic_lanes, only: bushing_of_lanes_t => bushing_t
-   use ek_element_lanes, only: element_of_lanes_t => element_t
-   use ek_row_lanes, only: row_of_lanes_t => row_t, term_of_lanes_t => term_t
-   use ek_load_lanes, only: load_of_lanes_t => load_t
+   use ek_measure_lanes, only: measure_of_lanes_t => measure_t, lists_of_measure_t => measure_list_t
+   use ek_elastic_lanes, only: bushing_of_lanes_t => bushing_t, lists_of_bushing_t => bushing_list_t
+   use ek_element_lanes, only: element_of_lanes_t => element_t, lists_of_element_t => element_list_t
+   use ek_row_lanes, only: row_of_lanes_t => row_t, lists_of_row_t => row_list_t, &
+      term_of_lanes_t => term_t, lists_of_term_t => term_list_t
+   use ek_load_lanes, only: load_of_lanes_t => load_t, lists_of_load_t => load_list_t
    implicit none(type, external)
    private
    public :: set_lane
@@ -54,14 +55,16 @@ contains
       type(measure_of_lanes_t), intent(inout) :: x
       integer, intent(in) :: lane
       type(measure_t), intent(in) :: measure
+      type(measure_list_t) :: list
+      type(lists_of_measure_t) :: lists
 
       x%kind = measure%kind
       x%body_i = measure%body_i
       x%body_j = measure%body_j
-      call set_number(x%u, lane, measure%u)
-      call set_number(x%v, lane, measure%v)
-      call set_number(x%arm_i, lane, measure%arm_i)
-      call set_number(x%arm_j, lane, measure%arm_j)
+      list = transfer(measure%measure_numbers_t, list)
+      lists = transfer(x%measure_numbers_t, lists)
+      call set_number(lists%v, lane, list%v)
+      x%measure_numbers_t = transfer(lists, x%measure_numbers_t)
    end subroutine set_measure
 
    !> Sets one lane of a curve. All designs have the same number of points.
@@ -84,11 +87,13 @@ contains
       type(law_of_lanes_t), intent(inout) :: x
       integer, intent(in) :: lane
       type(law_t), intent(in) :: law
+      type(law_list_t) :: list
+      type(lists_of_law_t) :: lists
 
-      call set_number(x%sign, lane, law%sign)
-      call set_number(x%reference, lane, law%reference)
-      call set_number(x%rate, lane, law%rate)
-      call set_number(x%rounding, lane, law%rounding)
+      list = transfer(law%law_numbers_t, list)
+      lists = transfer(x%law_numbers_t, lists)
+      call set_number(lists%v, lane, list%v)
+      x%law_numbers_t = transfer(lists, x%law_numbers_t)
       x%has_curve = law%has_curve
       x%is_one_sided = law%is_one_sided
       if (law%has_curve) call set_curve(x%curve, lane, law%curve)
@@ -98,18 +103,14 @@ contains
       type(bushing_of_lanes_t), intent(inout) :: x
       integer, intent(in) :: lane
       type(bushing_t), intent(in) :: bushing
+      type(bushing_list_t) :: list
+      type(lists_of_bushing_t) :: lists
       integer :: k
 
-      call set_number(x%stiffness_t, lane, bushing%stiffness_t)
-      call set_number(x%stiffness_r, lane, bushing%stiffness_r)
-      call set_number(x%force0, lane, bushing%force0)
-      call set_number(x%moment0, lane, bushing%moment0)
-      call set_number(x%gap0, lane, bushing%gap0)
-      call set_number(x%axes, lane, bushing%axes)
-      call set_number(x%kt, lane, bushing%kt)
-      call set_number(x%kr, lane, bushing%kr)
-      call set_number(x%preload_force, lane, bushing%preload_force)
-      call set_number(x%preload_moment, lane, bushing%preload_moment)
+      list = transfer(bushing%bushing_numbers_t, list)
+      lists = transfer(x%bushing_numbers_t, lists)
+      call set_number(lists%v, lane, list%v)
+      x%bushing_numbers_t = transfer(lists, x%bushing_numbers_t)
       x%has_curves = bushing%has_curves
       if (.not. bushing%has_curves) return
       if (.not. allocated(x%laws)) allocate (x%laws(size(bushing%laws)))
@@ -122,52 +123,66 @@ contains
       type(element_of_lanes_t), intent(inout) :: x
       integer, intent(in) :: lane
       type(element_t), intent(in) :: element
+      type(element_list_t) :: list
+      type(lists_of_element_t) :: lists
 
       x%kind = element%kind
       x%is_balanced = element%is_balanced
       call set_measure(x%measure, lane, element%measure)
-      call set_number(x%preload, lane, element%preload)
       call set_law(x%law, lane, element%law)
       call set_bushing(x%bushing, lane, element%bushing)
-      call set_number(x%design_length, lane, element%design_length)
-      call set_number(x%free_length, lane, element%free_length)
-      call set_number(x%clearance, lane, element%clearance)
+      list = transfer(element%element_numbers_t, list)
+      lists = transfer(x%element_numbers_t, lists)
+      call set_number(lists%v, lane, list%v)
+      x%element_numbers_t = transfer(lists, x%element_numbers_t)
    end subroutine set_element
 
    pure subroutine set_term(x, lane, term)
       type(term_of_lanes_t), intent(inout) :: x
       integer, intent(in) :: lane
       type(term_t), intent(in) :: term
+      type(term_list_t) :: list
+      type(lists_of_term_t) :: lists
 
       call set_measure(x%measure, lane, term%measure)
-      call set_number(x%coefficient, lane, term%coefficient)
+      list = transfer(term%term_numbers_t, list)
+      lists = transfer(x%term_numbers_t, lists)
+      call set_number(lists%v, lane, list%v)
+      x%term_numbers_t = transfer(lists, x%term_numbers_t)
    end subroutine set_term
 
    pure subroutine set_row(x, lane, row)
       type(row_of_lanes_t), intent(inout) :: x
       integer, intent(in) :: lane
       type(row_t), intent(in) :: row
+      type(row_list_t) :: list
+      type(lists_of_row_t) :: lists
 
       x%first = row%first
       x%terms = row%terms
       x%joint = row%joint
       x%is_driver = row%is_driver
-      call set_number(x%target, lane, row%target)
-      call set_number(x%compliance, lane, row%compliance)
+      list = transfer(row%row_numbers_t, list)
+      lists = transfer(x%row_numbers_t, lists)
+      call set_number(lists%v, lane, list%v)
+      x%row_numbers_t = transfer(lists, x%row_numbers_t)
    end subroutine set_row
 
    pure subroutine set_load(x, lane, load)
       type(load_of_lanes_t), intent(inout) :: x
       integer, intent(in) :: lane
       type(load_t), intent(in) :: load
+      type(load_list_t) :: list
+      type(lists_of_load_t) :: lists
 
       x%body = load%body
       x%follows = load%follows
       x%is_case = load%is_case
       x%is_weight = load%is_weight
-      call set_number(x%arm, lane, load%arm)
-      call set_number(x%force, lane, load%force)
-      call set_number(x%moment, lane, load%moment)
+      list = transfer(load%load_numbers_t, list)
+      lists = transfer(x%load_numbers_t, lists)
+      call set_number(lists%v, lane, list%v)
+      x%load_numbers_t = transfer(lists, x%load_numbers_t)
    end subroutine set_load
 
 end module ek_lane_copy

@@ -16,22 +16,31 @@ module ek_elastic
    use ek_rotation, only: cross, identity3
    implicit none(type, external)
    private
-   public :: bushing_t, bushing_evaluation_t, set_bushing_axes
+   public :: bushing_t, bushing_numbers_t, bushing_list_t, bushing_evaluation_t, set_bushing_axes
    public :: evaluate_bushing, bushing_force, add_bushing_tangent, add_bushing_material, deflect_bushing, bushing_load, design_rates
 
-   !> The law of a six-axis bushing from marker I on body i to marker J on body j. The markers are parallel at design. They may be
-   !> at two points; the displacement between them at design causes no force. The numbers that every evaluation reads come first.
-   type :: bushing_t
+   !> The numbers of a bushing. The numbers that every evaluation reads come first.
+   type :: bushing_numbers_t
       ! set by set_bushing_axes: the same law in the axes of body i
       real(num) :: stiffness_t(3, 3) = zero, stiffness_r(3, 3) = zero
       real(num) :: force0(3) = zero, moment0(3) = zero
       real(num) :: gap0(3) = zero           !! displacement from I to J at design, axes of body i [m]
-      logical :: has_curves = .false.
       real(num) :: axes(3, 3) = identity3     !! columns: marker axes x, y, z at design, global
       real(num) :: kt(3) = zero             !! rates along the marker axes [N/m]
       real(num) :: kr(3) = zero             !! rates about the marker axes [N m/rad]
       real(num) :: preload_force(3) = zero  !! force on body j at design, marker axes [N]
       real(num) :: preload_moment(3) = zero !! moment on body j at design, marker axes [N m]
+   end type bushing_numbers_t
+
+   !> The numbers of a bushing as a list (see law_list_t).
+   type :: bushing_list_t
+      real(num) :: v(storage_size(bushing_numbers_t())/storage_size(zero)) = zero
+   end type bushing_list_t
+
+   !> The law of a six-axis bushing from marker I on body i to marker J on body j. The markers are parallel at design. They may be
+   !> at two points; the displacement between them at design causes no force.
+   type, extends(bushing_numbers_t) :: bushing_t
+      logical :: has_curves = .false.
       ! curves instead of rates, in the order: along x, y, z, about x, y, z of the marker
       type(law_t), allocatable :: laws(:)    !! six laws if has_curves; a law is used only if it has a curve
    end type bushing_t

@@ -23,7 +23,8 @@ module ek_element
    use ek_elastic, only: bushing_t
    implicit none(type, external)
    private
-   public :: element_t, element_kinds, set_kind, set_design_value, copy_element, is_of_angle
+   public :: element_t, element_numbers_t, element_list_t, element_shape, element_kinds
+   public :: set_kind, set_design_value, copy_element, is_of_angle
    public :: axial_spring, damper, stop_spring, torsion_spring, measure_spring, bushing_element
    public :: element_numbers, rate_number, preload_number, free_length_number, clearance_number, rounding_number, set_numbers
    public :: look_up_element, element_slopes, is_linear
@@ -67,17 +68,29 @@ module ek_element
       element_kind_t('stop', 'stop', 'stops', .false., .true., .false., stop_shape, stop_share), &
       element_kind_t('damper', '', '', .false., .false., .false., damper_shape, gas_share)]
 
-   !> An elastic element. The numbers that the solution reads come first.
-   type :: element_t
-      integer :: kind = axial_spring
-      logical :: is_balanced = .true.       !! spring: the preload trim (`balance`) may change its preload
-      type(measure_t) :: measure            !! bodies, points, and the measure on which the element acts; kind 0: bushing
+   !> The numbers of an element, without those of its measure, its law and its bushing. The first four affect the force only by the
+   !> preload, and by reference and rate of the law.
+   type :: element_numbers_t
       real(num) :: preload = zero          !! compression at design [N], moment on body j about the axis [N m]
-      type(law_t) :: law                    !! law of the measure, from which the preload is subtracted [N, N m]
-      type(bushing_t) :: bushing            !! the six components of a bushing
       real(num) :: design_length = zero    !! value of the measure at design [m, rad, -]
       real(num) :: free_length = zero      !! free length [m]; 0: not given
       real(num) :: clearance = zero        !! clearance of a stop [m]
+   end type element_numbers_t
+
+   integer, parameter :: element_shape = 5  !! from here on, the numbers of the list that give the law of an element its shape
+
+   !> The numbers of an element as a list (see law_list_t).
+   type :: element_list_t
+      real(num) :: v(storage_size(element_numbers_t())/storage_size(zero)) = zero
+   end type element_list_t
+
+   !> An elastic element.
+   type, extends(element_numbers_t) :: element_t
+      integer :: kind = axial_spring
+      logical :: is_balanced = .true.       !! spring: the preload trim (`balance`) may change its preload
+      type(measure_t) :: measure            !! bodies, points, and the measure on which the element acts; kind 0: bushing
+      type(law_t) :: law                    !! law of the measure, from which the preload is subtracted [N, N m]
+      type(bushing_t) :: bushing            !! the six components of a bushing
       logical :: gives_z = .false., gives_x = .false.   !! bushing: the deck gives its z axis, its x axis
       character(:), allocatable :: name, where
    end type element_t
@@ -135,10 +148,7 @@ contains
       type(element_t), intent(inout) :: to
 
       to%measure = from%measure
-      to%preload = from%preload
-      to%design_length = from%design_length
-      to%free_length = from%free_length
-      to%clearance = from%clearance
+      to%element_numbers_t = from%element_numbers_t
       if (from%kind == bushing_element) then
          call copy_bushing(from%bushing, to%bushing)
       else
@@ -156,16 +166,7 @@ contains
          to = from
          return
       end if
-      to%stiffness_t = from%stiffness_t
-      to%stiffness_r = from%stiffness_r
-      to%force0 = from%force0
-      to%moment0 = from%moment0
-      to%gap0 = from%gap0
-      to%axes = from%axes
-      to%kt = from%kt
-      to%kr = from%kr
-      to%preload_force = from%preload_force
-      to%preload_moment = from%preload_moment
+      to%bushing_numbers_t = from%bushing_numbers_t
       do c = 1, size(to%laws)
          call copy_law(from%laws(c), to%laws(c))
       end do

@@ -188,8 +188,8 @@ contains
 
          rows = rows + 1
          used = used + 1
-         terms(used)%measure = measure_t(measure_kind, geometry%body_i, geometry%body_j, u, arm_i=geometry%point_i, &
-            arm_j=geometry%point_j)
+         terms(used)%measure = measure_t(kind=measure_kind, body_i=geometry%body_i, body_j=geometry%body_j, u=u, &
+            arm_i=geometry%point_i, arm_j=geometry%point_j)
          if (present(v)) terms(used)%measure%v = v
       end subroutine add
 

@@ -12,16 +12,27 @@ module ek_law
    use ek_curve, only: curve_t, copy_curve, look_up_curve, slopes_between
    implicit none(type, external)
    private
-   public :: law_t, copy_law, look_up_law, deflection, find_slopes
+   public :: law_t, law_numbers_t, law_list_t, law_shape, copy_law, look_up_law, deflection, find_slopes
 
-   !> A law of one measure. Its units depend on the measure: m and N, or rad (or -) and N m.
-   type :: law_t
-      real(num) :: sign = one             !! sign s: 1, or −1 if e is a compression
+   !> The numbers of a law. Their units depend on the measure: m and N, or rad (or -) and N m.
+   type :: law_numbers_t
       real(num) :: reference = zero        !! value at which e = 0
       real(num) :: rate = zero             !! rate of a law without a curve
+      real(num) :: sign = one              !! sign s: 1, or −1 if e is a compression
+      real(num) :: rounding = zero         !! r of a one-sided law, above 0
+   end type law_numbers_t
+
+   integer, parameter :: law_shape = 3     !! from here on, the numbers of the list that give a law its shape
+
+   !> The numbers of a law as a list, by `transfer`: what copies or compares numbers does not name them.
+   type :: law_list_t
+      real(num) :: v(storage_size(law_numbers_t())/storage_size(zero)) = zero
+   end type law_list_t
+
+   !> A law of one measure.
+   type, extends(law_numbers_t) :: law_t
       logical :: has_curve = .false.
       logical :: is_one_sided = .false.
-      real(num) :: rounding = zero         !! r of a one-sided law, above 0
       type(curve_t) :: curve
    end type law_t
 
@@ -36,12 +47,9 @@ contains
          to = from
          return
       end if
-      to%sign = from%sign
-      to%reference = from%reference
-      to%rate = from%rate
+      to%law_numbers_t = from%law_numbers_t
       to%has_curve = from%has_curve
       to%is_one_sided = from%is_one_sided
-      to%rounding = from%rounding
       call copy_curve(from%curve, to%curve)
    end subroutine copy_law
 

@@ -7,15 +7,24 @@ module ek_load
    use ek_rotation, only: cross, skew
    implicit none(type, external)
    private
-   public :: load_t, wrench, add_load_tangent
+   public :: load_t, load_numbers_t, load_list_t, wrench, add_load_tangent
 
-   !> A force and a moment at a point of a body.
-   type :: load_t
-      character(:), allocatable :: name, where
-      integer :: body = 0
+   !> The numbers of a load.
+   type :: load_numbers_t
       real(num) :: arm(3) = zero         !! point of application from the reference point, body axes [m]
       real(num) :: force(3) = zero       !! force [N], global axes at design
       real(num) :: moment(3) = zero      !! moment [N m], global axes at design
+   end type load_numbers_t
+
+   !> The numbers of a load as a list (see law_list_t).
+   type :: load_list_t
+      real(num) :: v(storage_size(load_numbers_t())/storage_size(zero)) = zero
+   end type load_list_t
+
+   !> A force and a moment at a point of a body.
+   type, extends(load_numbers_t) :: load_t
+      character(:), allocatable :: name, where
+      integer :: body = 0
       logical :: follows = .false.        !! force and moment rotate with the body
       logical :: is_case = .false.        !! scaled by the case that refers to this load; otherwise constant
       logical :: is_weight = .false.      !! gravity of the body, not a load of the deck or the rig

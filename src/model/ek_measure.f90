@@ -27,7 +27,7 @@ module ek_measure
    use ek_relative_rotation, only: pose_t, relative_rotation_t, relative_rotation, rotation_gradient, add_rotation_hessian
    implicit none(type, external)
    private
-   public :: measure_t, evaluation_t
+   public :: measure_t, measure_numbers_t, measure_list_t, evaluation_t
    public :: axis_axis, body_gap, global_gap, distance, rotation
    public :: evaluate, measure_value, is_of_angle, add_measure_hessian
 
@@ -37,15 +37,24 @@ module ek_measure
    integer, parameter :: distance = 4     !! distance of two points [m]
    integer, parameter :: rotation = 5     !! component of the relative rotation vector [rad]
 
-   !> One scalar measure between body i and body j (0 is the chassis). At design all body axes
-   !> are parallel to the global axes, so directions and arms are given in the design position.
-   type :: measure_t
-      integer :: kind = 0                 !! one of the five above
-      integer :: body_i = 0, body_j = 0
+   !> The numbers of a measure. At design all body axes are parallel to the global axes, so directions and arms are given in the
+   !> design position.
+   type :: measure_numbers_t
       real(num) :: u(3) = zero           !! direction in i (body_gap, axis_axis: unit), n, or m
       real(num) :: v(3) = zero           !! direction in j (axis_axis)
       real(num) :: arm_i(3) = zero       !! point on i from its reference point, body axes [m]
       real(num) :: arm_j(3) = zero       !! point on j from its reference point, body axes [m]
+   end type measure_numbers_t
+
+   !> The numbers of a measure as a list (see law_list_t).
+   type :: measure_list_t
+      real(num) :: v(storage_size(measure_numbers_t())/storage_size(zero)) = zero
+   end type measure_list_t
+
+   !> One scalar measure between body i and body j (0 is the chassis).
+   type, extends(measure_numbers_t) :: measure_t
+      integer :: kind = 0                 !! one of the five above
+      integer :: body_i = 0, body_j = 0
    end type measure_t
 
    !> An evaluation: the vectors of a measure in global axes at one pair of poses, computed once and used for

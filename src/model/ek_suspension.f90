@@ -14,18 +14,22 @@ module ek_suspension
    use ek_contract, only: are_checked, require
    implicit none(type, external)
    private
-   public :: suspension_t, body_t, point_t, load_t, wheel_t, readout_t, axle_t, steering_t
+   public :: suspension_t, body_t, point_t, load_t, wheel_t, wheel_place_t, wheel_place_list_t, readout_t, axle_t, steering_t
    public :: allocate_lists, copy_numbers, copy_load, body_name, design_poses, driver_row, driver_unit, load_number, &
       has_symmetric_loads
 
-   !> A rigid body.
-   type :: body_t
-      character(:), allocatable :: name, where
+   !> The numbers of a body. What copies the numbers of a part copies this parent of its type, and does not name them.
+   type :: body_numbers_t
       real(wp) :: origin(3) = 0.0_wp      !! reference point r at design [m]
-      logical :: has_origin = .false.     !! `origin` is given in the deck; otherwise it is the mean of the attachment points
       integer :: attached = 0             !! number of attachment points
       real(wp) :: mass = 0.0_wp           !! kg
       real(wp) :: centre(3) = 0.0_wp      !! centre of gravity of a body with a mass: arm from the reference point, body axes [m]
+   end type body_numbers_t
+
+   !> A rigid body.
+   type, extends(body_numbers_t) :: body_t
+      character(:), allocatable :: name, where
+      logical :: has_origin = .false.     !! `origin` is given in the deck; otherwise it is the mean of the attachment points
    end type body_t
 
    !> A named hardpoint, design position.
@@ -35,23 +39,36 @@ module ek_suspension
       logical :: is_used = .false.
    end type point_t
 
-   !> A wheel with its points, angles and tyre, on its carrier.
-   type :: wheel_t
-      character(:), allocatable :: name, where
-      integer :: body = 0
-      integer :: side = -1                !! −1 left, +1 right
+   !> The numbers of a wheel from which its attitude follows.
+   type :: wheel_place_t
       real(wp) :: centre(3) = 0.0_wp      !! wheel centre: arm from the carrier's reference point, body axes [m]
       real(wp) :: contact(3) = 0.0_wp     !! contact point: arm from the carrier's reference point, body axes [m]
       real(wp) :: spin(3) = [0.0_wp, -1.0_wp, 0.0_wp]   !! spin axis: unit vector, outboard, body axes
+      real(wp) :: steer_axis(3, 2) = 0.0_wp             !! two points on the carrier, arms [m]
+      real(wp) :: start_rise(2) = 0.0_wp  !! rise of wheel centre and contact point in the start state (ek_start) from design [m]
+   end type wheel_place_t
+
+   !> These numbers as a list (see law_list_t of ek_law).
+   type :: wheel_place_list_t
+      real(wp) :: v(storage_size(wheel_place_t())/storage_size(1.0_wp)) = 0.0_wp
+   end type wheel_place_list_t
+
+   !> The numbers of a wheel.
+   type, extends(wheel_place_t) :: wheel_numbers_t
       real(wp) :: toe = 0.0_wp, camber = 0.0_wp         !! static angles, given in the deck or derived from the spin axis [rad]
       real(wp) :: radius = 0.0_wp         !! m
       real(wp) :: tyre_rate = 0.0_wp      !! vertical stiffness of the tyre [N/m]; 0: not given
       real(wp) :: tyre_width = 0.0_wp     !! width of the tread [m]; 0: not given
       real(wp) :: sprung_mass = 0.0_wp    !! sprung mass carried by this wheel [kg]; 0: not given
-      real(wp) :: start_rise(2) = 0.0_wp  !! rise of wheel centre and contact point in the start state (ek_start) from design [m]
+   end type wheel_numbers_t
+
+   !> A wheel with its points, angles and tyre, on its carrier.
+   type, extends(wheel_numbers_t) :: wheel_t
+      character(:), allocatable :: name, where
+      integer :: body = 0
+      integer :: side = -1                !! −1 left, +1 right
       logical :: gives_spin = .false.     !! the deck gives the spin axis instead of toe and camber
       logical :: has_steer_axis = .false.
-      real(wp) :: steer_axis(3, 2) = 0.0_wp             !! two points on the carrier, arms [m]
    end type wheel_t
 
    !> A named measure that is driven, coupled, or only read out.
@@ -61,11 +78,8 @@ module ek_suspension
       real(wp) :: design_value = 0.0_wp   !! value at design [m, - or rad]
    end type readout_t
 
-   !> Data of the vehicle, for characteristics of the axle that depend on the complete car.
-   type :: axle_t
-      logical :: has_axle = .false.       !! the deck has an &axle
-      character(:), allocatable :: where
-      logical :: is_front = .true.
+   !> The numbers of the vehicle, for characteristics of the axle that depend on the complete car.
+   type :: axle_numbers_t
       real(wp) :: wheelbase = 0.0_wp      !! m
       real(wp) :: cg_height = 0.0_wp      !! height of the centre of gravity of the car above the ground [m]
       real(wp) :: mass = 0.0_wp           !! mass of the car [kg]; 0: not given
@@ -75,34 +89,49 @@ module ek_suspension
       real(wp) :: drive_share = 1.0_wp    !! share of the car's driving force that acts on THIS axle, 0 to 1
       real(wp) :: front_overhang = 0.0_wp !! distance of the front corner of the car ahead of the wheels [m]; 0: not given
       real(wp) :: front_width = 0.0_wp    !! width of the car at its front corners [m]; given together with front_overhang
+   end type axle_numbers_t
+
+   !> Data of the vehicle.
+   type, extends(axle_numbers_t) :: axle_t
+      logical :: has_axle = .false.       !! the deck has an &axle
+      character(:), allocatable :: where
+      logical :: is_front = .true.
       logical :: drives_at_patch = .false.   !! the axle carries the drive torque (solid axle): driving force acts at contact point;
                                              !! otherwise (independent suspension) at the wheel centre
       logical :: brakes_at_centre = .false.  !! the body takes the brake torque (inboard brakes): braking force acts at wheel centre;
                                              !! otherwise (brake on the carrier) at the contact point
    end type axle_t
 
+   !> The numbers of the steering.
+   type :: steering_numbers_t
+      real(wp) :: ratio = 0.0_wp          !! rack travel per revolution of the steering wheel [m]; sign as given in the deck
+      real(wp) :: travel = 0.0_wp         !! largest rack travel each way [m]
+   end type steering_numbers_t
+
    !> The transmission from the steering wheel to the driver that moves the rack.
-   type :: steering_t
+   type, extends(steering_numbers_t) :: steering_t
       logical :: has_steering = .false.   !! the deck has a &steering
       character(:), allocatable :: where
       character(:), allocatable :: driver !! name of the driver joint (driver_row gives the row)
-      real(wp) :: ratio = 0.0_wp          !! rack travel per revolution of the steering wheel [m]; sign as given in the deck
-      real(wp) :: travel = 0.0_wp         !! largest rack travel each way [m]
    end type steering_t
 
-   type :: suspension_t
+   !> The numbers of a suspension that belong to no part.
+   type :: model_numbers_t
+      real(wp) :: gravity = 0.0_wp        !! m/s²
+      real(wp) :: start_height = 0.0_wp      !! start 'height': rise of the wheel centres from design [m]
+      real(wp) :: start_load = 0.0_wp        !! start 'wheel_load': vertical force of the road on each wheel [N]
+   end type model_numbers_t
+
+   type, extends(model_numbers_t) :: suspension_t
       character(:), allocatable :: name, title, where
       type(units_t) :: units = units_t()  !! units of the deck, used in remarks on implausible numbers
       logical :: is_plausible_wanted = .true.   !! report implausible numbers
-      real(wp) :: gravity = 0.0_wp        !! m/s²
       logical :: is_iso = .false.         !! the deck uses ISO 8855 axes: vectors are written in that frame
       character(:), allocatable :: balance   !! 'none', 'spring' or 'all'
       character(:), allocatable :: start     !! start state of the tests: '' (as trimmed), 'height', 'loads' or 'wheel_load', see
                                              !! ek_start
       character(:), allocatable :: state     !! name of the &load_state that gives the start state; '': none
       logical :: must_start = .false.        !! the deck asks for this start state: an error if there is no such state
-      real(wp) :: start_height = 0.0_wp      !! 'height': rise of the wheel centres from design [m]
-      real(wp) :: start_load = 0.0_wp        !! 'wheel_load': vertical force of the road on each wheel [N]
       type(body_t), allocatable :: bodies(:)
       type(point_t), allocatable :: points(:)
       type(joint_t), allocatable :: joints(:)
@@ -155,14 +184,9 @@ contains
       if (are_checked) call require(size(from%bodies) == size(to%bodies) .and. size(from%joints) <= size(to%joints) .and. &
          size(from%terms) <= size(to%terms) .and. size(from%elements) == size(to%elements) .and. &
          size(from%loads) <= size(to%loads), 'copy_numbers: the suspensions are of different models')
-      to%gravity = from%gravity
-      to%start_height = from%start_height
-      to%start_load = from%start_load
+      to%model_numbers_t = from%model_numbers_t
       do k = 1, size(from%bodies)
-         to%bodies(k)%origin = from%bodies(k)%origin
-         to%bodies(k)%attached = from%bodies(k)%attached
-         to%bodies(k)%mass = from%bodies(k)%mass
-         to%bodies(k)%centre = from%bodies(k)%centre
+         to%bodies(k)%body_numbers_t = from%bodies(k)%body_numbers_t
       end do
       do k = 1, size(from%points)
          to%points(k)%at = from%points(k)%at
@@ -180,7 +204,7 @@ contains
          call copy_load(from%loads(k), to%loads(k))
       end do
       do k = 1, size(from%wheels)
-         call copy_wheel(from%wheels(k), to%wheels(k))
+         to%wheels(k)%wheel_numbers_t = from%wheels(k)%wheel_numbers_t
       end do
       do k = 1, size(from%readouts)
          to%readouts(k)%measure = from%readouts(k)%measure
@@ -189,45 +213,17 @@ contains
       do k = 1, size(from%tilts)
          to%tilts(k)%axis = from%tilts(k)%axis
       end do
-      to%axle%wheelbase = from%axle%wheelbase
-      to%axle%cg_height = from%axle%cg_height
-      to%axle%mass = from%axle%mass
-      to%axle%load = from%axle%load
-      to%axle%roll_share = from%axle%roll_share
-      to%axle%brake_share = from%axle%brake_share
-      to%axle%drive_share = from%axle%drive_share
-      to%axle%front_overhang = from%axle%front_overhang
-      to%axle%front_width = from%axle%front_width
-      to%steering%ratio = from%steering%ratio
-      to%steering%travel = from%steering%travel
+      to%axle%axle_numbers_t = from%axle%axle_numbers_t
+      to%steering%steering_numbers_t = from%steering%steering_numbers_t
       if (allocated(from%vectors)) to%vectors(:, :) = from%vectors
    end subroutine copy_numbers
-
-   pure subroutine copy_wheel(from, to)
-      type(wheel_t), intent(in) :: from
-      type(wheel_t), intent(inout) :: to
-
-      to%centre = from%centre
-      to%contact = from%contact
-      to%spin = from%spin
-      to%toe = from%toe
-      to%camber = from%camber
-      to%radius = from%radius
-      to%tyre_rate = from%tyre_rate
-      to%tyre_width = from%tyre_width
-      to%sprung_mass = from%sprung_mass
-      to%steer_axis = from%steer_axis
-      to%start_rise = from%start_rise
-   end subroutine copy_wheel
 
    !> Copies the numbers of a load.
    pure subroutine copy_load(from, to)
       type(load_t), intent(in) :: from
       type(load_t), intent(inout) :: to
 
-      to%arm = from%arm
-      to%force = from%force
-      to%moment = from%moment
+      to%load_numbers_t = from%load_numbers_t
       to%follows = from%follows
    end subroutine copy_load
 

@@ -479,9 +479,7 @@ contains
       suspension%rows(size(suspension%rows) - size(rig%rows) + 1:) = rig%rows
       suspension%terms(size(suspension%terms) - size(rig%terms) + 1:) = rig%terms
       do k = 1, size(rig%loads)
-         suspension%loads(loads + k)%arm = rig%loads(k)%arm
-         suspension%loads(loads + k)%force = rig%loads(k)%force
-         suspension%loads(loads + k)%moment = rig%loads(k)%moment
+         suspension%loads(loads + k)%load_numbers_t = rig%loads(k)%load_numbers_t
       end do
    end subroutine copy_rig_numbers
 

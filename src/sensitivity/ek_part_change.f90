@@ -5,11 +5,11 @@
 !> designs. ek_part_force finds the effect of these changes on F at a state.
 module ek_part_change
    use ek_kinds, only: wp
-   use ek_same_parts, only: same_wheel, same_law, same_form
+   use ek_same_parts, only: same_wheel, same_law, same_form, same_spring, same_load
    use ek_suspension, only: suspension_t, copy_load
    use ek_state, only: inputs_t
    use ek_measure, only: measure_t
-   use ek_element, only: element_t, bushing_element, is_linear
+   use ek_element, only: element_t, element_shape, bushing_element, is_linear
    use ek_row, only: row_t, term_t
    use ek_load, only: load_t
    use ek_stencil, only: stencil_t, weight_of, corner_weight
@@ -268,7 +268,7 @@ contains
 
       call learn_measure(here%measure, there%measure, all%weight(k), change%arms, change%u, change%v, change%has_arms, &
          change%has_directions)
-      has_load = abs(there%preload - here%preload) > 0.0_wp .or. .not. same_law(here%law, there%law)
+      has_load = .not. (same_spring(here, there, 1) .and. same_law(here%law, there%law))
       change%is_held(k) = .true.
       change%held(1:2, k) = [there%preload, there%law%reference]
       if (.not. (has_load .or. change%has_arms .or. change%has_directions)) return
@@ -283,7 +283,8 @@ contains
       end associate
       bends(1) = bends(1) + all%corner(k)*(there%preload - here%preload)
       if (is_linear(here)) return
-      if (same_form(here%law, there%law) .and. .not. abs(there%law%rate - here%law%rate) > 0.0_wp) return
+      if (same_form(here%law, there%law) .and. same_spring(here, there, element_shape) .and. &
+         .not. abs(there%law%rate - here%law%rate) > 0.0_wp) return
       call keep_neighbour(here, there, k, change%there)
    end subroutine learn_spring
 
@@ -345,8 +346,7 @@ contains
       type(load_change_t), intent(inout) :: change
       integer :: j
 
-      if (.not. (any(abs(there%arm - here%arm) > 0.0_wp) .or. any(abs(there%force - here%force) > 0.0_wp) .or. &
-         any(abs(there%moment - here%moment) > 0.0_wp))) return
+      if (same_load(here, there)) return
       if (.not. change%is_touched) then
          change%load = number
          change%is_touched = .true.
