@@ -8,16 +8,17 @@ module ek_carpet_figure
    use ek_error, only: message_list_t
    use ek_text, only: str
    use ek_study_data, only: study_data_t, is_geometric, range_of_values
+   use ek_gnuplot, only: ink, text_ink, on_level, on_derivative
    use ek_study_sheet, only: sheet_t, new_sheet, begin_data, add_numbers, end_data, begin_panels, begin_panel, end_panels
    implicit none(type, external)
    private
-   public :: carpet_t, new_carpet, carpet_script, study_carpet, is_drawn, colours
+   public :: carpet_t, new_carpet, carpet_script, study_carpet, is_drawn, on_equal
 
    character(*), parameter :: nl = new_line('a')
    integer, parameter :: most_lines = 7           !! largest number of lines per factor; with more levels, only some are drawn
    real(wp), parameter :: shift = 0.8_wp          !! shift of the abscissa over the levels of factor 2, per range of factor 1
-   !> Colours of the lines of equal factor 1 and of equal factor 2.
-   character(*), parameter :: colours(2) = ["rgb '#0072B2'", "rgb '#D55E00'"]
+   !> Roles of the lines of equal factor 1 and of equal factor 2.
+   integer, parameter :: on_equal(2) = [on_level, on_derivative]
 
    !> A grid of two factors, in the order of their levels, and the responses at its points.
    type :: carpet_t
@@ -85,7 +86,7 @@ contains
          text = 'plot '
          do f = 1, 2
             if (f == 2) text = text//', \'//nl//'     '
-            text = text//'$equal'//str(f)//'_'//str(r)//' using 1:2 with lines linewidth 2 linecolor '//colours(f)//' notitle'// &
+            text = text//'$equal'//str(f)//'_'//str(r)//' using 1:2 with lines linewidth 2'//ink(on_equal(f))//' notitle'// &
                labels(1)//labels(-1)
             if (f == 2) text = text//labels(2)//labels(-2)
          end do
@@ -106,7 +107,7 @@ contains
             str(sign(0.45_wp, real(side, wp)))
          if (abs(side) == 2) words = 'center offset 0, '//str(sign(1.5_wp, real(side, wp)))
          words = ', \'//nl//'     $ends'//str(f)//'_'//str(r)//' using ($3 == '//str(side)// &
-            ' ? $1 : NaN):2:4 with labels '//words//" font ',12' textcolor "//colours(f)//' notitle'
+            ' ? $1 : NaN):2:4 with labels '//words//" font ',12'"//text_ink(on_equal(f))//' notitle'
       end function labels
 
    end function carpet_script

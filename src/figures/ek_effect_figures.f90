@@ -5,8 +5,10 @@ module ek_effect_figures
    use ek_kinds, only: wp
    use ek_text, only: str
    use ek_study_data, only: study_data_t, effects_t, basis_text, range_of_values, is_geometric, tic_step, looks_flat
-   use ek_study_sheet, only: sheet_t, new_sheet, begin_data, add_numbers, end_data, begin_panels, begin_panel, end_panels, blues, &
+   use ek_study_sheet, only: sheet_t, new_sheet, begin_data, add_numbers, end_data, begin_panels, begin_panel, end_panels, &
       add_point_names, names_plot
+   use ek_gnuplot, only: ink, text_ink, value_colours, on_contour, on_contour_dots, on_guide, on_high, on_low, &
+      on_range, on_title, on_soft
    implicit none(type, external)
    private
    public :: map_script, line_script, tornado_script, sobol_script, morris_script, ranked
@@ -44,7 +46,7 @@ contains
          call end_data(sheet)
       end do
       call begin_panels(sheet)
-      call sheet%text%line(blues//nl//'unset grid; unset xzeroaxis; unset yzeroaxis; set xtics offset 0, 0.5')
+      call sheet%text%line(value_colours//nl//'unset grid; unset xzeroaxis; unset yzeroaxis; set xtics offset 0, 0.5')
       if (is_geometric(study%x(1, :))) call sheet%text%line('set logscale x')
       if (is_geometric(study%x(2, :))) call sheet%text%line('set logscale y')
       call sheet%text%line('set xtics '//tics_of(study%x(1, :))//'; set ytics '//tics_of(study%x(2, :)))
@@ -59,8 +61,8 @@ contains
          call sheet%text%line('set xlabel offset 0, 0.7; set ylabel offset -1, 0; set cbrange '//bounds(study%y(r, :)))
          call sheet%text%line('set pm3d map interpolate 4, 4')
          call sheet%text%line('splot '//data//' using 1:2:3 with pm3d notitle, \'//nl// &
-            "      $lines using 1:2:(0) with lines linecolor rgb '#FFFFFF' linewidth 1.2 notitle, \"//nl// &
-            '      '//data//" using 1:2:(0) with points pointtype 7 pointsize 0.25 linecolor rgb '#80FFFFFF' notitle")
+            "      $lines using 1:2:(0) with lines"//ink(on_contour)//" linewidth 1.2 notitle, \"//nl// &
+            '      '//data//" using 1:2:(0) with points pointtype 7 pointsize 0.25"//ink(on_contour_dots)//" notitle")
          call sheet%text%line('unset pm3d')
       end do
       call sheet%text%line('unset logscale; set xrange [*:*]; set yrange [*:*]; set cbrange [*:*]; set view 60, 30')
@@ -89,7 +91,7 @@ contains
          r = panels(p)
          call begin_panel(sheet, p, study%responses(r)%label, study%factors(1)%label, '')
          call sheet%text%line('plot $rows using 1:'//str(p + 1)// &
-            " with linespoints pointtype 7 pointsize 0.7 linewidth 2.2 linecolor rgb '#0072B2' notitle")
+            " with linespoints pointtype 7 pointsize 0.7 linewidth 2.2"//ink(on_low)//" notitle")
       end do
       call sheet%text%line('unset logscale')
       text = end_panels(sheet)
@@ -227,13 +229,13 @@ contains
          call sheet%text%line('set xtics '//tic_step([study%effects(r)%lowest, study%effects(r)%highest]))
          data = '$bars'//str(r)
          call sheet%text%line('plot '//data// &
-            " using 5:1:5:6:($1-0.06):($1+0.06):ytic(7) with boxxyerror linecolor rgb '#A0A0A0' notitle, \"//nl// &
-            '     '//data//" using 2:1:(min2($2,$3)):(max2($2,$3)):($1-0.34):($1+0.34) with boxxyerror linecolor rgb '#0072B2'"// &
+            " using 5:1:5:6:($1-0.06):($1+0.06):ytic(7) with boxxyerror"//ink(on_range)//" notitle, \"//nl// &
+            '     '//data//" using 2:1:(min2($2,$3)):(max2($2,$3)):($1-0.34):($1+0.34) with boxxyerror"//ink(on_low)// &
             ' notitle, \'//nl// &
-            '     '//data//" using 2:1:(min2($2,$4)):(max2($2,$4)):($1-0.34):($1+0.34) with boxxyerror linecolor rgb '#E69F00'"// &
+            '     '//data//" using 2:1:(min2($2,$4)):(max2($2,$4)):($1-0.34):($1+0.34) with boxxyerror"//ink(on_high)// &
             ' notitle, \'//nl// &
             gaps_plot(r, study%effects(r))// &
-            '     '//data//" using 2:($1-0.5):(0):(1) with vectors nohead linewidth 1.5 linecolor rgb '#202020' notitle")
+            '     '//data//" using 2:($1-0.5):(0):(1) with vectors nohead linewidth 1.5"//ink(on_title)//" notitle")
       end do
       call sheet%text%line('set yrange [*:*]; set border 3; set xtics autofreq')
       text = end_panels(sheet)
@@ -299,17 +301,17 @@ contains
             'share of the variance [–]', '')
          if (.not. any(ieee_is_finite([study%effects(r)%first, study%effects(r)%total]))) then
             ! gnuplot refuses data without a value
-            call sheet%text%line("unset ytics; set label 3 'constant, or too few designs' at graph 0.5, graph 0.5 center "// &
-               "textcolor rgb '#606060'; plot [0:1] -1 notitle; unset label 3; set ytics scale 0")
+            call sheet%text%line("unset ytics; set label 3 'constant, or too few designs' at graph 0.5, graph 0.5 center"// &
+               text_ink(on_soft)//"; plot [0:1] -1 notitle; unset label 3; set ytics scale 0")
             cycle
          end if
          data = '$bars'//str(r)
          call sheet%text%line('plot '//data// &
-            " using (0):1:(0):2:($1-0.36):($1-0.02):ytic(6) with boxxyerror linecolor rgb '#0072B2' notitle, \"//nl// &
-            '     '//data//" using (0):1:(0):4:($1+0.02):($1+0.36) with boxxyerror linecolor rgb '#E69F00' notitle, \"//nl// &
-            '     '//data//" using 2:($1-0.19):3 with xerrorbars pointtype -1 linewidth 1.5 linecolor rgb '#202020' notitle, \"// &
+            " using (0):1:(0):2:($1-0.36):($1-0.02):ytic(6) with boxxyerror"//ink(on_low)//" notitle, \"//nl// &
+            '     '//data//" using (0):1:(0):4:($1+0.02):($1+0.36) with boxxyerror"//ink(on_high)//" notitle, \"//nl// &
+            '     '//data//" using 2:($1-0.19):3 with xerrorbars pointtype -1 linewidth 1.5"//ink(on_title)//" notitle, \"// &
             nl// &
-            '     '//data//" using 4:($1+0.19):5 with xerrorbars pointtype -1 linewidth 1.5 linecolor rgb '#202020' notitle")
+            '     '//data//" using 4:($1+0.19):5 with xerrorbars pointtype -1 linewidth 1.5"//ink(on_title)//" notitle")
       end do
       call sheet%text%line('set yrange [*:*]; set xrange [*:*]; set border 3')
       text = end_panels(sheet)
@@ -356,8 +358,8 @@ contains
             'μ*, mean size of the effect', 'σ, spread of the effect')
          call sheet%text%line('set ytics '//tic_step([0.0_wp, ends(2, r)])//'; set xtics '//tic_step([0.0_wp, ends(1, r)])// &
             '; set xrange [0:'//str(ends(1, r), 6)//']; set yrange [0:'//str(ends(2, r), 6)//']')
-         call sheet%text%line("plot x with lines dashtype (8, 6) linecolor rgb '#B0B0B0' notitle, \"//nl// &
-            '     $points'//str(r)//" using 1:2 with points pointtype 7 pointsize 1 linecolor rgb '#0072B2' notitle, \"//nl// &
+         call sheet%text%line("plot x with lines dashtype (8, 6)"//ink(on_guide)//" notitle, \"//nl// &
+            '     $points'//str(r)//" using 1:2 with points pointtype 7 pointsize 1"//ink(on_low)//" notitle, \"//nl// &
             '     '//names_plot(r))
       end do
       call sheet%text%line('set xrange [*:*]; set yrange [*:*]; set xtics autofreq; set ytics autofreq')

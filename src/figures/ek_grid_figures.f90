@@ -16,7 +16,8 @@ module ek_grid_figures
    use ek_test_result, only: test_result_t, converged_rows, wheel_word
    use ek_study_data, only: range_of_values, tic_step
    use ek_study_sheet, only: sheet_t, new_sheet, begin_data, add_numbers, end_data, begin_panels, begin_panel, end_panels
-   use ek_carpet_figure, only: carpet_t, new_carpet, carpet_script, is_drawn, colours
+   use ek_carpet_figure, only: carpet_t, new_carpet, carpet_script, is_drawn, on_equal
+   use ek_gnuplot, only: ink, on_box, on_zero
    implicit none(type, external)
    private
    public :: find_grid, grid_carpet, carpet_name, envelope_name, envelope_script, envelope_text
@@ -182,7 +183,7 @@ contains
       type(suspension_t), intent(in) :: suspension
       character(:), allocatable :: text
       real(wp), parameter :: stroke = 60.0_wp        ! mm
-      character(*), parameter :: lines = ' using 1:2:3 with lines linewidth 2 linecolor '
+      character(*), parameter :: lines = ' using 1:2:3 with lines linewidth 2'
       real(wp), dimension(size(test%grid%travel), size(test%grid%steer), 3) :: centre, spin
       type(sheet_t) :: sheet
       character(:), allocatable :: side
@@ -233,7 +234,7 @@ contains
          call end_data(sheet)
       end do
       call begin_panels(sheet)
-      call sheet%text%line("set view equal xyz; set border 4095 linewidth 0.5 linecolor rgb '#C0C0C0'")
+      call sheet%text%line("set view equal xyz; set border 4095 linewidth 0.5"//ink(on_box))
       call sheet%text%line('unset xzeroaxis; unset yzeroaxis; unset grid')
       do wheel = 1, sheet%panels
          side = wheel_word(test%prefixes(wheel))
@@ -245,9 +246,9 @@ contains
          call set_cube(low(:, wheel), high(:, wheel), sheet)
          call sheet%text%line('set view 68, '//str(merge(320, 220, test%sides(wheel) < 0))//', 1.1')
          call sheet%text%line('splot $axis'//str(wheel)// &
-            " using 1:2:3:4:5:6 with vectors nohead linewidth 1.5 linecolor rgb '#909090' notitle, \")
-         call sheet%text%line('      $travel'//str(wheel)//lines//colours(1)//' notitle, \')
-         call sheet%text%line('      $steer'//str(wheel)//lines//colours(2)//' notitle')
+            " using 1:2:3:4:5:6 with vectors nohead linewidth 1.5"//ink(on_zero)//" notitle, \")
+         call sheet%text%line('      $travel'//str(wheel)//lines//ink(on_equal(1))//' notitle, \')
+         call sheet%text%line('      $steer'//str(wheel)//lines//ink(on_equal(2))//' notitle')
       end do
       text = end_panels(sheet)
    end function envelope_script

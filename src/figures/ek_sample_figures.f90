@@ -6,7 +6,8 @@ module ek_sample_figures
    use ek_gnuplot_text, only: gnuplot_text
    use ek_study_data, only: study_data_t, summary_t, range_of_values, is_geometric, tic_step, has_expected, looks_flat
    use ek_study_sheet, only: sheet_t, new_sheet, begin_data, add_numbers, end_data, begin_panels, begin_panel, end_panels, &
-      full_height, blues
+      full_height
+   use ek_gnuplot, only: ink, text_ink, fill, on_derivative, on_label, on_median, on_narrow_band, on_wide_band, on_limit
    implicit none(type, external)
    private
    public :: fan_script, histogram_script, convergence_script
@@ -46,7 +47,7 @@ contains
       call sheet%text%line('set colorbox horizontal user origin screen 0.74, screen '//above(sheet, 42)//' size screen 0.22, '// &
          'screen '//str(14.0_wp/full_height(sheet), 4)//" noborder; set cbtics nomirror scale 0.4 font ',12'")
       call sheet%text%line('set label 9 '//gnuplot_text(label)//' at screen 0.74, screen '//above(sheet, 14)// &
-         " left font ',13' textcolor rgb '#404040'")
+         " left font ',13'"//text_ink(on_label))
    end subroutine add_scale
 
    !> The screen coordinate of a point `pixels` below the upper edge, as a gnuplot string.
@@ -98,9 +99,9 @@ contains
          call begin_panel(sheet, p, trim(merge('deviation from the median', '                         ', is_narrow(study, c))), &
             study%swept, study%columns(c)%label)
          data = '$band'//str(c)
-         call sheet%text%line('plot '//data//" using 1:2:6 with filledcurves fillcolor rgb '#CCE3F0' notitle, \"//nl// &
-            '     '//data//" using 1:3:5 with filledcurves fillcolor rgb '#80BAD8' notitle, \"//nl// &
-            '     '//data//" using 1:4 with lines linewidth 2.4 linecolor rgb '#00486F' notitle"//lines_of(c))
+         call sheet%text%line('plot '//data//" using 1:2:6 with filledcurves"//fill(on_wide_band)//" notitle, \"//nl// &
+            '     '//data//" using 1:3:5 with filledcurves"//fill(on_narrow_band)//" notitle, \"//nl// &
+            '     '//data//" using 1:4 with lines linewidth 2.4"//ink(on_median)//" notitle"//lines_of(c))
       end do
       text = end_panels(sheet)
 
@@ -110,7 +111,9 @@ contains
       function lines_of(c) result(more)
          integer, intent(in) :: c
          character(:), allocatable :: more
-         character(*), parameter :: dashed = " with lines linewidth 1.8 dashtype (6, 5) linecolor rgb '#D55E00' notitle"
+         character(:), allocatable :: dashed
+
+         dashed = " with lines linewidth 1.8 dashtype (6, 5)"//ink(on_derivative)//" notitle"
 
          more = ''
          if (has_expected(study)) more = ', \'//nl//'     $expected'//str(c)//' using 1:2'//dashed//', \'//nl// &
@@ -173,7 +176,7 @@ contains
                line = merge(' 5 %', '50 %', k == 1)
                if (k == 3) line = '95 %'
                call sheet%text%line('set label '//str(k + 2)//' '//gnuplot_text(trim(adjustl(line)))//' at first '// &
-                  str(summary%percentiles(2*k - 1), 7)//", graph 1.035 center font ',12' textcolor rgb '#404040'")
+                  str(summary%percentiles(2*k - 1), 7)//", graph 1.035 center font ',12'"//text_ink(on_label))
             end do
             if (response%lower > summary%lowest - (summary%highest - summary%lowest)) &
                call add_mark(sheet, 4, response%lower, ' dashtype (8, 6)')
@@ -187,7 +190,7 @@ contains
             if (response%upper > ends(2) .and. response%upper < ends(2) + room) ends(2) = response%upper
             call sheet%text%line('set xrange ['//str(ends(1) - 0.06_wp*room, 9)//':'//str(ends(2) + 0.06_wp*room, 9)// &
                ']; set xtics '//tic_step(ends)//nl//'set yrange [0:'//str(room_above*highest(study, r), 7)//']')
-            call sheet%text%line('plot $bins'//str(r)//" using 1:2:3 with boxes linecolor rgb '#80BAD8' notitle"// &
+            call sheet%text%line('plot $bins'//str(r)//" using 1:2:3 with boxes"//ink(on_narrow_band)//" notitle"// &
                density_of(study, r))
          end associate
       end do
@@ -254,7 +257,7 @@ contains
       associate (row => study%moments(2, r))
          z = '((x - ('//str(row%mean, 9)//'))/'//str(row%deviation, 9)//')'
          more = ', \'//nl//'     '//str(density_height(study, r), 7)//'*exp(-0.5*'//z//'**2)*(1 + ('// &
-            str(row%skewness/6.0_wp, 7)//')*('//z//'**3 - 3*'//z//")) with lines linewidth 2 linecolor rgb '#D55E00' notitle"
+            str(row%skewness/6.0_wp, 7)//')*('//z//'**3 - 3*'//z//")) with lines linewidth 2"//ink(on_derivative)//" notitle"
       end associate
    end function density_of
 
@@ -272,7 +275,7 @@ contains
       character(*), intent(in) :: dash
 
       call sheet%text%line('set arrow '//str(number)//' from first '//str(x, 7)//', graph 0 to first '//str(x, 7)// &
-         ", graph 1 nohead front linewidth 1.6 linecolor rgb '"//merge('#B02020', '#404040', len(dash) > 0)//"'"//dash)
+         ", graph 1 nohead front linewidth 1.6"//ink(merge(on_limit, on_label, len(dash) > 0))//dash)
    end subroutine add_mark
 
    !> Script of the mean of the first n designs with its 95 % interval, over n.
@@ -306,8 +309,8 @@ contains
          r = panels(p)
          data = '$mean'//str(r)
          call begin_panel(sheet, p, '', 'number of designs', 'mean of '//study%responses(r)%label)
-         call sheet%text%line('plot '//data//" using 1:3:4 with filledcurves fillcolor rgb '#CCE3F0' notitle, \"//nl// &
-            '     '//data//" using 1:2 with lines linewidth 2.2 linecolor rgb '#00486F' notitle")
+         call sheet%text%line('plot '//data//" using 1:3:4 with filledcurves"//fill(on_wide_band)//" notitle, \"//nl// &
+            '     '//data//" using 1:2 with lines linewidth 2.2"//ink(on_median)//" notitle")
       end do
       call sheet%text%line('unset logscale')
       text = end_panels(sheet)

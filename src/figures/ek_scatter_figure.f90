@@ -5,6 +5,7 @@ module ek_scatter_figure
    use ek_text, only: str
    use ek_study_data, only: study_data_t, tic_step
    use ek_study_sheet, only: sheet_t, new_sheet, begin_data, add_numbers, end_data, begin_panels, begin_panel, end_panels
+   use ek_gnuplot, only: ink, on_dots
    use ek_study_panels, only: most_panels
    use ek_effect_figures, only: ranked
    use ek_sample_figures, only: thinned, cut
@@ -53,7 +54,7 @@ contains
          call begin_panel(sheet, k, correlation_text(study%effects(r)%correlation(f)), study%factors(f)%label, &
             study%responses(r)%label)
          call sheet%text%line('set xtics '//tic_step(study%x(f, :))//'; set ytics '//tic_step(study%y(r, :))//nl// &
-            'plot $pair'//str(k)//" using 1:2 with points pointtype 7 pointsize 0.45 linecolor rgb '#600072B2' notitle")
+            'plot $pair'//str(k)//" using 1:2 with points pointtype 7 pointsize 0.45"//ink(on_dots)//" notitle")
       end do
       call sheet%text%line('set xtics autofreq; set ytics autofreq')
       text = end_panels(sheet)
@@ -110,7 +111,7 @@ contains
             call begin_panel(sheet, number, correlation_text(study%effects(r)%correlation(factors(f))), x_label, y_label, most=19)
             call sheet%text%line('set xtics '//tic_step(study%x(factors(f), :))//'; set ytics '//tic_step(study%y(r, :))//nl// &
                'plot $rows using '//str(f)//':'// &
-               str(size(factors) + r)//" with points pointtype 7 pointsize 0.35 linecolor rgb '#600072B2' notitle")
+               str(size(factors) + r)//" with points pointtype 7 pointsize 0.35"//ink(on_dots)//" notitle")
          end do
       end do
       call sheet%text%line('set xtics autofreq; set ytics autofreq')

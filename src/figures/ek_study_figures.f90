@@ -14,8 +14,9 @@ module ek_study_figures
    use ek_effect_figures, only: map_script, line_script, tornado_script, sobol_script, morris_script
    use ek_carpet_figure, only: carpet_script, study_carpet
    use ek_kinds, only: wp
-   use ek_study_sheet, only: sheet_t, new_sheet, begin_data, add_numbers, end_data, begin_panels, begin_panel, end_panels, blues, &
+   use ek_study_sheet, only: sheet_t, new_sheet, begin_data, add_numbers, end_data, begin_panels, begin_panel, end_panels, &
       two_lines
+   use ek_gnuplot, only: ink, text_ink, value_colours, on_label, on_result, on_soft, on_title
    use ek_gnuplot_text, only: gnuplot_text
    implicit none(type, external)
    private
@@ -184,7 +185,7 @@ contains
       if (.not. is_common) sheet%subtitle = sheet%subtitle//'; colour: from dark to light the factor above each panel'
       call add_curves(sheet, study, panels, leaders, every)
       call begin_panels(sheet)
-      call sheet%text%line(blues)
+      call sheet%text%line(value_colours)
       if (is_common) call add_scale(sheet, study%factors(leaders(1))%label, study%x(leaders(1), :))
       do c = 1, sheet%panels
          call begin_panel(sheet, c, trim(above(c)), study%swept, study%columns(panels(c))%label)
@@ -312,24 +313,25 @@ contains
       end do
       call end_data(sheet)
       call begin_panels(sheet)
-      call sheet%text%line(blues//nl//'unset border; unset grid; unset xzeroaxis; unset yzeroaxis; unset ytics; unset xtics')
+      call sheet%text%line(value_colours//nl// &
+         'unset border; unset grid; unset xzeroaxis; unset yzeroaxis; unset ytics; unset xtics')
       call sheet%text%line('set xrange [0.8:'//str(n + 0.2_wp)//']; set yrange [-0.09:1.25]')
       call add_scale(sheet, study%responses(1)%label, study%y(1, :))
       do k = 1, n
          place = ' at first '//str(k)//', first '
          call sheet%text%line('set arrow '//str(k)//' from first '//str(k)//', first 0 to first '//str(k)// &
-            ", first 1 nohead front linewidth 1.5 linecolor rgb '#404040'")
+            ", first 1 nohead front linewidth 1.5"//ink(on_label))
          if (k <= size(factors)) then
             call sheet%text%line('set label '//str(10 + k)//' '//two_lines(study%factors(factors(k))%label, 18)//place// &
-               trim(merge('1.21', '1.12', modulo(k, 2) == 1))//" center textcolor rgb '#202020'")
+               trim(merge('1.21', '1.12', modulo(k, 2) == 1))//" center"//text_ink(on_title))
          else
             call sheet%text%line('set label '//str(10 + k)//' '//two_lines(study%responses(k - size(factors))%label, 18)//place// &
-               trim(merge('1.21', '1.12', modulo(k, 2) == 1))//" center textcolor rgb '#A04000'")
+               trim(merge('1.21', '1.12', modulo(k, 2) == 1))//" center"//text_ink(on_result))
          end if
          call sheet%text%line('set label '//str(40 + k)//' '//gnuplot_text(str(low(k), 5))//place// &
-            "-0.045 center textcolor rgb '#606060'")
+            "-0.045 center"//text_ink(on_soft))
          call sheet%text%line('set label '//str(70 + k)//' '//gnuplot_text(str(low(k) + span(k), 5))//place// &
-            "1.035 center textcolor rgb '#606060'")
+            "1.035 center"//text_ink(on_soft))
       end do
       call begin_panel(sheet, 1, '', '', '')
       call sheet%text%line("plot $lines using 1:2:3 with lines linewidth 1 linecolor palette notitle")

@@ -6,12 +6,13 @@ module ek_study_sheet
    use ek_kinds, only: wp
    use ek_text, only: str
    use ek_buffer, only: buffer_t
-   use ek_chart, only: add_coordinate, axes_style
-   use ek_gnuplot_text, only: gnuplot_text, gnuplot_comment
+   use ek_chart, only: add_coordinate
+   use ek_gnuplot, only: begin_script, begin_formats, end_formats, ink, text_ink, heading_style, subtitle_style, on_guide, on_label
+   use ek_gnuplot_text, only: gnuplot_text
    implicit none(type, external)
    private
    public :: sheet_t, new_sheet, two_lines, begin_data, add_numbers, end_data, begin_panels, begin_panel, end_panels, full_height, &
-      add_point_names, names_plot, blues, label_place_t, place_labels
+      add_point_names, names_plot, label_place_t, place_labels
 
    !> The position at which the name of a point begins, as shares of the panel's width and height. With is_left, the name is
    !> to the left of the point and ends at this position.
@@ -24,9 +25,6 @@ module ek_study_sheet
    integer, parameter :: most_steps = 80          !! number of trial shifts of a name; the step is a quarter of its height
 
    character(*), parameter :: nl = new_line('a')
-   !> The gnuplot command of the colour scale: viridis without its lightest end.
-   character(*), parameter :: blues = "set palette defined (0 '#440154', 0.25 '#3B528B', 0.5 '#21918C', 0.75 '#5EC962', "// &
-      "1 '#E8D000')"
    integer, parameter :: title_height = 88        !! height above the panels [pixels]
 
    type :: sheet_t
@@ -58,12 +56,8 @@ contains
          if (height > 0) sheet%height = height
       end if
       if (panels > 4) sheet%letters = 13
-      call sheet%text%line(gnuplot_comment(title)//nl//'#'//nl//gnuplot_comment('    gnuplot '//name//'.gp')//nl//'#')
-      call sheet%text%line(gnuplot_comment('in this folder draws '//name//'.png and .svg.'))
-      call sheet%text%line("if (!exists('formats')) formats = 'png svg'"//nl//'reset'//nl//'set encoding utf8')
-      call sheet%text%line("set datafile separator whitespace"//nl//"set datafile missing 'NaN'")
-      call sheet%text%line("set border 3 linecolor rgb '#808080'"//nl// &
-         "set tics out nomirror scale 0.6 textcolor rgb '#404040'"//nl//axes_style//nl//'unset key')
+      call begin_script(sheet%text, name, title, 'whitespace')
+      call sheet%text%line('unset key')
    end function new_sheet
 
    !> Begins a data block, '$name << EOD'.
@@ -144,7 +138,7 @@ contains
       character(:), allocatable :: parts, data
 
       data = '$names'//str(panel)
-      parts = data//" using 1:2:3:4 with vectors nohead linewidth 0.8 linecolor rgb '#B0B0B0' notitle, \"//nl// &
+      parts = data//" using 1:2:3:4 with vectors nohead linewidth 0.8"//ink(on_guide)//" notitle, \"//nl// &
          '     '//data//' using ($5 > 0 ? NaN : $1 + $3):($2 + $4):6 with labels left offset 0.2, 0 notitle, \'//nl// &
          '     '//data//' using ($5 > 0 ? $1 + $3 : NaN):($2 + $4):6 with labels right offset -0.2, 0 notitle'
    end function names_plot
@@ -152,19 +146,13 @@ contains
    !> Begins the drawing: format, size, title and subtitle.
    pure subroutine begin_panels(sheet)
       type(sheet_t), intent(inout) :: sheet
-      character(:), allocatable :: size_text, heading, small
+      character(:), allocatable :: heading, small
 
-      size_text = ' size '//str(sheet%width)//', '//str(full_height(sheet))//" font 'sans-serif,"//str(sheet%letters)//"'"
-      call sheet%text%line(nl//'do for [format in formats] {')
-      call sheet%text%line("if (format eq 'png') { set terminal pngcairo"//size_text//' noenhanced }')
-      call sheet%text%line("if (format eq 'svg') { set terminal svg"//size_text//" background 'white' noenhanced }")
-      call sheet%text%line('set output '//gnuplot_text(sheet%name//'.')//'.format')
+      call begin_formats(sheet%text, sheet%name, sheet%width, full_height(sheet), sheet%letters)
       heading = str(1.0_wp - 30.0_wp/full_height(sheet), 5)
       small = str(1.0_wp - 60.0_wp/full_height(sheet), 5)
-      call sheet%text%line('set label 1 '//gnuplot_text(sheet%title)//' at screen 0.02, screen '//heading// &
-         " font 'sans-serif:Bold,20' textcolor rgb '#202020'")
-      call sheet%text%line('set label 2 '//subtitle_of(sheet)//' at screen 0.02, screen '//small// &
-         " font 'sans-serif,14' textcolor rgb '#606060'")
+      call sheet%text%line('set label 1 '//gnuplot_text(sheet%title)//' at screen 0.02, screen '//heading//heading_style(20))
+      call sheet%text%line('set label 2 '//subtitle_of(sheet)//' at screen 0.02, screen '//small//subtitle_style())
       call sheet%text%line('set multiplot')
    end subroutine begin_panels
 
@@ -228,11 +216,10 @@ contains
       if (number == 2) call sheet%text%line('unset label 1; unset label 2; unset label 9')
       call sheet%text%line(nl//'set lmargin at screen '//str(left, 5)//'; set rmargin at screen '//str(right, 5)// &
          '; set bmargin at screen '//str(bottom, 5)//'; set tmargin at screen '//str(top, 5))
-      call sheet%text%line('set title '//gnuplot_text(title)//" offset 0, -0.4 font 'sans-serif:Bold,"//str(sheet%letters)// &
-         "' textcolor rgb '#202020'")
-      if (present(most)) call sheet%text%line('set xlabel '//two_lines(x_label, most)//" offset 0, 0.3 textcolor rgb '#404040'")
-      if (.not. present(most)) call sheet%text%line('set xlabel '//gnuplot_text(x_label)//" offset 0, 0.3 textcolor rgb '#404040'")
-      call sheet%text%line('set ylabel '//gnuplot_text(y_label)//" offset 0.6, 0 textcolor rgb '#404040'")
+      call sheet%text%line('set title '//gnuplot_text(title)//' offset 0, -0.4'//heading_style(sheet%letters))
+      if (present(most)) call sheet%text%line('set xlabel '//two_lines(x_label, most)//" offset 0, 0.3"//text_ink(on_label))
+      if (.not. present(most)) call sheet%text%line('set xlabel '//gnuplot_text(x_label)//" offset 0, 0.3"//text_ink(on_label))
+      call sheet%text%line('set ylabel '//gnuplot_text(y_label)//" offset 0.6, 0"//text_ink(on_label))
    end subroutine begin_panel
 
    !> The complete script. Its last commands are added to the sheet here.
@@ -240,7 +227,8 @@ contains
       type(sheet_t), intent(inout) :: sheet
       character(:), allocatable :: text
 
-      call sheet%text%line('unset multiplot'//nl//'unset output'//nl//'unset label'//nl//'}')
+      call sheet%text%line('unset multiplot'//nl//'unset label')
+      call end_formats(sheet%text)
       text = sheet%text%text()
    end function end_panels
 

@@ -8,7 +8,7 @@ module ek_step_page
    use ek_decimal, only: get_decimal
    use ek_file, only: join_path, file_exists, read_whole
    use ek_text_table, only: text_table_t, cell_of
-   use ek_chart, only: palette
+   use ek_gnuplot, only: series_rgb, text_ink, on_label
    use ek_study_sheet, only: sheet_t, new_sheet, begin_data, add_numbers, end_data, begin_panels, begin_panel, end_panels, &
       full_height
    use ek_page, only: page_t, begin_page, begin_section, add_text, add_warnings, add_facts, begin_table, add_cell, add_group, &
@@ -148,7 +148,7 @@ contains
       end do
       call begin_panels(sheet)
       call sheet%text%line("set logscale xy; set key at screen 0.97, screen "//str(1.0_wp - 12.0_wp/full_height(sheet), 5)// &
-         " right top samplen 1.6 textcolor rgb '#404040'")
+         " right top samplen 1.6"//text_ink(on_label))
       call sheet%text%line("set format y '%.0e'")
       do k = 1, size(panels)
          e = panels(k)
@@ -160,8 +160,8 @@ contains
             if (.not. has_value(m, e)) line = line//'NaN'    ! gnuplot refuses data without a value; the legend has the method
             why_undrawn = ''
             if (.not. any(has_value(m, :))) why_undrawn = merge(' (below 1e-12)', ' (no result)  ', has_result(m))
-            line = line//" with linespoints pointtype 7 pointsize 0.6 linewidth 2 linecolor rgb '"// &
-               palette(modulo(m - 1, size(palette)) + 1)//"' title '"//trim(methods(m))//trim(why_undrawn)//"'"
+            line = line//" with linespoints pointtype 7 pointsize 0.6 linewidth 2 linecolor "// &
+               series_rgb(m)//" title '"//trim(methods(m))//trim(why_undrawn)//"'"
          end do
          call sheet%text%line(line)
          if (k == 1) call sheet%text%line('unset key')       ! one legend, above the panels at the right

@@ -13,6 +13,7 @@ module ek_views
    use ek_state, only: state_t, design_state
    use ek_scene, only: scene_t, add_run, line_ground
    use ek_picture, only: add_ghost
+   use ek_gnuplot, only: ink, on_point, on_skeleton
    use ek_study_sheet, only: sheet_t, new_sheet, begin_data, add_numbers, end_data, begin_panels, begin_panel, end_panels, &
       add_point_names, names_plot
    implicit none(type, external)
@@ -75,8 +76,8 @@ contains
          call begin_panel(sheet, v, trim(titles(v)), axes(across(v))//' [mm]', axes(upward(v))//' [mm]')
          call sheet%text%line('set xrange ['//str(x_range(1), 6)//':'//str(x_range(2), 6)//']; set yrange ['// &
             str(y_range(1), 6)//':'//str(y_range(2), 6)//']')
-         call sheet%text%line('plot $lines'//str(v)//" using 1:2 with lines linewidth 2 linecolor rgb '#9AB7D3' notitle, \"//nl// &
-            '     $points'//str(v)//" using 1:2 with points pointtype 7 pointsize 0.8 linecolor rgb '#30343B' notitle, \"//nl// &
+         call sheet%text%line('plot $lines'//str(v)//" using 1:2 with lines linewidth 2"//ink(on_skeleton)//" notitle, \"//nl// &
+            '     $points'//str(v)//" using 1:2 with points pointtype 7 pointsize 0.8"//ink(on_point)//" notitle, \"//nl// &
             '     '//names_plot(v))
       end do
       call sheet%text%line('set xrange [*:*]; set yrange [*:*]')

@@ -2,7 +2,8 @@
 #
 #     gnuplot travel_and_steering_carpet.gp
 #
-# in this folder draws travel_and_steering_carpet.png and .svg.
+# in this folder draws travel_and_steering_carpet.png and .svg;
+# gnuplot -e "formats='pdf'" travel_and_steering_carpet.gp makes a PDF.
 if (!exists('formats')) formats = 'png svg'
 reset
 set encoding utf8
@@ -201,7 +202,8 @@ EOD
 
 do for [format in formats] {
 if (format eq 'png') { set terminal pngcairo size 1200, 1068 font 'sans-serif,15' noenhanced }
-if (format eq 'svg') { set terminal svg size 1200, 1068 font 'sans-serif,15' background 'white' noenhanced }
+if (format eq 'svg') { set terminal svg size 1200, 1068 font 'sans-serif,15' noenhanced background 'white' }
+if (format eq 'pdf') { set terminal pdfcairo size 24cm, 21cm font 'sans-serif,15' noenhanced }
 set output 'travel_and_steering_carpet.'.format
 set label 1 'Travel and steering: carpets of toe and camber' at screen 2.00000E-02, screen 9.71910E-01 font 'sans-serif:Bold,20' textcolor rgb '#202020'
 set label 2 'push; blue: lines of equal wheel travel [mm], orange: of equal rack_drive [mm]' at screen 2.00000E-02, screen 9.43820E-01 font 'sans-serif,14' textcolor rgb '#606060'
@@ -263,15 +265,16 @@ plot $equal1_4 using 1:2 with lines linewidth 2 linecolor rgb '#0072B2' notitle,
      $ends2_4 using ($3 == -2 ? $1 : NaN):2:4 with labels center offset 0, -1.50000E+00 font ',12' textcolor rgb '#D55E00' notitle
 set xtics; set border 3; set offsets 0, 0, 0, 0
 unset multiplot
-unset output
 unset label
+unset output
 }
 ==== envelope
 # Travel and steering: envelope of the wheels
 #
 #     gnuplot travel_and_steering_envelope.gp
 #
-# in this folder draws travel_and_steering_envelope.png and .svg.
+# in this folder draws travel_and_steering_envelope.png and .svg;
+# gnuplot -e "formats='pdf'" travel_and_steering_envelope.gp makes a PDF.
 if (!exists('formats')) formats = 'png svg'
 reset
 set encoding utf8
@@ -398,7 +401,8 @@ EOD
 
 do for [format in formats] {
 if (format eq 'png') { set terminal pngcairo size 1400, 788 font 'sans-serif,15' noenhanced }
-if (format eq 'svg') { set terminal svg size 1400, 788 font 'sans-serif,15' background 'white' noenhanced }
+if (format eq 'svg') { set terminal svg size 1400, 788 font 'sans-serif,15' noenhanced background 'white' }
+if (format eq 'pdf') { set terminal pdfcairo size 28cm, 15cm font 'sans-serif,15' noenhanced }
 set output 'travel_and_steering_envelope.'.format
 set label 1 'Travel and steering: envelope of the wheels' at screen 2.00000E-02, screen 9.61930E-01 font 'sans-serif:Bold,20' textcolor rgb '#202020'
 set label 2 'push; blue: wheel centre, lines of equal wheel travel, orange: of equal rack_drive;'."\n".'grey: spin axis, 60 mm outboard' at screen 2.00000E-02, screen 9.23860E-01 font 'sans-serif,14' textcolor rgb '#606060'
@@ -435,6 +439,6 @@ splot $axis2 using 1:2:3:4:5:6 with vectors nohead linewidth 1.50000E+00 linecol
       $travel2 using 1:2:3 with lines linewidth 2 linecolor rgb '#0072B2' notitle, \
       $steer2 using 1:2:3 with lines linewidth 2 linecolor rgb '#D55E00' notitle
 unset multiplot
-unset output
 unset label
+unset output
 }

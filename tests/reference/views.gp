@@ -2,7 +2,8 @@
 #
 #     gnuplot views.gp
 #
-# in this folder draws views.png and .svg.
+# in this folder draws views.png and .svg;
+# gnuplot -e "formats='pdf'" views.gp makes a PDF.
 if (!exists('formats')) formats = 'png svg'
 reset
 set encoding utf8
@@ -848,7 +849,8 @@ EOD
 
 do for [format in formats] {
 if (format eq 'png') { set terminal pngcairo size 1600, 1368 font 'sans-serif,12' noenhanced }
-if (format eq 'svg') { set terminal svg size 1600, 1368 font 'sans-serif,12' background 'white' noenhanced }
+if (format eq 'svg') { set terminal svg size 1600, 1368 font 'sans-serif,12' noenhanced background 'white' }
+if (format eq 'pdf') { set terminal pdfcairo size 32cm, 27cm font 'sans-serif,12' noenhanced }
 set output 'views.'.format
 set label 1 'Hardpoints at design' at screen 2.00000E-02, screen 9.78070E-01 font 'sans-serif:Bold,20' textcolor rgb '#202020'
 set label 2 'plane_axle; axes of the deck, mm' at screen 2.00000E-02, screen 9.56140E-01 font 'sans-serif,14' textcolor rgb '#606060'
@@ -889,6 +891,6 @@ plot $lines3 using 1:2 with lines linewidth 2 linecolor rgb '#9AB7D3' notitle, \
      $names3 using ($5 > 0 ? $1 + $3 : NaN):($2 + $4):6 with labels right offset -2.00000E-01, 0 notitle
 set xrange [*:*]; set yrange [*:*]
 unset multiplot
-unset output
 unset label
+unset output
 }
