@@ -1,7 +1,7 @@
 !> A small chart with its data, one of many on a page: all charts of a page are drawn by one gnuplot script.
 !>
 !> The script contains the data. The abscissa of every chart is horizontal, because a page of small charts is read in one
-!> direction. A figure (ek_gnuplot) shows the same charts from the result files in the same folder.
+!> direction. A figure (ek_run_figures) shows the same charts from the result files in the same folder.
 module ek_chart
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp

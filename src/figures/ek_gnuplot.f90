@@ -7,7 +7,7 @@ module ek_gnuplot
    implicit none(type, external)
    private
    public :: begin_script, begin_formats, end_formats, begin_charts_file, begin_scene, end_scene, begin_animation
-   public :: ink, text_ink, fill, rgb, series_rgb, heading_style, subtitle_style, value_colours, axes_style
+   public :: ink, text_ink, fill, rgb, series_rgb, heading_style, subtitle_style, value_colours, axes_style, zero_axis
    public :: on_title, on_label, on_soft, on_frame, on_zero, on_guide, on_grid, on_contact, on_box, on_range, on_design
    public :: on_wide_band, on_narrow_band, on_median, on_limit, on_result, on_dots, on_contour, on_contour_dots, on_low, on_high, &
       on_derivative, on_level, on_limits, on_skeleton, on_point, on_leader, on_swatch, on_part, on_line
@@ -46,10 +46,10 @@ module ek_gnuplot
    !> The gnuplot command of the scale of values: viridis without its lightest end.
    character(*), parameter :: value_colours = "set palette defined (0 '#440154', 0.25 '#3B528B', 0.5 '#21918C', "// &
       "0.75 '#5EC962', 1 '#E8D000')"
-   !> The commands of the grid and of the axes through 0.
+   !> The style of the axes through 0, and the commands of the grid and of these axes.
+   character(*), parameter :: zero_style = " linetype 1 linecolor rgb '"//trim(colours(on_zero))//"' linewidth 1.2"
    character(*), parameter :: axes_style = "set grid linetype 1 linecolor rgb '"//trim(colours(on_grid))//"' linewidth 1"//nl// &
-      "set xzeroaxis linetype 1 linecolor rgb '"//trim(colours(on_zero))//"' linewidth 1.2"//nl// &
-      "set yzeroaxis linetype 1 linecolor rgb '"//trim(colours(on_zero))//"' linewidth 1.2"
+      'set xzeroaxis'//zero_style//nl//'set yzeroaxis'//zero_style
 
 contains
 
@@ -89,6 +89,16 @@ contains
       character(:), allocatable :: text
       text = ' fillcolor '//rgb(role)
    end function fill
+
+   !> The command that shows or hides the line at 0 that is parallel to an axis.
+   pure function zero_axis(along, is_shown) result(text)
+      character(1), intent(in) :: along          !! 'x', 'y' or 'z'
+      logical, intent(in) :: is_shown
+      character(:), allocatable :: text
+
+      text = 'unset '//along//'zeroaxis'
+      if (is_shown) text = 'set '//along//'zeroaxis'//zero_style
+   end function zero_axis
 
    !> The font and colour of a heading of a size.
    pure function heading_style(letters) result(text)
