@@ -15,6 +15,11 @@ fortran_is_tidy() {
     echo 'these lines change a definition, which all workspaces of a deck share'
     return 1
   fi
+  # One module knows the terminals of gnuplot, and every colour of its figures
+  if grep -rnE "set terminal|rgb '?#|'#[0-9A-Fa-f]{6}" src --include='*.f90' --include='*.F90' | grep -v '^src/figures/ek_gnuplot\.f90:'; then
+    echo 'these lines name a terminal or a colour: src/figures/ek_gnuplot.f90 has them by role'
+    return 1
+  fi
   if [ ! -x "$tools/bin/fortitude" ]; then
     if ! python3 -m venv "$tools" || ! "$tools/bin/pip" install --quiet fortitude-lint==0.10.0; then
       skip "fortitude-lint could not be installed from PyPI"

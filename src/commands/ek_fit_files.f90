@@ -8,7 +8,8 @@ module ek_fit_files
    use ek_buffer, only: buffer_t
    use ek_version, only: version
    use ek_workspace, only: workspace_t
-   use ek_gnuplot_text, only: gnuplot_text, gnuplot_comment
+   use ek_gnuplot, only: begin_script, begin_formats, end_formats, ink, on_range, on_limits, on_design, on_derivative
+   use ek_gnuplot_text, only: gnuplot_text
    use ek_parameter, only: choice_t, parameter_path
    use ek_study, only: is_given
    use ek_fit, only: fit_t
@@ -200,44 +201,33 @@ contains
       curves = pack([(t, t=1, size(fit%targets))], [(count(problem%points%target == t) > 1, t=1, size(fit%targets))])
       curves = curves(:min(size(curves), most_panels))
       rows = max(1, (size(curves) + 2)/3)
-      call gp%line(gnuplot_comment('fit '//fit%name//': start, target and result'))
-      call gp%line('reset')
-      call gp%line('set encoding utf8')
-      call gp%line('set datafile separator comma')
-      call gp%line("set datafile missing 'nan'")
-      call gp%line("set border 3 linecolor rgb '#808080'")
-      call gp%line('set tics out nomirror')
+      call begin_script(gp, fit%name, 'fit '//fit%name//': start, target and result', 'comma')
       call gp%line('set key above')
       call gp%line('points = '//gnuplot_text(fit%name//'_points.csv'))
       call gp%line('of(name, column) = strcol(1) eq name ? column(column) : NaN')
-      call gp%line("do for [format in 'png svg'] {")
-      call gp%line("   if (format eq 'png') { set terminal pngcairo size 1500, "//str(420*rows + 60)//" font 'sans-serif,11' }")
-      call gp%line("   if (format eq 'svg') { set terminal svg size 1500, "//str(420*rows + 60)// &
-         " font 'sans-serif,11' background 'white' }")
-      call gp%line('   set output '//gnuplot_text(fit%name//'.')//'.format')
+      call begin_formats(gp, fit%name, 1500, 420*rows + 60, 11)
       if (size(curves) == 0) then
          call gp%line("   set title 'differences in deviations'")
          call gp%line("   plot points every ::1 using 0:12:xticlabels(1) with impulses linewidth 4 notitle")
       else
          call gp%line('   set multiplot layout '//str(rows)//', '//str(min(3, size(curves)))//' title '// &
-            gnuplot_text(trim(fit%name//' '//fit%title))//' noenhanced')
+            gnuplot_text(trim(fit%name//' '//fit%title)))
          do k = 1, size(curves)
             t = findloc(problem%points%target, curves(k), dim=1)
-            call gp%line('   set title '//gnuplot_text(fit%targets(curves(k))%name)//' noenhanced')
-            call gp%line('   set xlabel '//gnuplot_text(abscissa(t))//' noenhanced')
-            call gp%line('   set ylabel '//gnuplot_text(problem%wanted(t)%name)//' noenhanced')
-            call gp%line("   plot "//part(9, "with lines linecolor rgb '#a0a0a0' dashtype 2 linewidth 2 title 'start'")//', \')
+            call gp%line('   set title '//gnuplot_text(fit%targets(curves(k))%name))
+            call gp%line('   set xlabel '//gnuplot_text(abscissa(t)))
+            call gp%line('   set ylabel '//gnuplot_text(problem%wanted(t)%name))
+            call gp%line("   plot "//part(9, "with lines"//ink(on_range)//" dashtype 2 linewidth 2 title 'start'")//', \')
             if (any(is_given(problem%points%low) .and. problem%points%target == curves(k))) call gp%line('      '// &
-               part(7, "with lines linecolor rgb '#208040' title 'low'")//', \')
+               part(7, "with lines"//ink(on_limits)//" title 'low'")//', \')
             if (any(is_given(problem%points%high) .and. problem%points%target == curves(k))) call gp%line('      '// &
-               part(8, "with lines linecolor rgb '#208040' title 'high'")//', \')
-            call gp%line('      '//part(6, "with points pointtype 6 linecolor rgb '#204080' title 'target'")//', \')
-            call gp%line('      '//part(10, "with lines linecolor rgb '#d04020' linewidth 2 title 'result'"))
+               part(8, "with lines"//ink(on_limits)//" title 'high'")//', \')
+            call gp%line('      '//part(6, "with points pointtype 6"//ink(on_design)//" title 'target'")//', \')
+            call gp%line('      '//part(10, "with lines"//ink(on_derivative)//" linewidth 2 title 'result'"))
          end do
          call gp%line('   unset multiplot')
       end if
-      call gp%line('   unset output')
-      call gp%line('}')
+      call end_formats(gp)
       text = gp%text()
 
    contains

@@ -6,9 +6,11 @@ module ek_plot
    use ek_deck, only: deck_t
    use ek_study, only: study_t, step_size_kind
    use ek_study_data, only: study_data_t
-   use ek_study_figures, only: figure_rule_t, rules, applies, script_of, figure_name, sheets
+   use ek_study_figures, only: figure_rule_t, rules, applies, figure_of, figure_name, sheets
+   use ek_figure, only: figure_t
+   use ek_figure_script, only: figure_script
    use ek_study_page, only: study_page, page_name
-   use ek_step_page, only: step_page, step_script, figure_ending
+   use ek_step_page, only: step_page, step_figure, figure_ending
    use ek_text_table, only: text_table_t, read_text_table
    use ek_study_results, only: read_results_of
    use ek_study_list, only: list_figures, check_tables
@@ -100,7 +102,7 @@ contains
                call remove_old(rules(k), sheet, name)
                cycle
             end if
-            call figures%add_script(name, script_of(rules(k), data, sheet))
+            call figures%add_script(name, figure_script(figure_of(rules(k), data, sheet)))
             call figures%finish(error)
             if (allocated(error)) return
             call add_files(name, files)
@@ -147,7 +149,7 @@ contains
          if (is_current) then
             call read_whole(join_path(folder, name//'.gp'), script, unread)
             is_current = .not. allocated(unread)
-            if (is_current) is_current = script == script_of(rule, data, sheet)
+            if (is_current) is_current = script == figure_script(figure_of(rule, data, sheet))
          end if
          if (is_current) then
             call add_files(name, files)
@@ -217,7 +219,8 @@ contains
       type(text_table_t) :: table
       type(outbox_t) :: box, figures
       type(message_list_t) :: files
-      character(:), allocatable :: folder, reason, name, script
+      type(figure_t), allocatable :: figure
+      character(:), allocatable :: folder, reason, name
 
       call check_tables(study%name, out, study%name//'.csv', error)
       if (allocated(error)) return
@@ -227,14 +230,14 @@ contains
       call make_folder(folder, error)
       if (allocated(error)) return
       name = study%name//figure_ending
-      script = step_script(study%name, table)
+      call step_figure(study%name, table, figure)
       figures = outbox_in(folder)
-      if (script == '') then
+      if (.not. allocated(figure)) then
          reason = 'no error exceeds 1e-12, so that there is no figure'
          call print_note(is_quiet, reason)
          call figures%remove(files_of(name))
       else
-         call figures%add_script(name, script)
+         call figures%add_script(name, figure_script(figure))
          call figures%finish(error)
          if (allocated(error)) return
          call add_files(name, files)

@@ -17,7 +17,7 @@ module ek_run
    use ek_target, only: target_t, find_target
    use ek_table, only: table_t, print_csv, name_length
    use ek_json, only: json_t, json_string, json_strings, json_numbers
-   use ek_gnuplot, only: figure_t, figure_script, run_figures
+   use ek_run_figures, only: figure_t, figure_script, run_figures
    use ek_model_remark, only: model_remarks_t, find_model_remarks
    use ek_command_line, only: command_line_t
    use ek_load_deck, only: deck_settings_t, read_deck_settings, load_deck, chosen_cases, examine_chosen

@@ -5,7 +5,8 @@ module ek_export_figure
    use ek_text, only: str
    use ek_buffer, only: buffer_t
    use ek_decimal, only: decimal
-   use ek_gnuplot_text, only: gnuplot_text, gnuplot_comment
+   use ek_gnuplot, only: begin_script, begin_formats, end_formats, ink, on_derivative
+   use ek_gnuplot_text, only: gnuplot_text
    implicit none(type, external)
    private
    public :: panel_t, panel_list_t, add_panel, export_script
@@ -55,13 +56,8 @@ contains
       integer :: k, i, rows
 
       rows = (list%used + 2)/3
-      call script%line(gnuplot_comment(title//': points of the exported file over curves that were solved separately'))
-      call script%line('reset')
-      call script%line('set encoding utf8')
-      if (separator == ',') call script%line('set datafile separator comma')
-      call script%line("set datafile missing 'nan'")
-      call script%line("set border 3 linecolor rgb '#808080'")
-      call script%line('set tics out nomirror')
+      call begin_script(script, name, title//': points of the exported file over curves that were solved separately', &
+         trim(merge('comma     ', 'whitespace', separator == ',')))
       call script%line('set key at screen 0.008, screen 0.998 left top Left reverse horizontal')
       do k = 1, list%used
          call script%line('$curve'//str(k)//' << EOD')
@@ -70,26 +66,21 @@ contains
          end do
          call script%line('EOD')
       end do
-      call script%line("do for [format in 'png svg'] {")
-      call script%line("   if (format eq 'png') { set terminal pngcairo size 1500, "//str(420*rows + 60)//" font 'sans-serif,11' }")
-      call script%line("   if (format eq 'svg') { set terminal svg size 1500, "//str(420*rows + 60)// &
-         " font 'sans-serif,11' background 'white' }")
-      call script%line('   set output '//gnuplot_text(name//'.')//'.format')
-      call script%line('   set multiplot layout '//str(rows)//', 3 title '//gnuplot_text(title)//' noenhanced')
+      call begin_formats(script, name, 1500, 420*rows + 60, 11)
+      call script%line('   set multiplot layout '//str(rows)//', 3 title '//gnuplot_text(title))
       do k = 1, list%used
          associate (panel => list%panels(k))
-            call script%line('   set title '//gnuplot_text(panel%title)//' noenhanced')
-            call script%line('   set xlabel '//gnuplot_text(panel%x_label)//' noenhanced')
-            call script%line('   set ylabel '//gnuplot_text(panel%y_label)//' noenhanced')
+            call script%line('   set title '//gnuplot_text(panel%title))
+            call script%line('   set xlabel '//gnuplot_text(panel%x_label))
+            call script%line('   set ylabel '//gnuplot_text(panel%y_label))
             call script%line('   set yrange '//range_of(panel%y))
-            call script%line('   plot $curve'//str(k)//" using 1:2 with lines linecolor rgb '#d04020' linewidth 2 title "// &
+            call script%line('   plot $curve'//str(k)//" using 1:2 with lines"//ink(on_derivative)//" linewidth 2 title "// &
                gnuplot_text(trim(merge('solved separately', '                 ', k == 1)))//', \')
             call script%line('      '//panel%points//' title '//gnuplot_text(trim(merge('written file', '            ', k == 1))))
          end associate
       end do
       call script%line('   unset multiplot')
-      call script%line('   unset output')
-      call script%line('}')
+      call end_formats(script)
       text = script%text()
    end function export_script
 

@@ -6,6 +6,7 @@ module ek_export_panels
    use ek_letters, only: line_count
    use ek_decimal, only: decimal
    use ek_gnuplot_text, only: gnuplot_text
+   use ek_gnuplot, only: ink, on_design
    use ek_kandc_map, only: kandc_map_t
    use ek_map_request, only: over_opposite
    use ek_slopes, only: zero_of
@@ -20,10 +21,20 @@ module ek_export_panels
    public :: carmaker_panels, carsim_panels, mathworks_panels, csv_panels
 
    character(*), parameter :: travel_label = 'wheel centre, height [mm]', steer_label = 'steer, driver [mm]'
-   character(*), parameter :: point_style = " with points pointtype 6 pointsize 1.1 linecolor rgb '#204080'", &
-      line_style = " with lines dashtype 2 linewidth 2 linecolor rgb '#204080'"
 
 contains
+
+   !> The style of the points of the written file.
+   pure function point_style() result(text)
+      character(:), allocatable :: text
+      text = ' with points pointtype 6 pointsize 1.1'//ink(on_design)
+   end function point_style
+
+   !> The style of a line whose slope is a number of the written file.
+   pure function line_style() result(text)
+      character(:), allocatable :: text
+      text = ' with lines dashtype 2 linewidth 2'//ink(on_design)
+   end function line_style
 
    !> Adds panels of the kinematics of one side over travel, over steer if the map has steer, and of the five diagonal compliances.
    subroutine carmaker_panels(map, sources, file, text, list)
@@ -54,7 +65,7 @@ contains
          associate (place => load_parts(k))
             call add_panel(list, 'Com '//load_names(k)//' → '//trim(merge('t', 'r', place < 4))//load_names(k)(5:5), &
                trim(merge('N  ', 'N m', place < 4)), trim(merge('mm ', 'deg', place < 4)), &
-               decimal(slopes(place)*merge(1.0e3_wp, 1.0_wp/degree, place < 4))//'*x'//line_style, &
+               decimal(slopes(place)*merge(1.0e3_wp, 1.0_wp/degree, place < 4))//'*x'//line_style(), &
                load_values(sources, k), load_changes(sources, k, place))
          end associate
       end do
@@ -76,7 +87,7 @@ contains
          if (size(y) /= size(x)) return
          call add_panel(list, name//' over travel, side '//letter, travel_label, name//' ['//unit//']', gnuplot_text(file)// &
             rows_of_table()//' using ($2=='//str(zero_of(map%second) - 1)//' ? $5*1e3 : NaN):($'//str(column)//'*'// &
-            decimal(scale)//')'//point_style, x, sign*y)
+            decimal(scale)//')'//point_style(), x, sign*y)
       end subroutine over_travel
 
       !> Adds a panel of one column over steer.
@@ -87,7 +98,7 @@ contains
 
          call add_panel(list, name//' over steer, side '//letter, steer_label, name//' [deg]', gnuplot_text(file)// &
             rows_of_table()//' using ($1=='//str(zero_of(map%travel) - 1)//' ? word("'//list_of(map%second/millimetre)// &
-            '", int($2)+1)+0 : NaN):($'//str(column)//'*'//decimal(1.0_wp/degree)//')'//point_style, x, &
+            '", int($2)+1)+0 : NaN):($'//str(column)//'*'//decimal(1.0_wp/degree)//')'//point_style(), x, &
             sign*source_values(sources, sources%steer, source))
       end subroutine over_steering
 
@@ -206,26 +217,26 @@ contains
          if (k == 4 .and. sources%side == 2) y = -y
          call add_panel(list, trim(words(k))//', iside '//str(sources%side), travel_label, trim(merge('deg', 'mm ', k < 3)), &
             gnuplot_text(file)//' skip '//str(par_table_lines(text, trim(words(k)), sources%side))//' every ::0:0:'// &
-            str(size(map%travel) - 1)//':0 using 1:2'//point_style, x, y)
+            str(size(map%travel) - 1)//':0 using 1:2'//point_style(), x, y)
       end do
       section = index(text, 'iside '//str(sources%side))
       sign = merge(-1.0_wp, 1.0_wp, sources%side == 1)
       slope = numbers_behind(text(section:), 'CS_FY_COEFFICIENT', 1)
-      call add_panel(list, 'CS_FY, steer under Fy', 'N', 'deg', decimal(slope(1))//'*x'//line_style, load_values(sources, 2), &
+      call add_panel(list, 'CS_FY, steer under Fy', 'N', 'deg', decimal(slope(1))//'*x'//line_style(), load_values(sources, 2), &
          sign*load_changes(sources, 2, at_toe))
       slope = numbers_behind(text(section:), 'CS_MZ_COEFFICIENT', 1)
-      call add_panel(list, 'CS_MZ, steer under Mz', 'N m', 'deg', decimal(slope(1))//'*x'//line_style, load_values(sources, 5), &
+      call add_panel(list, 'CS_MZ, steer under Mz', 'N m', 'deg', decimal(slope(1))//'*x'//line_style(), load_values(sources, 5), &
          sign*load_changes(sources, 5, at_toe))
       slope = numbers_behind(text(section:), 'CC_FX_COEFFICIENT', 1)
-      call add_panel(list, 'CC_FX, camber under Fx', 'N', 'deg', decimal(slope(1))//'*x'//line_style, load_values(sources, 1), &
+      call add_panel(list, 'CC_FX, camber under Fx', 'N', 'deg', decimal(slope(1))//'*x'//line_style(), load_values(sources, 1), &
          load_changes(sources, 1, at_camber))
       slope = numbers_behind(text(section:), 'C_LONG_COEFFICIENT', 1)
-      call add_panel(list, 'C_LONG, x under Fx', 'N', 'mm', decimal(slope(1))//'*x'//line_style, load_values(sources, 1), &
+      call add_panel(list, 'C_LONG, x under Fx', 'N', 'mm', decimal(slope(1))//'*x'//line_style(), load_values(sources, 1), &
          load_changes(sources, 1, at_tx))
       slope = numbers_behind(text(section:), 'CMP_SPR_SEAT_COEFFICIENT', 1)
       y = length_values(sources, trim(map%length_labels(1, sources%side))//'_length_mm')
       if (size(y) == size(x)) call add_panel(list, 'CMP_SPR_SEAT, compression of the spring', travel_label, 'mm', &
-         decimal(slope(1))//'*x'//line_style, x, -(y - y(minloc(abs(x), dim=1))))
+         decimal(slope(1))//'*x'//line_style(), x, -(y - y(minloc(abs(x), dim=1))))
    end subroutine carsim_panels
 
    !> Adds panels of the tables over travel of the script. Each has its gradient as a line through design, except NrmlWhlRates.
@@ -258,14 +269,14 @@ contains
          read (text(at:), *, iostat=status) gradients(:number)
          slope = gradients(number)
          call add_panel(list, trim(words(k))//'.'//corner, travel_label, trim(merge('deg', 'mm ', k < 4)), &
-            decimal(slope(1))//'*x'//line_style//" title '', "//gnuplot_text(file)//' skip '//str(line)//' every ::0:0:'// &
-            str(points - 1)//':0 using 1:2'//point_style, x, y)
+            decimal(slope(1))//'*x'//line_style()//" title '', "//gnuplot_text(file)//' skip '//str(line)//' every ::0:0:'// &
+            str(points - 1)//':0 using 1:2'//point_style(), x, y)
       end do
       y = source_values(sources, sources%travel, 'vertical_force_n')
       from = index(text, 'KnCTables.NrmlWhlRates.'//corner//' = [')
       line = line_count(text(:from))
       call add_panel(list, 'NrmlWhlRates.'//corner, travel_label, 'N', gnuplot_text(file)//' skip '//str(line)//' every ::0:0:'// &
-         str(points - 1)//':0 using 1:2'//point_style, x, y)
+         str(points - 1)//':0 using 1:2'//point_style(), x, y)
    end subroutine mathworks_panels
 
    !> Adds panels of the kinematics of the left (or only) wheel.
@@ -296,14 +307,14 @@ contains
          if (k == 2 .and. is_sae) y = -y
          call add_panel(list, side//trim(columns(k)), travel_label, trim(columns(k)), gnuplot_text(file)// &
             ' using (abs(column("'//at_design//'"))<1e-9 ? '//up//'column("'//side//'z_mm") : NaN):(column("'//side// &
-            trim(columns(k))//'"))'//point_style, x, y)
+            trim(columns(k))//'"))'//point_style(), x, y)
       end do
       if (.not. sources%has_steer) return
       x = map%driver_sign*source_factor(sources)
       do k = 3, 4
          call add_panel(list, side//trim(columns(k))//' over steer', steer_label, trim(columns(k)), gnuplot_text(file)// &
             ' using (abs(column("travel_mm"))<1e-9 ? column("steer_mm") : NaN):(column("'//side//trim(columns(k))//'"))'// &
-            point_style, x, source_values(sources, sources%steer, trim(names(k))))
+            point_style(), x, source_values(sources, sources%steer, trim(names(k))))
       end do
    end subroutine csv_panels
 

@@ -3,21 +3,21 @@
 !> value of the response, the figure shows the pairs of factors that give this value. The type carpet_t contains only numbers
 !> and labels. A study creates a carpet from a grid of designs, a report from a test over travel and steering.
 module ek_carpet_figure
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
    use ek_error, only: message_list_t
    use ek_text, only: str
    use ek_study_data, only: study_data_t, is_geometric, range_of_values
-   use ek_study_sheet, only: sheet_t, new_sheet, begin_data, add_numbers, end_data, begin_panels, begin_panel, end_panels
+   use ek_gnuplot, only: on_level, on_derivative
+   use ek_figure, only: figure_t, panel_t, new_figure, add_series, add_word, as_line, centred, at_left, at_right
    implicit none(type, external)
    private
-   public :: carpet_t, new_carpet, carpet_script, study_carpet, is_drawn, colours
+   public :: carpet_t, new_carpet, carpet_figure, study_carpet, is_drawn, on_equal
 
-   character(*), parameter :: nl = new_line('a')
    integer, parameter :: most_lines = 7           !! largest number of lines per factor; with more levels, only some are drawn
    real(wp), parameter :: shift = 0.8_wp          !! shift of the abscissa over the levels of factor 2, per range of factor 1
-   !> Colours of the lines of equal factor 1 and of equal factor 2.
-   character(*), parameter :: colours(2) = ["rgb '#0072B2'", "rgb '#D55E00'"]
+   !> Roles of the lines of equal factor 1 and of equal factor 2.
+   integer, parameter :: on_equal(2) = [on_level, on_derivative]
 
    !> A grid of two factors, in the order of their levels, and the responses at its points.
    type :: carpet_t
@@ -59,57 +59,52 @@ contains
       places = (places - places(1))/max(places(size(levels)) - places(1), tiny(1.0_wp))
    end function places
 
-   !> The gnuplot script of a carpet, with one panel for each response.
-   function carpet_script(carpet, name, title, subtitle) result(text)
+   !> A carpet, with one panel for each response.
+   function carpet_figure(carpet, name, title, subtitle) result(figure)
       type(carpet_t), intent(in) :: carpet
       character(*), intent(in) :: name, title, subtitle
-      character(:), allocatable :: text
-      type(sheet_t) :: sheet
+      type(figure_t) :: figure
       integer :: r, f
 
-      sheet = new_sheet(name, title, subtitle//'; blue: lines of equal '//carpet%factors%line(1)// &
+      figure = new_figure(name, title, subtitle//'; blue: lines of equal '//carpet%factors%line(1)// &
          ', orange: of equal '//carpet%factors%line(2), size(carpet%value, 3))
-      sheet%bottom = 40
-      if (sheet%panels == 1) sheet%width = 900
-      do r = 1, sheet%panels
+      figure%bottom = 40
+      if (size(figure%panels) == 1) figure%width = 900
+      do r = 1, size(figure%panels)
+         associate (panel => figure%panels(r))
+            panel%y%label = carpet%responses%line(r)
+            panel%frame = 2
+            panel%x%has_tics = .false.
+            panel%x%has_grid = .false.
+            panel%x%has_zero = .false.
+            panel%y%has_zero = .false.
+            panel%note = 'no design has a value'
+            call set_room(carpet, r, panel)
+         end associate
          do f = 1, 2
-            call add_lines(carpet, f, r, sheet)
-            call add_ends(carpet, f, r, sheet)
+            call add_lines(carpet, f, r, figure%panels(r))
+         end do
+         do f = 1, 2
+            call add_ends(carpet, f, r, figure%panels(r))
          end do
       end do
-      call begin_panels(sheet)
-      call sheet%text%line('unset xtics; unset xzeroaxis; unset yzeroaxis; set border 2; set grid noxtics')
-      call sheet%text%line('set offsets graph 0.16, graph 0.14, graph 0.1, graph 0.1')
-      do r = 1, sheet%panels
-         call begin_panel(sheet, r, '', '', carpet%responses%line(r))
-         text = 'plot '
-         do f = 1, 2
-            if (f == 2) text = text//', \'//nl//'     '
-            text = text//'$equal'//str(f)//'_'//str(r)//' using 1:2 with lines linewidth 2 linecolor '//colours(f)//' notitle'// &
-               labels(1)//labels(-1)
-            if (f == 2) text = text//labels(2)//labels(-2)
-         end do
-         call sheet%text%line(text)
-      end do
-      call sheet%text%line('set xtics; set border 3; set offsets 0, 0, 0, 0')
-      text = end_panels(sheet)
+   end function carpet_figure
 
-   contains
+   !> Sets the ranges of a panel, with room for the values at the ends of the lines.
+   pure subroutine set_room(carpet, r, panel)
+      type(carpet_t), intent(in) :: carpet
+      integer, intent(in) :: r
+      type(panel_t), intent(inout) :: panel
+      real(wp) :: range(2), span
 
-      !> A part of a plot command: it draws the values at those ends of the lines that have this side (see add_ends), outside
-      !> the carpet.
-      function labels(side) result(words)
-         integer, intent(in) :: side
-         character(:), allocatable :: words
-
-         words = trim(merge('right offset -0.7,', 'left offset 0.7,  ', is_at_begin(carpet, f, r)))//' '// &
-            str(sign(0.45_wp, real(side, wp)))
-         if (abs(side) == 2) words = 'center offset 0, '//str(sign(1.5_wp, real(side, wp)))
-         words = ', \'//nl//'     $ends'//str(f)//'_'//str(r)//' using ($3 == '//str(side)// &
-            ' ? $1 : NaN):2:4 with labels '//words//" font ',12' textcolor "//colours(f)//' notitle'
-      end function labels
-
-   end function carpet_script
+      panel%x%has_range = .true.
+      panel%x%range = [0.0_wp, 1.0_wp + shift] + (1.0_wp + shift)*[-0.22_wp, 0.2_wp]
+      range = range_of_values(reshape(carpet%value(:, :, r), [size(carpet%value(:, :, r))]))
+      span = range(2) - range(1)
+      if (.not. span > 0.0_wp) span = max(1.0e-6_wp, abs(range(1)))
+      panel%y%has_range = .true.
+      panel%y%range = range + 0.12_wp*span*[-1, 1]
+   end subroutine set_room
 
    !> The carpet of a study over a grid of two factors. The designs of the study have the last factor varying fastest.
    type(carpet_t) function study_carpet(study, panels) result(carpet)
@@ -177,22 +172,26 @@ contains
    end function point_of
 
    !> Adds the lines on which factor f is constant.
-   subroutine add_lines(carpet, f, r, sheet)
+   subroutine add_lines(carpet, f, r, panel)
       type(carpet_t), intent(in) :: carpet
       integer, intent(in) :: f, r
-      type(sheet_t), intent(inout) :: sheet
-      integer :: i, j
+      type(panel_t), intent(inout) :: panel
+      real(wp), allocatable :: values(:, :)
+      integer :: i, j, rows
 
-      call begin_data(sheet, 'equal'//str(f)//'_'//str(r))
+      allocate (values(2, carpet%levels(f)*(carpet%levels(3 - f) + 1)))
+      rows = 0
       do i = 1, carpet%levels(f)
          if (.not. is_drawn(i, carpet%levels(f))) cycle
          do j = 1, carpet%levels(3 - f)
-            if (f == 1) call add_numbers(sheet, point_of(carpet, i, j, r))
-            if (f == 2) call add_numbers(sheet, point_of(carpet, j, i, r))
+            rows = rows + 1
+            if (f == 1) values(:, rows) = point_of(carpet, i, j, r)
+            if (f == 2) values(:, rows) = point_of(carpet, j, i, r)
          end do
-         call sheet%text%line('')
+         rows = rows + 1
+         values(:, rows) = ieee_value(1.0_wp, ieee_quiet_nan)
       end do
-      call end_data(sheet)
+      call add_series(panel, as_line, on_equal(f), values(:, :rows))
    end subroutine add_lines
 
    !> Whether the lines of equal factor f show their values at the smallest value of the other factor. The values are on the edge of
@@ -212,19 +211,18 @@ contains
       is_at_begin = first(2) - first(1) > last(2) - last(1)
    end function is_at_begin
 
-   !> Adds the values of factor f at the ends of its lines, and the side: 1 for above, −1 for below, away from the mean of the line.
-   !> At the corner of the carpet where the values of both factors meet, the side for factor 2 is 2 or −2: further above or below.
-   subroutine add_ends(carpet, f, r, sheet)
+   !> Adds the values of factor f at the ends of its lines, outside the carpet: above or below, away from the mean of the line. At
+   !> the corner of the carpet where the values of both factors meet, the value of factor 2 is further above or below.
+   subroutine add_ends(carpet, f, r, panel)
       type(carpet_t), intent(in) :: carpet
       integer, intent(in) :: f, r
-      type(sheet_t), intent(inout) :: sheet
+      type(panel_t), intent(inout) :: panel
       real(wp) :: at(2), side, line(carpet%levels(3 - f))
       integer :: i, end, corner
 
       end = merge(1, carpet%levels(3 - f), is_at_begin(carpet, f, r))
       corner = 0
       if (f == 2) corner = merge(1, carpet%levels(2), is_at_begin(carpet, 1, r))
-      call begin_data(sheet, 'ends'//str(f)//'_'//str(r))
       do i = 1, carpet%levels(f)
          if (.not. is_drawn(i, carpet%levels(f))) cycle
          if (f == 1) then
@@ -236,10 +234,17 @@ contains
          end if
          if (.not. ieee_is_finite(at(2))) cycle
          side = merge(1.0_wp, -1.0_wp, at(2) > sum(line, mask=ieee_is_finite(line))/count(ieee_is_finite(line)))
-         if (i == corner) side = 2.0_wp*side
-         call add_numbers(sheet, [at, side], short(carpet%level(i, f)))
+         if (i == corner) then
+            call add_word(panel, short(carpet%level(i, f)), at(1), at(2), on_equal(f), align=centred, &
+               offset=[0.0_wp, 1.5_wp*side], is_small=.true.)
+         else if (is_at_begin(carpet, f, r)) then
+            call add_word(panel, short(carpet%level(i, f)), at(1), at(2), on_equal(f), align=at_right, &
+               offset=[-0.7_wp, 0.45_wp*side], is_small=.true.)
+         else
+            call add_word(panel, short(carpet%level(i, f)), at(1), at(2), on_equal(f), align=at_left, &
+               offset=[0.7_wp, 0.45_wp*side], is_small=.true.)
+         end if
       end do
-      call end_data(sheet)
    end subroutine add_ends
 
    !> A value rounded to four significant digits, such as 0.125. From 10000 to 1e8, it is printed without an exponent: 10080.

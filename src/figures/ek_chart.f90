@@ -1,7 +1,7 @@
 !> A small chart with its data, one of many on a page: all charts of a page are drawn by one gnuplot script.
 !>
 !> The script contains the data. The abscissa of every chart is horizontal, because a page of small charts is read in one
-!> direction. A figure (ek_gnuplot) shows the same charts from the result files in the same folder.
+!> direction. A figure (ek_run_figures) shows the same charts from the result files in the same folder.
 module ek_chart
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
@@ -10,23 +10,17 @@ module ek_chart
    use ek_text, only: str
    use ek_buffer, only: buffer_t
    use ek_decimal, only: put_decimal, longest_decimal
+   use ek_gnuplot, only: begin_charts_file, heading_style, ink, text_ink, fill, series_rgb, on_title, on_label, on_soft, on_contact
    use ek_gnuplot_text, only: gnuplot_text, file_letters
    use ek_chart_data, only: chart_t, trace_t, new_chart, add_trace, append_chart
    use ek_chart_axis, only: range_of, view_of, cut_of, contact_spans
    implicit none(type, external)
    private
    public :: chart_t, trace_t, new_chart, add_trace, append_chart, charts_script, add_coordinate, picture_file
-   public :: pictures_of, remove_drawn, range_of, view_of, set_level, rounded, palette, axes_style, cut_of, both_sides
-
-   !> Okabe and Ito's colours, distinguishable with colour blindness; without the yellow, too light on white.
-   character(7), parameter :: palette(8) = ['#0072B2', '#D55E00', '#009E73', '#CC79A7', &
-      '#E69F00', '#56B4E9', '#4D4D4D', '#8C510A']
+   public :: pictures_of, remove_drawn, range_of, view_of, set_level, rounded, cut_of, both_sides
 
    character(*), parameter :: both_sides = 'left = right'     !! title of a curve that is the same for both wheels of an axle
    character(*), parameter :: nl = new_line('a')
-   character(*), parameter :: axes_style = "set grid linetype 1 linecolor rgb '#E6E6E6' linewidth 1"//nl// &
-      "set xzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.2"//nl// &
-      "set yzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.2"
 
    character(25), parameter :: dashes(0:3) = [character(25) :: '', ' dashtype (10, 6)', ' dashtype (2, 4)', &
       ' dashtype (10, 4, 2, 4)']
@@ -50,12 +44,7 @@ contains
       type(buffer_t) :: script
       integer :: k
 
-      call script%line('# The charts of a page. Run gnuplot in this folder to draw them again.')
-      call script%line('reset'//nl//'set encoding utf8')
-      call script%line("set terminal svg size "//str(chart_width)//", "//str(chart_height)// &
-         " dynamic font 'sans-serif,13' linewidth 1 noenhanced")
-      call script%line("set border 3 linecolor rgb '#808080'")
-      call script%line("set tics out nomirror scale 0.6 textcolor rgb '#404040'"//nl//axes_style)
+      call begin_charts_file(script, chart_width, chart_height)
       call script%line('set lmargin at screen 0.135; set rmargin at screen 0.965; set bmargin at screen 0.165')
       call script%line("set xtics font ',12' offset 0, 0.25; set ytics font ',12'")
       do k = 1, size(charts)
@@ -92,10 +81,10 @@ contains
 
       call script%line('set output '//gnuplot_text(picture_file(chart)))
       call script%line('set label 1 '//gnuplot_text(chart%title)// &
-         " at screen 0.02, screen 0.945 font 'sans-serif:Bold,15' textcolor rgb '#202020'")
+         ' at screen 0.02, screen 0.945'//heading_style(15))
       call script%line('set label 2 '//gnuplot_text(chart%y_label)// &
-         " at screen 0.02, screen 0.875 font ',12' textcolor rgb '#606060'")
-      call script%line('set xlabel '//gnuplot_text(chart%x_label)//" offset 0, 0.65 font ',12' textcolor rgb '#606060'")
+         " at screen 0.02, screen 0.875 font ',12'"//text_ink(on_soft))
+      call script%line('set xlabel '//gnuplot_text(chart%x_label)//" offset 0, 0.65 font ',12'"//text_ink(on_soft))
       call script%line('set yrange '//range_of(chart))
       call add_contact(script, chart)
       keys = 0
@@ -104,7 +93,7 @@ contains
          across = min(keys, merge(2, 3, any([(len(chart%traces(k)%title) > 13, k=1, keys)])))
          rows = (keys + across - 1)/across
          call script%line('set key at screen 0.02, screen 0.845 left top vertical Left reverse samplen 1.6 spacing 1.0 '// &
-            "width -1 font ',11' textcolor rgb '#404040' maxrows "//str(rows))
+            "width -1 font ',11'"//text_ink(on_label)//" maxrows "//str(rows))
          call script%line('set tmargin at screen '//str(0.81_wp - 0.05_wp*rows, 3))
       else
          call script%line('unset key')
@@ -119,10 +108,10 @@ contains
                look = 'points pointtype '//str(merge(7, 6, trace%dash == 0))//' pointsize 0.6 linewidth 1.6'
             title = ' notitle'
             if (keys > 0) title = ' title '//gnuplot_text(trace%title)
-            call script%line(line//'$data index '//str(2*k - 2)//' using 1:2 with '//look//" linecolor rgb '"// &
-               palette(modulo(trace%colour - 1, size(palette)) + 1)//"'"//title//', \')
+            call script%line(line//'$data index '//str(2*k - 2)//' using 1:2 with '//look//' linecolor '// &
+               series_rgb(trace%colour)//title//', \')
             line = '     $data index '//str(2*k - 1)//" using 1:2 with points pointtype 6 pointsize 0.9 linewidth 1.6"// &
-               " linecolor rgb '#202020' notitle"
+               ink(on_title)//" notitle"
             if (k < size(chart%traces)) line = line//', \'
             call script%line(line)
          end associate
@@ -141,9 +130,9 @@ contains
       if (size(spans, 2) == 0) return
       do k = 1, size(spans, 2)
          call script%line('set object '//str(k)//' rectangle from '//str(spans(1, k), 7)//', graph 0 to '//str(spans(2, k), 7)// &
-            ", graph 1 behind fillcolor rgb '#ECECEC' fillstyle solid noborder")
+            ", graph 1 behind"//fill(on_contact)//" fillstyle solid noborder")
       end do
-      call script%line("set label 3 'grey: stop in contact' at screen 0.965, screen 0.875 right font ',11' textcolor rgb '#606060'")
+      call script%line("set label 3 'grey: stop in contact' at screen 0.965, screen 0.875 right font ',11'"//text_ink(on_soft))
    end subroutine add_contact
 
    !> Sets is_level of a chart: whether it is constant to the printed digits. In such a chart, every curve spans at most a

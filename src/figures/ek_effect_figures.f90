@@ -1,109 +1,102 @@
 !> Figures of the effects of the factors of a study on its responses: maps over two factors, tornado, Sobol indices, Morris'
 !> effects.
 module ek_effect_figures
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
    use ek_text, only: str
    use ek_study_data, only: study_data_t, effects_t, basis_text, range_of_values, is_geometric, tic_step, looks_flat
-   use ek_study_sheet, only: sheet_t, new_sheet, begin_data, add_numbers, end_data, begin_panels, begin_panel, end_panels, blues, &
-      add_point_names, names_plot
+   use ek_figure, only: figure_t, panel_t, axis_t, new_figure, add_series, add_word, add_point_names, columns_of, as_line, &
+      as_both, as_points, as_boxes, as_segments, as_errors, as_heat, at_left
+   use ek_gnuplot, only: on_level, on_guide, on_high, on_low, on_range, on_title, on_soft
    implicit none(type, external)
    private
-   public :: map_script, line_script, tornado_script, sobol_script, morris_script, ranked
+   public :: map_figure, line_figure, tornado_figure, sobol_figure, morris_figure, ranked
 
-   character(*), parameter :: nl = new_line('a')
    integer, parameter :: most_bars = 15           !! largest number of factors in a panel: the most important ones
    integer, parameter :: named_points = 8         !! factors named in the Morris plot
 
 contains
 
-   !> Script of the contours of some responses over the two factors of a grid.
-   function map_script(study, name, subtitle, panels) result(text)
+   !> The contours of some responses over the two factors of a grid.
+   function map_figure(study, name, subtitle, panels) result(figure)
       type(study_data_t), intent(in) :: study
       integer, intent(in) :: panels(:)               !! indices of the responses
       character(*), intent(in) :: name, subtitle
-      character(:), allocatable :: text
-      type(sheet_t) :: sheet
-      character(:), allocatable :: data
-      integer :: p, r, d
+      type(figure_t) :: figure
+      real(wp), allocatable :: values(:, :)
+      integer :: p, r, d, rows
 
-      sheet = new_sheet(name, 'Responses over two factors', subtitle, size(panels))
-      sheet%right = 105
-      sheet%left = 130
-      sheet%bottom = 92
-      if (sheet%panels == 1) sheet%width = 900
+      figure = new_figure(name, 'Responses over two factors', subtitle, size(panels))
+      figure%right = 105
+      figure%left = 130
+      figure%bottom = 92
+      if (size(panels) == 1) figure%width = 900
+      allocate (values(3, 2*size(study%x, 2)))
       do p = 1, size(panels)
          r = panels(p)
-         call begin_data(sheet, 'map'//str(r))
+         rows = 0
          do d = 1, size(study%x, 2)
             if (d > 1) then
-               if (abs(study%x(1, d) - study%x(1, d - 1)) > 0.0_wp) call sheet%text%line('')
+               if (abs(study%x(1, d) - study%x(1, d - 1)) > 0.0_wp) then
+                  rows = rows + 1
+                  values(:, rows) = ieee_value(1.0_wp, ieee_quiet_nan)
+               end if
             end if
-            call add_numbers(sheet, [study%x(1, d), study%x(2, d), study%y(r, d)])
+            rows = rows + 1
+            values(:, rows) = [study%x(1, d), study%x(2, d), study%y(r, d)]
          end do
-         call end_data(sheet)
+         associate (panel => figure%panels(p))
+            panel%title = study%responses(r)%label
+            panel%has_scale = .true.
+            panel%x = axis_over(study, 1)
+            panel%y = axis_over(study, 2)
+            panel%value%has_range = .true.
+            panel%value%range = bounds(study%y(r, :))
+            call add_series(panel, as_heat, on_level, values(:, :rows))
+         end associate
       end do
-      call begin_panels(sheet)
-      call sheet%text%line(blues//nl//'unset grid; unset xzeroaxis; unset yzeroaxis; set xtics offset 0, 0.5')
-      if (is_geometric(study%x(1, :))) call sheet%text%line('set logscale x')
-      if (is_geometric(study%x(2, :))) call sheet%text%line('set logscale y')
-      call sheet%text%line('set xtics '//tics_of(study%x(1, :))//'; set ytics '//tics_of(study%x(2, :)))
-      call sheet%text%line('set xrange '//bounds(study%x(1, :))//'; set yrange '//bounds(study%x(2, :)))
-      do p = 1, size(panels)
-         r = panels(p)
-         call begin_panel(sheet, p, study%responses(r)%label, study%factors(1)%label, study%factors(2)%label)
-         data = '$map'//str(r)
-         ! the lines of equal response are computed first, as a table
-         call sheet%text%line('set contour base; set cntrparam levels auto 8; unset surface; set table $lines'//nl// &
-            'splot '//data//' using 1:2:3 with lines'//nl//'unset table; unset contour; set surface; set view map')
-         call sheet%text%line('set xlabel offset 0, 0.7; set ylabel offset -1, 0; set cbrange '//bounds(study%y(r, :)))
-         call sheet%text%line('set pm3d map interpolate 4, 4')
-         call sheet%text%line('splot '//data//' using 1:2:3 with pm3d notitle, \'//nl// &
-            "      $lines using 1:2:(0) with lines linecolor rgb '#FFFFFF' linewidth 1.2 notitle, \"//nl// &
-            '      '//data//" using 1:2:(0) with points pointtype 7 pointsize 0.25 linecolor rgb '#80FFFFFF' notitle")
-         call sheet%text%line('unset pm3d')
-      end do
-      call sheet%text%line('unset logscale; set xrange [*:*]; set yrange [*:*]; set cbrange [*:*]; set view 60, 30')
-      call sheet%text%line('set xtics autofreq; set ytics autofreq')
-      text = end_panels(sheet)
-   end function map_script
+   end function map_figure
 
-   !> Script of some responses over the only factor of a grid.
-   function line_script(study, name, subtitle, panels) result(text)
+   !> The axis of a factor of a grid, which ends at the factor's smallest and largest value.
+   type(axis_t) function axis_over(study, f) result(axis)
+      type(study_data_t), intent(in) :: study
+      integer, intent(in) :: f                       !! index of the factor
+
+      axis%label = study%factors(f)%label
+      axis%is_log = is_geometric(study%x(f, :))
+      axis%has_range = .true.
+      axis%range = bounds(study%x(f, :))
+      axis%tics = tics_of(study%x(f, :))
+      axis%has_grid = .false.
+      axis%has_zero = .false.
+   end function axis_over
+
+   !> Some responses over the only factor of a grid.
+   function line_figure(study, name, subtitle, panels) result(figure)
       type(study_data_t), intent(in) :: study
       integer, intent(in) :: panels(:)               !! indices of the responses
       character(*), intent(in) :: name, subtitle
-      character(:), allocatable :: text
-      type(sheet_t) :: sheet
-      integer :: p, r, d
+      type(figure_t) :: figure
+      integer :: p
 
-      sheet = new_sheet(name, 'Responses over the factor', subtitle, size(panels))
-      call begin_data(sheet, 'rows')
-      do d = 1, size(study%x, 2)
-         call add_numbers(sheet, [study%x(1, d), study%y(panels, d)])
-      end do
-      call end_data(sheet)
-      call begin_panels(sheet)
-      if (is_geometric(study%x(1, :))) call sheet%text%line('set logscale x')
+      figure = new_figure(name, 'Responses over the factor', subtitle, size(panels))
       do p = 1, size(panels)
-         r = panels(p)
-         call begin_panel(sheet, p, study%responses(r)%label, study%factors(1)%label, '')
-         call sheet%text%line('plot $rows using 1:'//str(p + 1)// &
-            " with linespoints pointtype 7 pointsize 0.7 linewidth 2.2 linecolor rgb '#0072B2' notitle")
+         associate (panel => figure%panels(p))
+            panel%title = study%responses(panels(p))%label
+            panel%x%label = study%factors(1)%label
+            panel%x%is_log = is_geometric(study%x(1, :))
+            call add_series(panel, as_both, on_level, columns_of(study%x(1, :), study%y(panels(p), :)), weight=2.2_wp)
+         end associate
       end do
-      call sheet%text%line('unset logscale')
-      text = end_panels(sheet)
-   end function line_script
+   end function line_figure
 
-   !> The range of some values as a gnuplot range: '[low:high]'. A range without a visible span is extended upward.
-   pure function bounds(values) result(text)
+   !> The range of some values. A range without a visible span is extended upward.
+   pure function bounds(values) result(range)
       real(wp), intent(in) :: values(:)
-      character(:), allocatable :: text
       real(wp) :: range(2)
 
       range = range_of_values(values)
       if (looks_flat(range)) range(2) = range(1) + max(1.0e-6_wp, abs(range(1)))
-      text = '['//str(range(1), 7)//':'//str(range(2), 7)//']'
    end function bounds
 
    !> The tics of an axis for `set xtics`: for geometric values, at 1, 2 and 5 of every decade; otherwise 'autofreq'.
@@ -154,19 +147,53 @@ contains
       room = min(room, 330)
    end function name_room
 
-   !> A sheet of horizontal bars, one panel per response.
-   function new_bars(study, panels, name, title, subtitle) result(sheet)
+   !> A figure of horizontal bars, one panel per response.
+   function new_bars(study, panels, name, title, subtitle) result(figure)
       type(study_data_t), intent(in) :: study
       integer, intent(in) :: panels(:)               !! indices of the responses
       character(*), intent(in) :: name, title, subtitle
-      type(sheet_t) :: sheet
+      type(figure_t) :: figure
+      integer :: p
 
-      sheet = new_sheet(name, title, subtitle, size(panels), &
-         height=max(170, 110 + 30*min(size(study%factors), most_bars)))
-      sheet%columns = min(sheet%panels, 2)
-      sheet%letters = 14
-      sheet%left = name_room(study, 14)
+      figure = new_figure(name, title, subtitle, size(panels), height=max(170, 110 + 30*min(size(study%factors), most_bars)))
+      figure%columns = min(size(figure%panels), 2)
+      figure%letters = 14
+      figure%left = name_room(study, 14)
+      do p = 1, size(panels)
+         figure%panels(p)%frame = 1
+         figure%panels(p)%y%has_grid = .false.
+         figure%panels(p)%y%has_zero = .false.
+         figure%panels(p)%x%has_zero = .false.
+         figure%panels(p)%note = 'constant, or too few designs'
+      end do
    end function new_bars
+
+   !> Sets the bars of a panel: the names of the factors, from above.
+   subroutine name_bars(study, order, panel)
+      type(study_data_t), intent(in) :: study
+      integer, intent(in) :: order(:)                !! indices of the factors
+      type(panel_t), intent(inout) :: panel
+      integer :: k
+
+      do k = 1, size(order)
+         call panel%y%names%add(study%factors(order(k))%name)
+      end do
+      panel%y%has_range = .true.
+      panel%y%range = [size(order) + 0.6_wp, 0.4_wp]
+   end subroutine name_bars
+
+   !> Bars from one value to others, at 1, 2, … from above: left, right and both edges of each.
+   pure function bars_of(from, to, low, high) result(values)
+      real(wp), intent(in) :: from, to(:)
+      real(wp), intent(in) :: low, high              !! edges of the first bar
+      real(wp) :: values(4, size(to))
+      integer :: k
+
+      do k = 1, size(to)
+         values(:, k) = [min(from, to(k)), max(from, to(k)), k - 1 + low, k - 1 + high]
+         if (.not. ieee_is_finite(to(k))) values(:, k) = to(k)
+      end do
+   end function bars_of
 
    !> End of a subtitle if only some of the factors are drawn: '; the 15 most important of 20 factors'; '' otherwise.
    pure function cut(study) result(words)
@@ -178,66 +205,50 @@ contains
          str(size(study%factors))//' factors'
    end function cut
 
-   !> Script of the change of some responses when one factor changes alone (tornado).
-   function tornado_script(study, name, subtitle, panels) result(text)
+   !> The change of some responses when one factor changes alone (tornado).
+   function tornado_figure(study, name, subtitle, panels) result(figure)
       type(study_data_t), intent(in) :: study
       integer, intent(in) :: panels(:)               !! indices of the responses
       character(*), intent(in) :: name, subtitle
-      character(:), allocatable :: text
-      type(sheet_t) :: sheet
-      character(:), allocatable :: data, way
+      type(figure_t) :: figure
+      character(:), allocatable :: way
+      real(wp), allocatable :: ranges(:, :)
       integer :: order(min(most_bars, size(study%factors)))
       integer :: p, r, k
 
       way = ''
       if (study%kind == 'tolerance') way = ', to second order by derivatives'
-      sheet = new_bars(study, panels, name, 'One factor at a time'//way, subtitle// &
+      figure = new_bars(study, panels, name, 'One factor at a time'//way, subtitle// &
          '; blue: the smallest value of the factor, orange: the largest'//cut(study))
       do p = 1, size(panels)             ! not effects(panels): gfortran would not free what that copies
          if (.not. any_gap(study%effects(panels(p):panels(p)))) cycle
-         sheet%subtitle = sheet%subtitle//'; –: the design at this end failed'
+         figure%subtitle = figure%subtitle//'; –: the design at this end failed'
          exit
       end do
       do p = 1, size(panels)
          r = panels(p)
-         associate (effect => study%effects(r))
+         associate (effect => study%effects(r), panel => figure%panels(p))
             order(:) = ranked(effect%highest - effect%lowest, most_bars)
-            call begin_data(sheet, 'bars'//str(r))
-            do k = 1, size(order)
-               call add_numbers(sheet, [real(k, wp), effect%nominal, effect%at_low(order(k)), effect%at_high(order(k)), &
-                  effect%lowest(order(k)), effect%highest(order(k))], study%factors(order(k))%name)
+            panel%title = study%responses(r)%label
+            panel%x%tics = tic_step([effect%lowest, effect%highest])
+            call name_bars(study, order, panel)
+            ranges = bars_of(effect%nominal, effect%highest(order), 0.94_wp, 1.06_wp)
+            ranges(1, :) = effect%lowest(order)
+            ranges(2, :) = effect%highest(order)
+            call add_series(panel, as_boxes, on_range, ranges)
+            call add_series(panel, as_boxes, on_low, bars_of(effect%nominal, effect%at_low(order), 0.66_wp, 1.34_wp))
+            call add_series(panel, as_boxes, on_high, bars_of(effect%nominal, effect%at_high(order), 0.66_wp, 1.34_wp))
+            do k = 1, size(order)                    ! the sign of an end without a value: above the middle of the bar, or below
+               if (.not. ieee_is_finite(effect%at_low(order(k)))) call add_word(panel, '–', effect%nominal, k - 0.17_wp, &
+                  on_title, align=at_left, offset=[0.6_wp, 0.0_wp])
+               if (.not. ieee_is_finite(effect%at_high(order(k)))) call add_word(panel, '–', effect%nominal, k + 0.17_wp, &
+                  on_title, align=at_left, offset=[0.6_wp, 0.0_wp])
             end do
-            call end_data(sheet)
-            if (.not. any_gap([effect])) cycle
-            call begin_data(sheet, 'gaps'//str(r))         ! nominal value, bar, and the ends without a value: offsets of the sign
-            do k = 1, size(order)
-               if (.not. ieee_is_finite(effect%at_low(order(k)))) call add_numbers(sheet, [effect%nominal, k - 0.17_wp])
-               if (.not. ieee_is_finite(effect%at_high(order(k)))) call add_numbers(sheet, [effect%nominal, k + 0.17_wp])
-            end do
-            call end_data(sheet)
+            call add_series(panel, as_segments, on_title, reshape([effect%nominal, 0.5_wp, 0.0_wp, 1.0_wp*size(order)], [4, 1]), &
+               weight=1.5_wp)
          end associate
       end do
-      call sheet%text%line('min2(a,b) = a < b ? a : b; max2(a,b) = a > b ? a : b')
-      call begin_panels(sheet)
-      call sheet%text%line('set style fill solid 1 noborder; unset xzeroaxis; unset yzeroaxis; set grid noytics')
-      call sheet%text%line('set yrange ['//str(size(order) + 0.6_wp)//':0.4]; set border 1; set ytics scale 0')
-      do p = 1, size(panels)
-         r = panels(p)
-         call begin_panel(sheet, p, study%responses(r)%label, '', '')
-         call sheet%text%line('set xtics '//tic_step([study%effects(r)%lowest, study%effects(r)%highest]))
-         data = '$bars'//str(r)
-         call sheet%text%line('plot '//data// &
-            " using 5:1:5:6:($1-0.06):($1+0.06):ytic(7) with boxxyerror linecolor rgb '#A0A0A0' notitle, \"//nl// &
-            '     '//data//" using 2:1:(min2($2,$3)):(max2($2,$3)):($1-0.34):($1+0.34) with boxxyerror linecolor rgb '#0072B2'"// &
-            ' notitle, \'//nl// &
-            '     '//data//" using 2:1:(min2($2,$4)):(max2($2,$4)):($1-0.34):($1+0.34) with boxxyerror linecolor rgb '#E69F00'"// &
-            ' notitle, \'//nl// &
-            gaps_plot(r, study%effects(r))// &
-            '     '//data//" using 2:($1-0.5):(0):(1) with vectors nohead linewidth 1.5 linecolor rgb '#202020' notitle")
-      end do
-      call sheet%text%line('set yrange [*:*]; set border 3; set xtics autofreq')
-      text = end_panels(sheet)
-   end function tornado_script
+   end function tornado_figure
 
    !> Whether a response at an end of a factor is unknown.
    pure logical function any_gap(effects)
@@ -250,118 +261,87 @@ contains
       end do
    end function any_gap
 
-   !> The part of a plot command that marks ends without a value. The mark is above the middle of the bar for the smallest value and
-   !> below for the largest; '' if all ends have values.
-   pure function gaps_plot(panel, effects) result(part)
-      integer, intent(in) :: panel
-      type(effects_t), intent(in) :: effects
-      character(:), allocatable :: part
-
-      part = ''
-      if (any_gap([effects])) part = '     $gaps'//str(panel)//" using 1:2:('–') with labels offset 1.5, 0 notitle, \"//nl
-   end function gaps_plot
-
-   !> Script of the Sobol indices of some responses with their 95 % intervals. Indices from derivatives (tolerance studies)
-   !> have no interval.
-   function sobol_script(study, name, subtitle, panels) result(text)
+   !> The Sobol indices of some responses with their 95 % intervals. Indices from derivatives (tolerance studies) have no
+   !> interval.
+   function sobol_figure(study, name, subtitle, panels) result(figure)
       type(study_data_t), intent(in) :: study
       integer, intent(in) :: panels(:)               !! indices of the responses
       character(*), intent(in) :: name, subtitle
-      character(:), allocatable :: text
-      type(sheet_t) :: sheet
-      character(:), allocatable :: data, way
+      type(figure_t) :: figure
+      character(:), allocatable :: way
       integer :: order(min(most_bars, size(study%factors)))
+      real(wp) :: at(size(order)), ends(2)
       integer :: p, r, k
 
       way = '; lines: 95 % confidence'
       if (study%kind == 'tolerance') way = '; to second order by derivatives'
-      sheet = new_bars(study, panels, name, 'Sobol indices: share of the variance', subtitle// &
+      figure = new_bars(study, panels, name, 'Sobol indices: share of the variance', subtitle// &
          '; blue: the factor alone, orange: with its interactions'//way//cut(study))
+      at = [(real(k, wp), k=1, size(at))]
       do p = 1, size(panels)
          r = panels(p)
-         associate (effect => study%effects(r))
+         associate (effect => study%effects(r), panel => figure%panels(p))
             order(:) = ranked(effect%total, most_bars)
-            call begin_data(sheet, 'bars'//str(r))
-            do k = 1, size(order)
-               call add_numbers(sheet, [real(k, wp), effect%first(order(k)), effect%first_error(order(k)), &
-                  effect%total(order(k)), effect%total_error(order(k))], study%factors(order(k))%name)
-            end do
-            call end_data(sheet)
+            panel%title = study%responses(r)%label//basis_text(effect, 'base points')
+            panel%x%label = 'share of the variance [–]'
+            panel%x%has_zero = .true.
+            call name_bars(study, order, panel)
+            call add_series(panel, as_boxes, on_low, bars_of(0.0_wp, effect%first(order), 0.64_wp, 0.98_wp))
+            call add_series(panel, as_boxes, on_high, bars_of(0.0_wp, effect%total(order), 1.02_wp, 1.36_wp))
+            call add_series(panel, as_errors, on_title, columns_of(effect%first(order), at - 0.19_wp, effect%first_error(order)), &
+               weight=1.5_wp)
+            call add_series(panel, as_errors, on_title, columns_of(effect%total(order), at + 0.19_wp, effect%total_error(order)), &
+               weight=1.5_wp)
+            ends = range_of_values([effect%first(order) - effect%first_error(order), effect%total(order) + &
+               effect%total_error(order), effect%first(order) + effect%first_error(order), effect%total(order) - &
+               effect%total_error(order), 0.0_wp, 1.0_wp])
+            panel%x%has_range = .true.
+            panel%x%range = 0.2_wp*[floor(5.0_wp*ends(1) + 1.0e-6_wp), ceiling(5.0_wp*ends(2) - 1.0e-6_wp)]
          end associate
       end do
-      call begin_panels(sheet)
-      call sheet%text%line('set style fill solid 1 noborder; set grid noytics; unset xzeroaxis')
-      call sheet%text%line('set yrange ['//str(size(order) + 0.6_wp)//':0.4]; set border 1; set ytics scale 0')
-      call sheet%text%line('set xrange [* < 0:1 < *]')
-      do p = 1, size(panels)
-         r = panels(p)
-         call begin_panel(sheet, p, study%responses(r)%label//basis_text(study%effects(r), 'base points'), &
-            'share of the variance [–]', '')
-         if (.not. any(ieee_is_finite([study%effects(r)%first, study%effects(r)%total]))) then
-            ! gnuplot refuses data without a value
-            call sheet%text%line("unset ytics; set label 3 'constant, or too few designs' at graph 0.5, graph 0.5 center "// &
-               "textcolor rgb '#606060'; plot [0:1] -1 notitle; unset label 3; set ytics scale 0")
-            cycle
-         end if
-         data = '$bars'//str(r)
-         call sheet%text%line('plot '//data// &
-            " using (0):1:(0):2:($1-0.36):($1-0.02):ytic(6) with boxxyerror linecolor rgb '#0072B2' notitle, \"//nl// &
-            '     '//data//" using (0):1:(0):4:($1+0.02):($1+0.36) with boxxyerror linecolor rgb '#E69F00' notitle, \"//nl// &
-            '     '//data//" using 2:($1-0.19):3 with xerrorbars pointtype -1 linewidth 1.5 linecolor rgb '#202020' notitle, \"// &
-            nl// &
-            '     '//data//" using 4:($1+0.19):5 with xerrorbars pointtype -1 linewidth 1.5 linecolor rgb '#202020' notitle")
-      end do
-      call sheet%text%line('set yrange [*:*]; set xrange [*:*]; set border 3')
-      text = end_panels(sheet)
-   end function sobol_script
+   end function sobol_figure
 
-   !> Script of Morris' μ* and σ of some responses. A factor far to the right has a large effect; a factor high up acts
-   !> nonlinearly or together with others.
-   function morris_script(study, name, subtitle, panels) result(text)
+   !> Morris' μ* and σ of some responses. A factor far to the right has a large effect; a factor high up acts nonlinearly or
+   !> together with others.
+   function morris_figure(study, name, subtitle, panels) result(figure)
       type(study_data_t), intent(in) :: study
       integer, intent(in) :: panels(:)               !! indices of the responses
       character(*), intent(in) :: name, subtitle
-      character(:), allocatable :: text
-      type(sheet_t) :: sheet
+      type(figure_t) :: figure
       character(63) :: names(min(named_points, size(study%factors)))
-      real(wp) :: range(2), ends(2, size(study%responses))
+      real(wp) :: range(2), ends(2), least
       integer :: order(size(study%factors))
       integer :: p, r, k
 
-      sheet = new_sheet(name, 'Morris: size and spread of the effects', subtitle// &
-         '; effect: change of the response over the full range of the factor; dotted: σ = μ*', &
-         size(panels))
-      sheet%left = 115
+      figure = new_figure(name, 'Morris: size and spread of the effects', subtitle// &
+         '; effect: change of the response over the full range of the factor; dotted: σ = μ*', size(panels))
+      figure%left = 115
       do p = 1, size(panels)
          r = panels(p)
-         associate (effect => study%effects(r))
+         associate (effect => study%effects(r), panel => figure%panels(p))
             order(:) = ranked(effect%mean_size, size(study%factors))
             range = range_of_values(effect%mean_size)
-            ends(:, r) = [max(1.08_wp*range(2), 1.0e-12_wp), maxval([0.01_wp*range(2), &
+            ends = [max(1.08_wp*range(2), 1.0e-12_wp), maxval([0.01_wp*range(2), &
                1.3_wp*maxval(effect%deviation, mask=ieee_is_finite(effect%deviation)), 1.0e-12_wp])]
-            call begin_data(sheet, 'points'//str(r))
-            do k = 1, size(order)
-               if (k <= size(names)) names(k) = study%factors(order(k))%name
-               call add_numbers(sheet, [effect%mean_size(order(k)), effect%deviation(order(k))])
+            panel%title = study%responses(r)%label//basis_text(effect, 'effects')
+            panel%x%label = 'μ*, mean size of the effect'
+            panel%y%label = 'σ, spread of the effect'
+            panel%x%has_range = .true.
+            panel%y%has_range = .true.
+            panel%x%range = [0.0_wp, ends(1)]
+            panel%y%range = [0.0_wp, ends(2)]
+            panel%x%tics = tic_step(panel%x%range)
+            panel%y%tics = tic_step(panel%y%range)
+            least = minval(ends)
+            call add_series(panel, as_line, on_guide, reshape([0.0_wp, 0.0_wp, least, least], [2, 2]), weight=1.0_wp, &
+               is_dashed=.true.)
+            call add_series(panel, as_points, on_low, columns_of(effect%mean_size(order), effect%deviation(order)), weight=1.0_wp)
+            do k = 1, size(names)
+               names(k) = study%factors(order(k))%name
             end do
-            call end_data(sheet)
-            call add_point_names(sheet, r, names, effect%mean_size(order), effect%deviation(order), &
-               [0.0_wp, ends(1, r)], [0.0_wp, ends(2, r)])
+            call add_point_names(figure, p, names, effect%mean_size(order), effect%deviation(order), on_guide, on_title)
          end associate
       end do
-      call begin_panels(sheet)
-      do p = 1, size(panels)
-         r = panels(p)
-         call begin_panel(sheet, p, study%responses(r)%label//basis_text(study%effects(r), 'effects'), &
-            'μ*, mean size of the effect', 'σ, spread of the effect')
-         call sheet%text%line('set ytics '//tic_step([0.0_wp, ends(2, r)])//'; set xtics '//tic_step([0.0_wp, ends(1, r)])// &
-            '; set xrange [0:'//str(ends(1, r), 6)//']; set yrange [0:'//str(ends(2, r), 6)//']')
-         call sheet%text%line("plot x with lines dashtype (8, 6) linecolor rgb '#B0B0B0' notitle, \"//nl// &
-            '     $points'//str(r)//" using 1:2 with points pointtype 7 pointsize 1 linecolor rgb '#0072B2' notitle, \"//nl// &
-            '     '//names_plot(r))
-      end do
-      call sheet%text%line('set xrange [*:*]; set yrange [*:*]; set xtics autofreq; set ytics autofreq')
-      text = end_panels(sheet)
-   end function morris_script
+   end function morris_figure
 
 end module ek_effect_figures

@@ -1,271 +1,196 @@
-!> A figure as a gnuplot script that the user can read, edit and run again. In the folder of the script, `gnuplot name.gp`
-!> draws name.png and name.svg from the data files in this folder. This module also lists the standard figures of one run.
+!> The frame of every gnuplot script: its head, the formats and sizes of its pictures, and the colours. No other module names a
+!> terminal of gnuplot or a colour; figures name the role of what they draw.
 module ek_gnuplot
-   use ek_kinds, only: wp
-   use ek_error, only: message_list_t
    use ek_text, only: str
-   use ek_file, only: base_name
-   use ek_chart, only: chart_t, palette, axes_style, range_of
-   use ek_gnuplot_text, only: gnuplot_text, gnuplot_name, gnuplot_comment
-   use ek_quantity, only: quantity_named
-   use ek_table, only: table_t
-   use ek_test_result, only: test_result_t, find_wheels, choose_abscissa, travel_column
-   use ek_test_charts, only: quantity_chart, ending_chart, bushing_chart
+   use ek_buffer, only: buffer_t
+   use ek_gnuplot_text, only: gnuplot_text, gnuplot_comment
    implicit none(type, external)
    private
-   public :: figure_t, figure_script, run_figures
-
-   integer, parameter :: width = 1200        !! width of a picture [pixels]
-   integer, parameter :: legend_on_top = 3   !! most entries of a legend above the panel; a longer legend is at the right
+   public :: begin_script, begin_formats, end_formats, begin_charts_file, begin_scene, end_scene, begin_animation
+   public :: ink, text_ink, fill, rgb, series_rgb, heading_style, subtitle_style, value_colours, axes_style, zero_axis
+   public :: on_title, on_label, on_soft, on_frame, on_zero, on_guide, on_grid, on_contact, on_box, on_range, on_design
+   public :: on_wide_band, on_narrow_band, on_median, on_limit, on_result, on_dots, on_contour, on_contour_dots, on_low, on_high, &
+      on_derivative, on_level, on_limits, on_skeleton, on_point, on_leader, on_swatch, on_part, on_line
 
    character(*), parameter :: nl = new_line('a')
-   character(*), parameter :: look = 'reset'//nl//'set encoding utf8'//nl//'set datafile separator comma'//nl// &
-      'set datafile columnheaders'//nl//"set datafile missing 'nan'"//nl//"set border 3 linecolor rgb '#808080'"//nl// &
-      "set tics out nomirror textcolor rgb '#404040'"
-   character(*), parameter :: label_style = " textcolor rgb '#202020'"
 
-   !> A figure, which one script draws: one panel, or several panels in two columns.
-   type :: figure_t
-      character(:), allocatable :: name      !! name of the files, without suffix
-      character(:), allocatable :: title, subtitle
-      character(:), allocatable :: file      !! table with the columns of all curves, relative to the script
-      type(chart_t), allocatable :: panels(:)
-      logical :: is_upward = .false.         !! abscissa upward and values to the right, as usual for wheel travel
-   end type figure_t
+   ! Roles: what a colour stands for
+   integer, parameter :: on_title = 1, on_label = 2, on_soft = 3, on_frame = 4, on_zero = 5, on_guide = 6, on_grid = 7, &
+      on_contact = 8, on_box = 9, on_range = 10
+   integer, parameter :: on_wide_band = 11      !! 90 % of the curves; interval of a mean
+   integer, parameter :: on_narrow_band = 12    !! half of the curves; bars of a histogram
+   integer, parameter :: on_median = 13, on_limit = 14
+   integer, parameter :: on_result = 15         !! name of a response among factors
+   integer, parameter :: on_dots = 16           !! many points, translucent
+   integer, parameter :: on_contour = 17, on_contour_dots = 18
+   integer, parameter :: on_skeleton = 19       !! lines of a suspension in a view
+   integer, parameter :: on_point = 20          !! hardpoints, names in space
+   integer, parameter :: on_leader = 21, on_swatch = 22
+   integer, parameter :: on_part = 23           !! first kind of part in space; the others follow in the order of ek_scene
+   integer, parameter :: on_line = 35           !! first kind of line in space
+   character(9), parameter :: colours(38) = [character(9) :: '#202020', '#404040', '#606060', '#808080', '#909090', '#B0B0B0', &
+      '#E6E6E6', '#ECECEC', '#C0C0C0', '#A0A0A0', '#CCE3F0', '#80BAD8', '#00486F', '#B02020', '#A04000', '#600072B2', '#FFFFFF', &
+      '#80FFFFFF', '#9AB7D3', '#30343B', '#7C8896', '#CCCCCC', &
+      '#E9EEF2', '#4A4A4A', '#3B76B5', '#7C8896', '#3B76B5', '#1B9E8A', '#C8442F', '#A9B4C0', '#E8A33D', '#30343B', '#30343B', &
+      '#8E6BBE', '#D55E00', '#009E73', '#C4CCD4', '#30343B']
+
+   !> Okabe and Ito's colours for curves, distinguishable with colour blindness; without the yellow, too light on white.
+   character(7), parameter :: palette(8) = ['#0072B2', '#D55E00', '#009E73', '#CC79A7', '#E69F00', '#56B4E9', '#4D4D4D', '#8C510A']
+   ! Roles that are colours of the palette, as negative indices
+   integer, parameter :: on_level = -1          !! a curve alone; lines of equal first factor
+   integer, parameter :: on_design = -1         !! points of a file or of a target
+   integer, parameter :: on_low = -1, on_high = -5     !! smallest and largest value of a factor; first and total index
+   integer, parameter :: on_derivative = -2     !! computed by derivatives; a result over its target
+   integer, parameter :: on_limits = -3         !! limits of a curve
+
+   !> The gnuplot command of the scale of values: viridis without its lightest end.
+   character(*), parameter :: value_colours = "set palette defined (0 '#440154', 0.25 '#3B528B', 0.5 '#21918C', "// &
+      "0.75 '#5EC962', 1 '#E8D000')"
+   !> The style of the axes through 0, and the commands of the grid and of these axes.
+   character(*), parameter :: zero_style = " linetype 1 linecolor rgb '"//trim(colours(on_zero))//"' linewidth 1.2"
+   character(*), parameter :: axes_style = "set grid linetype 1 linecolor rgb '"//trim(colours(on_grid))//"' linewidth 1"//nl// &
+      'set xzeroaxis'//zero_style//nl//'set yzeroaxis'//zero_style
 
 contains
 
-   !> The gnuplot script of a figure.
-   pure function figure_script(figure) result(text)
-      type(figure_t), intent(in) :: figure
+   !> The colour of a role, for gnuplot: rgb '#202020'.
+   pure function rgb(role) result(text)
+      integer, intent(in) :: role
       character(:), allocatable :: text
-      type(message_list_t) :: script
-      integer :: k, entries, longest
-      real(wp) :: right
-      logical :: is_single
 
-      is_single = size(figure%panels) == 1
-      entries = 0                            ! of the legend; all panels share that of the first
-      longest = len('design')                ! characters
-      associate (traces => figure%panels(1)%traces)
-         do k = 1, size(traces)
-            if (len(traces(k)%title) > 0) entries = entries + 1
-            longest = max(longest, len(traces(k)%title))
-         end do
-         if (any([(allocated(traces(k)%mark), k=1, size(traces))])) entries = entries + 1
-      end associate
-      right = 0.97_wp
-      if (entries > legend_on_top) right = 1.0_wp - real(120 + 11*longest, wp)/width
+      if (role > 0) text = "rgb '"//trim(colours(role))//"'"
+      if (role < 0) text = "rgb '"//palette(-role)//"'"
+   end function rgb
 
-      call script%add(gnuplot_comment(figure%title)//nl//'#'//nl//gnuplot_comment('    gnuplot '//figure%name//'.gp')//nl//'#')
-      call script%add(gnuplot_comment('in this folder draws '//figure%name//'.png and .svg;'))
-      call script%add(gnuplot_comment("gnuplot -e ""formats='pdf'"" "//figure%name//'.gp makes a PDF.'))
-      call script%add("if (!exists('formats')) formats = 'png svg'"//nl)
-      call script%add(look//nl//axes_style)
-      do k = 1, size(palette)
-         call script%add('set style line '//str(k)//" linecolor rgb '"//palette(k)//"' linewidth 2.6 pointtype 7 pointsize 0.7")
-      end do
-      call script%add("set style line 20 linecolor rgb '#202020' linewidth 2 pointtype 6 pointsize 1.8   # marks"//nl)
-      if (entries > legend_on_top) then
-         call script%add('set key at screen '//str(right + 0.015_wp)//', screen 0.88 left top vertical Left reverse samplen 2.5')
-      else if (entries > 0) then
-         call script%add('set key at screen 0.975, screen 0.965 right top horizontal Right noreverse samplen 2.5')
-      end if
-      if (is_single) then
-         call script%add('set lmargin at screen 0.115; set rmargin at screen '//str(right))
-         call script%add('set tmargin at screen 0.88; set bmargin at screen 0.115')
-         call add_axes(script, figure%panels(1), figure%is_upward, '')
-      end if
-      call script%add("letters = '"//str(merge(15, 12, is_single))//"'"//nl//nl//'do for [format in formats] {')
-      call script%add("   if (format eq 'png') { set terminal pngcairo size 1200, 900 font 'sans-serif,'.letters noenhanced }")
-      call script%add("   if (format eq 'svg') { set terminal svg size 1200, 900 font 'sans-serif,'.letters "// &
-         "background 'white' noenhanced }")
-      call script%add("   if (format eq 'pdf') { set terminal pdfcairo size 24cm, 18cm font 'sans-serif,'.letters noenhanced }")
-      call script%add('   set output '//gnuplot_text(figure%name//'.')//'.format')
-      call script%add('   set label 1 '//gnuplot_text(figure%title)// &
-         " at screen 0.025, screen 0.965 font 'sans-serif:Bold,20' textcolor rgb '#202020'")
-      if (len(figure%subtitle) > 0) call script%add('   set label 2 '//gnuplot_text(figure%subtitle)// &
-         " at screen 0.025, screen 0.922 font 'sans-serif,14' textcolor rgb '#606060'")
-      if (is_single) then
-         call add_plot(script, figure, 1, entries > 0)
-      else
-         call script%add('   set multiplot layout '//str((size(figure%panels) + 1)/2)//', 2 margins 0.095, '// &
-            str(right)//', 0.085, 0.85 spacing 0.115, 0.155')
-         do k = 1, size(figure%panels)
-            call script%add('')
-            call add_axes(script, figure%panels(k), figure%is_upward, '   ')
-            call add_plot(script, figure, k, k == 1 .and. entries > 0)
-            if (k == 1) call script%add('   unset label 1; unset label 2')
-         end do
-         call script%add('   unset multiplot')
-      end if
-      text = script%text()//nl//'   unset output'//nl//'}'//nl
-   end function figure_script
+   !> The colour of the k-th curve of a panel; after eight curves the colours repeat.
+   pure function series_rgb(k) result(text)
+      integer, intent(in) :: k
+      character(:), allocatable :: text
+      text = rgb(-(modulo(k - 1, size(palette)) + 1))
+   end function series_rgb
 
-   !> Adds the title, the labels and the range of values of one panel.
-   pure subroutine add_axes(script, panel, is_upward, indent)
-      type(message_list_t), intent(inout) :: script
-      type(chart_t), intent(in) :: panel
-      logical, intent(in) :: is_upward
-      character(*), intent(in) :: indent
-      character(1) :: x, y
+   !> The option of a line or point in the colour of a role.
+   pure function ink(role) result(text)
+      integer, intent(in) :: role
+      character(:), allocatable :: text
+      text = ' linecolor '//rgb(role)
+   end function ink
 
-      x = merge('y', 'x', is_upward)
-      y = merge('x', 'y', is_upward)
-      if (len(panel%title) > 0) call script%add(indent//'set title '//gnuplot_text(panel%title)// &
-         " font 'sans-serif:Bold,14' textcolor rgb '#202020'")
-      call script%add(indent//'set '//x//'label '//label(panel%x_label, is_upward .and. len(indent) > 0)//label_style)
-      call script%add(indent//'set '//y//'label '//label(panel%y_label, .not. is_upward .and. len(indent) > 0)//label_style)
-      call script%add(indent//'set '//y//'range '//range_of(panel))
-   end subroutine add_axes
+   !> The option of a text in the colour of a role.
+   pure function text_ink(role) result(text)
+      integer, intent(in) :: role
+      character(:), allocatable :: text
+      text = ' textcolor '//rgb(role)
+   end function text_ink
 
-   !> The string of a label. If is_folded, as in a small panel, the sign convention, '(+ …)' after four blanks, is placed on a
-   !> separate line.
-   pure function label(text, is_folded) result(words)
-      character(*), intent(in) :: text
-      logical, intent(in) :: is_folded
-      character(:), allocatable :: words
-      integer :: gap
+   !> The option of an area in the colour of a role.
+   pure function fill(role) result(text)
+      integer, intent(in) :: role
+      character(:), allocatable :: text
+      text = ' fillcolor '//rgb(role)
+   end function fill
 
-      gap = index(text, '    (')
-      words = gnuplot_text(text)
-      if (is_folded .and. gap > 0) words = gnuplot_text(text(:gap - 1))//'."\n".'//gnuplot_text(text(gap + 4:))
-   end function label
+   !> The command that shows or hides the line at 0 that is parallel to an axis.
+   pure function zero_axis(along, is_shown) result(text)
+      character(1), intent(in) :: along          !! 'x', 'y' or 'z'
+      logical, intent(in) :: is_shown
+      character(:), allocatable :: text
 
-   !> Adds the plot command: the curves, then a ring at the design state of each curve that has a mark.
-   pure subroutine add_plot(script, figure, number, has_legend)
-      type(message_list_t), intent(inout) :: script
-      type(figure_t), intent(in) :: figure
-      integer, intent(in) :: number              !! index of the panel
-      logical, intent(in) :: has_legend
-      character(:), allocatable :: line, title
-      integer :: k
+      text = 'unset '//along//'zeroaxis'
+      if (is_shown) text = 'set '//along//'zeroaxis'//zero_style
+   end function zero_axis
 
-      line = '   plot '
-      associate (panel => figure%panels(number))
-         do k = 1, size(panel%traces)
-            associate (trace => panel%traces(k))
-               line = line//data_of(trace%over, trace%column)//' with '//trim(merge('points', 'lines ', panel%has_points))// &
-                  ' linestyle '//str(modulo(trace%colour - 1, size(palette)) + 1)
-               if (trace%dash > 0 .and. .not. panel%has_points) line = line//' dashtype (12, 7)'
-               title = ' notitle'
-               if (has_legend .and. len(trace%title) > 0) title = ' title '//gnuplot_text(trace%title)
-               line = line//title//', \'//nl//'        '
-            end associate
-         end do
-         title = ' notitle'
-         if (has_legend) title = ' title '//gnuplot_text('design')
-         do k = 1, size(panel%traces)
-            if (.not. allocated(panel%traces(k)%mark)) cycle
-            line = line//data_of('(column("factor") == 0 ? column("'//panel%traces(k)%over//'") : NaN)', panel%traces(k)%column)// &
-               ' with points linestyle 20'//title//', \'//nl//'        '
-            title = ' notitle'
-         end do
-      end associate
-      call script%add(line(:index(line, ', \', back=.true.) - 1))
+   !> The font and colour of a heading of a size.
+   pure function heading_style(letters) result(text)
+      integer, intent(in) :: letters
+      character(:), allocatable :: text
+      text = " font 'sans-serif:Bold,"//str(letters)//"'"//text_ink(on_title)
+   end function heading_style
 
-   contains
+   !> The font and colour of a subtitle.
+   pure function subtitle_style() result(text)
+      character(:), allocatable :: text
+      text = " font 'sans-serif,14'"//text_ink(on_soft)
+   end function subtitle_style
 
-      !> The gnuplot expression for the data of a curve: its columns x and y.
-      pure function data_of(over, column) result(text)
-         character(*), intent(in) :: over, column
-         character(:), allocatable :: text
+   !> Adds the head of a script that draws name.png and name.svg: what it draws and how, and the look of frame, tics and grid.
+   pure subroutine begin_script(script, name, title, separator)
+      type(buffer_t), intent(inout) :: script
+      character(*), intent(in) :: name, title
+      character(*), intent(in) :: separator      !! of columns in data: 'comma', 'whitespace'
 
-         text = gnuplot_text(figure%file)//' using '//field(over)//':'//field(column)
-         if (figure%is_upward) text = gnuplot_text(figure%file)//' using '//field(column)//':'//field(over)
-      end function data_of
+      call script%line(gnuplot_comment(title)//nl//'#'//nl//gnuplot_comment('    gnuplot '//name//'.gp')//nl//'#')
+      call script%line(gnuplot_comment('in this folder draws '//name//'.png and .svg;'))
+      call script%line(gnuplot_comment("gnuplot -e ""formats='pdf'"" "//name//'.gp makes a PDF.'))
+      call script%line("if (!exists('formats')) formats = 'png svg'"//nl//'reset'//nl//'set encoding utf8')
+      call script%line('set datafile separator '//separator//nl//"set datafile missing '"// &
+         trim(merge('nan', 'NaN', separator == 'comma'))//"'")
+      call script%line('set border 3'//ink(on_frame)//nl//'set tics out nomirror scale 0.6'//text_ink(on_label)//nl//axes_style)
+   end subroutine begin_script
 
-   end subroutine add_plot
-
-   !> The gnuplot expression for a column name; an expression in parentheses is unchanged.
-   pure function field(name) result(text)
+   !> Begins the loop over the formats: terminal, size and file of a picture.
+   pure subroutine begin_formats(script, name, width, height, letters)
+      type(buffer_t), intent(inout) :: script
       character(*), intent(in) :: name
-      character(:), allocatable :: text
+      integer, intent(in) :: width, height       !! pixels; in a PDF, 50 pixels are 1 cm
+      integer, intent(in) :: letters             !! size of the font
+      character(:), allocatable :: font, pixels
 
-      text = gnuplot_name(trim(name))
-      if (index(name, '(') == 1) text = name
-   end function field
+      font = " font 'sans-serif,"//str(letters)//"' noenhanced"
+      pixels = ' size '//str(width)//', '//str(height)
+      call script%line(nl//'do for [format in formats] {')
+      call script%line("if (format eq 'png') { set terminal pngcairo"//pixels//font//' }')
+      call script%line("if (format eq 'svg') { set terminal svg"//pixels//font//" background 'white' }")
+      call script%line("if (format eq 'pdf') { set terminal pdfcairo size "// &
+         str(width/50)//'cm, '//str(height/50)//'cm'//font//' }')
+      call script%line('set output '//gnuplot_text(name//'.')//'.format')
+   end subroutine begin_formats
 
-   !> Lists the standard figures of a run: wheel attitude, steering axis and forces, over the wheel travel or the load.
-   !> Quantities without a column or without a value are omitted. The wheel travel is drawn upward if the wheel moves by 1 mm
-   !> or more. Otherwise (for instance under a lateral force), and with `factor_label` or `has_points`, the abscissa is the
-   !> column `factor`.
-   subroutine run_figures(table, model, case_name, csv_name, figures, factor_label, elements, has_points)
-      type(table_t), intent(in) :: table
-      character(*), intent(in) :: model, case_name          !! names for the titles
-      character(*), intent(in) :: csv_name                  !! file name of the table, in the folder of the scripts
-      type(figure_t), allocatable, intent(out) :: figures(:)   !! named <csv without suffix>_<quantity>
-      character(*), intent(in), optional :: factor_label    !! label of the load factor, with its unit; '' as if absent
-      character(*), intent(in), optional :: elements(:)     !! bushings whose force is drawn; absent: all
-      logical, intent(in), optional :: has_points           !! the states are independent: points without a line
-      type(test_result_t) :: test
-      type(chart_t) :: chart
-      logical :: is_cut
-      integer :: k
+   !> Ends the loop over the formats.
+   pure subroutine end_formats(script)
+      type(buffer_t), intent(inout) :: script
+      call script%line('unset output'//nl//'}')
+   end subroutine end_formats
 
-      allocate (figures(0))
-      test%name = base_name(csv_name)
-      test%table = table
-      test%kind = 'other'
-      test%label = ''
-      if (present(factor_label)) test%label = factor_label
-      if (len(test%label) > 0) test%abscissa = 'factor'
-      if (present(has_points)) test%kind = trim(merge('table', 'other', has_points))
-      call find_wheels(test)
-      call choose_abscissa(test)
-      call add_quantities('overview', 'Overview', [character(23) :: 'toe_deg', 'camber_deg', 'track_change_mm', &
-         'wheelbase_change_mm'])
-      call add_quantities('toe', 'Toe', ['toe_deg'])
-      call add_quantities('camber', 'Camber', ['camber_deg'])
-      call add_quantities('lateral', 'Lateral movement of the contact patch', ['track_change_mm'])
-      call add_quantities('longitudinal', 'Longitudinal movement of the contact patch', ['wheelbase_change_mm'])
-      call add_quantities('steer_axis', 'Steering axis', [character(23) :: 'caster_deg', 'kingpin_inclination_deg', &
-         'scrub_radius_mm', 'caster_trail_mm'])
-      chart = ending_chart(test, 'force', '_force_n', '', 'force, N    (+ compression)', 1.0_wp)
-      chart%traces = pack(chart%traces, [(chart%traces(k)%title /= 'steering_rack', k=1, size(chart%traces))])
-      call add_figure('spring_force', 'Spring force', [chart])
-      chart = bushing_chart(test, elements)
-      chart%title = ''
-      is_cut = .false.
-      if (present(elements)) is_cut = size(elements) > size(chart%traces)
-      call add_figure('bushing_force', trim(merge('Bushing force, largest', 'Bushing force         ', is_cut)), [chart])
+   !> Adds the head of a script that draws many small charts, each as an SVG file of its own.
+   pure subroutine begin_charts_file(script, width, height)
+      type(buffer_t), intent(inout) :: script
+      integer, intent(in) :: width, height       !! pixels, at font size 13
 
-   contains
+      call script%line('# The charts of a page. Run gnuplot in this folder to draw them again.')
+      call script%line('reset'//nl//'set encoding utf8')
+      call script%line('set terminal svg size '//str(width)//', '//str(height)// &
+         " dynamic font 'sans-serif,13' linewidth 1 noenhanced")
+      call script%line('set border 3'//ink(on_frame))
+      call script%line('set tics out nomirror scale 0.6'//text_ink(on_label)//nl//axes_style)
+   end subroutine begin_charts_file
 
-      !> Adds one figure with a panel for every quantity that has values; no figure if only one of several quantities has values.
-      subroutine add_quantities(name, title, columns)
-         character(*), intent(in) :: name, title, columns(:)
-         type(chart_t), allocatable :: panels(:)
-         integer :: k, used
+   !> Adds the terminal of a picture in space: name.svg in the folder `to`, or a window with the variable `look`.
+   pure subroutine begin_scene(script, name)
+      type(buffer_t), intent(inout) :: script
+      character(*), intent(in) :: name
 
-         allocate (panels(size(columns)))
-         used = 0
-         do k = 1, size(columns)
-            panels(used + 1) = quantity_chart(test, quantity_named(columns(k)))
-            if (size(panels(used + 1)%traces) == 0) cycle
-            used = used + 1
-            panels(used)%y_label = panels(used)%title//', '//panels(used)%y_label
-            if (size(columns) == 1) panels(used)%title = ''
-         end do
-         if (used > 1 .or. used == size(columns)) call add_figure(name, title, panels(:used))
-      end subroutine add_quantities
+      call script%line("if (exists('look')) { set terminal qt size 1200, 800; set mouse } "// &
+         "else { set terminal svg size 960, 640 dynamic font 'sans-serif,13' noenhanced; set output "// &
+         'to.'//gnuplot_text(name//'.svg')//' }')
+   end subroutine begin_scene
 
-      !> Appends a figure unless its first panel is empty.
-      subroutine add_figure(name, title, panels)
-         character(*), intent(in) :: name, title
-         type(chart_t), intent(in) :: panels(:)
-         type(figure_t) :: figure
+   !> Draws the picture in space again, as name.png.
+   pure subroutine end_scene(script, name)
+      type(buffer_t), intent(inout) :: script
+      character(*), intent(in) :: name
 
-         if (size(panels(1)%traces) == 0) return
-         figure%name = test%name//'_'//name
-         figure%title = title
-         figure%subtitle = trim(model)//', '//trim(case_name)
-         figure%file = csv_name
-         figure%panels = panels
-         figure%is_upward = test%abscissa == travel_column
-         figures = [figures, figure]
-      end subroutine add_figure
+      call script%line("if (!exists('look')) { set terminal pngcairo size 1440, 960 font 'sans-serif,13' fontscale 1.25 "// &
+         'linewidth 1.5 noenhanced; set output to.'//gnuplot_text(name//'.png')//'; replot; unset output }')
+   end subroutine end_scene
 
-   end subroutine run_figures
+   !> Adds the terminal of name.gif, which repeats endlessly, in the folder `to`.
+   pure subroutine begin_animation(script, name)
+      type(buffer_t), intent(inout) :: script
+      character(*), intent(in) :: name
+
+      call script%line('set terminal gif animate delay 7 loop 0 size 720, 540 font ''sans,12'' noenhanced')
+      call script%line('set output to.'//gnuplot_text(name//'.gif'))
+   end subroutine begin_animation
 
 end module ek_gnuplot

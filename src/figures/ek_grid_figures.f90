@@ -15,17 +15,17 @@ module ek_grid_figures
    use ek_table, only: column_index, row_count
    use ek_test_result, only: test_result_t, converged_rows, wheel_word
    use ek_study_data, only: range_of_values, tic_step
-   use ek_study_sheet, only: sheet_t, new_sheet, begin_data, add_numbers, end_data, begin_panels, begin_panel, end_panels
-   use ek_carpet_figure, only: carpet_t, new_carpet, carpet_script, is_drawn, colours
+   use ek_figure, only: figure_t, panel_t, axis_t, new_figure, add_series, as_line, as_segments
+   use ek_carpet_figure, only: carpet_t, new_carpet, carpet_figure, is_drawn, on_equal
+   use ek_gnuplot, only: on_zero
    implicit none(type, external)
    private
-   public :: find_grid, grid_carpet, carpet_name, envelope_name, envelope_script, envelope_text
+   public :: find_grid, grid_carpet, carpet_name, envelope_name, envelope_figure, envelope_text
 
    character(*), parameter :: carpet_columns(2) = [character(10) :: 'toe_deg', 'camber_deg']
    !> Columns of the envelope. In the table of the test, the wheel centre is a change from design.
    character(*), parameter :: envelope_columns(6) = [character(17) :: 'wheel_centre_x_mm', 'wheel_centre_y_mm', &
       'wheel_centre_z_mm', 'spin_axis_x', 'spin_axis_y', 'spin_axis_z']
-   character(*), parameter :: nl = new_line('a')
 
 contains
 
@@ -77,11 +77,12 @@ contains
       name = test%name//'_envelope'
    end function envelope_name
 
-   !> The script of the carpets of toe and camber for every wheel; for the left wheel only if the right wheel is its mirror image.
-   function grid_carpet(test, model) result(text)
+   !> The carpets of toe and camber for every wheel; for the left wheel only if the right wheel is its mirror image.
+   function grid_carpet(test, model) result(figure)
       type(test_result_t), intent(in) :: test        !! with a grid
       character(*), intent(in) :: model
-      character(:), allocatable :: text, side
+      type(figure_t) :: figure
+      character(:), allocatable :: side
       type(carpet_t) :: carpet
       integer :: wheels, wheel, c, r
 
@@ -104,7 +105,7 @@ contains
       end do
       side = ''
       if (wheels < size(test%prefixes)) side = '; the right wheel is its mirror image, with the opposite '//test%grid%driver
-      text = carpet_script(carpet, carpet_name(test), test%title//': carpets of toe and camber', model//side)
+      figure = carpet_figure(carpet, carpet_name(test), test%title//': carpets of toe and camber', model//side)
    end function grid_carpet
 
    !> Whether the right wheel has the values of the left wheel at the opposite value of the driver, but for noise (ek_noise).
@@ -175,98 +176,118 @@ contains
       if (suspension%is_iso) centres(:2, :) = -centres(:2, :)
    end function design_centres
 
-   !> The script of the envelope. For each wheel it draws the surface of the wheel centre as lines of equal travel and of equal
-   !> steering. The spin axis is drawn as a stroke outboard of the centre.
-   function envelope_script(test, suspension) result(text)
+   !> The envelope in space. For each wheel it has the surface of the wheel centre as lines of equal travel and of equal
+   !> steering. The spin axis is a stroke outboard of the centre.
+   function envelope_figure(test, suspension) result(figure)
       type(test_result_t), intent(in) :: test        !! with a grid
       type(suspension_t), intent(in) :: suspension
-      character(:), allocatable :: text
+      type(figure_t) :: figure
       real(wp), parameter :: stroke = 60.0_wp        ! mm
-      character(*), parameter :: lines = ' using 1:2:3 with lines linewidth 2 linecolor '
       real(wp), dimension(size(test%grid%travel), size(test%grid%steer), 3) :: centre, spin
-      type(sheet_t) :: sheet
       character(:), allocatable :: side
-      real(wp) :: design(3, 2)
-      real(wp) :: low(3, 2), high(3, 2), ends(2)     ! of centres and strokes of each wheel
-      integer :: levels(2), wheel, axis, i, j
+      real(wp) :: design(3, 2), low(3), high(3), ends(2)     ! low, high: of centres and strokes of a wheel
+      integer :: wheel, axis
 
-      levels = shape(test%grid%row)
       design = design_centres(suspension)
-      sheet = new_sheet(envelope_name(test), test%title//': envelope of the wheels', suspension%name// &
+      figure = new_figure(envelope_name(test), test%title//': envelope of the wheels', suspension%name// &
          '; blue: wheel centre, lines of equal wheel travel, orange: of equal '// &
          test%grid%driver//'; grey: spin axis, '//str(nint(stroke))//' mm outboard', &
          size(test%prefixes), height=700)
-      sheet%width = merge(1400, 900, sheet%panels > 1)
-      do wheel = 1, sheet%panels
+      figure%width = merge(1400, 900, size(figure%panels) > 1)
+      do wheel = 1, size(figure%panels)
          do axis = 1, 3
             centre(:, :, axis) = design(axis, wheel) + values_of(test, wheel, trim(envelope_columns(axis)))
             spin(:, :, axis) = stroke*values_of(test, wheel, trim(envelope_columns(3 + axis)))
             ends = range_of_values([centre(:, :, axis), centre(:, :, axis) + spin(:, :, axis)])
-            low(axis, wheel) = ends(1)
-            high(axis, wheel) = ends(2)
+            low(axis) = ends(1)
+            high(axis) = ends(2)
          end do
-         call begin_data(sheet, 'travel'//str(wheel))
-         do i = 1, levels(1)
-            if (.not. is_drawn(i, levels(1))) cycle
-            do j = 1, levels(2)
-               call add_numbers(sheet, centre(i, j, :))
-            end do
-            call sheet%text%line(nl)                 ! two blank lines: no line joins these lines
-         end do
-         call end_data(sheet)
-         call begin_data(sheet, 'steer'//str(wheel))
-         do j = 1, levels(2)
-            if (.not. is_drawn(j, levels(2))) cycle
-            do i = 1, levels(1)
-               call add_numbers(sheet, centre(i, j, :))
-            end do
-            call sheet%text%line(nl)
-         end do
-         call end_data(sheet)
-         call begin_data(sheet, 'axis'//str(wheel))
-         do j = 1, levels(2)
-            do i = 1, levels(1)
-               if (.not. (is_drawn(i, levels(1)) .and. is_drawn(j, levels(2)))) cycle
-               if (all(ieee_is_finite(spin(i, j, :)))) call add_numbers(sheet, [centre(i, j, :), spin(i, j, :)])
-            end do
-         end do
-         call end_data(sheet)
+         associate (panel => figure%panels(wheel))
+            side = wheel_word(test%prefixes(wheel))
+            if (len(side) > 0) side = side//' wheel; '
+            panel%title = side//'z upward [mm]'
+            panel%x%label = 'x [mm]'
+            panel%y%label = 'y [mm]'
+            panel%is_space = .true.
+            panel%turn = merge(320.0_wp, 220.0_wp, test%sides(wheel) < 0)
+            panel%note = 'no state was found'
+            call set_cube(low, high, panel)
+            call add_series(panel, as_segments, on_zero, strokes(centre, spin), weight=1.5_wp)
+            call add_series(panel, as_line, on_equal(1), surface_lines(centre, 1))
+            call add_series(panel, as_line, on_equal(2), surface_lines(centre, 2))
+         end associate
       end do
-      call begin_panels(sheet)
-      call sheet%text%line("set view equal xyz; set border 4095 linewidth 0.5 linecolor rgb '#C0C0C0'")
-      call sheet%text%line('unset xzeroaxis; unset yzeroaxis; unset grid')
-      do wheel = 1, sheet%panels
-         side = wheel_word(test%prefixes(wheel))
-         if (len(side) > 0) side = side//' wheel; '
-         call begin_panel(sheet, wheel, side//'z upward [mm]', 'x [mm]', 'y [mm]')
-         ! margins at fixed places would scale x and y alone
-         call sheet%text%line('unset lmargin; unset rmargin; unset bmargin; unset tmargin; set size '// &
-            str(1.0_wp/sheet%panels, 4)//', 0.9; set origin '//str((wheel - 1.0_wp)/sheet%panels, 4)//', 0')
-         call set_cube(low(:, wheel), high(:, wheel), sheet)
-         call sheet%text%line('set view 68, '//str(merge(320, 220, test%sides(wheel) < 0))//', 1.1')
-         call sheet%text%line('splot $axis'//str(wheel)// &
-            " using 1:2:3:4:5:6 with vectors nohead linewidth 1.5 linecolor rgb '#909090' notitle, \")
-         call sheet%text%line('      $travel'//str(wheel)//lines//colours(1)//' notitle, \')
-         call sheet%text%line('      $steer'//str(wheel)//lines//colours(2)//' notitle')
-      end do
-      text = end_panels(sheet)
-   end function envelope_script
+   end function envelope_figure
 
-   !> Sets the ranges of the axes to a cube, so that gnuplot scales all three axes alike and draws the cube within its panel.
-   subroutine set_cube(low, high, sheet)
+   !> The lines of a surface of the wheel centre on which one direction of the grid is constant.
+   function surface_lines(centre, constant) result(values)
+      real(wp), intent(in) :: centre(:, :, :)        !! (travel, steering, axis) [mm]
+      integer, intent(in) :: constant                !! 1: travel, 2: steering
+      real(wp), allocatable :: values(:, :)
+      integer :: levels(2), i, j, rows
+
+      levels = [size(centre, 1), size(centre, 2)]
+      allocate (values(3, levels(constant)*(levels(3 - constant) + 1)))
+      rows = 0
+      do i = 1, levels(constant)
+         if (.not. is_drawn(i, levels(constant))) cycle
+         do j = 1, levels(3 - constant)
+            rows = rows + 1
+            if (constant == 1) values(:, rows) = centre(i, j, :)
+            if (constant == 2) values(:, rows) = centre(j, i, :)
+         end do
+         rows = rows + 1
+         values(:, rows) = ieee_value(1.0_wp, ieee_quiet_nan)
+      end do
+      values = values(:, :rows)
+   end function surface_lines
+
+   !> The strokes of the spin axis where the lines of a surface meet.
+   function strokes(centre, spin) result(values)
+      real(wp), intent(in) :: centre(:, :, :), spin(:, :, :)        !! (travel, steering, axis) [mm]
+      real(wp), allocatable :: values(:, :)
+      integer :: i, j, rows
+
+      allocate (values(6, size(centre, 1)*size(centre, 2)))
+      rows = 0
+      do j = 1, size(centre, 2)
+         do i = 1, size(centre, 1)
+            if (.not. (is_drawn(i, size(centre, 1)) .and. is_drawn(j, size(centre, 2)))) cycle
+            if (.not. all(ieee_is_finite(spin(i, j, :)))) cycle
+            rows = rows + 1
+            values(:, rows) = [centre(i, j, :), spin(i, j, :)]
+         end do
+      end do
+      values = values(:, :rows)
+   end function strokes
+
+   !> Sets the ranges of the axes to a cube, so that all three axes have one scale.
+   subroutine set_cube(low, high, panel)
       real(wp), intent(in) :: low(3), high(3)        !! mm
-      type(sheet_t), intent(inout) :: sheet
-      character(1), parameter :: names(3) = ['x', 'y', 'z']
+      type(panel_t), intent(inout) :: panel
       real(wp) :: middle, half
-      integer :: axis
 
       half = 0.53_wp*max(maxval(high - low), 1.0_wp)
-      do axis = 1, 3
-         middle = anint((low(axis) + high(axis))/2)
-         call sheet%text%line('set '//names(axis)//'range ['//str(middle - half, 6)//' : '//str(middle + half, 6)//']; set '// &
-            names(axis)//'tics '//tic_step([-half, half]))
-         if (axis == 3) call sheet%text%line('set xyplane at '//str(middle - half, 6))
-      end do
+      middle = anint((low(1) + high(1))/2)
+      panel%x = cube_axis(panel%x%label)
+      middle = anint((low(2) + high(2))/2)
+      panel%y = cube_axis(panel%y%label)
+      middle = anint((low(3) + high(3))/2)
+      panel%z = cube_axis('')
+
+   contains
+
+      type(axis_t) function cube_axis(label) result(axis)
+         character(*), intent(in) :: label
+
+         axis%label = label
+         axis%has_range = .true.
+         axis%range = middle + [-half, half]
+         axis%tics = tic_step([-half, half])
+         axis%has_grid = .false.
+         axis%has_zero = .false.
+      end function cube_axis
+
    end subroutine set_cube
 
    !> The envelope as CSV: travel, value of the driver, side, wheel centre and spin axis, in the frame of the deck. There is one row

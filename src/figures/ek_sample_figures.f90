@@ -3,17 +3,16 @@ module ek_sample_figures
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
    use ek_text, only: str
-   use ek_gnuplot_text, only: gnuplot_text
    use ek_study_data, only: study_data_t, summary_t, range_of_values, is_geometric, tic_step, has_expected, looks_flat
-   use ek_study_sheet, only: sheet_t, new_sheet, begin_data, add_numbers, end_data, begin_panels, begin_panel, end_panels, &
-      full_height, blues
+   use ek_figure, only: figure_t, panel_t, new_figure, add_series, add_word, columns_of, as_line, as_band, as_boxes, as_segments
+   use ek_gnuplot, only: on_derivative, on_label, on_median, on_narrow_band, on_wide_band, on_limit
    implicit none(type, external)
    private
-   public :: fan_script, histogram_script, convergence_script
-   public :: thinned, cut, add_scale
+   public :: fan_figure, histogram_figure, convergence_figure
+   public :: thinned, cut, colour_by
 
-   character(*), parameter :: nl = new_line('a')
-   real(wp), parameter :: room_above = 1.08_wp       !! upper edge of a histogram per height of its highest bar
+   real(wp), parameter :: room_above = 1.16_wp       !! upper edge of a histogram per height of its highest bar
+   real(wp), parameter :: mark_height = 1.06_wp      !! upper end of a mark in a histogram
 
 contains
 
@@ -36,88 +35,61 @@ contains
       if (drawn < of) words = '; '//str(drawn)//' of '//str(of)//' '//what
    end function cut
 
-   !> Adds the scale of the colours, above the panels at the right.
-   subroutine add_scale(sheet, label, values)
-      type(sheet_t), intent(inout) :: sheet
-      character(*), intent(in) :: label
+   !> Sets the scale of the colours of a panel by value.
+   pure subroutine colour_by(panel, values)
+      type(panel_t), intent(inout) :: panel
       real(wp), intent(in) :: values(:)              !! values that are coloured
 
-      if (.not. is_geometric(pack(values, ieee_is_finite(values)))) call sheet%text%line('set cbtics '//tic_step(values))
-      call sheet%text%line('set colorbox horizontal user origin screen 0.74, screen '//above(sheet, 42)//' size screen 0.22, '// &
-         'screen '//str(14.0_wp/full_height(sheet), 4)//" noborder; set cbtics nomirror scale 0.4 font ',12'")
-      call sheet%text%line('set label 9 '//gnuplot_text(label)//' at screen 0.74, screen '//above(sheet, 14)// &
-         " left font ',13' textcolor rgb '#404040'")
-   end subroutine add_scale
+      panel%value%has_range = .true.
+      panel%value%range = range_of_values(values)
+      if (looks_flat(panel%value%range)) panel%value%range(2) = panel%value%range(1) + max(1.0e-6_wp, abs(panel%value%range(1)))
+      panel%value%is_log = is_geometric(pack(values, ieee_is_finite(values)))
+      if (.not. panel%value%is_log) panel%value%tics = tic_step(values)
+   end subroutine colour_by
 
-   !> The screen coordinate of a point `pixels` below the upper edge, as a gnuplot string.
-   pure function above(sheet, pixels) result(text)
-      type(sheet_t), intent(in) :: sheet
-      integer, intent(in) :: pixels
-      character(:), allocatable :: text
-      text = str(1.0_wp - real(pixels, wp)/full_height(sheet), 5)
-   end function above
-
-   !> The script of a fan figure: the median, and the bands that contain 50 % and 90 % of the curves. If derivatives give a 90
-   !> % band, its ends are dashed lines.
-   function fan_script(study, name, subtitle, panels) result(text)
+   !> A fan figure: the median, and the bands that contain 50 % and 90 % of the curves. If derivatives give a 90 % band, its ends
+   !> are dashed lines.
+   function fan_figure(study, name, subtitle, panels) result(figure)
       type(study_data_t), intent(in) :: study
       integer, intent(in) :: panels(:)               !! indices of the columns
       character(*), intent(in) :: name, subtitle
-      character(:), allocatable :: text
-      type(sheet_t) :: sheet
-      character(:), allocatable :: data, which
-      real(wp) :: base
-      integer :: p, c, j
+      type(figure_t) :: figure
+      character(:), allocatable :: which
+      real(wp), dimension(size(study%sweep)) :: base
+      logical, dimension(size(study%sweep)) :: is_there
+      integer :: p, c, k
 
       which = 'the'
       if (2*size(study%drawn) <= study%designs) which = str(size(study%drawn))//' of the'
-      sheet = new_sheet(name, 'The band of the curves', subtitle// &
+      figure = new_figure(name, 'The band of the curves', subtitle// &
          '; line: median, dark: 25 to 75 %, light: 5 to 95 % of '//which//' designs'// &
          trim(merge('; dashed: 5, 95 % by derivatives', '                                ', has_expected(study))), size(panels))
       do p = 1, size(panels)
          c = panels(p)
-         call begin_data(sheet, 'band'//str(c))
-         do j = 1, size(study%sweep)
-            if (.not. ieee_is_finite(study%bands(1, c, j))) cycle
-            base = merge(study%bands(3, c, j), 0.0_wp, is_narrow(study, c))
-            call add_numbers(sheet, [study%sweep(j), study%bands(:, c, j) - base])
-         end do
-         call end_data(sheet)
-         if (.not. has_expected(study)) cycle
-         call begin_data(sheet, 'expected'//str(c))
-         do j = 1, size(study%sweep)
-            if (.not. ieee_is_finite(study%bands(1, c, j)) .or. .not. ieee_is_finite(study%expected(2, c, j))) cycle
-            base = merge(study%bands(3, c, j), 0.0_wp, is_narrow(study, c))
-            call add_numbers(sheet, [study%sweep(j), study%expected(4:5, c, j) - base])
-         end do
-         call end_data(sheet)
+         is_there = ieee_is_finite(study%bands(1, c, :))
+         base = 0.0_wp
+         associate (panel => figure%panels(p), band => study%bands(:, c, :), sweep => study%sweep)
+            panel%x%label = study%swept
+            panel%y%label = study%columns(c)%label
+            if (is_narrow(study, c)) then
+               panel%title = 'deviation from the median'
+               base = band(3, :)
+            end if
+            call add_series(panel, as_band, on_wide_band, columns_of(pack(sweep, is_there), pack(band(1, :) - base, is_there), &
+               pack(band(5, :) - base, is_there)))
+            call add_series(panel, as_band, on_narrow_band, columns_of(pack(sweep, is_there), pack(band(2, :) - base, is_there), &
+               pack(band(4, :) - base, is_there)))
+            call add_series(panel, as_line, on_median, columns_of(pack(sweep, is_there), pack(band(3, :) - base, is_there)), &
+               weight=2.4_wp)
+            if (.not. has_expected(study)) cycle
+            is_there = is_there .and. ieee_is_finite(study%expected(2, c, :))
+            do k = 4, 5
+               call add_series(panel, as_line, on_derivative, columns_of(pack(sweep, is_there), &
+                  pack(study%expected(k, c, :) - base, is_there)), weight=1.8_wp, is_dashed=.true.)
+            end do
+         end associate
       end do
-      call begin_panels(sheet)
-      do p = 1, size(panels)
-         c = panels(p)
-         call begin_panel(sheet, p, trim(merge('deviation from the median', '                         ', is_narrow(study, c))), &
-            study%swept, study%columns(c)%label)
-         data = '$band'//str(c)
-         call sheet%text%line('plot '//data//" using 1:2:6 with filledcurves fillcolor rgb '#CCE3F0' notitle, \"//nl// &
-            '     '//data//" using 1:3:5 with filledcurves fillcolor rgb '#80BAD8' notitle, \"//nl// &
-            '     '//data//" using 1:4 with lines linewidth 2.4 linecolor rgb '#00486F' notitle"//lines_of(c))
-      end do
-      text = end_panels(sheet)
-
-   contains
-
-      !> The plot commands of both ends of the band computed from derivatives; '' if there is no such band.
-      function lines_of(c) result(more)
-         integer, intent(in) :: c
-         character(:), allocatable :: more
-         character(*), parameter :: dashed = " with lines linewidth 1.8 dashtype (6, 5) linecolor rgb '#D55E00' notitle"
-
-         more = ''
-         if (has_expected(study)) more = ', \'//nl//'     $expected'//str(c)//' using 1:2'//dashed//', \'//nl// &
-            '     $expected'//str(c)//' using 1:3'//dashed
-      end function lines_of
-
-   end function fan_script
+   end function fan_figure
 
    !> Whether the band of a column is too narrow to be distinguished from the median: everywhere less than 5 % of the range of
    !> the median. The deviation from the median is then drawn.
@@ -131,69 +103,74 @@ contains
       is_narrow = width(2) < 0.05_wp*(range(2) - range(1))
    end function is_narrow
 
-   !> Script of a histogram of each response with its percentiles and limits.
-   function histogram_script(study, name, subtitle, panels) result(text)
+   !> A histogram of each response with its percentiles and limits.
+   function histogram_figure(study, name, subtitle, panels) result(figure)
       type(study_data_t), intent(in) :: study
       integer, intent(in) :: panels(:)               !! indices of the responses
       character(*), intent(in) :: name, subtitle
-      character(:), allocatable :: text
-      type(sheet_t) :: sheet
-      character(:), allocatable :: line
-      real(wp) :: width, room, ends(2)
+      type(figure_t) :: figure
+      character(4), parameter :: words(3) = [character(4) :: '5 %', '50 %', '95 %']
+      real(wp) :: room, ends(2), top
       integer :: p, r, k
 
-      sheet = new_sheet(name, 'Distribution of the responses', subtitle// &
+      figure = new_figure(name, 'Distribution of the responses', subtitle// &
          '; lines: 5, 50 and 95 %, dashed: limits'// &
          trim(merge('; orange: by derivatives', '                        ', allocated(study%moments))), size(panels))
       do p = 1, size(panels)
          r = panels(p)
-         if (maxval([0, study%summaries(r)%counts]) >= 10000) sheet%left = 130
-         associate (summary => study%summaries(r))
-            call begin_data(sheet, 'bins'//str(r))
-            if (summary%used == 0) call add_numbers(sheet, [0.0_wp, 0.0_wp, 1.0_wp])
-            width = (summary%highest - summary%lowest)/size(summary%counts)
-            if (.not. has_scatter(summary)) width = 0.0_wp
-            if (summary%used > 0 .and. .not. width > 0.0_wp) call add_numbers(sheet, [summary%lowest, real(summary%used, wp), &
-               0.02_wp*room_of_constant(summary%lowest)])
-            do k = 1, merge(size(summary%counts), 0, summary%used > 0 .and. width > 0.0_wp)
-               call add_numbers(sheet, [summary%lowest + (k - 0.5_wp)*width, real(summary%counts(k), wp), 0.94_wp*width])
-            end do
-            call end_data(sheet)
-         end associate
-      end do
-      call begin_panels(sheet)
-      call sheet%text%line('set style fill solid 1 noborder; unset yzeroaxis')
-      do p = 1, size(panels)
-         r = panels(p)
-         associate (summary => study%summaries(r), response => study%responses(r))
-            call begin_panel(sheet, p, '', response%label, 'designs')
-            call sheet%text%line('unset arrow; unset label 3; unset label 4; unset label 5')
+         if (maxval([0, study%summaries(r)%counts]) >= 10000) figure%left = 130
+         associate (summary => study%summaries(r), response => study%responses(r), panel => figure%panels(p))
+            panel%x%label = response%label
+            panel%y%label = 'designs'
+            panel%x%has_zero = .false.
+            top = highest(study, r)
+            call add_bars(panel, summary)
             do k = merge(1, 2, has_scatter(summary)), merge(3, 2, has_scatter(summary))
-               call add_mark(sheet, k, summary%percentiles(2*k - 1), '')
-               line = merge(' 5 %', '50 %', k == 1)
-               if (k == 3) line = '95 %'
-               call sheet%text%line('set label '//str(k + 2)//' '//gnuplot_text(trim(adjustl(line)))//' at first '// &
-                  str(summary%percentiles(2*k - 1), 7)//", graph 1.035 center font ',12' textcolor rgb '#404040'")
+               call add_mark(panel, summary%percentiles(2*k - 1), mark_height*top, .false.)
+               call add_word(panel, trim(words(k)), summary%percentiles(2*k - 1), (mark_height + 0.045_wp)*top, on_label, &
+                  is_small=.true.)
             end do
             if (response%lower > summary%lowest - (summary%highest - summary%lowest)) &
-               call add_mark(sheet, 4, response%lower, ' dashtype (8, 6)')
+               call add_mark(panel, response%lower, mark_height*top, .true.)
             if (response%upper < summary%highest + (summary%highest - summary%lowest)) &
-               call add_mark(sheet, 5, response%upper, ' dashtype (8, 6)')
+               call add_mark(panel, response%upper, mark_height*top, .true.)
             ! room for the limits, unless they are far away
             ends = [summary%lowest, summary%highest]
             room = ends(2) - ends(1)
             if (.not. has_scatter(summary)) room = room_of_constant(ends(1))
             if (response%lower < ends(1) .and. response%lower > ends(1) - room) ends(1) = response%lower
             if (response%upper > ends(2) .and. response%upper < ends(2) + room) ends(2) = response%upper
-            call sheet%text%line('set xrange ['//str(ends(1) - 0.06_wp*room, 9)//':'//str(ends(2) + 0.06_wp*room, 9)// &
-               ']; set xtics '//tic_step(ends)//nl//'set yrange [0:'//str(room_above*highest(study, r), 7)//']')
-            call sheet%text%line('plot $bins'//str(r)//" using 1:2:3 with boxes linecolor rgb '#80BAD8' notitle"// &
-               density_of(study, r))
+            panel%x%tics = tic_step(ends)
+            panel%x%has_range = .true.
+            panel%x%range = ends + [-0.06_wp, 0.06_wp]*room
+            panel%y%has_range = .true.
+            panel%y%range = [0.0_wp, room_above*top]
+            if (has_density(study, r)) call add_density(study, r, panel)
          end associate
       end do
-      call sheet%text%line('unset arrow; set yrange [*:*]; set xrange [*:*]; set xtics autofreq')
-      text = end_panels(sheet)
-   end function histogram_script
+   end function histogram_figure
+
+   !> Adds the bars of a histogram; of a constant response, one bar.
+   pure subroutine add_bars(panel, summary)
+      type(panel_t), intent(inout) :: panel
+      type(summary_t), intent(in) :: summary
+      real(wp), allocatable :: bars(:, :)
+      real(wp) :: width, middle
+      integer :: k
+
+      width = (summary%highest - summary%lowest)/size(summary%counts)
+      if (summary%used > 0 .and. has_scatter(summary) .and. width > 0.0_wp) then
+         allocate (bars(4, size(summary%counts)))
+         do k = 1, size(summary%counts)
+            middle = summary%lowest + (k - 0.5_wp)*width
+            bars(:, k) = [middle - 0.47_wp*width, middle + 0.47_wp*width, 0.0_wp, real(summary%counts(k), wp)]
+         end do
+      else
+         width = 0.01_wp*room_of_constant(summary%lowest)
+         bars = reshape([summary%lowest - width, summary%lowest + width, 0.0_wp, real(summary%used, wp)], [4, 1])
+      end if
+      call add_series(panel, as_boxes, on_narrow_band, bars)
+   end subroutine add_bars
 
    !> Whether a histogram can show the scatter of a response.
    pure logical function has_scatter(summary)
@@ -241,22 +218,22 @@ contains
       end associate
    end function density_height
 
-   !> The plot command of the density that is computed from derivatives and drawn over the histogram (normal with skewness,
-   !> Edgeworth). '' if there is no such density.
-   function density_of(study, r) result(more)
+   !> Adds the density that is computed from derivatives over the histogram (normal with skewness, Edgeworth).
+   subroutine add_density(study, r, panel)
       type(study_data_t), intent(in) :: study
       integer, intent(in) :: r                       !! index of the response
-      character(:), allocatable :: more
-      character(:), allocatable :: z
+      type(panel_t), intent(inout) :: panel
+      integer, parameter :: points = 161
+      real(wp) :: x(points), z(points)
+      integer :: k
 
-      more = ''
-      if (.not. has_density(study, r)) return
-      associate (row => study%moments(2, r))
-         z = '((x - ('//str(row%mean, 9)//'))/'//str(row%deviation, 9)//')'
-         more = ', \'//nl//'     '//str(density_height(study, r), 7)//'*exp(-0.5*'//z//'**2)*(1 + ('// &
-            str(row%skewness/6.0_wp, 7)//')*('//z//'**3 - 3*'//z//")) with lines linewidth 2 linecolor rgb '#D55E00' notitle"
+      associate (row => study%moments(2, r), ends => panel%x%range)
+         x = [(ends(1) + (k - 1)*(ends(2) - ends(1))/(points - 1), k=1, points)]
+         z = (x - row%mean)/row%deviation
+         call add_series(panel, as_line, on_derivative, columns_of(x, density_height(study, r)*exp(-0.5_wp*z**2)* &
+            (1.0_wp + row%skewness/6.0_wp*(z**3 - 3.0_wp*z))), weight=2.0_wp)
       end associate
-   end function density_of
+   end subroutine add_density
 
    !> The width that replaces the scatter of a constant response on an axis: |value|, or 1 if the value is 0.
    pure real(wp) function room_of_constant(value)
@@ -264,53 +241,42 @@ contains
       room_of_constant = merge(abs(value), 1.0_wp, abs(value) > 1.0e-9_wp)
    end function room_of_constant
 
-   !> Adds a vertical line across a panel: dark, or red if it is dashed.
-   subroutine add_mark(sheet, number, x, dash)
-      type(sheet_t), intent(inout) :: sheet
-      integer, intent(in) :: number
-      real(wp), intent(in) :: x
-      character(*), intent(in) :: dash
+   !> Adds a vertical line from 0: dark, or dashed in the colour of a limit.
+   pure subroutine add_mark(panel, x, height, is_limit)
+      type(panel_t), intent(inout) :: panel
+      real(wp), intent(in) :: x, height
+      logical, intent(in) :: is_limit
 
-      call sheet%text%line('set arrow '//str(number)//' from first '//str(x, 7)//', graph 0 to first '//str(x, 7)// &
-         ", graph 1 nohead front linewidth 1.6 linecolor rgb '"//merge('#B02020', '#404040', len(dash) > 0)//"'"//dash)
+      call add_series(panel, as_segments, merge(on_limit, on_label, is_limit), reshape([x, 0.0_wp, 0.0_wp, height], [4, 1]), &
+         weight=1.6_wp, is_dashed=is_limit)
    end subroutine add_mark
 
-   !> Script of the mean of the first n designs with its 95 % interval, over n.
-   function convergence_script(study, name, subtitle, panels) result(text)
+   !> The mean of the first n designs with its 95 % interval, over n.
+   function convergence_figure(study, name, subtitle, panels) result(figure)
       type(study_data_t), intent(in) :: study
       integer, intent(in) :: panels(:)               !! indices of the responses
       character(*), intent(in) :: name, subtitle
-      character(:), allocatable :: text
-      type(sheet_t) :: sheet
-      character(:), allocatable :: data
-      integer :: p, r, k
+      type(figure_t) :: figure
+      real(wp), allocatable :: steps(:)
+      integer :: p
 
-      sheet = new_sheet(name, 'Convergence of the mean', subtitle// &
+      figure = new_figure(name, 'Convergence of the mean', subtitle// &
          '; band: 95 % confidence if the designs were drawn at random', size(panels))
-      sheet%right = 48
+      figure%right = 48
       do p = 1, size(panels)
-         r = panels(p)
-         associate (summary => study%summaries(r))
-            call begin_data(sheet, 'mean'//str(r))
-            if (size(summary%steps) == 0) call add_numbers(sheet, [1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp])
-            do k = 1, size(summary%steps)
-               call add_numbers(sheet, [real(summary%steps(k), wp), summary%running(k), summary%running(k) - summary%half(k), &
-                  summary%running(k) + summary%half(k)])
-            end do
-            call end_data(sheet)
+         associate (summary => study%summaries(panels(p)), panel => figure%panels(p))
+            panel%x%label = 'number of designs'
+            panel%y%label = 'mean of '//study%responses(panels(p))%label
+            panel%x%is_log = .true.
+            panel%x%has_zero = .false.
+            panel%y%has_zero = .false.
+            panel%note = 'no design has a value'
+            steps = real(summary%steps, wp)
+            call add_series(panel, as_band, on_wide_band, columns_of(steps, summary%running - summary%half, &
+               summary%running + summary%half))
+            call add_series(panel, as_line, on_median, columns_of(steps, summary%running), weight=2.2_wp)
          end associate
       end do
-      call begin_panels(sheet)
-      call sheet%text%line('set logscale x; unset xzeroaxis; unset yzeroaxis')
-      do p = 1, size(panels)
-         r = panels(p)
-         data = '$mean'//str(r)
-         call begin_panel(sheet, p, '', 'number of designs', 'mean of '//study%responses(r)%label)
-         call sheet%text%line('plot '//data//" using 1:3:4 with filledcurves fillcolor rgb '#CCE3F0' notitle, \"//nl// &
-            '     '//data//" using 1:2 with lines linewidth 2.2 linecolor rgb '#00486F' notitle")
-      end do
-      call sheet%text%line('unset logscale')
-      text = end_panels(sheet)
-   end function convergence_script
+   end function convergence_figure
 
 end module ek_sample_figures

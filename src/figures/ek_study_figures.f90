@@ -1,29 +1,27 @@
 !> The figures of a study. One table, `rules`, gives the conditions for drawing each figure: the kind of study, columns,
-!> responses, and the numbers of factors and designs. A new figure needs a row in `rules`, a case in `script_of`, and a
+!> responses, and the numbers of factors and designs. A new figure needs a row in `rules`, a case in `figure_of`, and a
 !> procedure in ek_sample_figures, ek_effect_figures or a separate file.
 !>
 !> Drawn here: the curves of the designs, where each panel is coloured by the factor with the largest effect on its
 !> curves, and parallel coordinates, one line per design across factors and responses.
 module ek_study_figures
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
    use ek_text, only: plural, str
    use ek_study_data, only: study_data_t, has_indices, is_geometric, range_of_values
-   use ek_sample_figures, only: fan_script, histogram_script, convergence_script, thinned, add_scale, cut
-   use ek_scatter_figure, only: pairs_script, matrix_script, most_columns, leading_factors
+   use ek_sample_figures, only: fan_figure, histogram_figure, convergence_figure, thinned, colour_by, cut
+   use ek_scatter_figure, only: pairs_figure, matrix_figure, most_columns, leading_factors
    use ek_study_panels, only: sheets_of, response_panels, column_panels, panels_text
-   use ek_effect_figures, only: map_script, line_script, tornado_script, sobol_script, morris_script
-   use ek_carpet_figure, only: carpet_script, study_carpet
+   use ek_effect_figures, only: map_figure, line_figure, tornado_figure, sobol_figure, morris_figure
+   use ek_carpet_figure, only: carpet_figure, study_carpet
    use ek_kinds, only: wp
-   use ek_study_sheet, only: sheet_t, new_sheet, begin_data, add_numbers, end_data, begin_panels, begin_panel, end_panels, blues, &
-      two_lines
-   use ek_gnuplot_text, only: gnuplot_text
+   use ek_figure, only: figure_t, new_figure, add_series, add_word, fold_at, as_line, as_segments
+   use ek_gnuplot, only: on_level, on_label, on_result, on_soft, on_title
    implicit none(type, external)
    private
-   public :: figure_rule_t, rules, applies, script_of, figure_name, sheets, others, family_script, curve_leader, parallel_script
+   public :: figure_rule_t, rules, applies, figure_of, figure_name, sheets, others, family_figure, curve_leader, parallel_figure
 
    integer, parameter :: most_curves = 300           !! largest number of designs with curves in the figure
 
-   character(*), parameter :: nl = new_line('a')
    integer, parameter :: most_lines = 300            !! largest number of lines of the figure
 
    !> The conditions for drawing a figure.
@@ -113,12 +111,12 @@ contains
       if (sheet == 2) name = name//'_more'
    end function figure_name
 
-   !> The gnuplot script of one sheet of a figure that applies.
-   function script_of(rule, study, sheet) result(text)
+   !> One sheet of a figure that applies.
+   function figure_of(rule, study, sheet) result(figure)
       type(figure_rule_t), intent(in) :: rule
       type(study_data_t), intent(in) :: study
       integer, intent(in) :: sheet
-      character(:), allocatable :: text
+      type(figure_t) :: figure
       character(:), allocatable :: name, subtitle
       integer, allocatable :: panels(:)
 
@@ -130,105 +128,100 @@ contains
       if (rule%panels == 'columns') panels = column_panels(study, sheet)
       select case (rule%name)
       case ('tornado')
-         text = tornado_script(study, name, subtitle, panels)
+         figure = tornado_figure(study, name, subtitle, panels)
       case ('sobol')
-         text = sobol_script(study, name, subtitle, panels)
+         figure = sobol_figure(study, name, subtitle, panels)
       case ('morris')
-         text = morris_script(study, name, subtitle, panels)
+         figure = morris_figure(study, name, subtitle, panels)
       case ('line')
-         text = line_script(study, name, subtitle, panels)
+         figure = line_figure(study, name, subtitle, panels)
       case ('map')
-         text = map_script(study, name, subtitle, panels)
+         figure = map_figure(study, name, subtitle, panels)
       case ('carpet')
-         text = carpet_script(study_carpet(study, panels), name, 'Carpet over two factors', subtitle)
+         figure = carpet_figure(study_carpet(study, panels), name, 'Carpet over two factors', subtitle)
       case ('fan')
-         text = fan_script(study, name, subtitle, panels)
+         figure = fan_figure(study, name, subtitle, panels)
       case ('family')
-         text = family_script(study, name, subtitle, panels)
+         figure = family_figure(study, name, subtitle, panels)
       case ('histogram')
-         text = histogram_script(study, name, subtitle, panels)
+         figure = histogram_figure(study, name, subtitle, panels)
       case ('scatter')
-         if (sheet == 1) text = pairs_script(study, name, subtitle)
-         if (sheet == 2) text = matrix_script(study, name, subtitle)
+         if (sheet == 1) figure = pairs_figure(study, name, subtitle)
+         if (sheet == 2) figure = matrix_figure(study, name, subtitle)
       case ('parallel')
-         text = parallel_script(study, name, subtitle)
+         figure = parallel_figure(study, name, subtitle)
       case ('convergence')
-         text = convergence_script(study, name, subtitle, panels)
-      case default
-         text = ''
+         figure = convergence_figure(study, name, subtitle, panels)
       end select
-   end function script_of
+   end function figure_of
 
-   !> The gnuplot script of the curves, with one panel per column. Of more than 300 designs, only some are drawn.
-   function family_script(study, name, subtitle, panels) result(text)
+   !> The curves, with one panel per column. Of more than 300 designs, only some are drawn.
+   function family_figure(study, name, subtitle, panels) result(figure)
       type(study_data_t), intent(in) :: study
       integer, intent(in) :: panels(:)               !! indices of the columns
       character(*), intent(in) :: name, subtitle
-      character(:), allocatable :: text
-      type(sheet_t) :: sheet
+      type(figure_t) :: figure
       integer, allocatable :: leaders(:)
       logical :: is_common
       integer :: c, every
 
       every = (size(study%drawn) + most_curves - 1)/most_curves
-      sheet = new_sheet(name, 'The curves of all designs', '', size(panels))
-      if (size(study%drawn)*every < study%designs .or. every > 1) sheet%title = 'The curves of some designs'
-      allocate (leaders(sheet%panels))
-      do c = 1, sheet%panels
+      figure = new_figure(name, 'The curves of all designs', '', size(panels))
+      if (size(study%drawn)*every < study%designs .or. every > 1) figure%title = 'The curves of some designs'
+      allocate (leaders(size(panels)))
+      do c = 1, size(panels)
          leaders(c) = curve_leader(study, panels(c))
       end do
       is_common = all(leaders == leaders(1))
-      sheet%has_scale = is_common
-      sheet%subtitle = subtitle// &
+      if (is_common) figure%scale_label = study%factors(leaders(1))%label
+      figure%subtitle = subtitle// &
          thinned(every*max(1, study%designs/max(1, size(study%drawn))), study%designs)
-      if (.not. is_common) sheet%subtitle = sheet%subtitle//'; colour: from dark to light the factor above each panel'
-      call add_curves(sheet, study, panels, leaders, every)
-      call begin_panels(sheet)
-      call sheet%text%line(blues)
-      if (is_common) call add_scale(sheet, study%factors(leaders(1))%label, study%x(leaders(1), :))
-      do c = 1, sheet%panels
-         call begin_panel(sheet, c, trim(above(c)), study%swept, study%columns(panels(c))%label)
-         if (c == 2 .or. .not. is_common) call sheet%text%line('unset colorbox')
-         call sheet%text%line('unset logscale cb')
-         if (is_geometric(study%x(leaders(c), :))) call sheet%text%line('set logscale cb')
-         call sheet%text%line('plot $curves using 1:'//str(1 + sheet%panels + c)//':'//str(1 + c)// &
-            ' with lines linewidth 1 linecolor palette notitle')
+      if (.not. is_common) figure%subtitle = figure%subtitle//'; colour: from dark to light the factor above each panel'
+      do c = 1, size(panels)
+         associate (panel => figure%panels(c))
+            if (.not. is_common) panel%title = range_words(leaders(c))
+            panel%x%label = study%swept
+            panel%y%label = study%columns(panels(c))%label
+            call colour_by(panel, study%x(leaders(c), :))
+            call add_series(panel, as_line, on_level, curves_of(study, panels(c), leaders(c), every), weight=1.0_wp, &
+               is_by_value=.true.)
+         end associate
       end do
-      text = end_panels(sheet)
 
    contains
 
-      !> Title above a panel if the panels have different factors: the factor of the panel and its range. Otherwise ''.
-      function above(panel) result(words)
-         integer, intent(in) :: panel
+      !> A factor and its range.
+      function range_words(factor) result(words)
+         integer, intent(in) :: factor
          character(:), allocatable :: words
          real(wp) :: range(2)
 
-         words = ''
-         if (is_common) return
-         range = range_of_values(study%x(leaders(panel), :))
-         words = study%factors(leaders(panel))%label//' '//str(range(1), 4)//' … '//str(range(2), 4)
-      end function above
+         range = range_of_values(study%x(factor, :))
+         words = study%factors(factor)%label//' '//str(range(1), 4)//' … '//str(range(2), 4)
+      end function range_words
 
-   end function family_script
+   end function family_figure
 
-   !> Adds the data of every `every`-th design: swept value, the factor of each panel, and the column of each panel.
-   subroutine add_curves(sheet, study, panels, leaders, every)
-      type(sheet_t), intent(inout) :: sheet
+   !> The curves of every `every`-th design: swept value, column and factor, with a gap after each curve.
+   function curves_of(study, column, factor, every) result(values)
       type(study_data_t), intent(in) :: study
-      integer, intent(in) :: panels(:), leaders(:), every
-      integer :: k, j
+      integer, intent(in) :: column, factor, every
+      real(wp), allocatable :: values(:, :)
+      integer :: k, j, rows
 
-      call begin_data(sheet, 'curves')
+      allocate (values(3, size(study%drawn)*(size(study%sweep) + 1)))
+      rows = 0
       do k = 1, size(study%drawn), every
          do j = 1, size(study%sweep)
             if (.not. any(ieee_is_finite(study%curves(:, j, k)))) cycle
-            call add_numbers(sheet, [study%sweep(j), study%x(leaders, study%drawn(k)), study%curves(panels, j, k)])
+            rows = rows + 1
+            values(:, rows) = [study%sweep(j), study%curves(column, j, k), study%x(factor, study%drawn(k))]
          end do
-         call sheet%text%line('')
+         rows = rows + 1
+         values(:, rows) = ieee_value(1.0_wp, ieee_quiet_nan)
       end do
-      call end_data(sheet)
-   end subroutine add_curves
+      values = values(:, :rows)
+   end function curves_of
 
    !> Index of the factor that explains most of the scatter of a column. The measure is the squared correlation of factor and column
    !> over all swept values, weighted with the variance of the column at each swept value.
@@ -265,76 +258,87 @@ contains
       if (xx > 0.0_wp) part = xy**2/xx
    end function explained_variance
 
-   !> The script of the parallel coordinates: one line per design across the leading factors and up to four responses,
-   !> coloured by the first response. Of more than 300 designs, only some are drawn. Designs without a value of a response are
-   !> omitted.
-   function parallel_script(study, name, subtitle) result(text)
+   !> The parallel coordinates: one line per design across the leading factors and up to four responses, coloured by the first
+   !> response. Of more than 300 designs, only some are drawn. Designs without a value of a response are omitted.
+   function parallel_figure(study, name, subtitle) result(figure)
       type(study_data_t), intent(in) :: study
       character(*), intent(in) :: name, subtitle
-      character(:), allocatable :: text
-      type(sheet_t) :: sheet
+      type(figure_t) :: figure
       integer, allocatable :: factors(:)
-      real(wp), allocatable :: values(:, :), low(:), span(:)
-      real(wp) :: range(2)
-      character(:), allocatable :: place
-      integer :: k, d, n, every
+      real(wp), allocatable :: values(:, :), lines(:, :)
+      real(wp) :: range(2), height
+      character(:), allocatable :: label
+      integer :: k, d, n, every, rows, role, at
 
       allocate (factors(min(most_columns, size(study%factors))))
       factors(:) = leading_factors(study, most_columns)
       n = size(factors) + min(size(study%responses), 4)
-      values = reshape([study%x(factors, :)], [size(factors), study%designs])
-      allocate (low(n), span(n))
+      allocate (values(n, study%designs))
+      values(:size(factors), :) = study%x(factors, :study%designs)
+      values(size(factors) + 1:, :) = study%y(:n - size(factors), :study%designs)
       every = max(1, (study%designs + most_lines - 1)/most_lines)
-      sheet = new_sheet(name, 'Factors and responses of each design', subtitle// &
+      figure = new_figure(name, 'Factors and responses of each design', subtitle// &
          '; one line per design'//thinned(every, study%designs)// &
          cut(size(factors), size(study%factors), 'factors')//cut(n - size(factors), size(study%responses), 'responses'), 1, &
          height=600)
-      sheet%has_scale = .true.
-      sheet%right = 95
-      sheet%left = 95
-      sheet%bottom = 24
-      sheet%letters = merge(12, 14, n > 7)
-      do k = 1, n
-         if (k <= size(factors)) range = range_of_values(values(k, :))
-         if (k > size(factors)) range = range_of_values(study%y(k - size(factors), :))
-         low(k) = range(1)
-         span(k) = max(range(2) - range(1), tiny(1.0_wp))
-      end do
-      call begin_data(sheet, 'lines')
-      do d = 1, study%designs, every
-         if (.not. all(ieee_is_finite(study%y(:n - size(factors), d)))) cycle
-         do k = 1, n
-            if (k <= size(factors)) range(1) = values(k, d)
-            if (k > size(factors)) range(1) = study%y(k - size(factors), d)
-            call add_numbers(sheet, [real(k, wp), (range(1) - low(k))/span(k), study%y(1, d)])
+      figure%right = 95
+      figure%left = 95
+      figure%bottom = 24
+      figure%letters = merge(12, 14, n > 7)
+      figure%scale_label = study%responses(1)%label
+      associate (panel => figure%panels(1))
+         panel%frame = 0
+         panel%x%has_tics = .false.
+         panel%y%has_tics = .false.
+         panel%x%has_grid = .false.
+         panel%y%has_grid = .false.
+         panel%x%has_zero = .false.
+         panel%y%has_zero = .false.
+         panel%x%has_range = .true.
+         panel%y%has_range = .true.
+         panel%x%range = [0.8_wp, n + 0.2_wp]
+         panel%y%range = [-0.09_wp, 1.25_wp]
+         panel%note = 'no design has all values'
+         call colour_by(panel, study%y(1, :))
+         panel%value%is_log = .false.
+         allocate (lines(3, (n + 1)*study%designs))
+         rows = 0
+         do d = 1, study%designs, every
+            if (.not. all(ieee_is_finite(study%y(:n - size(factors), d)))) cycle
+            do k = 1, n
+               range = ends_of(k)
+               rows = rows + 1
+               lines(:, rows) = [real(k, wp), (values(k, d) - range(1))/max(range(2) - range(1), tiny(1.0_wp)), study%y(1, d)]
+            end do
+            rows = rows + 1
+            lines(:, rows) = ieee_value(1.0_wp, ieee_quiet_nan)
          end do
-         call sheet%text%line('')
-      end do
-      call end_data(sheet)
-      call begin_panels(sheet)
-      call sheet%text%line(blues//nl//'unset border; unset grid; unset xzeroaxis; unset yzeroaxis; unset ytics; unset xtics')
-      call sheet%text%line('set xrange [0.8:'//str(n + 0.2_wp)//']; set yrange [-0.09:1.25]')
-      call add_scale(sheet, study%responses(1)%label, study%y(1, :))
-      do k = 1, n
-         place = ' at first '//str(k)//', first '
-         call sheet%text%line('set arrow '//str(k)//' from first '//str(k)//', first 0 to first '//str(k)// &
-            ", first 1 nohead front linewidth 1.5 linecolor rgb '#404040'")
-         if (k <= size(factors)) then
-            call sheet%text%line('set label '//str(10 + k)//' '//two_lines(study%factors(factors(k))%label, 18)//place// &
-               trim(merge('1.21', '1.12', modulo(k, 2) == 1))//" center textcolor rgb '#202020'")
-         else
-            call sheet%text%line('set label '//str(10 + k)//' '//two_lines(study%responses(k - size(factors))%label, 18)//place// &
-               trim(merge('1.21', '1.12', modulo(k, 2) == 1))//" center textcolor rgb '#A04000'")
-         end if
-         call sheet%text%line('set label '//str(40 + k)//' '//gnuplot_text(str(low(k), 5))//place// &
-            "-0.045 center textcolor rgb '#606060'")
-         call sheet%text%line('set label '//str(70 + k)//' '//gnuplot_text(str(low(k) + span(k), 5))//place// &
-            "1.035 center textcolor rgb '#606060'")
-      end do
-      call begin_panel(sheet, 1, '', '', '')
-      call sheet%text%line("plot $lines using 1:2:3 with lines linewidth 1 linecolor palette notitle")
-      call sheet%text%line('set cbtics autofreq; unset label; unset arrow; set border 3; set xrange [*:*]; set yrange [*:*]')
-      text = end_panels(sheet)
-   end function parallel_script
+         call add_series(panel, as_line, on_level, lines(:, :rows), weight=1.0_wp, is_by_value=.true.)
+         do k = 1, n
+            range = ends_of(k)
+            call add_series(panel, as_segments, on_label, reshape([1.0_wp*k, 0.0_wp, 0.0_wp, 1.0_wp], [4, 1]), weight=1.5_wp)
+            role = merge(on_title, on_result, k <= size(factors))
+            height = merge(1.21_wp, 1.12_wp, modulo(k, 2) == 1)
+            if (k <= size(factors)) label = study%factors(factors(k))%label
+            if (k > size(factors)) label = study%responses(k - size(factors))%label
+            at = fold_at(label, 18)
+            if (at == 0) call add_word(panel, label, real(k, wp), height, role)
+            if (at > 0) call add_word(panel, trim(label(:at)), real(k, wp), height + 0.025_wp, role)
+            if (at > 0) call add_word(panel, label(at + 1:), real(k, wp), height - 0.025_wp, role)
+            call add_word(panel, str(range(1), 5), real(k, wp), -0.045_wp, on_soft)
+            call add_word(panel, str(range(2), 5), real(k, wp), 1.035_wp, on_soft)
+         end do
+      end associate
+
+   contains
+
+      !> The smallest and the largest value of a factor or response.
+      function ends_of(k) result(range)
+         integer, intent(in) :: k
+         real(wp) :: range(2)
+         range = range_of_values(values(k, :))
+      end function ends_of
+
+   end function parallel_figure
 
 end module ek_study_figures

@@ -12,7 +12,6 @@ module ek_page
    use ek_base64, only: base64
    use ek_buffer, only: buffer_t
    use ek_svg, only: embedded_svg, escape_html
-   use ek_chart, only: palette
    use ek_page_assets, only: add_style, add_script, add_live_style, add_live_script, add_turntable_script
    implicit none(type, external)
    private
@@ -213,8 +212,8 @@ contains
       length = nint(100.0_wp*max(-1.0_wp, min(1.0_wp, share)))
       if (page%cells == 0) call page%body%add('<tr>')
       call page%body%add('<td><svg viewBox="0 0 200 10" style="width:200px;height:10px" aria-hidden="true"><rect x="'// &
-         str(100 + min(length, 0))//'" width="'//str(abs(length))//'" height="10" fill="'// &
-         trim(palette(merge(2, 1, length < 0)))//'"/></svg></td>')
+         str(100 + min(length, 0))//'" width="'//str(abs(length))//'" height="10" style="fill:var(--c'// &
+         trim(merge('2', '1', length < 0))//')"/></svg></td>')
       page%cells = modulo(page%cells + 1, page%table_columns)
       if (page%cells == 0) call page%body%line('</tr>')
    end subroutine add_bar
@@ -282,7 +281,7 @@ contains
 
       call page%body%add('<p class="legend">')
       do k = 1, size(names)
-         colour = palette(modulo(k - 1, size(palette)) + 1)
+         colour = 'var(--c'//str(modulo(k - 1, 8) + 1)//')'
          if (has_points) then
             call page%body%add('<span><b style="border-color:'//colour)
             if (k == 1) call page%body%add(';background:'//colour)

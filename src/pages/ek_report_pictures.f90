@@ -15,9 +15,11 @@ module ek_report_pictures
    use ek_scene_script, only: scene_script, animation_script
    use ek_report_content, only: report_t
    use ek_picture, only: add_solid, add_ghost, add_ground
-   use ek_views, only: views_script
+   use ek_figure, only: figure_t
+   use ek_figure_script, only: figure_script
+   use ek_views, only: find_views
    use ek_picture_names, only: add_names, add_axes
-   use ek_grid_figures, only: grid_carpet, carpet_name, envelope_name, envelope_script
+   use ek_grid_figures, only: grid_carpet, carpet_name, envelope_name, envelope_figure
    implicit none(type, external)
    private
    public :: draw_pictures
@@ -39,7 +41,7 @@ contains
       character(4), parameter :: endings(2) = ['.svg', '.png']
       type(message_list_t) :: scripts, pictures
       type(camera_t) :: camera
-      character(:), allocatable :: views
+      type(figure_t), allocatable :: views
       integer :: k, e
 
       message = ''
@@ -68,18 +70,19 @@ contains
       call pictures_of(report%charts, pictures)
       do k = 1, size(report%tests)
          if (.not. allocated(report%tests(k)%grid)) cycle
-         call add_sheet(report%folder, carpet_name(report%tests(k)), grid_carpet(report%tests(k), suspension%name), scripts, &
+         call add_sheet(report%folder, carpet_name(report%tests(k)), &
+            figure_script(grid_carpet(report%tests(k), suspension%name)), scripts, &
             pictures, error)
          if (.not. allocated(error)) call add_sheet(report%folder, envelope_name(report%tests(k)), &
-            envelope_script(report%tests(k), suspension), scripts, pictures, error)
+            figure_script(envelope_figure(report%tests(k), suspension)), scripts, pictures, error)
          if (allocated(error)) return
       end do
       call pictures%add('../picture.svg')
       call pictures%add('../picture.png')
-      views = views_script(suspension, 'views')
-      report%has_views = len(views) > 0
+      call find_views(suspension, 'views', views)
+      report%has_views = allocated(views)
       if (report%has_views) then
-         call add_sheet(report%folder, 'views', views, scripts, pictures, error)
+         call add_sheet(report%folder, 'views', figure_script(views), scripts, pictures, error)
          if (allocated(error)) return
       end if
       if (wants_animation) then

@@ -8,14 +8,12 @@ module ek_step_page
    use ek_decimal, only: get_decimal
    use ek_file, only: join_path, file_exists, read_whole
    use ek_text_table, only: text_table_t, cell_of
-   use ek_chart, only: palette
-   use ek_study_sheet, only: sheet_t, new_sheet, begin_data, add_numbers, end_data, begin_panels, begin_panel, end_panels, &
-      full_height
+   use ek_figure, only: figure_t, new_figure, add_series, columns_of, as_both
    use ek_page, only: page_t, begin_page, begin_section, add_text, add_warnings, add_facts, begin_table, add_cell, add_group, &
       end_table, add_picture, page_text, page_number
    implicit none(type, external)
    private
-   public :: step_page, step_script, figure_ending
+   public :: step_page, step_figure, figure_ending
 
    character(*), parameter :: figure_ending = '_steps'     !! appended to the name of the study
 
@@ -104,19 +102,18 @@ contains
       call add_picture(page, svg, 'Errors over the number of increments', 'figures/'//name//figure_ending//'.gp draws this figure.')
    end subroutine add_figure
 
-   !> The script of the figure: magnitudes of the errors over the number of increments, both on logarithmic axes. An error that is
-   !> nowhere drawn has no panel. If there is no panel, the script is ''.
-   function step_script(name, table) result(text)
+   !> Finds the figure: magnitudes of the errors over the number of increments, both on logarithmic axes. An error that is nowhere
+   !> drawn has no panel. If there is no panel, the figure is not allocated.
+   subroutine step_figure(name, table, figure)
       character(*), intent(in) :: name                        !! name of the study
       type(text_table_t), intent(in) :: table
-      character(:), allocatable :: text, subtitle, line
-      type(sheet_t) :: sheet
+      type(figure_t), allocatable, intent(out) :: figure
       character(16) :: methods(table%rows)
       character(15) :: why_undrawn
-      integer, allocatable :: panels(:)
+      integer, allocatable :: panels(:), rows(:)
       logical :: has_value(table%rows, errors)     ! (method, error): a value that is drawn
       logical :: has_result(table%rows)
-      integer :: used, k, m, e
+      integer :: used, k, p, m, e
 
       used = 0
       do k = 1, table%rows
@@ -134,40 +131,28 @@ contains
          end do
       end do
       panels = pack([(e, e=1, errors)], any(has_value, dim=1))
-      text = ''
       if (size(panels) == 0) return
-      subtitle = name//'; magnitudes; errors below 1e-12 are not drawn'
-      sheet = new_sheet(name//figure_ending, 'Errors over the number of increments', subtitle, size(panels))
-      do m = 1, used
-         call begin_data(sheet, 'method'//str(m))
-         do k = 1, table%rows
-            if (cell_of(table, k, 'method') /= methods(m)) cycle
-            call add_numbers(sheet, [value_of(table, k, 'increments'), (drawn(value_of(table, k, columns(e))), e=1, errors)])
-         end do
-         call end_data(sheet)
+      allocate (figure)
+      figure = new_figure(name//figure_ending, 'Errors over the number of increments', &
+         name//'; magnitudes; errors below 1e-12 are not drawn', size(panels))
+      do p = 1, size(panels)
+         e = panels(p)
+         associate (panel => figure%panels(p))
+            panel%x%label = 'increments'
+            panel%y%label = trim(labels(e))
+            panel%x%is_log = .true.
+            panel%y%is_log = .true.
+            do m = 1, used
+               rows = pack([(k, k=1, table%rows)], [(cell_of(table, k, 'method') == methods(m), k=1, table%rows)])
+               why_undrawn = ''
+               if (.not. any(has_value(m, :))) why_undrawn = merge(' (below 1e-12)', ' (no result)  ', has_result(m))
+               call add_series(panel, as_both, -(modulo(m - 1, 8) + 1), columns_of( &
+                  [(value_of(table, rows(k), 'increments'), k=1, size(rows))], &
+                  [(drawn(value_of(table, rows(k), columns(e))), k=1, size(rows))]), title=trim(methods(m))//trim(why_undrawn))
+            end do
+         end associate
       end do
-      call begin_panels(sheet)
-      call sheet%text%line("set logscale xy; set key at screen 0.97, screen "//str(1.0_wp - 12.0_wp/full_height(sheet), 5)// &
-         " right top samplen 1.6 textcolor rgb '#404040'")
-      call sheet%text%line("set format y '%.0e'")
-      do k = 1, size(panels)
-         e = panels(k)
-         call begin_panel(sheet, k, '', 'increments', trim(labels(e)))
-         line = 'plot '
-         do m = 1, used
-            if (m > 1) line = line//', '
-            if (has_value(m, e)) line = line//'$method'//str(m)//' using 1:'//str(e + 1)
-            if (.not. has_value(m, e)) line = line//'NaN'    ! gnuplot refuses data without a value; the legend has the method
-            why_undrawn = ''
-            if (.not. any(has_value(m, :))) why_undrawn = merge(' (below 1e-12)', ' (no result)  ', has_result(m))
-            line = line//" with linespoints pointtype 7 pointsize 0.6 linewidth 2 linecolor rgb '"// &
-               palette(modulo(m - 1, size(palette)) + 1)//"' title '"//trim(methods(m))//trim(why_undrawn)//"'"
-         end do
-         call sheet%text%line(line)
-         if (k == 1) call sheet%text%line('unset key')       ! one legend, above the panels at the right
-      end do
-      text = end_panels(sheet)
-   end function step_script
+   end subroutine step_figure
 
    !> The magnitude of an error, for a logarithmic axis. NaN below 1e-12, which is only rounding, and for a missing error.
    pure real(wp) function drawn(value)

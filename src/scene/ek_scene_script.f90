@@ -9,6 +9,8 @@ module ek_scene_script
    use ek_text, only: str
    use ek_buffer, only: buffer_t
    use ek_decimal, only: put_decimal, longest_decimal
+   use ek_gnuplot, only: begin_scene, end_scene, begin_animation, ink, text_ink, fill, on_part, on_line, on_point, &
+      on_leader, on_swatch
    use ek_gnuplot_text, only: gnuplot_text, gnuplot_comment
    use ek_camera, only: camera_t, projection_t, new_projection, in_picture
    use ek_scene, only: scene_t, run_t, part_tyre, line_bump, line_rebound, parts, line_kinds, part_ground, part_plate
@@ -32,13 +34,10 @@ module ek_scene_script
    real(wp), parameter :: ring_step = 5.0_wp           ! pixels
    real(wp), parameter :: cover_price = 90.0_wp        ! pixels of distance that a free place is worth more than a covered one
 
-   character(7), parameter :: part_colours(parts) = ['#E9EEF2', '#4A4A4A', '#3B76B5', '#7C8896', '#3B76B5', '#1B9E8A', &
-      '#C8442F', '#A9B4C0', '#E8A33D', '#30343B', '#30343B', '#8E6BBE']
    character(22), parameter :: part_fills(parts) = [character(22) :: 'transparent solid 0.35', 'transparent solid 0.16', &
       'transparent solid 0.22', 'solid', 'solid', 'solid', 'solid', 'solid', 'solid', 'solid', 'solid', 'solid']
    character(16), parameter :: part_names(parts) = [character(16) :: '', 'wheel', '', 'wheel carrier', 'arms', 'rods', &
       'springs', 'struts, dampers', 'bushings', 'joints', 'chassis', 'stops']
-   character(7), parameter :: line_colours(line_kinds) = ['#D55E00', '#009E73', '#C4CCD4', '#30343B']
 
    character(*), parameter :: nl = new_line('a'), default_place = "if (!exists('to')) to = '../'"
 
@@ -59,12 +58,9 @@ contains
       call script%line(default_place)
       call add_style(script, camera)
       call add_blocks(script, scene)
-      call script%line("if (exists('look')) { set terminal qt size 1200, 800; set mouse } "// &
-         "else { set terminal svg size 960, 640 dynamic font 'sans-serif,13' noenhanced; set output "// &
-         'to.'//gnuplot_text(name//'.svg')//' }')
+      call begin_scene(script, name)
       call add_splot(script, scene, camera, .true.)
-      call script%line("if (!exists('look')) { set terminal pngcairo size 1440, 960 font 'sans-serif,13' fontscale 1.25 "// &
-         'linewidth 1.5 noenhanced; set output to.'//gnuplot_text(name//'.png')//'; replot; unset output }')
+      call end_scene(script, name)
       text = script%text()
    end function scene_script
 
@@ -81,8 +77,7 @@ contains
 
       call script%line(gnuplot_comment(title//': '//str(size(scenes))//' pictures in sequence'))
       call script%line(default_place)
-      call script%line('set terminal gif animate delay 7 loop 0 size 720, 540 font ''sans,12'' noenhanced')
-      call script%line('set output to.'//gnuplot_text(name//'.gif'))
+      call begin_animation(script, name)
       call add_style(script, camera)
       do k = 1, size(scenes)
          call add_blocks(script, scenes(k))
@@ -175,14 +170,14 @@ contains
       line = 'splot '
       do kind = 1, line_kinds
          if (.not. has_kind(scene%lines, kind)) cycle
-         call script%line(line//'$line'//str(kind)//" using 1:2:3 with lines linecolor rgb '"//line_colours(kind)// &
-            "' linewidth 1.3 notitle, \")
+         call script%line(line//'$line'//str(kind)//" using 1:2:3 with lines"//ink(on_line + kind - 1)// &
+            " linewidth 1.3 notitle, \")
          line = '      '
       end do
       do kind = 1, parts
          if (.not. has_kind(scene%faces, kind)) cycle
          call script%line(line//'$part'//str(kind)//' using 1:2:3 with polygons fillstyle '//trim(part_fills(kind))// &
-            " noborder fillcolor rgb '"//part_colours(kind)//"' notitle, \")
+            ' noborder'//fill(on_part + kind - 1)//' notitle, \')
          line = '      '
       end do
       call script%line("      1/0 notitle")
@@ -202,10 +197,10 @@ contains
       do k = 1, size(placed)
          associate (label => scene%labels(k), to => placed(k))
             call script%line('set label '//str(100 + k)//' '//gnuplot_text(label%text)//' at '//on_screen(to%middle)// &
-               " center front font 'sans-serif,11' textcolor rgb '#30343B'")
+               " center front font 'sans-serif,11'"//text_ink(on_point))
             if (to%has_line) call script%line('set arrow '//str(100 + k)//' from '//str(label%at(1)/millimetre, 5)//', '// &
                str(label%at(2)/millimetre, 5)//', '//str(label%at(3)/millimetre, 5)//' to '//on_screen(to%foot)// &
-               " nohead front linewidth 0.8 linecolor rgb '#7C8896'")
+               " nohead front linewidth 0.8"//ink(on_leader))
          end associate
       end do
    end subroutine add_labels
@@ -228,16 +223,17 @@ contains
       do kind = 1, parts
          if (has_kind(scene%faces, kind) .and. len_trim(part_names(kind)) > 0) &
             call add_entry(trim(part_names(kind)), &
-            merge('#CCCCCC', part_colours(kind), kind == part_tyre), 0.012_wp)     ! a tyre is transparent
+            merge(on_swatch, on_part + kind - 1, kind == part_tyre), 0.012_wp)     ! a tyre is transparent
       end do
-      if (allocated(scene%bump)) call add_entry(scene%bump, line_colours(line_bump), 0.003_wp)
-      if (allocated(scene%rebound)) call add_entry(scene%rebound, line_colours(line_rebound), 0.003_wp)
+      if (allocated(scene%bump)) call add_entry(scene%bump, on_line + line_bump - 1, 0.003_wp)
+      if (allocated(scene%rebound)) call add_entry(scene%rebound, on_line + line_rebound - 1, 0.003_wp)
 
    contains
 
       !> Adds one swatch and its label.
-      subroutine add_entry(name, colour, height)
-         character(*), intent(in) :: name, colour
+      subroutine add_entry(name, role, height)
+         character(*), intent(in) :: name
+         integer, intent(in) :: role                 !! role of the colour
          real(wp), intent(in) :: height              !! height of the swatch, as a share of the picture
          integer, parameter :: in_a_row = 6
          character(:), allocatable :: at
@@ -246,9 +242,9 @@ contains
             str(0.075_wp - 0.04_wp*(used/in_a_row), 4)
          used = used + 1
          call script%line('set object '//str(used)//' rectangle center '//at//' size screen 0.024, screen '// &
-            str(height)//" fillcolor rgb '"//colour//"' fillstyle solid noborder")
+            str(height)//fill(role)//' fillstyle solid noborder')
          call script%line('set label '//str(used)//' '//gnuplot_text(name)//' at '//at// &
-            " offset 2.4, 0 font ',12' textcolor rgb '#30343B'")
+            " offset 2.4, 0 font ',12'"//text_ink(on_point))
       end subroutine add_entry
 
    end subroutine add_legend

@@ -3,8 +3,8 @@
 !> Of an axle, the left half is shown, and the names of its points are without 'left_'. Axes are the axes of the deck [mm]. In
 !> the views from the left and from above, the front of the car is at the left.
 module ek_views
+   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp, millimetre
-   use ek_text, only: str
    use ek_suspension, only: suspension_t
    use ek_element, only: element_kinds, bushing_shape
    use ek_measure, only: distance
@@ -13,13 +13,12 @@ module ek_views
    use ek_state, only: state_t, design_state
    use ek_scene, only: scene_t, add_run, line_ground
    use ek_picture, only: add_ghost
-   use ek_study_sheet, only: sheet_t, new_sheet, begin_data, add_numbers, end_data, begin_panels, begin_panel, end_panels, &
-      add_point_names, names_plot
+   use ek_gnuplot, only: on_guide, on_point, on_skeleton, on_title
+   use ek_figure, only: figure_t, new_figure, add_series, add_point_names, as_line, as_points
    implicit none(type, external)
    private
-   public :: views_script
+   public :: find_views
 
-   character(*), parameter :: nl = new_line('a')
    integer, parameter :: views = 3, name_length = 63
    ! axes of a panel: to the right and upward; their directions in the frame of the program (x rearward, y to the right, z up)
    integer, parameter :: across(views) = [1, 2, 1], upward(views) = [3, 3, 2]
@@ -36,52 +35,44 @@ module ek_views
 
 contains
 
-   !> The script that draws <name>.png and <name>.svg; '' for a model that uses no hardpoints.
-   function views_script(suspension, name) result(text)
+   !> Finds the three views. Not allocated for a model that uses no hardpoints.
+   subroutine find_views(suspension, name, figure)
       type(suspension_t), intent(in) :: suspension
       character(*), intent(in) :: name
-      character(:), allocatable :: text
-      type(sheet_t) :: sheet
+      type(figure_t), allocatable, intent(out) :: figure
       type(points_t) :: points
       type(scene_t) :: scene
       type(state_t) :: state
-      real(wp) :: x_range(2), y_range(2), frame(3)
+      real(wp) :: frame(3)
       integer :: v
 
-      text = ''
       call half_of(suspension, points)
       if (size(points%names) == 0) return
       state = design_state(suspension)
       call add_ghost(scene, suspension, state, line_ground)
       call add_springs(scene, suspension, state)
       frame = deck_frame(suspension)
-      sheet = new_sheet(name, 'Hardpoints at design', suspension%name//'; axes of the deck, mm', views)
-      sheet%width = 1600
-      sheet%height = 640
-      sheet%letters = 12
-      sheet%bottom = 84
+      allocate (figure)
+      figure = new_figure(name, 'Hardpoints at design', suspension%name//'; axes of the deck, mm', views, height=640)
+      figure%width = 1600
+      figure%columns = views
+      figure%letters = 12
+      figure%bottom = 84
       do v = 1, views
-         call add_lines(sheet, scene, frame, v)
-         call find_ranges(sheet, points, frame, v, x_range, y_range)
-         call begin_data(sheet, 'points'//str(v))
-         call add_places(sheet, points%at, frame, v)
-         call end_data(sheet)
-         call add_point_names(sheet, v, points%names, frame(across(v))*points%at(across(v), :)/millimetre, &
-            frame(upward(v))*points%at(upward(v), :)/millimetre, x_range, y_range)
+         associate (panel => figure%panels(v))
+            panel%title = trim(titles(v))
+            panel%x%label = axes(across(v))//' [mm]'
+            panel%y%label = axes(upward(v))//' [mm]'
+            panel%x%has_range = .true.
+            panel%y%has_range = .true.
+            call find_ranges(figure, points, frame, v, panel%x%range, panel%y%range)
+            call add_series(panel, as_line, on_skeleton, lines_of(scene, frame, v))
+            call add_series(panel, as_points, on_point, places(points%at, frame, v), weight=0.8_wp)
+         end associate
+         call add_point_names(figure, v, points%names, frame(across(v))*points%at(across(v), :)/millimetre, &
+            frame(upward(v))*points%at(upward(v), :)/millimetre, on_guide, on_title)
       end do
-      call begin_panels(sheet)
-      do v = 1, views
-         call find_ranges(sheet, points, frame, v, x_range, y_range)
-         call begin_panel(sheet, v, trim(titles(v)), axes(across(v))//' [mm]', axes(upward(v))//' [mm]')
-         call sheet%text%line('set xrange ['//str(x_range(1), 6)//':'//str(x_range(2), 6)//']; set yrange ['// &
-            str(y_range(1), 6)//':'//str(y_range(2), 6)//']')
-         call sheet%text%line('plot $lines'//str(v)//" using 1:2 with lines linewidth 2 linecolor rgb '#9AB7D3' notitle, \"//nl// &
-            '     $points'//str(v)//" using 1:2 with points pointtype 7 pointsize 0.8 linecolor rgb '#30343B' notitle, \"//nl// &
-            '     '//names_plot(v))
-      end do
-      call sheet%text%line('set xrange [*:*]; set yrange [*:*]')
-      text = end_panels(sheet)
-   end function views_script
+   end subroutine find_views
 
    !> Lists the hardpoints that are used, without the right side of an axle.
    subroutine half_of(suspension, points)
@@ -124,37 +115,38 @@ contains
       end do
    end subroutine add_springs
 
-   !> Adds all lines of the scene in a panel, each followed by an empty line.
-   subroutine add_lines(sheet, scene, frame, v)
-      type(sheet_t), intent(inout) :: sheet
+   !> All lines of the scene in a panel, each followed by a gap.
+   function lines_of(scene, frame, v) result(values)
       type(scene_t), intent(in) :: scene
       real(wp), intent(in) :: frame(3)
       integer, intent(in) :: v
-      integer :: k
+      real(wp), allocatable :: values(:, :)
+      integer :: k, rows, n
 
-      call begin_data(sheet, 'lines'//str(v))
+      allocate (values(2, scene%lines%used + scene%lines%runs))
+      rows = 0
       do k = 1, scene%lines%runs
-         call add_places(sheet, scene%lines%at(:, scene%lines%first(k):scene%lines%first(k + 1) - 1), frame, v)
-         call sheet%text%line('')
+         n = scene%lines%first(k + 1) - scene%lines%first(k)
+         values(:, rows + 1:rows + n) = places(scene%lines%at(:, scene%lines%first(k):scene%lines%first(k + 1) - 1), frame, v)
+         rows = rows + n + 1
+         values(:, rows) = ieee_value(1.0_wp, ieee_quiet_nan)
       end do
-      call end_data(sheet)
-   end subroutine add_lines
+      values = values(:, :rows)
+   end function lines_of
 
-   !> Adds the two coordinates of points in a panel [mm].
-   subroutine add_places(sheet, at, frame, v)
-      type(sheet_t), intent(inout) :: sheet
+   !> The two coordinates of points in a panel [mm].
+   pure function places(at, frame, v) result(values)
       real(wp), intent(in) :: at(:, :), frame(3)
       integer, intent(in) :: v
-      integer :: k
+      real(wp) :: values(2, size(at, 2))
 
-      do k = 1, size(at, 2)
-         call add_numbers(sheet, [frame(across(v))*at(across(v), k), frame(upward(v))*at(upward(v), k)]/millimetre)
-      end do
-   end subroutine add_places
+      values(1, :) = frame(across(v))*at(across(v), :)/millimetre
+      values(2, :) = frame(upward(v))*at(upward(v), :)/millimetre
+   end function places
 
    !> Finds the ranges of a panel, from left to right and upward [mm]. The ranges contain all points, and both axes have one scale.
-   subroutine find_ranges(sheet, points, frame, v, x_range, y_range)
-      type(sheet_t), intent(in) :: sheet
+   subroutine find_ranges(figure, points, frame, v, x_range, y_range)
+      type(figure_t), intent(in) :: figure
       type(points_t), intent(in) :: points
       real(wp), intent(in) :: frame(3)
       integer, intent(in) :: v
@@ -165,8 +157,8 @@ contains
          low = [minval(x), minval(y)]
          high = [maxval(x), maxval(y)]
       end associate
-      pixels = [real(sheet%width, wp)/sheet%columns - sheet%left - sheet%right, &
-         real(sheet%height - sheet%top - sheet%bottom, wp)]
+      pixels = [real(figure%width, wp)/figure%columns - figure%left - figure%right, &
+         real(figure%height - figure%top - figure%bottom, wp)]
       scale = maxval(max(high - low, 1.0_wp)*(1.0_wp + 2.0_wp*room)/pixels)      ! mm per pixel
       x_range = (low(1) + high(1))/2 + [-0.5_wp, 0.5_wp]*scale*pixels(1)
       y_range = (low(2) + high(2))/2 + [-0.5_wp, 0.5_wp]*scale*pixels(2)

@@ -1,9 +1,19 @@
 # Front axle with push rods and rockers: carmaker: points of the exported file over curves that were solved separately
+#
+#     gnuplot push_carmaker.gp
+#
+# in this folder draws push_carmaker.png and .svg;
+# gnuplot -e "formats='pdf'" push_carmaker.gp makes a PDF.
+if (!exists('formats')) formats = 'png svg'
 reset
 set encoding utf8
-set datafile missing 'nan'
+set datafile separator whitespace
+set datafile missing 'NaN'
 set border 3 linecolor rgb '#808080'
-set tics out nomirror
+set tics out nomirror scale 6.00000E-01 textcolor rgb '#404040'
+set grid linetype 1 linecolor rgb '#E6E6E6' linewidth 1
+set xzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
+set yzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
 set key at screen 8.00000E-03, screen 9.98000E-01 left top Left reverse horizontal
 $curve1 << EOD
 -9.99434E+00 2.36250E-01
@@ -820,83 +830,85 @@ $curve12 << EOD
 90 9.82400E-02
 100 1.09155E-01
 EOD
-do for [format in 'png svg'] {
-   if (format eq 'png') { set terminal pngcairo size 1500, 1740 font 'sans-serif,11' }
-   if (format eq 'svg') { set terminal svg size 1500, 1740 font 'sans-serif,11' background 'white' }
-   set output 'push_carmaker.'.format
-   set multiplot layout 4, 3 title 'Front axle with push rods and rockers: carmaker' noenhanced
-   set title 'tx over travel, side L' noenhanced
-   set xlabel 'wheel centre, height [mm]' noenhanced
-   set ylabel 'tx [mm]' noenhanced
+
+do for [format in formats] {
+if (format eq 'png') { set terminal pngcairo size 1500, 1740 font 'sans-serif,11' noenhanced }
+if (format eq 'svg') { set terminal svg size 1500, 1740 font 'sans-serif,11' noenhanced background 'white' }
+if (format eq 'pdf') { set terminal pdfcairo size 30cm, 34cm font 'sans-serif,11' noenhanced }
+set output 'push_carmaker.'.format
+   set multiplot layout 4, 3 title 'Front axle with push rods and rockers: carmaker'
+   set title 'tx over travel, side L'
+   set xlabel 'wheel centre, height [mm]'
+   set ylabel 'tx [mm]'
    set yrange [*:*]
-   plot $curve1 using 1:2 with lines linecolor rgb '#d04020' linewidth 2 title 'solved separately', \
-      'push.skc' skip 27 every ::0:0:14:0 using ($2==1 ? $5*1000 : NaN):($3*1000) with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#204080' title 'written file'
-   set title 'ty over travel, side L' noenhanced
-   set xlabel 'wheel centre, height [mm]' noenhanced
-   set ylabel 'ty [mm]' noenhanced
+   plot $curve1 using 1:2 with lines linecolor rgb '#D55E00' linewidth 2 title 'solved separately', \
+      'push.skc' skip 27 every ::0:0:14:0 using ($2==1 ? $5*1000 : NaN):($3*1000) with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#0072B2' title 'written file'
+   set title 'ty over travel, side L'
+   set xlabel 'wheel centre, height [mm]'
+   set ylabel 'ty [mm]'
    set yrange [*:*]
-   plot $curve2 using 1:2 with lines linecolor rgb '#d04020' linewidth 2 title '', \
-      'push.skc' skip 27 every ::0:0:14:0 using ($2==1 ? $5*1000 : NaN):($4*1000) with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#204080' title ''
-   set title 'rx over travel, side L' noenhanced
-   set xlabel 'wheel centre, height [mm]' noenhanced
-   set ylabel 'rx [deg]' noenhanced
+   plot $curve2 using 1:2 with lines linecolor rgb '#D55E00' linewidth 2 title '', \
+      'push.skc' skip 27 every ::0:0:14:0 using ($2==1 ? $5*1000 : NaN):($4*1000) with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#0072B2' title ''
+   set title 'rx over travel, side L'
+   set xlabel 'wheel centre, height [mm]'
+   set ylabel 'rx [deg]'
    set yrange [*:*]
-   plot $curve3 using 1:2 with lines linecolor rgb '#d04020' linewidth 2 title '', \
-      'push.skc' skip 27 every ::0:0:14:0 using ($2==1 ? $5*1000 : NaN):($6*5.72958E+01) with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#204080' title ''
-   set title 'rz over travel, side L' noenhanced
-   set xlabel 'wheel centre, height [mm]' noenhanced
-   set ylabel 'rz [deg]' noenhanced
+   plot $curve3 using 1:2 with lines linecolor rgb '#D55E00' linewidth 2 title '', \
+      'push.skc' skip 27 every ::0:0:14:0 using ($2==1 ? $5*1000 : NaN):($6*5.72958E+01) with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#0072B2' title ''
+   set title 'rz over travel, side L'
+   set xlabel 'wheel centre, height [mm]'
+   set ylabel 'rz [deg]'
    set yrange [*:*]
-   plot $curve4 using 1:2 with lines linecolor rgb '#d04020' linewidth 2 title '', \
-      'push.skc' skip 27 every ::0:0:14:0 using ($2==1 ? $5*1000 : NaN):($8*5.72958E+01) with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#204080' title ''
-   set title 'lSpring over travel, side L' noenhanced
-   set xlabel 'wheel centre, height [mm]' noenhanced
-   set ylabel 'lSpring [mm]' noenhanced
+   plot $curve4 using 1:2 with lines linecolor rgb '#D55E00' linewidth 2 title '', \
+      'push.skc' skip 27 every ::0:0:14:0 using ($2==1 ? $5*1000 : NaN):($8*5.72958E+01) with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#0072B2' title ''
+   set title 'lSpring over travel, side L'
+   set xlabel 'wheel centre, height [mm]'
+   set ylabel 'lSpring [mm]'
    set yrange [*:*]
-   plot $curve5 using 1:2 with lines linecolor rgb '#d04020' linewidth 2 title '', \
-      'push.skc' skip 27 every ::0:0:14:0 using ($2==1 ? $5*1000 : NaN):($9*1000) with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#204080' title ''
-   set title 'rz over steer, side L' noenhanced
-   set xlabel 'steer, driver [mm]' noenhanced
-   set ylabel 'rz [deg]' noenhanced
+   plot $curve5 using 1:2 with lines linecolor rgb '#D55E00' linewidth 2 title '', \
+      'push.skc' skip 27 every ::0:0:14:0 using ($2==1 ? $5*1000 : NaN):($9*1000) with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#0072B2' title ''
+   set title 'rz over steer, side L'
+   set xlabel 'steer, driver [mm]'
+   set ylabel 'rz [deg]'
    set yrange [*:*]
-   plot $curve6 using 1:2 with lines linecolor rgb '#d04020' linewidth 2 title '', \
-      'push.skc' skip 27 every ::0:0:14:0 using ($1==1 ? word("-10 0 10", int($2)+1)+0 : NaN):($8*5.72958E+01) with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#204080' title ''
-   set title 'rx over steer, side L' noenhanced
-   set xlabel 'steer, driver [mm]' noenhanced
-   set ylabel 'rx [deg]' noenhanced
+   plot $curve6 using 1:2 with lines linecolor rgb '#D55E00' linewidth 2 title '', \
+      'push.skc' skip 27 every ::0:0:14:0 using ($1==1 ? word("-10 0 10", int($2)+1)+0 : NaN):($8*5.72958E+01) with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#0072B2' title ''
+   set title 'rx over steer, side L'
+   set xlabel 'steer, driver [mm]'
+   set ylabel 'rx [deg]'
    set yrange [*:*]
-   plot $curve7 using 1:2 with lines linecolor rgb '#d04020' linewidth 2 title '', \
-      'push.skc' skip 27 every ::0:0:14:0 using ($1==1 ? word("-10 0 10", int($2)+1)+0 : NaN):($6*5.72958E+01) with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#204080' title ''
-   set title 'Com Frc.x → tx' noenhanced
-   set xlabel 'N' noenhanced
-   set ylabel 'mm' noenhanced
+   plot $curve7 using 1:2 with lines linecolor rgb '#D55E00' linewidth 2 title '', \
+      'push.skc' skip 27 every ::0:0:14:0 using ($1==1 ? word("-10 0 10", int($2)+1)+0 : NaN):($6*5.72958E+01) with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#0072B2' title ''
+   set title 'Com Frc.x → tx'
+   set xlabel 'N'
+   set ylabel 'mm'
    set yrange [*:*]
-   plot $curve8 using 1:2 with lines linecolor rgb '#d04020' linewidth 2 title '', \
-      5.37579E-04*x with lines dashtype 2 linewidth 2 linecolor rgb '#204080' title ''
-   set title 'Com Frc.y → ty' noenhanced
-   set xlabel 'N' noenhanced
-   set ylabel 'mm' noenhanced
+   plot $curve8 using 1:2 with lines linecolor rgb '#D55E00' linewidth 2 title '', \
+      5.37579E-04*x with lines dashtype 2 linewidth 2 linecolor rgb '#0072B2' title ''
+   set title 'Com Frc.y → ty'
+   set xlabel 'N'
+   set ylabel 'mm'
    set yrange [*:*]
-   plot $curve9 using 1:2 with lines linecolor rgb '#d04020' linewidth 2 title '', \
-      2.89918E-05*x with lines dashtype 2 linewidth 2 linecolor rgb '#204080' title ''
-   set title 'Com Trq.x → rx' noenhanced
-   set xlabel 'N m' noenhanced
-   set ylabel 'deg' noenhanced
+   plot $curve9 using 1:2 with lines linecolor rgb '#D55E00' linewidth 2 title '', \
+      2.89918E-05*x with lines dashtype 2 linewidth 2 linecolor rgb '#0072B2' title ''
+   set title 'Com Trq.x → rx'
+   set xlabel 'N m'
+   set ylabel 'deg'
    set yrange [*:*]
-   plot $curve10 using 1:2 with lines linecolor rgb '#d04020' linewidth 2 title '', \
-      1.32880E-04*x with lines dashtype 2 linewidth 2 linecolor rgb '#204080' title ''
-   set title 'Com Trq.y → ry' noenhanced
-   set xlabel 'N m' noenhanced
-   set ylabel 'deg' noenhanced
+   plot $curve10 using 1:2 with lines linecolor rgb '#D55E00' linewidth 2 title '', \
+      1.32880E-04*x with lines dashtype 2 linewidth 2 linecolor rgb '#0072B2' title ''
+   set title 'Com Trq.y → ry'
+   set xlabel 'N m'
+   set ylabel 'deg'
    set yrange [*:*]
-   plot $curve11 using 1:2 with lines linecolor rgb '#d04020' linewidth 2 title '', \
-      1.17467E-03*x with lines dashtype 2 linewidth 2 linecolor rgb '#204080' title ''
-   set title 'Com Trq.z → rz' noenhanced
-   set xlabel 'N m' noenhanced
-   set ylabel 'deg' noenhanced
+   plot $curve11 using 1:2 with lines linecolor rgb '#D55E00' linewidth 2 title '', \
+      1.17467E-03*x with lines dashtype 2 linewidth 2 linecolor rgb '#0072B2' title ''
+   set title 'Com Trq.z → rz'
+   set xlabel 'N m'
+   set ylabel 'deg'
    set yrange [*:*]
-   plot $curve12 using 1:2 with lines linecolor rgb '#d04020' linewidth 2 title '', \
-      1.09108E-03*x with lines dashtype 2 linewidth 2 linecolor rgb '#204080' title ''
+   plot $curve12 using 1:2 with lines linecolor rgb '#D55E00' linewidth 2 title '', \
+      1.09108E-03*x with lines dashtype 2 linewidth 2 linecolor rgb '#0072B2' title ''
    unset multiplot
-   unset output
+unset output
 }

@@ -1,10 +1,19 @@
 # McPherson front axle with rack, anti-roll bar and stops: carsim: points of the exported file over curves that were solved separately
+#
+#     gnuplot mcpherson_axle_carsim.gp
+#
+# in this folder draws mcpherson_axle_carsim.png and .svg;
+# gnuplot -e "formats='pdf'" mcpherson_axle_carsim.gp makes a PDF.
+if (!exists('formats')) formats = 'png svg'
 reset
 set encoding utf8
 set datafile separator comma
 set datafile missing 'nan'
 set border 3 linecolor rgb '#808080'
-set tics out nomirror
+set tics out nomirror scale 6.00000E-01 textcolor rgb '#404040'
+set grid linetype 1 linecolor rgb '#E6E6E6' linewidth 1
+set xzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
+set yzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
 set key at screen 8.00000E-03, screen 9.98000E-01 left top Left reverse horizontal
 $curve1 << EOD
 -9.99461E+00,1.22228E-01
@@ -598,65 +607,67 @@ $curve9 << EOD
 1.96768E+01,1.83264E+01
 1.99842E+01,1.86158E+01
 EOD
-do for [format in 'png svg'] {
-   if (format eq 'png') { set terminal pngcairo size 1500, 1320 font 'sans-serif,11' }
-   if (format eq 'svg') { set terminal svg size 1500, 1320 font 'sans-serif,11' background 'white' }
-   set output 'mcpherson_axle_carsim.'.format
-   set multiplot layout 3, 3 title 'McPherson front axle with rack, anti-roll bar and stops: carsim' noenhanced
-   set title 'TOE_TABLE, iside 1' noenhanced
-   set xlabel 'wheel centre, height [mm]' noenhanced
-   set ylabel 'deg' noenhanced
+
+do for [format in formats] {
+if (format eq 'png') { set terminal pngcairo size 1500, 1320 font 'sans-serif,11' noenhanced }
+if (format eq 'svg') { set terminal svg size 1500, 1320 font 'sans-serif,11' noenhanced background 'white' }
+if (format eq 'pdf') { set terminal pdfcairo size 30cm, 26cm font 'sans-serif,11' noenhanced }
+set output 'mcpherson_axle_carsim.'.format
+   set multiplot layout 3, 3 title 'McPherson front axle with rack, anti-roll bar and stops: carsim'
+   set title 'TOE_TABLE, iside 1'
+   set xlabel 'wheel centre, height [mm]'
+   set ylabel 'deg'
    set yrange [*:*]
-   plot $curve1 using 1:2 with lines linecolor rgb '#d04020' linewidth 2 title 'solved separately', \
-      'mcpherson_axle_carsim.par' skip 10 every ::0:0:3:0 using 1:2 with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#204080' title 'written file'
-   set title 'CAMBER_TABLE, iside 1' noenhanced
-   set xlabel 'wheel centre, height [mm]' noenhanced
-   set ylabel 'deg' noenhanced
+   plot $curve1 using 1:2 with lines linecolor rgb '#D55E00' linewidth 2 title 'solved separately', \
+      'mcpherson_axle_carsim.par' skip 10 every ::0:0:3:0 using 1:2 with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#0072B2' title 'written file'
+   set title 'CAMBER_TABLE, iside 1'
+   set xlabel 'wheel centre, height [mm]'
+   set ylabel 'deg'
    set yrange [*:*]
-   plot $curve2 using 1:2 with lines linecolor rgb '#d04020' linewidth 2 title '', \
-      'mcpherson_axle_carsim.par' skip 17 every ::0:0:3:0 using 1:2 with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#204080' title ''
-   set title 'SUSP_X_TABLE, iside 1' noenhanced
-   set xlabel 'wheel centre, height [mm]' noenhanced
-   set ylabel 'mm' noenhanced
+   plot $curve2 using 1:2 with lines linecolor rgb '#D55E00' linewidth 2 title '', \
+      'mcpherson_axle_carsim.par' skip 17 every ::0:0:3:0 using 1:2 with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#0072B2' title ''
+   set title 'SUSP_X_TABLE, iside 1'
+   set xlabel 'wheel centre, height [mm]'
+   set ylabel 'mm'
    set yrange [*:*]
-   plot $curve3 using 1:2 with lines linecolor rgb '#d04020' linewidth 2 title '', \
-      'mcpherson_axle_carsim.par' skip 24 every ::0:0:3:0 using 1:2 with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#204080' title ''
-   set title 'SUSP_LAT_TABLE, iside 1' noenhanced
-   set xlabel 'wheel centre, height [mm]' noenhanced
-   set ylabel 'mm' noenhanced
+   plot $curve3 using 1:2 with lines linecolor rgb '#D55E00' linewidth 2 title '', \
+      'mcpherson_axle_carsim.par' skip 24 every ::0:0:3:0 using 1:2 with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#0072B2' title ''
+   set title 'SUSP_LAT_TABLE, iside 1'
+   set xlabel 'wheel centre, height [mm]'
+   set ylabel 'mm'
    set yrange [*:*]
-   plot $curve4 using 1:2 with lines linecolor rgb '#d04020' linewidth 2 title '', \
-      'mcpherson_axle_carsim.par' skip 31 every ::0:0:3:0 using 1:2 with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#204080' title ''
-   set title 'CS_FY, steer under Fy' noenhanced
-   set xlabel 'N' noenhanced
-   set ylabel 'deg' noenhanced
+   plot $curve4 using 1:2 with lines linecolor rgb '#D55E00' linewidth 2 title '', \
+      'mcpherson_axle_carsim.par' skip 31 every ::0:0:3:0 using 1:2 with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#0072B2' title ''
+   set title 'CS_FY, steer under Fy'
+   set xlabel 'N'
+   set ylabel 'deg'
    set yrange [*:*]
-   plot $curve5 using 1:2 with lines linecolor rgb '#d04020' linewidth 2 title '', \
-      -8.47141E-05*x with lines dashtype 2 linewidth 2 linecolor rgb '#204080' title ''
-   set title 'CS_MZ, steer under Mz' noenhanced
-   set xlabel 'N m' noenhanced
-   set ylabel 'deg' noenhanced
+   plot $curve5 using 1:2 with lines linecolor rgb '#D55E00' linewidth 2 title '', \
+      -8.47141E-05*x with lines dashtype 2 linewidth 2 linecolor rgb '#0072B2' title ''
+   set title 'CS_MZ, steer under Mz'
+   set xlabel 'N m'
+   set ylabel 'deg'
    set yrange [*:*]
-   plot $curve6 using 1:2 with lines linecolor rgb '#d04020' linewidth 2 title '', \
-      1.01982E-03*x with lines dashtype 2 linewidth 2 linecolor rgb '#204080' title ''
-   set title 'CC_FX, camber under Fx' noenhanced
-   set xlabel 'N' noenhanced
-   set ylabel 'deg' noenhanced
+   plot $curve6 using 1:2 with lines linecolor rgb '#D55E00' linewidth 2 title '', \
+      1.01982E-03*x with lines dashtype 2 linewidth 2 linecolor rgb '#0072B2' title ''
+   set title 'CC_FX, camber under Fx'
+   set xlabel 'N'
+   set ylabel 'deg'
    set yrange [*:*]
-   plot $curve7 using 1:2 with lines linecolor rgb '#d04020' linewidth 2 title '', \
-      5.98386E-05*x with lines dashtype 2 linewidth 2 linecolor rgb '#204080' title ''
-   set title 'C_LONG, x under Fx' noenhanced
-   set xlabel 'N' noenhanced
-   set ylabel 'mm' noenhanced
+   plot $curve7 using 1:2 with lines linecolor rgb '#D55E00' linewidth 2 title '', \
+      5.98386E-05*x with lines dashtype 2 linewidth 2 linecolor rgb '#0072B2' title ''
+   set title 'C_LONG, x under Fx'
+   set xlabel 'N'
+   set ylabel 'mm'
    set yrange [*:*]
-   plot $curve8 using 1:2 with lines linecolor rgb '#d04020' linewidth 2 title '', \
-      3.23292E-03*x with lines dashtype 2 linewidth 2 linecolor rgb '#204080' title ''
-   set title 'CMP_SPR_SEAT, compression of the spring' noenhanced
-   set xlabel 'wheel centre, height [mm]' noenhanced
-   set ylabel 'mm' noenhanced
+   plot $curve8 using 1:2 with lines linecolor rgb '#D55E00' linewidth 2 title '', \
+      3.23292E-03*x with lines dashtype 2 linewidth 2 linecolor rgb '#0072B2' title ''
+   set title 'CMP_SPR_SEAT, compression of the spring'
+   set xlabel 'wheel centre, height [mm]'
+   set ylabel 'mm'
    set yrange [*:*]
-   plot $curve9 using 1:2 with lines linecolor rgb '#d04020' linewidth 2 title '', \
-      9.21940E-01*x with lines dashtype 2 linewidth 2 linecolor rgb '#204080' title ''
+   plot $curve9 using 1:2 with lines linecolor rgb '#D55E00' linewidth 2 title '', \
+      9.21940E-01*x with lines dashtype 2 linewidth 2 linecolor rgb '#0072B2' title ''
    unset multiplot
-   unset output
+unset output
 }

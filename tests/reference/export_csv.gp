@@ -1,10 +1,19 @@
 # McPherson front axle with rack, anti-roll bar and stops: csv: points of the exported file over curves that were solved separately
+#
+#     gnuplot mcpherson_axle_tables.gp
+#
+# in this folder draws mcpherson_axle_tables.png and .svg;
+# gnuplot -e "formats='pdf'" mcpherson_axle_tables.gp makes a PDF.
+if (!exists('formats')) formats = 'png svg'
 reset
 set encoding utf8
 set datafile separator comma
 set datafile missing 'nan'
 set border 3 linecolor rgb '#808080'
-set tics out nomirror
+set tics out nomirror scale 6.00000E-01 textcolor rgb '#404040'
+set grid linetype 1 linecolor rgb '#E6E6E6' linewidth 1
+set xzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
+set yzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
 set key at screen 8.00000E-03, screen 9.98000E-01 left top Left reverse horizontal
 $curve1 << EOD
 -9.99461E+00,1.77473E-01
@@ -706,53 +715,55 @@ $curve7 << EOD
 9.79167E+00,9.78330E-03
 10,2.15385E-02
 EOD
-do for [format in 'png svg'] {
-   if (format eq 'png') { set terminal pngcairo size 1500, 1320 font 'sans-serif,11' }
-   if (format eq 'svg') { set terminal svg size 1500, 1320 font 'sans-serif,11' background 'white' }
-   set output 'mcpherson_axle_tables.'.format
-   set multiplot layout 3, 3 title 'McPherson front axle with rack, anti-roll bar and stops: csv' noenhanced
-   set title 'left_x_mm' noenhanced
-   set xlabel 'wheel centre, height [mm]' noenhanced
-   set ylabel 'x_mm' noenhanced
+
+do for [format in formats] {
+if (format eq 'png') { set terminal pngcairo size 1500, 1320 font 'sans-serif,11' noenhanced }
+if (format eq 'svg') { set terminal svg size 1500, 1320 font 'sans-serif,11' noenhanced background 'white' }
+if (format eq 'pdf') { set terminal pdfcairo size 30cm, 26cm font 'sans-serif,11' noenhanced }
+set output 'mcpherson_axle_tables.'.format
+   set multiplot layout 3, 3 title 'McPherson front axle with rack, anti-roll bar and stops: csv'
+   set title 'left_x_mm'
+   set xlabel 'wheel centre, height [mm]'
+   set ylabel 'x_mm'
    set yrange [*:*]
-   plot $curve1 using 1:2 with lines linecolor rgb '#d04020' linewidth 2 title 'solved separately', \
-      'mcpherson_axle_kinematics.csv' using (abs(column("steer_mm"))<1.00000E-09 ? -column("left_z_mm") : NaN):(column("left_x_mm")) with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#204080' title 'written file'
-   set title 'left_y_mm' noenhanced
-   set xlabel 'wheel centre, height [mm]' noenhanced
-   set ylabel 'y_mm' noenhanced
+   plot $curve1 using 1:2 with lines linecolor rgb '#D55E00' linewidth 2 title 'solved separately', \
+      'mcpherson_axle_kinematics.csv' using (abs(column("steer_mm"))<1.00000E-09 ? -column("left_z_mm") : NaN):(column("left_x_mm")) with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#0072B2' title 'written file'
+   set title 'left_y_mm'
+   set xlabel 'wheel centre, height [mm]'
+   set ylabel 'y_mm'
    set yrange [*:*]
-   plot $curve2 using 1:2 with lines linecolor rgb '#d04020' linewidth 2 title '', \
-      'mcpherson_axle_kinematics.csv' using (abs(column("steer_mm"))<1.00000E-09 ? -column("left_z_mm") : NaN):(column("left_y_mm")) with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#204080' title ''
-   set title 'left_toe_deg' noenhanced
-   set xlabel 'wheel centre, height [mm]' noenhanced
-   set ylabel 'toe_deg' noenhanced
+   plot $curve2 using 1:2 with lines linecolor rgb '#D55E00' linewidth 2 title '', \
+      'mcpherson_axle_kinematics.csv' using (abs(column("steer_mm"))<1.00000E-09 ? -column("left_z_mm") : NaN):(column("left_y_mm")) with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#0072B2' title ''
+   set title 'left_toe_deg'
+   set xlabel 'wheel centre, height [mm]'
+   set ylabel 'toe_deg'
    set yrange [*:*]
-   plot $curve3 using 1:2 with lines linecolor rgb '#d04020' linewidth 2 title '', \
-      'mcpherson_axle_kinematics.csv' using (abs(column("steer_mm"))<1.00000E-09 ? -column("left_z_mm") : NaN):(column("left_toe_deg")) with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#204080' title ''
-   set title 'left_camber_deg' noenhanced
-   set xlabel 'wheel centre, height [mm]' noenhanced
-   set ylabel 'camber_deg' noenhanced
+   plot $curve3 using 1:2 with lines linecolor rgb '#D55E00' linewidth 2 title '', \
+      'mcpherson_axle_kinematics.csv' using (abs(column("steer_mm"))<1.00000E-09 ? -column("left_z_mm") : NaN):(column("left_toe_deg")) with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#0072B2' title ''
+   set title 'left_camber_deg'
+   set xlabel 'wheel centre, height [mm]'
+   set ylabel 'camber_deg'
    set yrange [*:*]
-   plot $curve4 using 1:2 with lines linecolor rgb '#d04020' linewidth 2 title '', \
-      'mcpherson_axle_kinematics.csv' using (abs(column("steer_mm"))<1.00000E-09 ? -column("left_z_mm") : NaN):(column("left_camber_deg")) with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#204080' title ''
-   set title 'left_spring_length_mm' noenhanced
-   set xlabel 'wheel centre, height [mm]' noenhanced
-   set ylabel 'spring_length_mm' noenhanced
+   plot $curve4 using 1:2 with lines linecolor rgb '#D55E00' linewidth 2 title '', \
+      'mcpherson_axle_kinematics.csv' using (abs(column("steer_mm"))<1.00000E-09 ? -column("left_z_mm") : NaN):(column("left_camber_deg")) with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#0072B2' title ''
+   set title 'left_spring_length_mm'
+   set xlabel 'wheel centre, height [mm]'
+   set ylabel 'spring_length_mm'
    set yrange [*:*]
-   plot $curve5 using 1:2 with lines linecolor rgb '#d04020' linewidth 2 title '', \
-      'mcpherson_axle_kinematics.csv' using (abs(column("steer_mm"))<1.00000E-09 ? -column("left_z_mm") : NaN):(column("left_spring_length_mm")) with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#204080' title ''
-   set title 'left_toe_deg over steer' noenhanced
-   set xlabel 'steer, driver [mm]' noenhanced
-   set ylabel 'toe_deg' noenhanced
+   plot $curve5 using 1:2 with lines linecolor rgb '#D55E00' linewidth 2 title '', \
+      'mcpherson_axle_kinematics.csv' using (abs(column("steer_mm"))<1.00000E-09 ? -column("left_z_mm") : NaN):(column("left_spring_length_mm")) with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#0072B2' title ''
+   set title 'left_toe_deg over steer'
+   set xlabel 'steer, driver [mm]'
+   set ylabel 'toe_deg'
    set yrange [*:*]
-   plot $curve6 using 1:2 with lines linecolor rgb '#d04020' linewidth 2 title '', \
-      'mcpherson_axle_kinematics.csv' using (abs(column("travel_mm"))<1.00000E-09 ? column("steer_mm") : NaN):(column("left_toe_deg")) with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#204080' title ''
-   set title 'left_camber_deg over steer' noenhanced
-   set xlabel 'steer, driver [mm]' noenhanced
-   set ylabel 'camber_deg' noenhanced
+   plot $curve6 using 1:2 with lines linecolor rgb '#D55E00' linewidth 2 title '', \
+      'mcpherson_axle_kinematics.csv' using (abs(column("travel_mm"))<1.00000E-09 ? column("steer_mm") : NaN):(column("left_toe_deg")) with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#0072B2' title ''
+   set title 'left_camber_deg over steer'
+   set xlabel 'steer, driver [mm]'
+   set ylabel 'camber_deg'
    set yrange [*:*]
-   plot $curve7 using 1:2 with lines linecolor rgb '#d04020' linewidth 2 title '', \
-      'mcpherson_axle_kinematics.csv' using (abs(column("travel_mm"))<1.00000E-09 ? column("steer_mm") : NaN):(column("left_camber_deg")) with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#204080' title ''
+   plot $curve7 using 1:2 with lines linecolor rgb '#D55E00' linewidth 2 title '', \
+      'mcpherson_axle_kinematics.csv' using (abs(column("travel_mm"))<1.00000E-09 ? column("steer_mm") : NaN):(column("left_camber_deg")) with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#0072B2' title ''
    unset multiplot
-   unset output
+unset output
 }

@@ -5,17 +5,16 @@
 # in this folder draws plane_axle_centre_camber.png and .svg;
 # gnuplot -e "formats='pdf'" plane_axle_centre_camber.gp makes a PDF.
 if (!exists('formats')) formats = 'png svg'
-
 reset
 set encoding utf8
 set datafile separator comma
-set datafile columnheaders
 set datafile missing 'nan'
 set border 3 linecolor rgb '#808080'
-set tics out nomirror textcolor rgb '#404040'
+set tics out nomirror scale 6.00000E-01 textcolor rgb '#404040'
 set grid linetype 1 linecolor rgb '#E6E6E6' linewidth 1
 set xzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
 set yzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
+set datafile columnheaders
 set style line 1 linecolor rgb '#0072B2' linewidth 2.60000E+00 pointtype 7 pointsize 7.00000E-01
 set style line 2 linecolor rgb '#D55E00' linewidth 2.60000E+00 pointtype 7 pointsize 7.00000E-01
 set style line 3 linecolor rgb '#009E73' linewidth 2.60000E+00 pointtype 7 pointsize 7.00000E-01
@@ -32,20 +31,19 @@ set tmargin at screen 8.80000E-01; set bmargin at screen 1.15000E-01
 set ylabel 'wheel travel [mm]    (+ bump)' textcolor rgb '#202020'
 set xlabel 'Camber, deg    (+ top outward)' textcolor rgb '#202020'
 set xrange [*:*]
-letters = '15'
 
 do for [format in formats] {
-   if (format eq 'png') { set terminal pngcairo size 1200, 900 font 'sans-serif,'.letters noenhanced }
-   if (format eq 'svg') { set terminal svg size 1200, 900 font 'sans-serif,'.letters background 'white' noenhanced }
-   if (format eq 'pdf') { set terminal pdfcairo size 24cm, 18cm font 'sans-serif,'.letters noenhanced }
-   set output 'plane_axle_centre_camber.'.format
+if (format eq 'png') { set terminal pngcairo size 1200, 900 font 'sans-serif,15' noenhanced }
+if (format eq 'svg') { set terminal svg size 1200, 900 font 'sans-serif,15' noenhanced background 'white' }
+if (format eq 'pdf') { set terminal pdfcairo size 24cm, 18cm font 'sans-serif,15' noenhanced }
+set output 'plane_axle_centre_camber.'.format
    set label 1 'Camber' at screen 2.50000E-02, screen 9.65000E-01 font 'sans-serif:Bold,20' textcolor rgb '#202020'
    set label 2 'axle of two plane four-bars, centre' at screen 2.50000E-02, screen 9.22000E-01 font 'sans-serif,14' textcolor rgb '#606060'
    plot 'plane_axle_centre.csv' using "left_camber_deg":"left_wheel_travel_mm" with lines linestyle 1 title 'left', \
         'plane_axle_centre.csv' using "right_camber_deg":"right_wheel_travel_mm" with lines linestyle 2 dashtype (12, 7) title 'right', \
         'plane_axle_centre.csv' using "left_camber_deg":(column("factor") == 0 ? column("left_wheel_travel_mm") : NaN) with points linestyle 20 title 'design', \
         'plane_axle_centre.csv' using "right_camber_deg":(column("factor") == 0 ? column("right_wheel_travel_mm") : NaN) with points linestyle 20 notitle
-   unset output
+unset output
 }
 # Lateral movement of the contact patch
 #
@@ -54,17 +52,16 @@ do for [format in formats] {
 # in this folder draws plane_axle_centre_lateral.png and .svg;
 # gnuplot -e "formats='pdf'" plane_axle_centre_lateral.gp makes a PDF.
 if (!exists('formats')) formats = 'png svg'
-
 reset
 set encoding utf8
 set datafile separator comma
-set datafile columnheaders
 set datafile missing 'nan'
 set border 3 linecolor rgb '#808080'
-set tics out nomirror textcolor rgb '#404040'
+set tics out nomirror scale 6.00000E-01 textcolor rgb '#404040'
 set grid linetype 1 linecolor rgb '#E6E6E6' linewidth 1
 set xzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
 set yzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
+set datafile columnheaders
 set style line 1 linecolor rgb '#0072B2' linewidth 2.60000E+00 pointtype 7 pointsize 7.00000E-01
 set style line 2 linecolor rgb '#D55E00' linewidth 2.60000E+00 pointtype 7 pointsize 7.00000E-01
 set style line 3 linecolor rgb '#009E73' linewidth 2.60000E+00 pointtype 7 pointsize 7.00000E-01
@@ -81,20 +78,19 @@ set tmargin at screen 8.80000E-01; set bmargin at screen 1.15000E-01
 set ylabel 'wheel travel [mm]    (+ bump)' textcolor rgb '#202020'
 set xlabel 'Half-track change, mm    (contact patch, + outward)' textcolor rgb '#202020'
 set xrange [*:*]
-letters = '15'
 
 do for [format in formats] {
-   if (format eq 'png') { set terminal pngcairo size 1200, 900 font 'sans-serif,'.letters noenhanced }
-   if (format eq 'svg') { set terminal svg size 1200, 900 font 'sans-serif,'.letters background 'white' noenhanced }
-   if (format eq 'pdf') { set terminal pdfcairo size 24cm, 18cm font 'sans-serif,'.letters noenhanced }
-   set output 'plane_axle_centre_lateral.'.format
+if (format eq 'png') { set terminal pngcairo size 1200, 900 font 'sans-serif,15' noenhanced }
+if (format eq 'svg') { set terminal svg size 1200, 900 font 'sans-serif,15' noenhanced background 'white' }
+if (format eq 'pdf') { set terminal pdfcairo size 24cm, 18cm font 'sans-serif,15' noenhanced }
+set output 'plane_axle_centre_lateral.'.format
    set label 1 'Lateral movement of the contact patch' at screen 2.50000E-02, screen 9.65000E-01 font 'sans-serif:Bold,20' textcolor rgb '#202020'
    set label 2 'axle of two plane four-bars, centre' at screen 2.50000E-02, screen 9.22000E-01 font 'sans-serif,14' textcolor rgb '#606060'
    plot 'plane_axle_centre.csv' using "left_track_change_mm":"left_wheel_travel_mm" with lines linestyle 1 title 'left', \
         'plane_axle_centre.csv' using "right_track_change_mm":"right_wheel_travel_mm" with lines linestyle 2 dashtype (12, 7) title 'right', \
         'plane_axle_centre.csv' using "left_track_change_mm":(column("factor") == 0 ? column("left_wheel_travel_mm") : NaN) with points linestyle 20 title 'design', \
         'plane_axle_centre.csv' using "right_track_change_mm":(column("factor") == 0 ? column("right_wheel_travel_mm") : NaN) with points linestyle 20 notitle
-   unset output
+unset output
 }
 # Longitudinal movement of the contact patch
 #
@@ -103,17 +99,16 @@ do for [format in formats] {
 # in this folder draws plane_axle_centre_longitudinal.png and .svg;
 # gnuplot -e "formats='pdf'" plane_axle_centre_longitudinal.gp makes a PDF.
 if (!exists('formats')) formats = 'png svg'
-
 reset
 set encoding utf8
 set datafile separator comma
-set datafile columnheaders
 set datafile missing 'nan'
 set border 3 linecolor rgb '#808080'
-set tics out nomirror textcolor rgb '#404040'
+set tics out nomirror scale 6.00000E-01 textcolor rgb '#404040'
 set grid linetype 1 linecolor rgb '#E6E6E6' linewidth 1
 set xzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
 set yzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
+set datafile columnheaders
 set style line 1 linecolor rgb '#0072B2' linewidth 2.60000E+00 pointtype 7 pointsize 7.00000E-01
 set style line 2 linecolor rgb '#D55E00' linewidth 2.60000E+00 pointtype 7 pointsize 7.00000E-01
 set style line 3 linecolor rgb '#009E73' linewidth 2.60000E+00 pointtype 7 pointsize 7.00000E-01
@@ -130,20 +125,19 @@ set tmargin at screen 8.80000E-01; set bmargin at screen 1.15000E-01
 set ylabel 'wheel travel [mm]    (+ bump)' textcolor rgb '#202020'
 set xlabel 'Wheelbase change, mm    (contact patch, + rearward)' textcolor rgb '#202020'
 set xrange [* < -1 : 1 < *]
-letters = '15'
 
 do for [format in formats] {
-   if (format eq 'png') { set terminal pngcairo size 1200, 900 font 'sans-serif,'.letters noenhanced }
-   if (format eq 'svg') { set terminal svg size 1200, 900 font 'sans-serif,'.letters background 'white' noenhanced }
-   if (format eq 'pdf') { set terminal pdfcairo size 24cm, 18cm font 'sans-serif,'.letters noenhanced }
-   set output 'plane_axle_centre_longitudinal.'.format
+if (format eq 'png') { set terminal pngcairo size 1200, 900 font 'sans-serif,15' noenhanced }
+if (format eq 'svg') { set terminal svg size 1200, 900 font 'sans-serif,15' noenhanced background 'white' }
+if (format eq 'pdf') { set terminal pdfcairo size 24cm, 18cm font 'sans-serif,15' noenhanced }
+set output 'plane_axle_centre_longitudinal.'.format
    set label 1 'Longitudinal movement of the contact patch' at screen 2.50000E-02, screen 9.65000E-01 font 'sans-serif:Bold,20' textcolor rgb '#202020'
    set label 2 'axle of two plane four-bars, centre' at screen 2.50000E-02, screen 9.22000E-01 font 'sans-serif,14' textcolor rgb '#606060'
    plot 'plane_axle_centre.csv' using "left_wheelbase_change_mm":"left_wheel_travel_mm" with lines linestyle 1 title 'left', \
         'plane_axle_centre.csv' using "right_wheelbase_change_mm":"right_wheel_travel_mm" with lines linestyle 2 dashtype (12, 7) title 'right', \
         'plane_axle_centre.csv' using "left_wheelbase_change_mm":(column("factor") == 0 ? column("left_wheel_travel_mm") : NaN) with points linestyle 20 title 'design', \
         'plane_axle_centre.csv' using "right_wheelbase_change_mm":(column("factor") == 0 ? column("right_wheel_travel_mm") : NaN) with points linestyle 20 notitle
-   unset output
+unset output
 }
 # Overview
 #
@@ -152,17 +146,16 @@ do for [format in formats] {
 # in this folder draws plane_axle_centre_overview.png and .svg;
 # gnuplot -e "formats='pdf'" plane_axle_centre_overview.gp makes a PDF.
 if (!exists('formats')) formats = 'png svg'
-
 reset
 set encoding utf8
 set datafile separator comma
-set datafile columnheaders
 set datafile missing 'nan'
 set border 3 linecolor rgb '#808080'
-set tics out nomirror textcolor rgb '#404040'
+set tics out nomirror scale 6.00000E-01 textcolor rgb '#404040'
 set grid linetype 1 linecolor rgb '#E6E6E6' linewidth 1
 set xzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
 set yzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
+set datafile columnheaders
 set style line 1 linecolor rgb '#0072B2' linewidth 2.60000E+00 pointtype 7 pointsize 7.00000E-01
 set style line 2 linecolor rgb '#D55E00' linewidth 2.60000E+00 pointtype 7 pointsize 7.00000E-01
 set style line 3 linecolor rgb '#009E73' linewidth 2.60000E+00 pointtype 7 pointsize 7.00000E-01
@@ -174,13 +167,12 @@ set style line 8 linecolor rgb '#8C510A' linewidth 2.60000E+00 pointtype 7 point
 set style line 20 linecolor rgb '#202020' linewidth 2 pointtype 6 pointsize 1.80000E+00   # marks
 
 set key at screen 9.75000E-01, screen 9.65000E-01 right top horizontal Right noreverse samplen 2.50000E+00
-letters = '12'
 
 do for [format in formats] {
-   if (format eq 'png') { set terminal pngcairo size 1200, 900 font 'sans-serif,'.letters noenhanced }
-   if (format eq 'svg') { set terminal svg size 1200, 900 font 'sans-serif,'.letters background 'white' noenhanced }
-   if (format eq 'pdf') { set terminal pdfcairo size 24cm, 18cm font 'sans-serif,'.letters noenhanced }
-   set output 'plane_axle_centre_overview.'.format
+if (format eq 'png') { set terminal pngcairo size 1200, 900 font 'sans-serif,12' noenhanced }
+if (format eq 'svg') { set terminal svg size 1200, 900 font 'sans-serif,12' noenhanced background 'white' }
+if (format eq 'pdf') { set terminal pdfcairo size 24cm, 18cm font 'sans-serif,12' noenhanced }
+set output 'plane_axle_centre_overview.'.format
    set label 1 'Overview' at screen 2.50000E-02, screen 9.65000E-01 font 'sans-serif:Bold,20' textcolor rgb '#202020'
    set label 2 'axle of two plane four-bars, centre' at screen 2.50000E-02, screen 9.22000E-01 font 'sans-serif,14' textcolor rgb '#606060'
    set multiplot layout 2, 2 margins 9.50000E-02, 9.70000E-01, 8.50000E-02, 8.50000E-01 spacing 1.15000E-01, 1.55000E-01
@@ -222,7 +214,7 @@ do for [format in formats] {
         'plane_axle_centre.csv' using "left_wheelbase_change_mm":(column("factor") == 0 ? column("left_wheel_travel_mm") : NaN) with points linestyle 20 notitle, \
         'plane_axle_centre.csv' using "right_wheelbase_change_mm":(column("factor") == 0 ? column("right_wheel_travel_mm") : NaN) with points linestyle 20 notitle
    unset multiplot
-   unset output
+unset output
 }
 # Spring force
 #
@@ -231,17 +223,16 @@ do for [format in formats] {
 # in this folder draws plane_axle_centre_spring_force.png and .svg;
 # gnuplot -e "formats='pdf'" plane_axle_centre_spring_force.gp makes a PDF.
 if (!exists('formats')) formats = 'png svg'
-
 reset
 set encoding utf8
 set datafile separator comma
-set datafile columnheaders
 set datafile missing 'nan'
 set border 3 linecolor rgb '#808080'
-set tics out nomirror textcolor rgb '#404040'
+set tics out nomirror scale 6.00000E-01 textcolor rgb '#404040'
 set grid linetype 1 linecolor rgb '#E6E6E6' linewidth 1
 set xzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
 set yzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
+set datafile columnheaders
 set style line 1 linecolor rgb '#0072B2' linewidth 2.60000E+00 pointtype 7 pointsize 7.00000E-01
 set style line 2 linecolor rgb '#D55E00' linewidth 2.60000E+00 pointtype 7 pointsize 7.00000E-01
 set style line 3 linecolor rgb '#009E73' linewidth 2.60000E+00 pointtype 7 pointsize 7.00000E-01
@@ -258,13 +249,12 @@ set tmargin at screen 8.80000E-01; set bmargin at screen 1.15000E-01
 set ylabel 'wheel travel [mm]    (+ bump)' textcolor rgb '#202020'
 set xlabel 'force, N    (+ compression)' textcolor rgb '#202020'
 set xrange [*:*]
-letters = '15'
 
 do for [format in formats] {
-   if (format eq 'png') { set terminal pngcairo size 1200, 900 font 'sans-serif,'.letters noenhanced }
-   if (format eq 'svg') { set terminal svg size 1200, 900 font 'sans-serif,'.letters background 'white' noenhanced }
-   if (format eq 'pdf') { set terminal pdfcairo size 24cm, 18cm font 'sans-serif,'.letters noenhanced }
-   set output 'plane_axle_centre_spring_force.'.format
+if (format eq 'png') { set terminal pngcairo size 1200, 900 font 'sans-serif,15' noenhanced }
+if (format eq 'svg') { set terminal svg size 1200, 900 font 'sans-serif,15' noenhanced background 'white' }
+if (format eq 'pdf') { set terminal pdfcairo size 24cm, 18cm font 'sans-serif,15' noenhanced }
+set output 'plane_axle_centre_spring_force.'.format
    set label 1 'Spring force' at screen 2.50000E-02, screen 9.65000E-01 font 'sans-serif:Bold,20' textcolor rgb '#202020'
    set label 2 'axle of two plane four-bars, centre' at screen 2.50000E-02, screen 9.22000E-01 font 'sans-serif,14' textcolor rgb '#606060'
    plot 'plane_axle_centre.csv' using "left_coil_force_n":"left_wheel_travel_mm" with lines linestyle 1 title 'left_coil', \
@@ -273,7 +263,7 @@ do for [format in formats] {
         'plane_axle_centre.csv' using "left_coil_force_n":(column("factor") == 0 ? column("left_wheel_travel_mm") : NaN) with points linestyle 20 title 'design', \
         'plane_axle_centre.csv' using "right_coil_force_n":(column("factor") == 0 ? column("right_wheel_travel_mm") : NaN) with points linestyle 20 notitle, \
         'plane_axle_centre.csv' using "across_force_n":(column("factor") == 0 ? column("left_wheel_travel_mm") : NaN) with points linestyle 20 notitle
-   unset output
+unset output
 }
 # Toe
 #
@@ -282,17 +272,16 @@ do for [format in formats] {
 # in this folder draws plane_axle_centre_toe.png and .svg;
 # gnuplot -e "formats='pdf'" plane_axle_centre_toe.gp makes a PDF.
 if (!exists('formats')) formats = 'png svg'
-
 reset
 set encoding utf8
 set datafile separator comma
-set datafile columnheaders
 set datafile missing 'nan'
 set border 3 linecolor rgb '#808080'
-set tics out nomirror textcolor rgb '#404040'
+set tics out nomirror scale 6.00000E-01 textcolor rgb '#404040'
 set grid linetype 1 linecolor rgb '#E6E6E6' linewidth 1
 set xzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
 set yzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
+set datafile columnheaders
 set style line 1 linecolor rgb '#0072B2' linewidth 2.60000E+00 pointtype 7 pointsize 7.00000E-01
 set style line 2 linecolor rgb '#D55E00' linewidth 2.60000E+00 pointtype 7 pointsize 7.00000E-01
 set style line 3 linecolor rgb '#009E73' linewidth 2.60000E+00 pointtype 7 pointsize 7.00000E-01
@@ -309,20 +298,19 @@ set tmargin at screen 8.80000E-01; set bmargin at screen 1.15000E-01
 set ylabel 'wheel travel [mm]    (+ bump)' textcolor rgb '#202020'
 set xlabel 'Toe, deg    (+ front edge inward)' textcolor rgb '#202020'
 set xrange [* < -5.00000E-02 : 5.00000E-02 < *]
-letters = '15'
 
 do for [format in formats] {
-   if (format eq 'png') { set terminal pngcairo size 1200, 900 font 'sans-serif,'.letters noenhanced }
-   if (format eq 'svg') { set terminal svg size 1200, 900 font 'sans-serif,'.letters background 'white' noenhanced }
-   if (format eq 'pdf') { set terminal pdfcairo size 24cm, 18cm font 'sans-serif,'.letters noenhanced }
-   set output 'plane_axle_centre_toe.'.format
+if (format eq 'png') { set terminal pngcairo size 1200, 900 font 'sans-serif,15' noenhanced }
+if (format eq 'svg') { set terminal svg size 1200, 900 font 'sans-serif,15' noenhanced background 'white' }
+if (format eq 'pdf') { set terminal pdfcairo size 24cm, 18cm font 'sans-serif,15' noenhanced }
+set output 'plane_axle_centre_toe.'.format
    set label 1 'Toe' at screen 2.50000E-02, screen 9.65000E-01 font 'sans-serif:Bold,20' textcolor rgb '#202020'
    set label 2 'axle of two plane four-bars, centre' at screen 2.50000E-02, screen 9.22000E-01 font 'sans-serif,14' textcolor rgb '#606060'
    plot 'plane_axle_centre.csv' using "left_toe_deg":"left_wheel_travel_mm" with lines linestyle 1 title 'left', \
         'plane_axle_centre.csv' using "right_toe_deg":"right_wheel_travel_mm" with lines linestyle 2 dashtype (12, 7) title 'right', \
         'plane_axle_centre.csv' using "left_toe_deg":(column("factor") == 0 ? column("left_wheel_travel_mm") : NaN) with points linestyle 20 title 'design', \
         'plane_axle_centre.csv' using "right_toe_deg":(column("factor") == 0 ? column("right_wheel_travel_mm") : NaN) with points linestyle 20 notitle
-   unset output
+unset output
 }
 # Overview
 #
@@ -331,17 +319,16 @@ do for [format in formats] {
 # in this folder draws tiny_sweep_overview.png and .svg;
 # gnuplot -e "formats='pdf'" tiny_sweep_overview.gp makes a PDF.
 if (!exists('formats')) formats = 'png svg'
-
 reset
 set encoding utf8
 set datafile separator comma
-set datafile columnheaders
 set datafile missing 'nan'
 set border 3 linecolor rgb '#808080'
-set tics out nomirror textcolor rgb '#404040'
+set tics out nomirror scale 6.00000E-01 textcolor rgb '#404040'
 set grid linetype 1 linecolor rgb '#E6E6E6' linewidth 1
 set xzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
 set yzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
+set datafile columnheaders
 set style line 1 linecolor rgb '#0072B2' linewidth 2.60000E+00 pointtype 7 pointsize 7.00000E-01
 set style line 2 linecolor rgb '#D55E00' linewidth 2.60000E+00 pointtype 7 pointsize 7.00000E-01
 set style line 3 linecolor rgb '#009E73' linewidth 2.60000E+00 pointtype 7 pointsize 7.00000E-01
@@ -353,13 +340,12 @@ set style line 8 linecolor rgb '#8C510A' linewidth 2.60000E+00 pointtype 7 point
 set style line 20 linecolor rgb '#202020' linewidth 2 pointtype 6 pointsize 1.80000E+00   # marks
 
 set key at screen 9.75000E-01, screen 9.65000E-01 right top horizontal Right noreverse samplen 2.50000E+00
-letters = '12'
 
 do for [format in formats] {
-   if (format eq 'png') { set terminal pngcairo size 1200, 900 font 'sans-serif,'.letters noenhanced }
-   if (format eq 'svg') { set terminal svg size 1200, 900 font 'sans-serif,'.letters background 'white' noenhanced }
-   if (format eq 'pdf') { set terminal pdfcairo size 24cm, 18cm font 'sans-serif,'.letters noenhanced }
-   set output 'tiny_sweep_overview.'.format
+if (format eq 'png') { set terminal pngcairo size 1200, 900 font 'sans-serif,12' noenhanced }
+if (format eq 'svg') { set terminal svg size 1200, 900 font 'sans-serif,12' noenhanced background 'white' }
+if (format eq 'pdf') { set terminal pdfcairo size 24cm, 18cm font 'sans-serif,12' noenhanced }
+set output 'tiny_sweep_overview.'.format
    set label 1 'Overview' at screen 2.50000E-02, screen 9.65000E-01 font 'sans-serif:Bold,20' textcolor rgb '#202020'
    set label 2 'tiny, sweep' at screen 2.50000E-02, screen 9.22000E-01 font 'sans-serif,14' textcolor rgb '#606060'
    set multiplot layout 2, 2 margins 9.50000E-02, 9.70000E-01, 8.50000E-02, 8.50000E-01 spacing 1.15000E-01, 1.55000E-01
@@ -393,5 +379,5 @@ do for [format in formats] {
    plot 'tiny_sweep.csv' using "wheelbase_change_mm":"wheel_travel_mm" with lines linestyle 1 notitle, \
         'tiny_sweep.csv' using "wheelbase_change_mm":(column("factor") == 0 ? column("wheel_travel_mm") : NaN) with points linestyle 20 notitle
    unset multiplot
-   unset output
+unset output
 }
