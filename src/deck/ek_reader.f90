@@ -28,7 +28,7 @@ module ek_reader
    use ek_suspension, only: suspension_t, point_t
    use ek_assembly, only: add_gravity, add_start_loads
    use ek_blueprint, only: blueprint_t, new_blueprint
-   use ek_free_wheels, only: count_free_wheels
+   use ek_free_wheels, only: find_free_wheels
    use ek_realise, only: new_design, realise
    use ek_case, only: case_t, manoeuvre_t
    implicit none(type, external)
@@ -83,7 +83,7 @@ contains
          'without length, a point on the wrong side, or a number outside its range); please report this deck, as a message '// &
          'should name the line')
       if (.not. is_whole) return
-      suspension%free_wheels = count_free_wheels(suspension)
+      call find_free_wheels(suspension)
       call check_manoeuvres(suspension, design%cases, error)
    end subroutine build_design
 

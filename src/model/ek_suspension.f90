@@ -115,6 +115,7 @@ module ek_suspension
       integer :: rig_rows = 0                  !! number of rows of the rig, which are the last rows, see ek_rig
       type(wheel_t), allocatable :: wheels(:)
       integer :: free_wheels = 0               !! number of wheels whose height nothing carries, see ek_free_wheels
+      integer :: bushed_wheels = 0             !! number of wheels that only the stiffness of bushings about their axes carries
       type(readout_t), allocatable :: readouts(:)
       type(tilt_t), allocatable :: tilts(:)    !! rated tilts of joints and bushings
       type(axle_t) :: axle = axle_t()

@@ -35,6 +35,7 @@ module ek_table
                                                           !! number is read there. Not allocated: all are
       logical :: is_along_arc = .false.                   !! the states are at equal distances along a path
       logical :: lacks_springs = .false.                  !! nothing carries the wheels: columns that depend on a rate are NaN
+      logical :: rests_on_bushings = .false.              !! only bushings carry the wheels: the same columns are NaN
       logical :: is_of_rows = .false.                     !! the states are those of the rows of a load table or of a grid
       type(message_list_t) :: header                      !! lines above the columns, each written after '# '
       type(row_name_t), allocatable :: names(:)           !! name of each row, in a last column `name`; without names: not allocated
