@@ -15,7 +15,8 @@ module ek_case_remarks
    use ek_sweep_table, only: open_states
    use ek_attitude, only: attitude_t, wheel_attitude
    use ek_remark, only: remark_list_t, note, warning, failure, on_settling, on_drift, on_travel, on_rack, on_closure, on_curve, &
-      swept_text, has_spring
+      swept_text
+   use ek_free_wheels, only: has_spring
    use ek_curve, only: curve_t
    use ek_law, only: law_t, deflection
    use ek_measure, only: measure_value, rotation

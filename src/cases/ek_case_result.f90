@@ -284,6 +284,8 @@ contains
       call table%header%add('elastokin '//version//', deck checksum '//checksum)
       if (suspension%free_wheels > 0) call table%header%add('kinematics only: no spring carries the wheels; columns that '// &
          'depend on a rate are nan')
+      if (suspension%bushed_wheels > 0) call table%header%add('only bushings carry the wheels; columns that depend on '// &
+         'the spring are nan')
       start = start_line(suspension)
       if (start /= '') call table%header%add(start)
       call table%header%add('spring force > 0: compression. Bushing force and moment: on its second body, axes of its first '// &

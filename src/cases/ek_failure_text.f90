@@ -21,7 +21,8 @@ module ek_failure_text
    use ek_reach, only: failure_t
    use ek_arc_survey, only: stuck, gone_far, gone_round, arrived, max_steps
    use ek_sweep_table, only: nearly_singular
-   use ek_remark, only: swept_text, remark_list_t, warning, on_stability, has_spring
+   use ek_remark, only: swept_text, remark_list_t, warning, on_stability
+   use ek_free_wheels, only: has_spring
    implicit none(type, external)
    private
    public :: failure_text, stability_remarks

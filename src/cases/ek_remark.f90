@@ -6,14 +6,14 @@ module ek_remark
    use ek_rig, only: lacks_springs
    use ek_case, only: case_t
    use ek_error, only: message_list_t
-   use ek_element, only: element_kinds, torsion_spring
+   use ek_element, only: element_kinds
+   use ek_free_wheels, only: has_spring, has_rates
    use ek_element_label, only: element_label
    use ek_suspension, only: suspension_t, driver_unit
    implicit none(type, external)
    private
    public :: remark_t, remark_list_t, swept_text, note, warning, failure, on_case, on_end, on_settling, on_drift, on_travel, &
-      on_stability, on_rack, on_curve, on_closure, patch_remarks, spring_remarks, half_turn_remarks, preload_remarks, &
-      has_spring
+      on_stability, on_rack, on_curve, on_closure, patch_remarks, spring_remarks, half_turn_remarks, preload_remarks
 
    ! severities
    integer, parameter :: note = 1        !! the results are sound
@@ -147,16 +147,6 @@ contains
       end do
    end subroutine patch_remarks
 
-   !> Whether the deck has a spring that carries the car: a spring, or a torsion spring that acts against the chassis.
-   pure logical function has_spring(suspension)
-      type(suspension_t), intent(in) :: suspension
-
-      associate (e => suspension%elements)
-         has_spring = any(element_kinds(e%kind)%carries .or. &
-            (e%kind == torsion_spring .and. min(e%measure%body_i, e%measure%body_j) == 0))
-      end associate
-   end function has_spring
-
    !> Warns of a deck without a spring, whose equilibrium rests on bushings and stops. No warning is added if every case prescribes
    !> a wheel travel or a driver and does not request all columns (kinematics): such cases do not need a spring.
    subroutine spring_remarks(suspension, cases, words, all_cases)
@@ -167,9 +157,9 @@ contains
       integer :: k
 
       if (size(suspension%wheels) == 0) return
-      if (suspension%free_wheels == 0 .and. has_spring(suspension)) return
-      if (all([(.not. cases(k)%has_all .and. len(cases(k)%drive) > 0, k=1, size(cases))])) return
-      if (suspension%free_wheels > 0) then
+      if (has_rates(suspension) .and. has_spring(suspension)) return
+      if (size(cases) > 0 .and. all([(.not. cases(k)%has_all .and. len(cases(k)%drive) > 0, k=1, size(cases))])) return
+      if (.not. has_rates(suspension)) then
          call kinematic_remark(suspension, all_cases, words)
          return
       end if
@@ -190,7 +180,12 @@ contains
          if (lacks_springs(suspension, cases(k))) names = names//', '//quoted(cases(k)%name)
       end do
       if (names /= '') names = '; cases that need forces: '//names(3:)
-      call words%add('kinematics only: no spring carries the wheels, so that rates and forces have no value'//names)
+      if (suspension%free_wheels > 0) then
+         call words%add('kinematics only: no spring carries the wheels, so that rates and forces have no value'//names)
+      else
+         call words%add('no spring carries the wheels, only the stiffness of bushings about their axes; what depends on the '// &
+            'spring has no value'//names)
+      end if
    end subroutine kinematic_remark
 
    !> Warns of cases that drive a rotation beyond the limit of a rotation measure.

@@ -10,6 +10,7 @@ module ek_explain
    use ek_buffer, only: buffer_t
    use ek_file, only: make_folder, join_path
    use ek_suspension, only: suspension_t
+   use ek_free_wheels, only: has_rates
    use ek_case, only: case_t
    use ek_workspace, only: workspace_t, balance_or_explain
    use ek_reader, only: definition_t
@@ -264,7 +265,7 @@ contains
             if (settings%has_scan) call add_scan(suspension, result%kkt, table, text)
          else
             call text%line(trim(merge('  no spring carries the wheels: no contributions ', &
-               '  the compliance matrix is singular at this state', suspension%free_wheels > 0)))
+               '  the compliance matrix is singular at this state', .not. has_rates(suspension))))
          end if
       end associate
       call print_text(text%text(), error)

@@ -10,6 +10,7 @@ module ek_load_deck
    use ek_workspace_cases, only: open_model
    use ek_session, only: session_t, take_deck
    use ek_suspension, only: suspension_t
+   use ek_free_wheels, only: has_rates
    use ek_standard_tests, only: standard_tests
    use ek_case, only: case_t, method_names, solver_names, max_increments
    use ek_command_line, only: command_line_t
@@ -229,7 +230,7 @@ contains
          end do
          if (size(names) == 0) hint = hint//' no case'
          if (size(known) > size(names)) hint = hint//', and the standard tests'
-         if (suspension%free_wheels > 0) hint = hint//' of travel, roll and steering, as no spring carries the wheels'
+         if (.not. has_rates(suspension)) hint = hint//' of travel, roll and steering, as no spring carries the wheels'
          call fail(error, exit_usage, '--case: no case '//quoted(settings%case)//' in '//settings%file//hint)
       else if (settings%method /= '' .and. .not. any(method_names == settings%method)) then
          call fail(error, exit_usage, '--method: expected recursive, corrected or equilibrium, found '//quoted(settings%method))

@@ -35,11 +35,13 @@ contains
       character(*), intent(in) :: title      !! kind of suspension, for the comment at the beginning
       type(buffer_t), intent(inout) :: out
       type(piece_t), allocatable :: pieces(:), news(:)
-      character(:), allocatable :: pending
+      character(:), allocatable :: pending, of_points
       logical, allocatable :: is_placed(:)
       logical :: has_changed
       integer :: k, n
 
+      of_points = title
+      call replace(of_points, ' and anti-roll bar', '')
       call cut(deck, pieces)
       call cut(joints, news)
       do k = 1, size(news)
@@ -51,7 +53,10 @@ contains
             if (any(dropped == this%group)) this%is_kept = .false.
             if (this%group == 'case') this%is_kept = any([(index(this%text, "'"//trim(kinematic(n))//"'") > 0, &
                n=1, size(kinematic))])
-            if (this%group == 'model') call replace(this%text, " balance = 'all',", '')
+            if (this%group == 'model') then
+               call replace(this%text, " balance = 'all',", '')
+               call set_title(this%text)
+            end if
             if (this%name /= '' .and. index(joints, '! drop:') == 1) then
                if (index(joints(:index(joints, nl)), "'"//this%name//"'") > 0) this%is_kept = .false.
             end if
@@ -73,7 +78,7 @@ contains
          end do
       end do
 
-      call out%line('! '//title//': points and links only, for kinematics without springs.')
+      call out%line('! '//of_points//': points and links only, for kinematics without springs.')
       call out%line('!')
       call out%line('! Coordinates: x rearward, y right, z up, origin on the wheel centre line; mm, deg. The deck describes')
       call out%line('! the left half; the right half is its mirror image. Joints replace the bushings.')
@@ -98,6 +103,16 @@ contains
       end do
 
    contains
+
+      !> Gives &model the title of a deck without an anti-roll bar and stops.
+      pure subroutine set_title(text)
+         character(:), allocatable, intent(inout) :: text
+         integer :: first, last
+
+         first = index(text, "title = '") + len("title = '")
+         last = first + index(text(first:), "'") - 2
+         text = text(:first - 1)//of_points//', points and links'//text(last + 1:)
+      end subroutine set_title
 
       !> Whether a record that is kept, other than &mirror and the record itself, names a point or a body.
       pure logical function is_named(name)

@@ -56,6 +56,8 @@ contains
          words = [character(word_length) :: 'carrier', 'body']
       case ('load.factor')
          words = [character(word_length) :: 'constant', 'case']
+      case ('adjuster.type')
+         words = [character(word_length) :: 'rod', 'shim', 'slot', 'seat']
       case ('manoeuvre.set')
          words = [character(word_length) :: set_names]
       case ('manoeuvre.longitudinal_by')

@@ -20,11 +20,11 @@ module ek_group
       study_group = 11, factor_group = 12, response_group = 13, include_group = 14, mirror_group = 15, &
       curve_group = 16, damper_group = 17, stop_group = 18, torsion_group = 19, axle_group = 20, steering_group = 21, &
       mass_group = 22, correlation_group = 23, hardpoints_group = 24, target_group = 25, fit_group = 26, fit_target_group = 27, &
-      manoeuvre_group = 28, load_state_group = 29
+      manoeuvre_group = 28, load_state_group = 29, adjuster_group = 30
    character(*), parameter :: group_names(*) = [character(11) :: 'model', 'point', 'body', 'measure', 'joint', &
       'bushing', 'spring', 'wheel', 'load', 'case', 'study', 'factor', 'response', 'include', 'mirror', 'curve', 'damper', &
       'stop', 'torsion', 'axle', 'steering', 'mass', 'correlation', 'hardpoints', 'target_band', &
-      'fit', 'target', 'manoeuvre', 'load_state']
+      'fit', 'target', 'manoeuvre', 'load_state', 'adjuster']
 
    !> What a record of each group describes, for `elastokin schema`; '' for groups of a study or a fit.
    character(*), parameter :: group_summaries(*) = [character(90) :: 'the model: name, units, frame and preload trim', &
@@ -35,7 +35,7 @@ module ek_group
       'a damper, of which the gas force acts', 'a bump stop or a rebound stop', 'a torsion spring between two bodies', &
       'the axle and the car around it', 'the steering wheel and the rack', 'an additional mass on a body', '', &
       'points from a file', 'a range in which a key number should lie', '', '', 'load factor and accelerations of the car', &
-      'a state from which all tests can start']
+      'a state from which all tests can start', 'a rod, shim, slot or seat by which the axle is set up']
 
    integer, parameter :: every_group = 0      !! group, in the table of keys, of a key that every group has
    integer, parameter :: spring_groups(*) = [spring_group, damper_group, stop_group, torsion_group]   ! elements of one measure
@@ -60,6 +60,7 @@ module ek_group
    integer, parameter, public :: max_values = 200   !! values per factor, increments of a study, points of a curve, names in shared
    integer, parameter, public :: max_paths = 50       !! paths of the numbers that one factor changes
    integer, parameter, public :: max_loads = 12       !! loads scaled by one case
+   integer, parameter, public :: max_adjusted = 12    !! points that one adjuster moves
 
    ! roles under &mirror, y → −y, of the keys that differ between the sides: the name of a record that may be duplicated (its
    ! group), a vector, and the rest
@@ -85,7 +86,7 @@ module ek_group
 
    integer, parameter :: named(*) = [model_group, point_group, body_group, mass_group, measure_group, joint_group, &
       bushing_group, spring_group, curve_group, damper_group, stop_group, torsion_group, wheel_group, load_group, case_group, &
-      study_group, factor_group, response_group, fit_group, fit_target_group, load_state_group]
+      study_group, factor_group, response_group, fit_group, fit_target_group, load_state_group, adjuster_group]
    integer :: j     ! implied-do index of the table, not used elsewhere
 
    type(key_t), parameter :: keys_of_names(*) = [(key_t(named(j), 'name', word, 1, 1, .true., about='name of the item'), &
@@ -292,6 +293,23 @@ module ek_group
       key_t(load_group, 'follows', switch, 1, 1, .false., default='.false.', about='whether the load rotates with the body'), &
       key_t(load_group, 'factor', word, 1, 1, .false., default='constant', &
       about='case: scaled by the case that names the load; constant: acts in every case'), &
+      key_t(adjuster_group, 'type', word, 1, 1, .true., about='kind of adjuster'), &
+      key_t(adjuster_group, 'joint', word, 1, 1, .false., role=joint_group, about='rod: distance joint whose length changes'), &
+      key_t(adjuster_group, 'spring', word, 1, 1, .false., role=spring_group, about='seat: spring on the seat'), &
+      key_t(adjuster_group, 'body', word, 1, 1, .false., role=body_group, about='body whose points move, or chassis'), &
+      key_t(adjuster_group, 'at', word, 1, max_adjusted, .false., role=point_group, &
+      about='points that move; of a rod, the fixed and the moved end; of a shim, first its own point'), &
+      key_t(adjuster_group, 'thread', whole, 1, 1, .false., &
+      about='rod with a body: 1, the second point moves, or 2, both points move by a half; 1 if not given'), &
+      key_t(adjuster_group, 'axis', word, 2, 2, .false., role=point_group, &
+      about='two points: direction of the displacement, of a shim its normal'), &
+      key_t(adjuster_group, 'axis_vector', number, 3, 3, .false., role=polar, &
+      about='components of a vector of any length, instead of axis'), &
+      key_t(adjuster_group, 'pivot', word, 1, 1, .false., role=point_group, &
+      about='shim: point about which the points turn'), &
+      key_t(adjuster_group, 'range', number, 2, 2, .true., dimension=length, about='lowest and highest value'), &
+      key_t(adjuster_group, 'value', number, 1, 1, .false., dimension=length, default='0', &
+      about='change of length, thickness or displacement; 0 as drawn'), &
       key_t(manoeuvre_group, 'name', word, 1, 1, .false., about='name of the manoeuvre in the results'), &
       key_t(manoeuvre_group, 'set', word, 1, 1, .false., about='set of manoeuvres; no other key is then allowed'), &
       key_t(manoeuvre_group, 'vertical', number, 1, 1, .false., not_negative, default='1', &
@@ -449,7 +467,7 @@ contains
    !> Whether records of a group are duplicated by &mirror together with the records to which they refer.
    pure logical function is_element(group)
       integer, intent(in) :: group
-      is_element = has_results(group) .or. any([wheel_group, load_group, mass_group] == group)
+      is_element = has_results(group) .or. any([wheel_group, load_group, mass_group, adjuster_group] == group)
    end function is_element
 
    !> Whether &mirror may duplicate records of a group.

@@ -8,7 +8,7 @@ module ek_parameter
    use ek_text, only: str, lower, quoted, is_like, did_you_mean
    use ek_record, only: record_t, left_side, right_side, element, own_name, sign_of_image
    use ek_group, only: group_names, group_number, is_deck_group, names_of_groups, is_single, include_group, hardpoints_group, &
-      point_group, &
+      point_group, adjuster_group, &
       key_t, find_key
    use ek_number_range, only: is_inside
    implicit none(type, external)
@@ -90,13 +90,17 @@ contains
          message = '--set cannot change &hardpoints; change the points: point.name.z'
       else if (is_single(path%group) .and. dot /= last) then
          message = 'expected '//trim(group_names(path%group))//'.key=value'
-      else if (.not. is_single(path%group) .and. dot == last) then
+      else if (.not. is_single(path%group) .and. dot == last .and. path%group /= adjuster_group) then
          message = 'expected group.name.key=value'
       end if
       if (message /= '') return
       if (dot < last) path%name = text(dot + 1:last - 1)
-      path%is_wild = index(path%name, '*') > 0
       path%key = lower(text(last + 1:))
+      if (dot == last .and. path%group == adjuster_group) then      ! its value
+         path%name = text(dot + 1:)
+         path%key = 'value'
+      end if
+      path%is_wild = index(path%name, '*') > 0
       mark = index(path%key, '(')
       if (mark > 0) then
          path%has_subscript = .true.
@@ -320,6 +324,10 @@ contains
       name = element(record, 'name', 1)
       if (has_half) name = own_name(record)
       path = record%group//'.'
+      if (record%group == group_names(adjuster_group) .and. key == 'value') then
+         path = path//name
+         return
+      end if
       if (name /= '' .and. .not. is_single(group_number(record%group))) path = path//name//'.'
       if (record%group == group_names(point_group) .and. key == 'at' .and. at <= len(axes)) then
          path = path//axes(at:at)

@@ -10,7 +10,7 @@ module ek_reader
    use ek_group, only: group_names, group_number, is_deck_group, names_of_groups, model_group, point_group, body_group, &
       measure_group, joint_group, bushing_group, spring_groups, case_group, curve_group, mass_group, wheel_group, axle_group, &
       steering_group, load_group, manoeuvre_group, target_group, word_length, record_head, has_results, &
-      load_state_group
+      load_state_group, adjuster_group
    use ek_namelist, only: check_record, name_fault
    use ek_deck, only: deck_t, finish_deck
    use ek_attachment, only: units_in_deck
@@ -20,6 +20,7 @@ module ek_reader
    use ek_reader_bodies, only: read_point, read_body, read_mass, read_load, read_wheel, read_axle, read_steering
    use ek_reader_joints, only: read_measure, read_joint
    use ek_reader_manoeuvres, only: read_manoeuvre
+   use ek_reader_adjusters, only: read_adjuster
    use ek_manoeuvre, only: has_manoeuvres, axle_fault, manoeuvre_fault
    use ek_reader_elements, only: read_curve, read_element
    use ek_target_band, only: target_band_t, read_target_band
@@ -28,7 +29,7 @@ module ek_reader
    use ek_suspension, only: suspension_t, point_t
    use ek_assembly, only: add_gravity, add_start_loads
    use ek_blueprint, only: blueprint_t, new_blueprint
-   use ek_free_wheels, only: count_free_wheels
+   use ek_free_wheels, only: find_free_wheels
    use ek_realise, only: new_design, realise
    use ek_case, only: case_t, manoeuvre_t
    implicit none(type, external)
@@ -38,7 +39,7 @@ module ek_reader
    !> The order of reading: groups to which others refer come first.
    integer, parameter :: reading_order(*) = [model_group, load_state_group, point_group, curve_group, body_group, mass_group, &
       measure_group, joint_group, bushing_group, spring_groups, wheel_group, axle_group, steering_group, load_group, &
-      manoeuvre_group]
+      manoeuvre_group, adjuster_group]
 
    !> A deck as a design space: realise(plan, x) is a suspension.
    type :: definition_t
@@ -83,7 +84,7 @@ contains
          'without length, a point on the wrong side, or a number outside its range); please report this deck, as a message '// &
          'should name the line')
       if (.not. is_whole) return
-      suspension%free_wheels = count_free_wheels(suspension)
+      call find_free_wheels(suspension)
       call check_manoeuvres(suspension, design%cases, error)
    end subroutine build_design
 
@@ -265,6 +266,8 @@ contains
          call read_load(reading)
       case (manoeuvre_group)
          call read_manoeuvre(reading)
+      case (adjuster_group)
+         call read_adjuster(reading)
       case default
          call read_element(reading)
       end select

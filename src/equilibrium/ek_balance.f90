@@ -17,6 +17,7 @@ module ek_balance
    use ek_elastic, only: set_bushing_axes
    use ek_rotation, only: cross
    use ek_suspension, only: suspension_t
+   use ek_adjust, only: adjust
    use ek_state, only: state_t, inputs_t, design_state
    use ek_kkt, only: kkt_t, new_kkt, assemble, factorise, solve, whole_tangent
    use ek_preload_problem, only: preload_problem_t, set_problem, clear_preloads, is_free, takes_part
@@ -58,7 +59,8 @@ contains
       call fail_balance(suspension, failure, error)
    end subroutine balance
 
-   !> Sets the preloads like `balance`, but returns a failure as a reason without a message: no string is created.
+   !> Sets the preloads like `balance`, but returns a failure as a reason without a message: no string is created. The preloads hold
+   !> the drawn axle; the adjusters are set afterwards.
    subroutine set_preloads(suspension, tolerance, space, failure)
       type(suspension_t), intent(inout) :: suspension
       real(wp), intent(in) :: tolerance                    !! m
@@ -71,6 +73,7 @@ contains
       case ('all')
          call balance_all(suspension, space, failure)
       end select
+      if (failure%reason == 0) call adjust(suspension)
    end subroutine set_preloads
 
    !> Reports a failure of set_preloads as an error.

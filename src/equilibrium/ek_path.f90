@@ -13,6 +13,7 @@ module ek_path
    use ek_kinds, only: wp
    use ek_case, only: case_t, default_tolerance
    use ek_suspension, only: suspension_t
+   use ek_adjust, only: is_adjusted
    use ek_state, only: state_t, inputs_t, design_state, return_to_design, pack_state, unpack_state, motion_between, largest_motion
    use ek_schedule, only: schedule_t, make_schedule, inputs_at
    use ek_path_states, only: path_t, new_path, count_ways, ways, span
@@ -226,7 +227,7 @@ contains
       path%failure(1) = failure_t()
       path%failure(2) = failure_t()
       path%is_reached = .false.
-      if (case%method == 'recursive') then
+      if (case%method == 'recursive' .and. .not. is_adjusted(suspension)) then
          call start_recursion(suspension, self%state, kkt, self%held)
       else
          call settle(suspension, case%tolerance, self%state, kkt, path%failure(1), self%branch)

@@ -3,6 +3,7 @@
 module ek_reach
    use ek_kinds, only: wp
    use ek_suspension, only: suspension_t
+   use ek_adjust, only: is_adjusted
    use ek_state, only: state_t, inputs_t, pack_state, unpack_state
    use ek_motion, only: squared_distance
    use ek_schedule, only: schedule_t, inputs_at
@@ -53,7 +54,7 @@ contains
    !> Moves from design to equilibrium under the constant loads and preloads only.
    !>
    !> This takes one step if possible. Otherwise the imbalance of the design position is applied gradually (homotopy), together with
-   !> the heights of the rig: the share that acts is the swept value of the path.
+   !> the heights of the rig and the gaps that adjusters open: the share that acts is the swept value of the path.
    subroutine settle(suspension, tolerance, state, kkt, failure, space)
       type(suspension_t), intent(in) :: suspension
       real(wp), intent(in) :: tolerance          !! m
@@ -77,6 +78,7 @@ contains
       kkt%imbalance(:kkt%nq) = kkt%rhs(:kkt%nq)
       kkt%imbalance(kkt%nq + 1:) = 0.0_wp
       rig = kkt%nq + suspension%own_rows()
+      if (is_adjusted(suspension)) rig = kkt%nq        ! the rows of adjusted parts, too
       kkt%imbalance(rig + 1:) = kkt%rhs(rig + 1:)      ! heights of the start state that are not the heights of design
       call renew_branch(suspension, branch)
       branch%least = min_share

@@ -7,6 +7,7 @@ module ek_kandc_map
    use ek_error, only: error_t, fail, exit_usage, exit_model
    use ek_text, only: quoted
    use ek_suspension, only: suspension_t
+   use ek_free_wheels, only: has_rates
    use ek_case, only: load_table_t
    use ek_wheel_side, only: left_and_right, prefix_of, side_name, design_track
    use ek_block, only: rotated
@@ -229,10 +230,10 @@ contains
       call unpack_state(result%path%packed(:, 1), state)
       call inputs_at(schedule, result%path%value(1), inputs)
       call wheel_compliance(result%suspension, state, inputs, 0, result%kkt, compliance)
-      if (.not. compliance%is_known .or. result%suspension%free_wheels > 0) then
+      if (.not. (compliance%is_known .and. has_rates(result%suspension))) then
          call fail(error, exit_model, 'the stiffness matrix of the design state is singular without the rig, so there is no '// &
             'compliance to export: '//trim(merge('no spring carries the wheels                       ', &
-            'elastokin check shows the motion that nothing holds', result%suspension%free_wheels > 0)))
+            'elastokin check shows the motion that nothing holds', .not. has_rates(result%suspension))))
          return
       end if
       allocate (arm(3, compliance%wheels), rates(compliance%wheels), signs(n))

@@ -4,17 +4,21 @@
 !> all rows of Φ and g of all laws with a slope at design, this holds if the gradient of h is not a linear combination of the a and
 !> g. The size of a rate has no influence. Steering drivers count as rows.
 !>
+!> A wheel that is free without the stiffness of bushings about their axes rests on bushings alone: the deck has no spring, and what
+!> depends on a rate depends on the spring that is missing.
+!>
 !> The gradients are made orthogonal one after the other, twice each (Gram-Schmidt). A remainder below 1e-9 of a gradient is
 !> rounding.
 module ek_free_wheels
    use ek_kinds, only: wp
    use ek_measure, only: measure_t, evaluation_t, evaluate, global_gap
    use ek_relative_rotation, only: pose_t
+   use ek_element, only: element_kinds, torsion_spring, bushing_element
    use ek_element_part, only: element_part_t, count_parts, take_apart
    use ek_suspension, only: suspension_t, design_poses
    implicit none(type, external)
    private
-   public :: count_free_wheels, is_rigid
+   public :: find_free_wheels, is_rigid, has_spring, has_rates, unsprung_wheels
 
    real(wp), parameter :: length = 0.3_wp           !! m: a rotation counts as the displacement at this radius
    real(wp), parameter :: rounding = 1.0e-9_wp      !! share of a gradient
@@ -28,9 +32,43 @@ module ek_free_wheels
 
 contains
 
+   !> Counts the wheels whose height is free at design, and, if there is none and no spring, those that rest on bushings alone. A
+   !> model with more than 100 bodies is not examined.
+   subroutine find_free_wheels(suspension)
+      type(suspension_t), intent(inout) :: suspension      !! completed
+
+      suspension%free_wheels = count_free_wheels(suspension, .true.)
+      suspension%bushed_wheels = 0
+      if (suspension%free_wheels == 0 .and. .not. has_spring(suspension)) &
+         suspension%bushed_wheels = count_free_wheels(suspension, .false.)
+   end subroutine find_free_wheels
+
+   !> Whether the model has a spring that carries the car: a spring, or a torsion spring that acts against the chassis.
+   pure logical function has_spring(suspension)
+      type(suspension_t), intent(in) :: suspension
+
+      associate (e => suspension%elements)
+         has_spring = any(element_kinds(e%kind)%carries .or. &
+            (e%kind == torsion_spring .and. min(e%measure%body_i, e%measure%body_j) == 0))
+      end associate
+   end function has_spring
+
+   !> Whether the columns that depend on the rate of the wheels have values.
+   pure logical function has_rates(suspension)
+      type(suspension_t), intent(in) :: suspension
+      has_rates = unsprung_wheels(suspension) == 0
+   end function has_rates
+
+   !> The number of wheels that need a spring: nothing carries them, or bushings alone.
+   pure integer function unsprung_wheels(suspension)
+      type(suspension_t), intent(in) :: suspension
+      unsprung_wheels = suspension%free_wheels + suspension%bushed_wheels
+   end function unsprung_wheels
+
    !> The number of wheels whose height is free at design. 0 for a model with more than 100 bodies, which is not examined.
-   function count_free_wheels(suspension) result(free)
+   function count_free_wheels(suspension, has_twist) result(free)
       type(suspension_t), intent(in) :: suspension         !! completed
+      logical, intent(in) :: has_twist                     !! .false.: without the stiffness of bushings about their axes
       integer :: free
       type(span_t) :: span
       type(pose_t) :: poses(size(suspension%bodies) + 1)
@@ -58,7 +96,7 @@ contains
       do k = 1, size(suspension%elements)
          associate (e => suspension%elements(k), m => suspension%elements(k)%measure)
             call take_apart(e, poses(m%body_i + 1), poses(m%body_j + 1), parts)
-            do p = 1, count_parts(e)
+            do p = 1, merge(3, count_parts(e), e%kind == bushing_element .and. .not. has_twist)
                if (.not. abs(parts(p)%slope) > 0.0_wp) cycle
                row = 0.0_wp
                call add(1.0_wp, parts(p)%gradient, m%body_i, m%body_j, row)

@@ -15,6 +15,7 @@ module ek_realise
    use ek_measure, only: distance
    use ek_joint, only: term_t, joint_geometry_t, joint_terms, joint_table, axes_fit, max_terms
    use ek_element, only: element_kinds, element_numbers, set_numbers
+   use ek_adjuster, only: is_reachable
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t
    use ek_grid, only: is_grid
@@ -97,8 +98,30 @@ contains
          steering%ratio = number_at(x, plan%steering(1))
          steering%travel = number_at(x, plan%steering(2))
       end associate
+      call place_adjusters(plan, x, suspension, is_good)
       if (is_good) call settle_design(suspension)
    end subroutine realise
+
+   !> Computes values, directions and points of the adjusters. ek_adjust moves the parts.
+   subroutine place_adjusters(plan, x, suspension, is_good)
+      type(blueprint_t), intent(in) :: plan
+      real(wp), intent(in) :: x(:)
+      type(suspension_t), intent(inout) :: suspension
+      logical, intent(inout) :: is_good
+      integer :: k
+
+      suspension%has_set_adjusters = .false.
+      do k = 1, size(plan%adjusters)
+         associate (this => suspension%adjusters(k), from => plan%adjusters(k))
+            this%value = number_at(x, from%value)
+            this%along = suspension%vectors(:, from%along)
+            this%bolt = suspension%vectors(:, from%bolt)
+            this%pivot = suspension%vectors(:, from%pivot)
+            is_good = is_good .and. this%value >= this%low .and. this%value <= this%high
+            if (is_good) is_good = is_reachable(this)
+         end associate
+      end do
+   end subroutine place_adjusters
 
    !> Computes reference points and masses. The centres of gravity are still design points.
    subroutine place_bodies(plan, x, keeps_origins, suspension)

@@ -11,6 +11,7 @@ module ek_suspension
    use ek_element, only: element_t, copy_element
    use ek_load, only: load_t
    use ek_tilt, only: tilt_t
+   use ek_adjuster, only: adjuster_t, place_t
    use ek_contract, only: are_checked, require
    implicit none(type, external)
    private
@@ -144,8 +145,12 @@ module ek_suspension
       integer :: rig_rows = 0                  !! number of rows of the rig, which are the last rows, see ek_rig
       type(wheel_t), allocatable :: wheels(:)
       integer :: free_wheels = 0               !! number of wheels whose height nothing carries, see ek_free_wheels
+      integer :: bushed_wheels = 0             !! number of wheels that only the stiffness of bushings about their axes carries
       type(readout_t), allocatable :: readouts(:)
       type(tilt_t), allocatable :: tilts(:)    !! rated tilts of joints and bushings
+      type(adjuster_t), allocatable :: adjusters(:)
+      type(place_t), allocatable :: places(:)  !! all arms that adjusters move
+      logical :: has_set_adjusters = .false.   !! the arms are those of the set adjusters (ek_adjust), not of the drawn axle
       type(axle_t) :: axle = axle_t()
       type(steering_t) :: steering = steering_t()
       real(wp), allocatable :: vectors(:, :)   !! (3, 0:n) design points [m] and directions of the blueprint, see ek_realise
@@ -161,7 +166,7 @@ contains
    subroutine allocate_lists(self)
       type(suspension_t), intent(inout) :: self
       allocate (self%bodies(0), self%points(0), self%joints(0), self%rows(0), self%terms(0), self%elements(0), self%loads(0), &
-         self%wheels(0), self%readouts(0), self%tilts(0))
+         self%wheels(0), self%readouts(0), self%tilts(0), self%adjusters(0), self%places(0))
       self%balance = 'none'
       self%start = ''
       self%state = ''
@@ -212,6 +217,10 @@ contains
       end do
       do k = 1, size(from%tilts)
          to%tilts(k)%axis = from%tilts(k)%axis
+      end do
+      to%has_set_adjusters = from%has_set_adjusters
+      do k = 1, size(from%adjusters)
+         to%adjusters(k)%adjuster_numbers_t = from%adjusters(k)%adjuster_numbers_t
       end do
       to%axle%axle_numbers_t = from%axle%axle_numbers_t
       to%steering%steering_numbers_t = from%steering%steering_numbers_t

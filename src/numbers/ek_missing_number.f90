@@ -7,7 +7,7 @@ module ek_missing_number
    use ek_table, only: table_t, column_index, name_length, row_count
    use ek_test_result, only: design_row, state_range
    use ek_table_reading, only: row_at
-   use ek_gradient, only: fit_slope, slope_note, lacks_rate, no_spring
+   use ek_gradient, only: fit_slope, slope_note, lacks_rate, rate_reason
    use ek_key_number, only: key_number_t, at_design, slope, anti_phase, at_place, to_contact, largest_of_all
    implicit none(type, external)
    private
@@ -38,7 +38,7 @@ contains
       else if (place == 0) then
          text = 'the model does not define '//trim(column)
       else if (lacks_rate(table, trim(column))) then
-         text = no_spring
+         text = rate_reason(table)
       else if (number%how >= slope .and. number%how <= anti_phase) then
          text = 'the model does not define '//trim(number%sources(source)%over(wheel))
          if (over > 0) then
@@ -66,7 +66,7 @@ contains
       if (over /= 'factor') then
          text = over//' does not reach '//str(at, 4)//range_of(table)
       else if (lacks_rate(table, column)) then
-         text = no_spring
+         text = rate_reason(table)
       else if (row_at(table, at) > 0) then
          text = column//' is not a number (nan) at this state'
       else if (abs(at) > 0.0_wp) then

@@ -3,6 +3,7 @@ module ek_planned_test
    use ek_kinds, only: wp
    use ek_text, only: spaced
    use ek_suspension, only: suspension_t, load_number
+   use ek_free_wheels, only: has_rates
    use ek_case, only: case_t
    use ek_standard_tests, only: test_title, held_text, describe_sweep
    use ek_test_result, only: test_result_t
@@ -29,9 +30,9 @@ contains
             allocate (test%prefixes(0), test%sides(0))
             if (len(case%test) > 0) then
                test%kind = case%test
-               test%title = test_title(case, size(suspension%wheels), suspension%free_wheels > 0)
+               test%title = test_title(case, size(suspension%wheels), .not. has_rates(suspension))
                test%is_anti = case%is_anti
-               test%held = held_text(case, suspension%free_wheels > 0)
+               test%held = held_text(case, .not. has_rates(suspension))
             else
                call kind_of_case(suspension, case, test%kind, test%factor_size)
                test%title = title_of(case%name)

@@ -5,7 +5,7 @@ module ek_verdict
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
    use ek_text, only: str, plural
-   use ek_gradient, only: no_spring
+   use ek_gradient, only: is_of_springs
    use ek_key_number, only: key_number_t, has_value
    use ek_number_words, only: steer_effect, target_verdict, short_name, is_equal, is_opposite, sides_text
    use ek_plausible_range, only: size_t, usual_range
@@ -248,7 +248,7 @@ contains
       if (.not. has_value(number)) then
          words = ''
          if (allocated(number%reason)) then
-            if (number%reason == no_spring) return         ! nobody expects this number
+            if (is_of_springs(number%reason)) return         ! nobody expects this number
             words = 'no value of '//without_capital(short_name(number))//' ('//number%reason//')'
          end if
          return

@@ -167,7 +167,8 @@ contains
          load = standing_load(suspension, w)
          if (ieee_is_finite(value) .and. has_coil(suspension)) then
             call doubts%judge('wheel rate', value)
-            if (load > 0.0_wp .and. value > 0.0_wp) &
+            ! a load that compresses the spring by less than 0.1 mm is not that of a car
+            if (load > 1.0e-4_wp*value .and. value > 0.0_wp) &
                call doubts%judge('ride frequency', sqrt(value*standard_gravity/load)/(2.0_wp*pi))
          end if
          value = value_of(kandc, prefix//wanted(2))*degree

@@ -3,6 +3,7 @@ module ek_compliance_table
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp, degree
    use ek_suspension, only: suspension_t
+   use ek_free_wheels, only: has_rates
    use ek_case, only: case_t
    use ek_state, only: state_t, inputs_t, design_state, unpack_state
    use ek_schedule, only: schedule_t, new_schedule, inputs_at
@@ -120,7 +121,7 @@ contains
          end associate
       end do
       c = compliance%response(:size(c, 1), :size(c, 2))
-      if (suspension%free_wheels > 0) c = ieee_value(1.0_wp, ieee_quiet_nan)      ! without limit
+      if (.not. has_rates(suspension)) c = ieee_value(1.0_wp, ieee_quiet_nan)      ! without limit, or that of the bushings alone
    end subroutine read_compliance
 
    !> Writes the entries of a matrix, row by row, in the units of the columns and the frame of the deck.

@@ -21,6 +21,7 @@ module ek_geometry_columns
       locked_twists, instant_axis, axis_distances, ride_frequency
 
    real(wp), parameter :: standard_gravity = 9.80665_wp      !! m/s²
+   real(wp), parameter :: highest_ride = 50.0_wp           !! Hz: a higher frequency is that of an axle that carries no car
    real(wp), parameter :: min_ratio = 1.0e-6_wp            !! length per travel below which a stop does not depend on the wheels
 
    real(wp), parameter :: parallel = 1.0e-9_wp           !! sine of the angle up to which spin and steering axis are parallel
@@ -245,12 +246,15 @@ contains
       length_of = sqrt(v(1)**2 + v(2)**2 + v(3)**2)
    end function length_of
 
-   !> The ride frequency √(rate/mass)/2π [Hz]; NaN if the rate is not positive.
+   !> The ride frequency √(rate/mass)/2π [Hz]; NaN if the rate is not positive, or if the axle carries no car: above 50 Hz, the
+   !> mass would compress the spring by less than 0.1 mm.
    pure real(wp) function ride_frequency(rate, mass) result(frequency)
       real(wp), intent(in) :: rate      !! ride rate [N/m]
       real(wp), intent(in) :: mass      !! kg, above 0
       frequency = ieee_value(1.0_wp, ieee_quiet_nan)
-      if (rate > 0.0_wp) frequency = sqrt(rate/mass)/(2.0_wp*pi)
+      if (.not. rate > 0.0_wp) return
+      frequency = sqrt(rate/mass)/(2.0_wp*pi)
+      if (frequency > highest_ride) frequency = ieee_value(1.0_wp, ieee_quiet_nan)
    end function ride_frequency
 
 end module ek_geometry_columns

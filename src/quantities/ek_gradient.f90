@@ -32,10 +32,13 @@ module ek_gradient
    use ek_text_table, only: text_table_t, read_text_table, cell_of
    implicit none(type, external)
    private
-   public :: gradient_t, test_gradients, gradient_windows, fit_slope, slope_note, gradient_noise, lacks_rate, no_spring
+   public :: gradient_t, test_gradients, gradient_windows, fit_slope, slope_note, gradient_noise, lacks_rate, &
+      rate_reason, is_of_springs
    public :: gradients_csv, gradients_json, read_gradients
 
-   character(*), parameter :: no_spring = 'no spring carries the wheels'     !! reason of a column that depends on a rate
+   ! reasons of a column that depends on a rate
+   character(*), parameter :: no_spring = 'no spring carries the wheels', &
+      bushings_alone = 'depends on the spring: only bushings carry the wheels'
 
    !> One gradient of the report.
    type :: gradient_t
@@ -197,7 +200,7 @@ contains
       real(wp) :: range(2)
 
       if (lacks_rate(table, column)) then
-         note = no_spring
+         note = rate_reason(table)
          return
       end if
       select case (reason)
@@ -218,7 +221,22 @@ contains
       end select
    end function slope_note
 
-   !> Whether a column has no value because nothing carries the wheels.
+   !> The reason why a column that depends on a rate has no value (lacks_rate).
+   function rate_reason(table) result(reason)
+      type(table_t), intent(in) :: table
+      character(:), allocatable :: reason
+
+      reason = no_spring
+      if (table%rests_on_bushings) reason = bushings_alone
+   end function rate_reason
+
+   !> Whether a reason is that the deck has no spring.
+   pure logical function is_of_springs(reason)
+      character(*), intent(in) :: reason
+      is_of_springs = reason == no_spring .or. reason == bushings_alone
+   end function is_of_springs
+
+   !> Whether a column has no value because no spring carries the wheels.
    pure logical function lacks_rate(table, column)
       type(table_t), intent(in) :: table
       character(*), intent(in) :: column
@@ -227,7 +245,7 @@ contains
       first = 1
       if (index(column, 'left_') == 1) first = 6
       if (index(column, 'right_') == 1) first = 7
-      lacks_rate = table%lacks_springs
+      lacks_rate = table%lacks_springs .or. table%rests_on_bushings
       if (lacks_rate) lacks_rate = needs_rate(column(first:))
    end function lacks_rate
 

@@ -7,7 +7,7 @@ module ek_kandc_list
       of_steering, wheel_axis, instant_distances, wheel_slopes, axle_geometry, of_rack
    use ek_element, only: element_kinds, measure_spring, is_of_angle
    use ek_suspension, only: suspension_t, driver_row
-   use ek_free_wheels, only: is_rigid
+   use ek_free_wheels, only: is_rigid, has_rates
    use ek_attitude, only: static_toe
    use ek_wheel_side, only: is_axle, prefix_of, design_track, deck_frame
    use ek_compliance, only: compliance_t, new_compliance, ask
@@ -85,7 +85,7 @@ contains
          allocate (self%has(0:wheels))
          call conditions_of(suspension, self%compliance%order, self%steer_row > 0, self%has)
          call begin_list(self, 256)
-         self%lacks_rate = suspension%free_wheels > 0
+         self%lacks_rate = .not. has_rates(suspension)
          self%is_elastic = .not. is_rigid(suspension)
          do k = 1, wheels
             call add_wheel(suspension, k, self)
@@ -257,7 +257,7 @@ contains
       integer :: has(0:size(suspension%wheels))
 
       same_columns = .false.
-      if (self%lacks_rate .neqv. suspension%free_wheels > 0) return
+      if (self%lacks_rate .eqv. has_rates(suspension)) return
       if (size(has) /= size(self%has)) return
       call conditions_of(suspension, self%compliance%order, self%steer_row > 0, has)
       same_columns = all(has == self%has)

@@ -116,19 +116,34 @@ contains
    !> Whether any column of a wheel is requested.
    pure logical function has_wheels(list)
       type(column_list_t), intent(in) :: list
-      has_wheels = any(list%section(list%blocks) <= of_axis)
+      integer :: k
+
+      has_wheels = .false.
+      do k = 1, size(list%blocks)
+         has_wheels = has_wheels .or. list%section(list%blocks(k)) <= of_axis
+      end do
    end function has_wheels
 
    !> Whether only columns of wheels are requested. They follow from the attitudes of the wheels.
    pure logical function has_only_wheels(list)
       type(column_list_t), intent(in) :: list
-      has_only_wheels = all(list%section(list%blocks) <= of_axis)
+      integer :: k
+
+      has_only_wheels = .true.
+      do k = 1, size(list%blocks)
+         has_only_wheels = has_only_wheels .and. list%section(list%blocks(k)) <= of_axis
+      end do
    end function has_only_wheels
 
    !> Whether any column of a joint is requested.
    pure logical function has_joints(list)
       type(column_list_t), intent(in) :: list
-      has_joints = any(list%section(list%blocks) == of_joint)
+      integer :: k
+
+      has_joints = .false.
+      do k = 1, size(list%blocks)
+         has_joints = has_joints .or. list%section(list%blocks(k)) == of_joint
+      end do
    end function has_joints
 
    !> Computes the values of the requested columns at a state.

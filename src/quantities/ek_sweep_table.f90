@@ -120,6 +120,7 @@ contains
       table%is_along_arc = case%follows_arc
       table%is_of_rows = path%is_table
       table%lacks_springs = suspension%free_wheels > 0
+      table%rests_on_bushings = suspension%bushed_wheels > 0
       if (allocated(path%is_scheduled)) then
          if (.not. all(path%is_scheduled)) table%is_scheduled = path%is_scheduled(first:last)
       end if

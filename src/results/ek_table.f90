@@ -17,7 +17,7 @@ module ek_table
    implicit none(type, external)
    private
    public :: table_t, new_table, keep_rows, scheduled_rows, column_index, name_index, column, column_range, row_count, name_length
-   public :: csv_text, csv_head, csv_row, csv_cell, write_csv, print_csv, read_csv
+   public :: csv_text, csv_head, csv_row, put_csv_row, csv_length, csv_cell, write_csv, print_csv, read_csv
 
    character(*), parameter :: line_end = new_line('a')
 
@@ -35,6 +35,7 @@ module ek_table
                                                           !! number is read there. Not allocated: all are
       logical :: is_along_arc = .false.                   !! the states are at equal distances along a path
       logical :: lacks_springs = .false.                  !! nothing carries the wheels: columns that depend on a rate are NaN
+      logical :: rests_on_bushings = .false.              !! only bushings carry the wheels: the same columns are NaN
       logical :: is_of_rows = .false.                     !! the states are those of the rows of a load table or of a grid
       type(message_list_t) :: header                      !! lines above the columns, each written after '# '
       type(row_name_t), allocatable :: names(:)           !! name of each row, in a last column `name`; without names: not allocated
@@ -185,8 +186,26 @@ contains
       real(wp), intent(in) :: values(:)
       logical, intent(in) :: is_whole(:)        !! the columns of integers
       character(:), allocatable :: text
-      character(max(size(values)*(longest_decimal + 1), 1)) :: line
-      integer :: k, filled
+      character(csv_length(size(values))) :: line
+      integer :: filled
+
+      call put_csv_row(values, is_whole, line, filled)
+      text = line(:filled)
+   end function csv_row
+
+   !> Greatest length of a CSV line of numbers.
+   pure integer function csv_length(numbers)
+      integer, intent(in) :: numbers
+      csv_length = max(numbers*(longest_decimal + 1), 1)
+   end function csv_length
+
+   !> Writes one row of a table as a CSV line, with line end, into a string.
+   pure subroutine put_csv_row(values, is_whole, line, filled)
+      real(wp), intent(in) :: values(:)
+      logical, intent(in) :: is_whole(:)        !! the columns of integers
+      character(*), intent(inout) :: line       !! at least csv_length(size(values)) long
+      integer, intent(out) :: filled            !! length of the CSV line
+      integer :: k
       real(wp) :: value
 
       filled = 0
@@ -199,8 +218,7 @@ contains
       end do
       filled = max(filled, 1)     ! replaces the last comma, if any
       line(filled:filled) = line_end
-      text = line(:filled)
-   end function csv_row
+   end subroutine put_csv_row
 
    !> The nearest integer, for magnitudes below 1e15; larger values, which have no fraction, and NaN are unchanged.
    elemental real(wp) function whole(value)

@@ -26,6 +26,7 @@ module ek_rig
       covers_grid, drives_car, of_braking
    use ek_wheel_side, only: side_name, left_and_right, design_track, share_of_mass
    use ek_suspension, only: suspension_t, driver_unit, copy_numbers
+   use ek_free_wheels, only: has_rates, unsprung_wheels
    use ek_kkt, only: kkt_t, renew_kkt
    use ek_path, only: walk_t, empty_walk
    use ek_grid, only: is_grid, grid_size, set_grid_values
@@ -208,7 +209,7 @@ contains
       suspension%rig_rows = base%rig_rows + size(rig%rows)
    end subroutine put_on
 
-   !> Whether a case cannot be solved because nothing carries the wheels: its rig does not hold the height of every free wheel. A
+   !> Whether a case needs the springs that a model lacks: its rig does not hold the height of every wheel without a spring. A
    !> case that cannot be mounted has its own reason.
    pure logical function lacks_springs(suspension, case)
       type(suspension_t), intent(in) :: suspension    !! completed, not on a rig
@@ -216,9 +217,9 @@ contains
       type(rig_t) :: rig
 
       lacks_springs = .false.
-      if (suspension%free_wheels == 0 .or. .not. is_mountable(case)) return
+      if (has_rates(suspension) .or. .not. is_mountable(case)) return
       rig = rig_of(suspension, case)
-      lacks_springs = size(rig%rows) < suspension%free_wheels
+      lacks_springs = size(rig%rows) < unsprung_wheels(suspension)
    end function lacks_springs
 
    !> The rig of a case. A case without a test uses the driver or load that it names.
@@ -263,11 +264,11 @@ contains
          call move_heights(test, suspension, case, wheels, control, rig)
       case (rolls)
          call add_height(rig, suspension, 'rig_roll', case%where, wheels, [1.0_wp, -1.0_wp], control)
-         if (suspension%free_wheels > 0) &
+         if (.not. has_rates(suspension)) &
             call add_height(rig, suspension, 'rig_heave', case%where, wheels, [1.0_wp, 1.0_wp], control)
          call append_actuation(rig%actuations, '', 'rig_roll', 1.0_wp, follows_tangent)      ! times the track
          if (control == 'road') rig%place_name = 'roll of the road, left up'
-         if (suspension%free_wheels > 0) rig%place_name = rig%place_name//', heave held'
+         if (.not. has_rates(suspension)) rig%place_name = rig%place_name//', heave held'
       case (steers)
          call append_actuation(rig%actuations, '', case%drive, 1.0_wp, follows_place)
          rig%place_name = 'travel of '//case%drive

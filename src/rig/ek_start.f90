@@ -19,6 +19,7 @@ module ek_start
    use ek_kinds, only: wp, millimetre
    use ek_noise, only: is_noise, solved
    use ek_suspension, only: suspension_t
+   use ek_adjust, only: is_adjusted
    use ek_state, only: state_t, inputs_t, design_state
    use ek_kkt, only: kkt_t, assemble, factorise, solve, whole_tangent, residual_only
    use ek_newton, only: outcome_t, find_equilibrium
@@ -118,7 +119,7 @@ contains
       logical :: is_at_design
 
       is_at_design = .not. any(abs(suspension%wheels%start_rise(1)) > 0.0_wp)
-      if (is_at_design) then
+      if (is_at_design .and. .not. is_adjusted(suspension)) then
          call find_residual(suspension, tolerance, space, is_found)
          if (is_found) return
       end if

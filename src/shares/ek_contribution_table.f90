@@ -6,6 +6,7 @@ module ek_contribution_table
    use ek_noise, only: noise_of, is_lost, derived
    use ek_element, only: element_kinds, bushing_element
    use ek_suspension, only: suspension_t
+   use ek_free_wheels, only: has_rates
    use ek_state, only: state_t, inputs_t, design_state, unpack_state
    use ek_schedule, only: schedule_t, inputs_at
    use ek_kkt, only: kkt_t
@@ -133,7 +134,7 @@ contains
       call inputs_at(schedule, path%value(k), inputs)
       call find_linear_columns(suspension, state, inputs, kkt, self%columns, self%values)
       associate (compliance => self%columns%kandc%compliance)
-         self%is_known = compliance%is_known .and. suspension%free_wheels == 0
+         self%is_known = compliance%is_known .and. has_rates(suspension)
          if (.not. self%is_known) return
          call split_compliance(suspension, state, inputs, kkt, compliance, self%shares)
          n = 6*compliance%wheels

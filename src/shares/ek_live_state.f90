@@ -30,6 +30,7 @@ module ek_live_state
    use ek_schedule, only: schedule_t, inputs_at
    use ek_state, only: state_t, inputs_t, design_state, unpack_state
    use ek_suspension, only: suspension_t
+   use ek_free_wheels, only: has_rates
    use ek_table, only: name_length
    use ek_text, only: is_like
    use ek_what_if, only: find_self_moves
@@ -219,7 +220,7 @@ contains
       allocate (values(size(columns%columns%asked)))
       call find_linear_columns(suspension, state, inputs, kkt, columns%columns, values)
       associate (compliance => columns%columns%kandc%compliance, shares => columns%shares)
-         self%is_known = compliance%is_known .and. suspension%free_wheels == 0
+         self%is_known = compliance%is_known .and. has_rates(suspension)
          if (.not. self%is_known) return
          call split_compliance(suspension, state, inputs, kkt, compliance, shares)
          call find_drivers(suspension, state, shares)

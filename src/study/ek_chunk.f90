@@ -147,9 +147,7 @@ contains
          call put(bytes_of(self%factors(:, k)))
          call put(bytes_of(self%responses(:, k)))
       end do
-      do k = 1, self%rows
-         call put(bytes_of(self%curves(:, k)))
-      end do
+      call put(bytes_of(reshape(self%curves(:, :self%rows), [size(self%curves, 1)*self%rows])))
       do k = 1, size(self%reasons)
          call put(str(self%reasons(k)%design)//' '//str(len(self%reasons(k)%text))//line_end//self%reasons(k)%text//line_end)
       end do
@@ -210,25 +208,23 @@ contains
       if (status /= 0 .or. sizes(1) /= first .or. (designs > 0 .and. sizes(2) /= designs)) return
       at = at + k
       call new_chunk(int(sizes(1), i8), sizes(2), sizes(3), sizes(4), sizes(5), 0, self)
-      call take(1)
+      allocate (numbers(max(1, sizes(2))))
+      call take(numbers(:1))
       if (abs(numbers(1) - 1.0_wp) > 0.0_wp) return
-      call take(sizes(2))
-      self%status(:) = nint(numbers)
-      call take(sizes(2))
-      self%states(:) = nint(numbers)
+      call take(numbers(:sizes(2)))
+      self%status(:) = nint(numbers(:sizes(2)))
+      call take(numbers(:sizes(2)))
+      self%states(:) = nint(numbers(:sizes(2)))
       do k = 1, sizes(2)
-         call take(sizes(3))
-         self%factors(:, k) = numbers
-         call take(sizes(4))
-         self%responses(:, k) = numbers
+         call take(self%factors(:, k))
+         call take(self%responses(:, k))
       end do
       if (size(self%curves, 2) < sizes(6)) then
          deallocate (self%curves)
          allocate (self%curves(sizes(5), sizes(6)))
       end if
       do k = 1, sizes(6)
-         call take(sizes(5))
-         self%curves(:, k) = numbers
+         call take(self%curves(:, k))
       end do
       self%rows = sizes(6)
       do k = 1, sizes(7)
@@ -242,11 +238,15 @@ contains
 
    contains
 
-      !> Reads the next `count` numbers of the file.
-      subroutine take(count)
-         integer, intent(in) :: count
-         numbers = transfer(text(at:at + 8*count - 1), numbers, count)
-         at = at + 8*count
+      !> Reads the next numbers of the file.
+      subroutine take(values)
+         real(wp), intent(out) :: values(:)
+         integer :: j
+
+         do j = 1, size(values)
+            values(j) = transfer(text(at:at + 7), values(j))
+            at = at + 8
+         end do
       end subroutine take
 
    end subroutine read_chunk

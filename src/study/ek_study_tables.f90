@@ -7,7 +7,7 @@ module ek_study_tables
    use ek_text, only: str, plural
    use ek_version, only: version
    use ek_file, only: join_path
-   use ek_table, only: table_t, new_table, name_length, csv_head, csv_row
+   use ek_table, only: table_t, new_table, name_length, csv_head, put_csv_row, csv_length
    use ek_writer, only: writer_t, begin_file
    use ek_noise, only: widen
    use ek_study, only: study_t, kind_names
@@ -241,29 +241,31 @@ contains
       type(chunk_t), intent(in) :: chunk
       type(writer_t), intent(inout) :: rows
       real(wp), allocatable :: values(:), limits(:, :)
-      integer :: k, n, block
+      logical, allocatable :: is_whole(:)
+      character(:), allocatable :: line
+      integer :: k, n, many, block, filled
 
       n = 1 + size(chunk%factors, 1) + size(chunk%responses, 1)
+      many = n + merge(2, 1, has_limits(study))
+      allocate (values(many), is_whole(many))
+      allocate (character(csv_length(many)) :: line)
+      is_whole = .true.
+      is_whole(2:n) = .false.
       block = block_of(study)
       allocate (limits, source=limits_of(study, plan%heads, plan%tolerance))
       do k = 1, size(chunk%status)
-         values = [real(chunk%first + k - 1, wp), chunk%factors(:, k), chunk%responses(:, k)]
-         if (has_limits(study)) values = [values, merge(1.0_wp, 0.0_wp, chunk%status(k) == 0 .and. &
-            keeps(chunk%responses(:, k), limits(1, :), limits(2, :)))]
-         values = [values, real(chunk%status(k), wp)]
+         values(1) = real(chunk%first + k - 1, wp)
+         values(2:size(chunk%factors, 1) + 1) = chunk%factors(:, k)
+         values(size(chunk%factors, 1) + 2:n) = chunk%responses(:, k)
+         if (many > n + 1) values(n + 1) = merge(1.0_wp, 0.0_wp, chunk%status(k) == 0 .and. &
+            keeps(chunk%responses(:, k), limits(1, :), limits(2, :)))
+         values(many) = chunk%status(k)
          if (block > 0 .and. chunk%first + k > 2) then
             if (mod(int(chunk%first) + k - 2, block) == 0) call rows%add(new_line('a'))
          end if
-         call add_line(csv_row(values, [.true., spread(.false., 1, n - 1), spread(.true., 1, size(values) - n)]))
+         call put_csv_row(values, is_whole, line, filled)
+         call rows%add(line(:filled - 1)//','//quoted_field(reason_of(chunk, k))//new_line('a'))
       end do
-
-   contains
-
-      !> Appends the numbers of a design and the reason of its failure.
-      subroutine add_line(line)
-         character(*), intent(in) :: line            !! line of CSV, with its line end
-         call rows%add(line(:len(line) - 1)//','//quoted_field(reason_of(chunk, k))//new_line('a'))
-      end subroutine add_line
 
    end subroutine add_rows
 
@@ -332,9 +334,14 @@ contains
       type(chunk_t), intent(in) :: chunk
       logical, intent(inout) :: is_begun          !! the table already contains a curve
       type(writer_t), intent(inout) :: curves
-      integer :: k, j, row, repeated
+      real(wp) :: values(1 + repeated_factors(size(chunk%factors, 1)) + size(chunk%curves, 1))
+      logical :: is_whole(size(values))
+      character(csv_length(size(values))) :: line
+      integer :: k, j, row, repeated, filled
 
       repeated = repeated_factors(size(chunk%factors, 1))
+      is_whole = .false.
+      is_whole(1) = .true.
       row = 0
       do k = 1, size(chunk%status)
          if (chunk%states(k) == 0) cycle
@@ -342,8 +349,11 @@ contains
          is_begun = .true.
          do j = 1, chunk%states(k)
             row = row + 1
-            call curves%add(csv_row([real(chunk%first + k - 1, wp), chunk%factors(:repeated, k), chunk%curves(:, row)], &
-               [.true., spread(.false., 1, repeated + size(chunk%curves, 1))]))
+            values(1) = real(chunk%first + k - 1, wp)
+            values(2:repeated + 1) = chunk%factors(:repeated, k)
+            values(repeated + 2:) = chunk%curves(:, row)
+            call put_csv_row(values, is_whole, line, filled)
+            call curves%add(line(:filled))
          end do
       end do
    end subroutine add_curves

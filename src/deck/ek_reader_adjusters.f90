@@ -1,0 +1,321 @@
+!> &adjuster: rods with a thread, shims, slots and spring seats.
+module ek_reader_adjusters
+   use ek_kinds, only: wp
+   use ek_text, only: str, quoted
+   use ek_dimension, only: length, unit_name
+   use ek_measure, only: is_of_angle
+   use ek_adjuster, only: adjuster_t, place_t, is_reachable, rod_of_joint, seat, of_term, of_element, of_joint, &
+      of_readout, of_load, of_centre, of_contact, of_axis
+   use ek_blueprint, only: adjuster_plan_t, vector_t, along
+   use ek_group, only: joint_group, spring_group, word_length, max_adjusted
+   use ek_deck_reading, only: deck_reading_t, complain, where_of, has_key, choice, text_of, texts_of, number_of, value_count, &
+      refuse, slot, unit_of, whole_of
+   use ek_reference, only: look_up, find_body, find_point, find_direction, check_apart, new_vector
+   implicit none(type, external)
+   private
+   public :: read_adjuster
+
+   ! types, in the order of ek_choices
+   integer, parameter :: rod = 1, shim = 2, slotted = 3, spring_seat = 4
+
+contains
+
+   !> Reads &adjuster. All parts that it moves were read before.
+   subroutine read_adjuster(reading)
+      type(deck_reading_t), intent(inout) :: reading
+      type(adjuster_t) :: adjuster
+      type(adjuster_plan_t) :: plan
+      type(place_t), allocatable :: places(:)
+      real(wp) :: unit
+      integer :: type
+
+      allocate (places(0))
+      call choice(reading, 'type', type)
+      adjuster%name = text_of(reading, 'name')
+      adjuster%where = where_of(reading)
+      call check_range(reading, adjuster)
+      select case (type)
+      case (rod)
+         if (has_key(reading, 'joint')) then
+            call refuse(reading, [character(11) :: 'body', 'at', 'thread', 'spring', 'axis', 'axis_vector', 'pivot'], &
+               'joint names the rod; remove one of the two')
+            call find_rod(reading, adjuster)
+         else
+            call refuse(reading, [character(11) :: 'spring', 'axis', 'axis_vector', 'pivot'], &
+               'a rod has the direction of its two points')
+            call find_rod_body(reading, adjuster, plan, places)
+         end if
+      case (shim, slotted)
+         call refuse(reading, [character(6) :: 'joint', 'spring', 'thread'], 'only a rod or a seat accepts this key')
+         if (type == slotted) call refuse(reading, ['pivot'], 'only a shim turns about a pivot')
+         call find_moved_points(reading, adjuster, plan, places)
+      case (spring_seat)
+         call refuse(reading, [character(11) :: 'joint', 'body', 'at', 'thread', 'axis', 'axis_vector', 'pivot'], &
+            'a seat moves along its spring')
+         call find_seat(reading, adjuster)
+      end select
+      if (type == 0 .or. .not. reading%cards(reading%k)%is_good) return
+      call slot(reading, 'value', plan%value)
+      unit = unit_of(reading, 'value')
+      adjuster%value = number_of(reading, 'value', 0.0_wp)*unit
+      if (adjuster%has_pivot) then
+         adjuster%along = reading%vectors(:, plan%along)
+         adjuster%bolt = reading%vectors(:, plan%bolt)
+         adjuster%pivot = reading%vectors(:, plan%pivot)
+         if (.not. is_reachable(adjuster)) call complain(reading, 'pivot', 'pivot: no position of the parts about '// &
+            quoted(text_of(reading, 'pivot'))//' gives a shim of '//str(adjuster%value/unit)//' '//unit_name(length, reading%units))
+      end if
+      associate (model => reading%plan%prototype)
+         reading%plan%adjusters = [reading%plan%adjusters, plan]
+         model%adjusters = [model%adjusters, adjuster]
+         places%adjuster = size(model%adjusters)
+         model%places = [model%places, places]
+      end associate
+   end subroutine read_adjuster
+
+   !> Reads the range, and checks that it contains 0 and the value.
+   subroutine check_range(reading, adjuster)
+      type(deck_reading_t), intent(inout) :: reading
+      type(adjuster_t), intent(inout) :: adjuster
+      character(:), allocatable :: unit
+      real(wp) :: value, low, high
+
+      unit = ' '//unit_name(length, reading%units)
+      low = number_of(reading, 'range', 0.0_wp, 1)
+      high = number_of(reading, 'range', 0.0_wp, 2)
+      adjuster%low = low*unit_of(reading, 'range')
+      adjuster%high = high*unit_of(reading, 'range')
+      if (.not. reading%cards(reading%k)%is_good) return
+      if (.not. (low <= 0.0_wp .and. high >= 0.0_wp .and. low < high)) then
+         call complain(reading, 'range', 'range must be a low and a high value with 0, the drawn position, between them, found '// &
+            str(low)//' and '//str(high)//unit)
+         return
+      end if
+      value = number_of(reading, 'value', 0.0_wp)
+      if (value < low .or. value > high) call complain(reading, 'value', 'value = '//str(value)//unit// &
+         ' is outside the range '//str(low)//' to '//str(high)//unit//' of the adjuster')
+   end subroutine check_range
+
+   !> Finds the row of the distance joint that is a rod.
+   subroutine find_rod(reading, adjuster)
+      type(deck_reading_t), intent(inout) :: reading
+      type(adjuster_t), intent(inout) :: adjuster
+      character(:), allocatable :: name
+      integer :: found, k
+
+      name = text_of(reading, 'joint')
+      call look_up(reading, 'joint', joint_group, name, found)
+      if (found == 0) return
+      adjuster%kind = rod_of_joint
+      if (.not. reading%cards(found)%is_good) reading%cards(reading%k)%is_good = .false.
+      if (.not. reading%cards(reading%k)%is_good) return
+      associate (joints => reading%plan%prototype%joints)
+         do k = 1, size(joints)
+            if (joints(k)%name == name) exit
+         end do
+         if (joints(k)%kind /= 'distance') then
+            call complain(reading, 'joint', 'joint: '//quoted(name)//' is a '//joints(k)%kind// &
+               " joint; a rod is a joint of type 'distance', or a body with two points (body, at)")
+            return
+         end if
+         adjuster%row = joints(k)%first_row
+      end associate
+   end subroutine find_rod
+
+   !> Finds the two points of a body that is a rod. The second point moves away from the first one; with two threads both move.
+   subroutine find_rod_body(reading, adjuster, plan, places)
+      type(deck_reading_t), intent(inout) :: reading
+      type(adjuster_t), intent(inout) :: adjuster
+      type(adjuster_plan_t), intent(inout) :: plan
+      type(place_t), allocatable, intent(inout) :: places(:)
+      type(vector_t) :: vector
+      integer :: ends(2), threads
+      logical :: is_apart
+
+      if (.not. has_key(reading, 'body')) then
+         if (reading%cards(reading%k)%is_good) call complain(reading, '', &
+            "give 'joint', a distance joint, or 'body' and 'at', a body and its two points")
+         return
+      end if
+      if (has_key(reading, 'at') .and. value_count(reading, 'at') /= 2) then
+         call complain(reading, 'at', 'at: a rod has two points, found '//str(value_count(reading, 'at'))// &
+            '; the second one moves away from the first one')
+         return
+      end if
+      call find_points_of_body(reading, adjuster, ends)
+      if (.not. reading%cards(reading%k)%is_good) return
+      call check_apart(reading, 'at', ends, '', is_apart)
+      if (.not. is_apart) return
+      threads = whole_of(reading, 'thread', 1)
+      if (threads /= 1 .and. threads /= 2) call complain(reading, 'thread', &
+         'thread must be 1, at the second point, or 2, at both, found '//str(threads))
+      vector%kind = along
+      vector%a = ends(1)
+      vector%b = ends(2)
+      call new_vector(reading, vector, plan%along)
+      if (threads == 2) call add_places(reading, adjuster, 'at', ends(1), -0.5_wp, places)
+      call add_places(reading, adjuster, 'at', ends(2), merge(0.5_wp, 1.0_wp, threads == 2), places)
+   end subroutine find_rod_body
+
+   !> Finds the points that a shim or a slot moves, with the direction, and the pivot of a shim.
+   subroutine find_moved_points(reading, adjuster, plan, places)
+      type(deck_reading_t), intent(inout) :: reading
+      type(adjuster_t), intent(inout) :: adjuster
+      type(adjuster_plan_t), intent(inout) :: plan
+      type(place_t), allocatable, intent(inout) :: places(:)
+      integer, allocatable :: points(:)
+      logical :: has_direction, is_good
+      integer :: k
+
+      if (.not. (has_key(reading, 'body') .and. has_key(reading, 'at'))) then
+         if (reading%cards(reading%k)%is_good) call complain(reading, '', &
+            "give 'body' and 'at', the points of this body that move")
+         return
+      end if
+      call find_direction(reading, 'axis', 'axis_vector', plan%along, has_direction, is_good)
+      if (.not. has_direction) call complain(reading, '', "give 'axis' or 'axis_vector', the direction of the displacement")
+      allocate (points(value_count(reading, 'at')))
+      call find_points_of_body(reading, adjuster, points)
+      adjuster%has_pivot = has_key(reading, 'pivot')
+      if (adjuster%has_pivot) call find_point(reading, 'pivot', text_of(reading, 'pivot'), plan%pivot, is_good)
+      if (.not. reading%cards(reading%k)%is_good) return
+      plan%bolt = points(1)
+      do k = 1, size(points)
+         call add_places(reading, adjuster, 'at', points(k), 1.0_wp, places)
+      end do
+   end subroutine find_moved_points
+
+   !> Finds the body of an adjuster, and points of the key `at`.
+   subroutine find_points_of_body(reading, adjuster, points)
+      type(deck_reading_t), intent(inout) :: reading
+      type(adjuster_t), intent(inout) :: adjuster
+      integer, intent(out) :: points(:)      !! indices of the vectors
+      character(word_length) :: names(max_adjusted)
+      logical :: is_found
+      integer :: k
+
+      points = 0
+      call find_body(reading, 'body', text_of(reading, 'body'), adjuster%body, is_found)
+      names = texts_of(reading, 'at', max_adjusted)
+      do k = 1, size(points)
+         call find_point(reading, 'at', trim(names(k)), points(k), is_found)
+         if (.not. is_found) reading%cards(reading%k)%is_good = .false.
+      end do
+   end subroutine find_points_of_body
+
+   !> Finds the spring whose seat moves.
+   subroutine find_seat(reading, adjuster)
+      type(deck_reading_t), intent(inout) :: reading
+      type(adjuster_t), intent(inout) :: adjuster
+      character(:), allocatable :: name
+      integer :: found, k
+
+      name = text_of(reading, 'spring')
+      if (name == '') then
+         if (reading%cards(reading%k)%is_good) call complain(reading, '', "'spring' is missing: the spring on the seat")
+         return
+      end if
+      call look_up(reading, 'spring', spring_group, name, found)
+      if (found == 0) return
+      adjuster%kind = seat
+      if (.not. reading%cards(found)%is_good) reading%cards(reading%k)%is_good = .false.
+      associate (elements => reading%plan%prototype%elements)
+         do k = 1, size(elements)
+            if (elements(k)%name == name) exit
+         end do
+         if (k > size(elements)) return
+         adjuster%element = k
+         if (is_of_angle(elements(k)%measure%kind)) &
+            call complain(reading, 'spring', 'spring: '//quoted(name)//' acts on an angle; a seat moves along a length')
+      end associate
+   end subroutine find_seat
+
+   !> Adds all arms at a point of the body of an adjuster. A point without an arm is reported.
+   subroutine add_places(reading, adjuster, key, point, share, places)
+      type(deck_reading_t), intent(inout) :: reading
+      type(adjuster_t), intent(in) :: adjuster
+      character(*), intent(in) :: key
+      integer, intent(in) :: point              !! index of the vector
+      real(wp), intent(in) :: share
+      type(place_t), allocatable, intent(inout) :: places(:)
+      integer :: before, k, t, r, first, bodies(2)
+
+      before = size(places)
+      associate (plan => reading%plan, model => reading%plan%prototype)
+         do k = 1, size(model%joints)
+            first = model%rows(model%joints(k)%first_row)%first
+            if (allocated(plan%joints(k)%readouts)) then
+               do t = 1, size(plan%joints(k)%readouts)
+                  r = plan%joints(k)%readouts(t)
+                  bodies = [model%readouts(r)%measure%body_i, model%readouts(r)%measure%body_j]
+                  call add_ends(of_term, first + t - 1, plan%readouts(r)%ends, bodies)
+               end do
+               cycle
+            end if
+            bodies = [model%joints(k)%body_i, model%joints(k)%body_j]
+            do t = first, first + sum(model%rows(model%joints(k)%first_row:model%joints(k)%first_row + &
+               model%joints(k)%rows - 1)%terms) - 1
+               if (.not. is_of_angle(model%terms(t)%measure%kind) .or. adjuster%has_pivot) &
+                  call add_ends(of_term, t, plan%joints(k)%ends, bodies)
+            end do
+            if (bodies(2) == adjuster%body .and. plan%joints(k)%ends(2) == point) call add(of_joint, k, 2)
+         end do
+         do k = 1, size(plan%readouts)
+            bodies = [model%readouts(k)%measure%body_i, model%readouts(k)%measure%body_j]
+            call add_ends(of_readout, k, plan%readouts(k)%ends, bodies)
+         end do
+         do k = 1, size(plan%elements)
+            bodies = [model%elements(k)%measure%body_i, model%elements(k)%measure%body_j]
+            if (plan%elements(k)%readout > 0) then
+               call add_ends(of_element, k, plan%readouts(plan%elements(k)%readout)%ends, bodies)
+            else
+               call add_ends(of_element, k, plan%elements(k)%ends, bodies)
+            end if
+         end do
+         do k = 1, size(plan%bushings)
+            bodies = [model%elements(model%scalars + k)%measure%body_i, model%elements(model%scalars + k)%measure%body_j]
+            if (adjuster%has_pivot .and. bodies(1) == adjuster%body .and. plan%bushings(k)%ends(1) == point) &
+               call complain(reading, 'pivot', 'pivot: the bushing '//quoted(model%elements(model%scalars + k)%name)// &
+               ' has its axes on the body that turns; exchange its two bodies')
+            call add_ends(of_element, model%scalars + k, plan%bushings(k)%ends, bodies)
+         end do
+         do k = 1, size(plan%loads)
+            if (model%loads(k)%body == adjuster%body .and. plan%loads(k)%at == point) call add(of_load, k, 1)
+         end do
+         do k = 1, size(plan%wheels)
+            if (model%wheels(k)%body /= adjuster%body) cycle
+            if (adjuster%has_pivot .and. any([plan%wheels(k)%centre, plan%wheels(k)%contact] == point)) then
+               call complain(reading, key, key//': a wheel cannot turn about the pivot against its own body; let the points of '// &
+                  'the suspension on this body turn instead')
+               return
+            end if
+            if (plan%wheels(k)%centre == point) call add(of_centre, k, 1)
+            if (plan%wheels(k)%contact == point) call add(of_contact, k, 1)
+            do t = 1, 2
+               if (plan%wheels(k)%steer_axis(t) == point) call add(of_axis, k, t)
+            end do
+         end do
+      end associate
+      if (size(places) == before .and. reading%cards(reading%k)%is_good) call complain(reading, key, key// &
+         ': no joint, spring or bushing of the body '//quoted(text_of(reading, 'body'))//' is at a point that the adjuster moves')
+
+   contains
+
+      !> Adds the ends of a part that are at the point, on the body of the adjuster.
+      subroutine add_ends(part, index, ends, bodies)
+         integer, intent(in) :: part, index, ends(2), bodies(2)
+         integer :: side
+
+         do side = 1, 2
+            if (ends(side) == point .and. bodies(side) == adjuster%body) call add(part, index, side)
+         end do
+      end subroutine add_ends
+
+      subroutine add(part, index, side)
+         integer, intent(in) :: part, index, side
+         places = [places, place_t(0, part, index, side, share)]
+      end subroutine add
+
+   end subroutine add_places
+
+end module ek_reader_adjusters
