@@ -205,12 +205,20 @@ contains
       end do
    end subroutine half_turn_remarks
 
-   !> Adds one note per axial spring on the preload found by the preload trim (`balance`).
+   !> Adds one note per adjuster that &align has set, and per axial spring on the preload found by the preload trim (`balance`).
    subroutine preload_remarks(suspension, words)
       type(suspension_t), intent(in) :: suspension
       type(message_list_t), intent(inout) :: words
-      integer :: k
+      integer :: k, j
 
+      do j = 1, size(suspension%aligns)
+         do k = 1, suspension%aligns(j)%angles
+            associate (this => suspension%adjusters(suspension%aligns(j)%adjusters(k)))
+               call words%add('align: adjuster '//quoted(this%name)//' = '//str(this%value/millimetre, 6)//' mm (range '// &
+                  str(this%low/millimetre, 6)//' to '//str(this%high/millimetre, 6)//' mm)')
+            end associate
+         end do
+      end do
       if (suspension%balance == 'none') return
       do k = 1, size(suspension%elements)
          if (.not. element_kinds(suspension%elements(k)%kind)%is_axial_spring) cycle

@@ -20,11 +20,11 @@ module ek_group
       study_group = 11, factor_group = 12, response_group = 13, include_group = 14, mirror_group = 15, &
       curve_group = 16, damper_group = 17, stop_group = 18, torsion_group = 19, axle_group = 20, steering_group = 21, &
       mass_group = 22, correlation_group = 23, hardpoints_group = 24, target_group = 25, fit_group = 26, fit_target_group = 27, &
-      manoeuvre_group = 28, load_state_group = 29, adjuster_group = 30
+      manoeuvre_group = 28, load_state_group = 29, adjuster_group = 30, align_group = 31
    character(*), parameter :: group_names(*) = [character(11) :: 'model', 'point', 'body', 'measure', 'joint', &
       'bushing', 'spring', 'wheel', 'load', 'case', 'study', 'factor', 'response', 'include', 'mirror', 'curve', 'damper', &
       'stop', 'torsion', 'axle', 'steering', 'mass', 'correlation', 'hardpoints', 'target_band', &
-      'fit', 'target', 'manoeuvre', 'load_state', 'adjuster']
+      'fit', 'target', 'manoeuvre', 'load_state', 'adjuster', 'align']
 
    !> What a record of each group describes, for `elastokin schema`; '' for groups of a study or a fit.
    character(*), parameter :: group_summaries(*) = [character(90) :: 'the model: name, units, frame and preload trim', &
@@ -35,7 +35,8 @@ module ek_group
       'a damper, of which the gas force acts', 'a bump stop or a rebound stop', 'a torsion spring between two bodies', &
       'the axle and the car around it', 'the steering wheel and the rack', 'an additional mass on a body', '', &
       'points from a file', 'a range in which a key number should lie', '', '', 'load factor and accelerations of the car', &
-      'a state from which all tests can start', 'a rod, shim, slot or seat by which the axle is set up']
+      'a state from which all tests can start', 'a rod, shim, slot or seat by which the axle is set up', &
+      'static angles of a wheel that adjusters give']
 
    integer, parameter :: every_group = 0      !! group, in the table of keys, of a key that every group has
    integer, parameter :: spring_groups(*) = [spring_group, damper_group, stop_group, torsion_group]   ! elements of one measure
@@ -310,6 +311,10 @@ module ek_group
       key_t(adjuster_group, 'range', number, 2, 2, .true., dimension=length, about='lowest and highest value'), &
       key_t(adjuster_group, 'value', number, 1, 1, .false., dimension=length, default='0', &
       about='change of length, thickness or displacement; 0 as drawn'), &
+      key_t(align_group, 'wheel', word, 1, 1, .true., role=wheel_group, about='wheel with these static angles'), &
+      key_t(align_group, 'toe', number, 1, 1, .false., acute, ' deg', dimension=angle, about='static toe'), &
+      key_t(align_group, 'camber', number, 1, 1, .false., acute, ' deg', dimension=angle, about='static camber'), &
+      key_t(align_group, 'with', word, 1, 2, .true., role=adjuster_group, about='one adjuster for each angle'), &
       key_t(manoeuvre_group, 'name', word, 1, 1, .false., about='name of the manoeuvre in the results'), &
       key_t(manoeuvre_group, 'set', word, 1, 1, .false., about='set of manoeuvres; no other key is then allowed'), &
       key_t(manoeuvre_group, 'vertical', number, 1, 1, .false., not_negative, default='1', &
@@ -467,7 +472,7 @@ contains
    !> Whether records of a group are duplicated by &mirror together with the records to which they refer.
    pure logical function is_element(group)
       integer, intent(in) :: group
-      is_element = has_results(group) .or. any([wheel_group, load_group, mass_group, adjuster_group] == group)
+      is_element = has_results(group) .or. any([wheel_group, load_group, mass_group, adjuster_group, align_group] == group)
    end function is_element
 
    !> Whether &mirror may duplicate records of a group.

@@ -14,7 +14,8 @@ module ek_mirror
    use ek_record, only: deck_errors_t, has_side, left_side, right_side, side_prefix, record_t, entry_t, add_record, &
       add_value, element, entry_index, place_of, line_text, role_of, sign_of_image, turns
    use ek_group, only: group_names, group_number, point_group, word_length, record_head, is_element, can_be_doubled, &
-      number, point_group, body_group, measure_group, adjuster_group, wheel_group, load_group, polar, axial, curves, wheel_side
+      number, point_group, body_group, measure_group, adjuster_group, align_group, wheel_group, load_group, &
+      polar, axial, curves, wheel_side
    use ek_namelist, only: value_fault
    use ek_attachment, only: units_in_deck
    implicit none(type, external)
@@ -110,7 +111,7 @@ contains
          if (half%groups(k) == body_group) half%is_doubled(k) = .not. any(half%names(k) == [character(7) :: 'chassis', 'ground'])
          if (half%groups(k) == point_group) call judge_point(records(k), half, half%is_doubled(k), deck_errors)
       end do
-      do pass = 1, 3      ! measures first: other elements refer to them; adjusters last: they refer to other elements
+      do pass = 1, 4      ! measures first, then parts, adjusters of parts, and &align, which refers to adjusters
          do k = 1, size(records)
             if (.not. is_element(half%groups(k)) .or. is_of_one(half, k)) cycle
             if (pass == pass_of(half%groups(k))) half%is_doubled(k) = follows(records(k), half)
@@ -130,6 +131,7 @@ contains
       pass_of = 2
       if (group == measure_group) pass_of = 1
       if (group == adjuster_group) pass_of = 3
+      if (group == align_group) pass_of = 4
    end function pass_of
 
    !> Finds the names in `shared`, each of which must exist. 'none' alone stands for an empty list unless a record has this name.

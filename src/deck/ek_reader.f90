@@ -10,7 +10,7 @@ module ek_reader
    use ek_group, only: group_names, group_number, is_deck_group, names_of_groups, model_group, point_group, body_group, &
       measure_group, joint_group, bushing_group, spring_groups, case_group, curve_group, mass_group, wheel_group, axle_group, &
       steering_group, load_group, manoeuvre_group, target_group, word_length, record_head, has_results, &
-      load_state_group, adjuster_group
+      load_state_group, adjuster_group, align_group
    use ek_namelist, only: check_record, name_fault
    use ek_deck, only: deck_t, finish_deck
    use ek_attachment, only: units_in_deck
@@ -20,7 +20,7 @@ module ek_reader
    use ek_reader_bodies, only: read_point, read_body, read_mass, read_load, read_wheel, read_axle, read_steering
    use ek_reader_joints, only: read_measure, read_joint
    use ek_reader_manoeuvres, only: read_manoeuvre
-   use ek_reader_adjusters, only: read_adjuster
+   use ek_reader_adjusters, only: read_adjuster, read_align
    use ek_manoeuvre, only: has_manoeuvres, axle_fault, manoeuvre_fault
    use ek_reader_elements, only: read_curve, read_element
    use ek_target_band, only: target_band_t, read_target_band
@@ -39,7 +39,7 @@ module ek_reader
    !> The order of reading: groups to which others refer come first.
    integer, parameter :: reading_order(*) = [model_group, load_state_group, point_group, curve_group, body_group, mass_group, &
       measure_group, joint_group, bushing_group, spring_groups, wheel_group, axle_group, steering_group, load_group, &
-      manoeuvre_group, adjuster_group]
+      manoeuvre_group, adjuster_group, align_group]
 
    !> A deck as a design space: realise(plan, x) is a suspension.
    type :: definition_t
@@ -268,6 +268,8 @@ contains
          call read_manoeuvre(reading)
       case (adjuster_group)
          call read_adjuster(reading)
+      case (align_group)
+         call read_align(reading)
       case default
          call read_element(reading)
       end select

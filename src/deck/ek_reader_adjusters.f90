@@ -4,16 +4,16 @@ module ek_reader_adjusters
    use ek_text, only: str, quoted
    use ek_dimension, only: length, unit_name
    use ek_measure, only: is_of_angle
-   use ek_adjuster, only: adjuster_t, place_t, is_reachable, rod_of_joint, seat, of_term, of_element, of_joint, &
+   use ek_adjuster, only: adjuster_t, place_t, align_t, is_reachable, rod_of_joint, seat, of_term, of_element, of_joint, &
       of_readout, of_load, of_centre, of_contact, of_axis
-   use ek_blueprint, only: adjuster_plan_t, vector_t, along
-   use ek_group, only: joint_group, spring_group, word_length, max_adjusted
+   use ek_blueprint, only: adjuster_plan_t, align_plan_t, vector_t, along
+   use ek_group, only: joint_group, spring_group, wheel_group, adjuster_group, word_length, max_adjusted
    use ek_deck_reading, only: deck_reading_t, complain, where_of, has_key, choice, text_of, texts_of, number_of, value_count, &
       refuse, slot, unit_of, whole_of
    use ek_reference, only: look_up, find_body, find_point, find_direction, check_apart, new_vector
    implicit none(type, external)
    private
-   public :: read_adjuster
+   public :: read_adjuster, read_align
 
    ! types, in the order of ek_choices
    integer, parameter :: rod = 1, shim = 2, slotted = 3, spring_seat = 4
@@ -68,10 +68,49 @@ contains
       associate (model => reading%plan%prototype)
          reading%plan%adjusters = [reading%plan%adjusters, plan]
          model%adjusters = [model%adjusters, adjuster]
+         reading%cards(reading%k)%index = size(model%adjusters)
          places%adjuster = size(model%adjusters)
          model%places = [model%places, places]
       end associate
    end subroutine read_adjuster
+
+   !> Reads &align: static angles of a wheel, and one adjuster for each of them.
+   subroutine read_align(reading)
+      type(deck_reading_t), intent(inout) :: reading
+      type(align_t) :: align
+      type(align_plan_t) :: plan
+      character(word_length) :: names(2)
+      integer :: j, k, found
+
+      align%where = where_of(reading)
+      call look_up(reading, 'wheel', wheel_group, text_of(reading, 'wheel'), found)
+      if (found > 0) align%wheel = reading%cards(found)%index
+      align%has_toe = has_key(reading, 'toe')
+      align%has_camber = has_key(reading, 'camber')
+      align%angles = count([align%has_toe, align%has_camber])
+      if (align%angles == 0 .and. reading%cards(reading%k)%is_good) &
+         call complain(reading, '', "give 'toe', 'camber' or both, the angles that the wheel must have")
+      names = texts_of(reading, 'with', 2)
+      if (value_count(reading, 'with') /= align%angles .and. reading%cards(reading%k)%is_good) then
+         call complain(reading, 'with', 'with: '//str(align%angles)//' angles need as many adjusters, found '// &
+            str(value_count(reading, 'with')))
+         return
+      end if
+      do k = 1, min(value_count(reading, 'with'), 2)
+         call look_up(reading, 'with', adjuster_group, trim(names(k)), found)
+         if (found == 0) cycle
+         if (.not. reading%cards(found)%is_good) reading%cards(reading%k)%is_good = .false.
+         align%adjusters(k) = reading%cards(found)%index
+         if (any([(any(reading%plan%prototype%aligns(j)%adjusters == align%adjusters(k)), &
+            j=1, size(reading%plan%prototype%aligns))]) .or. any(align%adjusters(:k - 1) == align%adjusters(k))) &
+            call complain(reading, 'with', 'with: the adjuster '//quoted(names(k))//' is named twice; each angle needs its own')
+      end do
+      if (.not. reading%cards(reading%k)%is_good .or. align%wheel == 0) return
+      call slot(reading, 'toe', plan%toe)
+      call slot(reading, 'camber', plan%camber)
+      reading%plan%aligns = [reading%plan%aligns, plan]
+      reading%plan%prototype%aligns = [reading%plan%prototype%aligns, align]
+   end subroutine read_align
 
    !> Reads the range, and checks that it contains 0 and the value.
    subroutine check_range(reading, adjuster)

@@ -23,6 +23,7 @@ module ek_workspace
    use ek_manoeuvre, only: can_drive
    use ek_balance, only: balance_failure_t, set_preloads, fail_balance, no_start
    use ek_start, only: start_space_t, find_start
+   use ek_align, only: align_space_t, find_alignment
    use ek_preload_problem, only: preload_problem_t
    use ek_diagnosis, only: diagnosis_t
    use ek_case_result, only: solve_options_t, solve_case, solve_mounted, add_remarks, failure_of
@@ -61,6 +62,7 @@ module ek_workspace
       type(balance_failure_t), private :: failure       !! outcome of the last preload trim
       type(preload_problem_t), private :: space         !! work space of the preload trim
       type(start_space_t), private :: start_space       !! work space of the start state
+      type(align_space_t), private :: align_space       !! work space of &align
       logical, private :: has_started = .false.         !! an earlier design has a start state: a later design without
                                                         !! one fails, so that all designs begin in states of one kind
    end type workspace_t
@@ -122,6 +124,8 @@ contains
          workspace%suspension = workspace%raw
       end if
       call set_preloads(workspace%suspension, tolerance, workspace%space, workspace%failure)
+      if (workspace%failure%reason == 0 .and. size(workspace%suspension%aligns) > 0) &
+         call find_alignment(workspace%suspension, workspace%align_space, workspace%failure)
       if (workspace%failure%reason == 0) then
          call find_start(workspace%suspension, tolerance, workspace%start_space, is_found)
          if (.not. is_found .and. (workspace%suspension%must_start .or. workspace%has_started)) workspace%failure%reason = no_start

@@ -9,7 +9,7 @@
 !> wheel instead of the spring: such a driver is excluded from `all` unless its joint sets `balance = .true.`. Other drivers (a
 !> rack, a steering column) are included unless their joint sets `balance = .false.`.
 module ek_balance
-   use ek_kinds, only: wp
+   use ek_kinds, only: wp, degree
    use ek_error, only: error_t, message_list_t, fail, exit_model, exit_convergence
    use ek_text, only: str, quoted, plural
    use ek_measure, only: evaluation_t, evaluate
@@ -26,7 +26,7 @@ module ek_balance
    use ek_singular_values, only: singular_values_t, decompose, min_norm
    implicit none(type, external)
    private
-   public :: balance_failure_t, balance, set_preloads, fail_balance, balance_remarks, no_start
+   public :: balance_failure_t, balance, set_preloads, fail_balance, balance_remarks, no_start, not_aligned
 
    ! why no preloads were found; fail_balance has the messages
    integer, parameter :: has_no_spring = 1          !! no spring, or no wheel
@@ -36,11 +36,15 @@ module ek_balance
    integer, parameter :: springs_not_finite = 5
    integer, parameter :: all_not_finite = 6
    integer, parameter :: does_not_hold = 7
+   integer, parameter :: not_aligned = 9             !! no values of the adjusters give the angles of &align (ek_align)
    integer, parameter :: no_start = 8               !! the start state of the tests was not found (ek_start)
 
    type :: balance_failure_t
       integer :: reason = 0                         !! one of the constants above; 0: none
       real(wp) :: misfit = 0.0_wp                   !! largest distance of a wheel from its design height [m]
+      integer :: adjuster = 0                       !! not_aligned: index of an adjuster whose range is too small; 0: none
+      real(wp) :: needed = 0.0_wp                   !! value that this adjuster would need [m]
+      real(wp) :: worst_angle = 0.0_wp              !! largest deviation of an angle from &align [rad]
    end type balance_failure_t
 
    character(*), parameter :: not_finite = 'the forces or stiffnesses at design are too large to calculate with'
@@ -60,7 +64,7 @@ contains
    end subroutine balance
 
    !> Sets the preloads like `balance`, but returns a failure as a reason without a message: no string is created. The preloads hold
-   !> the drawn axle; the adjusters are set afterwards.
+   !> the drawn axle; the adjusters are set afterwards, by ek_align if the deck has an &align.
    subroutine set_preloads(suspension, tolerance, space, failure)
       type(suspension_t), intent(inout) :: suspension
       real(wp), intent(in) :: tolerance                    !! m
@@ -73,7 +77,7 @@ contains
       case ('all')
          call balance_all(suspension, space, failure)
       end select
-      if (failure%reason == 0) call adjust(suspension)
+      if (failure%reason == 0 .and. size(suspension%aligns) == 0) call adjust(suspension)
    end subroutine set_preloads
 
    !> Reports a failure of set_preloads as an error.
@@ -99,10 +103,31 @@ contains
       case (does_not_hold)
          call fail(error, exit_model, "balance = 'all': no preload of springs and bushings holds the constant loads at design"// &
             kept_out(suspension))
+      case (not_aligned)
+         call fail(error, exit_convergence, suspension%aligns(1)%where//': '//align_words(suspension, failure))
       case (no_start)
          call fail(error, exit_convergence, 'there is no start state'//start_words(suspension))
       end select
    end subroutine fail_balance
+
+   !> Message about angles of &align that were not met.
+   function align_words(suspension, failure) result(text)
+      type(suspension_t), intent(in) :: suspension
+      type(balance_failure_t), intent(in) :: failure
+      character(:), allocatable :: text
+
+      text = 'align: the adjusters do not give the angles; '
+      if (failure%adjuster > 0) then
+         associate (this => suspension%adjusters(failure%adjuster))
+            text = text//'adjuster '//quoted(this%name)//' would need '//str(failure%needed*1000.0_wp, 4)// &
+               ' mm, but its range is '//str(this%low*1000.0_wp, 4)//' to '//str(this%high*1000.0_wp, 4)// &
+               ' mm; at the end of the range, an angle is '//str(failure%worst_angle/degree, 4)//' deg off'
+         end associate
+      else
+         text = text//'they do not change the angles independently, or no position of the axle was found; '// &
+            'name one adjuster for each angle'
+      end if
+   end function align_words
 
    !> Phrase about a start state that was not found, for an error message: ' with start_height = 20 mm: no equilibrium …'.
    function start_words(suspension) result(text)

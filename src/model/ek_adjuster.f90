@@ -13,7 +13,7 @@ module ek_adjuster
    use ek_rotation, only: cross
    implicit none(type, external)
    private
-   public :: adjuster_t, adjuster_numbers_t, place_t, moved_point, turned_direction, is_reachable
+   public :: adjuster_t, adjuster_numbers_t, place_t, align_t, moved_point, turned_direction, is_reachable
    public :: rod_of_joint, of_points, seat
    public :: of_term, of_element, of_joint, of_readout, of_load, of_centre, of_contact, of_axis
 
@@ -30,6 +30,7 @@ module ek_adjuster
       real(wp) :: pivot(3) = 0.0_wp           !! point about which the points turn [m]
    end type adjuster_numbers_t
 
+   !> An adjuster: its numbers, its range, and the parts that it moves.
    type, extends(adjuster_numbers_t) :: adjuster_t
       character(:), allocatable :: name, where
       integer :: kind = of_points
@@ -52,6 +53,16 @@ module ek_adjuster
       integer :: side = 1                     !! 1: arm on body i, 2: on body j; of_axis: first or second point
       real(wp) :: share = 1.0_wp              !! share of the value; a rod with two threads moves both ends by a half
    end type place_t
+
+   !> Static angles that a wheel must have, and the adjusters that give them.
+   type :: align_t
+      character(:), allocatable :: where
+      integer :: wheel = 0
+      logical :: has_toe = .false., has_camber = .false.
+      integer :: angles = 0                   !! number of angles, and of adjusters
+      integer :: adjusters(2) = 0             !! indices
+      real(wp) :: toe = 0.0_wp, camber = 0.0_wp      !! rad
+   end type align_t
 
 contains
 

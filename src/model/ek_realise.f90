@@ -111,6 +111,10 @@ contains
       integer :: k
 
       suspension%has_set_adjusters = .false.
+      do k = 1, size(plan%aligns)
+         suspension%aligns(k)%toe = number_at(x, plan%aligns(k)%toe)
+         suspension%aligns(k)%camber = number_at(x, plan%aligns(k)%camber)
+      end do
       do k = 1, size(plan%adjusters)
          associate (this => suspension%adjusters(k), from => plan%adjusters(k))
             this%value = number_at(x, from%value)

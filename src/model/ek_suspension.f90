@@ -11,7 +11,7 @@ module ek_suspension
    use ek_element, only: element_t, copy_element
    use ek_load, only: load_t
    use ek_tilt, only: tilt_t
-   use ek_adjuster, only: adjuster_t, place_t
+   use ek_adjuster, only: adjuster_t, place_t, align_t
    use ek_contract, only: are_checked, require
    implicit none(type, external)
    private
@@ -150,6 +150,7 @@ module ek_suspension
       type(tilt_t), allocatable :: tilts(:)    !! rated tilts of joints and bushings
       type(adjuster_t), allocatable :: adjusters(:)
       type(place_t), allocatable :: places(:)  !! all arms that adjusters move
+      type(align_t), allocatable :: aligns(:)  !! static angles that adjusters give
       logical :: has_set_adjusters = .false.   !! the arms are those of the set adjusters (ek_adjust), not of the drawn axle
       type(axle_t) :: axle = axle_t()
       type(steering_t) :: steering = steering_t()
@@ -166,7 +167,7 @@ contains
    subroutine allocate_lists(self)
       type(suspension_t), intent(inout) :: self
       allocate (self%bodies(0), self%points(0), self%joints(0), self%rows(0), self%terms(0), self%elements(0), self%loads(0), &
-         self%wheels(0), self%readouts(0), self%tilts(0), self%adjusters(0), self%places(0))
+         self%wheels(0), self%readouts(0), self%tilts(0), self%adjusters(0), self%places(0), self%aligns(0))
       self%balance = 'none'
       self%start = ''
       self%state = ''
@@ -219,6 +220,10 @@ contains
          to%tilts(k)%axis = from%tilts(k)%axis
       end do
       to%has_set_adjusters = from%has_set_adjusters
+      do k = 1, size(from%aligns)
+         to%aligns(k)%toe = from%aligns(k)%toe
+         to%aligns(k)%camber = from%aligns(k)%camber
+      end do
       do k = 1, size(from%adjusters)
          to%adjusters(k)%adjuster_numbers_t = from%adjusters(k)%adjuster_numbers_t
       end do

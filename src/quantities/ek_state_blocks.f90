@@ -6,7 +6,8 @@ module ek_state_blocks
    use ek_same_parts, only: same_measure, same_element, same_wheel
    use ek_suspension, only: suspension_t
    use ek_column_list, only: column_list_t
-   use ek_state_columns, only: of_position, of_axis, of_element, of_readout, of_bushing, of_joint, of_tilt, measure_of_tilt
+   use ek_state_columns, only: of_position, of_axis, of_element, of_readout, of_bushing, of_joint, of_tilt, of_adjuster, &
+      measure_of_tilt
    implicit none(type, external)
    private
    public :: block_reads, same_block, parts_of_block, pair_of_block
@@ -33,6 +34,7 @@ contains
             call mark_bodies(suspension%readouts(k)%measure, is_read)
          case (of_tilt)
             call mark_bodies(measure_of_tilt(suspension, k), is_read)
+         case (of_adjuster)
          case (of_joint)
             associate (joint => suspension%joints(k))
                associate (first => suspension%unknowns() + joint%first_row)

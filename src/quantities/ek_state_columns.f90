@@ -24,10 +24,11 @@ module ek_state_columns
    private
    public :: list_state, state_columns, state_values, block_vector, has_wheels, has_joints, has_only_wheels
    public :: most_values
-   public :: of_position, of_axis, of_element, of_readout, of_bushing, of_joint, of_tilt, measure_of_tilt
+   public :: of_position, of_axis, of_element, of_readout, of_bushing, of_joint, of_tilt, of_adjuster, measure_of_tilt
 
-   ! sections: of a wheel, an element of one measure, a measure, a bushing, a joint, a rated tilt
-   integer, parameter :: of_position = 1, of_axis = 2, of_element = 3, of_readout = 4, of_bushing = 5, of_joint = 6, of_tilt = 7
+   ! sections: of a wheel, an element of one measure, a measure, a bushing, a joint, a rated tilt, an adjuster of &align
+   integer, parameter :: of_position = 1, of_axis = 2, of_element = 3, of_readout = 4, of_bushing = 5, of_joint = 6, of_tilt = 7, &
+      of_adjuster = 8
    integer, parameter :: most_values = max(12, size(wheel_position), size(steer_axis))   !! greatest number of values of a section
 
    ! rotations, cosines, lengths: ending of the column of an element's value, and its unit
@@ -53,7 +54,7 @@ contains
       type(suspension_t), intent(in) :: suspension
       type(column_list_t), intent(out) :: list
       character(len(endings)) :: ending
-      integer :: k
+      integer :: j, k
 
       call begin_list(list, 128)
       do k = 1, size(suspension%wheels)
@@ -99,6 +100,12 @@ contains
       do k = 1, size(suspension%tilts)
          call add_column(list, suspension%tilts(k)%name//'_deg')
          call end_block(list, of_tilt, k)
+      end do
+      do j = 1, size(suspension%aligns)
+         do k = 1, suspension%aligns(j)%angles
+            call add_column(list, 'adjuster_'//suspension%adjusters(suspension%aligns(j)%adjusters(k))%name//'_mm')
+            call end_block(list, of_adjuster, suspension%aligns(j)%adjusters(k))
+         end do
       end do
 
    contains
@@ -193,6 +200,8 @@ contains
          call joint_values(suspension, state, kkt%gradients, frame, list%item(b), values)
       case (of_tilt)
          values(1) = tilt_value(suspension, state, list%item(b))/degree
+      case (of_adjuster)
+         values(1) = suspension%adjusters(list%item(b))%value/millimetre
       end select
    end subroutine block_vector
 

@@ -30,7 +30,7 @@ module ek_start
    use ek_rig, only: mounted_case_t, mount_again
    implicit none(type, external)
    private
-   public :: start_space_t, find_start, needed_force
+   public :: start_space_t, find_start, needed_force, hold
 
    integer, parameter :: max_iterations = 12
    real(wp), parameter :: free = 1.0e-15_wp      !! largest reaction, as a share of the forces, of a wheel that is not held
