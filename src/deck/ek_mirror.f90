@@ -110,10 +110,11 @@ contains
          if (half%groups(k) == body_group) half%is_doubled(k) = .not. any(half%names(k) == [character(7) :: 'chassis', 'ground'])
          if (half%groups(k) == point_group) call judge_point(records(k), half, half%is_doubled(k), deck_errors)
       end do
-      do pass = 1, 2      ! measures first: other elements refer to them
+      do pass = 1, 3      ! wheels and measures first: other elements refer to them
          do k = 1, size(records)
             if (.not. is_element(half%groups(k)) .or. is_of_one(half, k)) cycle
-            if ((half%groups(k) == measure_group) .eqv. (pass == 1)) half%is_doubled(k) = follows(records(k), half)
+            if (pass /= merge(1, merge(2, 3, half%groups(k) == measure_group), half%groups(k) == wheel_group)) cycle
+            half%is_doubled(k) = follows(records(k), half)
          end do
       end do
       do k = 1, size(records)
@@ -191,7 +192,8 @@ contains
          if (role < 1 .or. role > size(group_names)) cycle      ! not the name of a record
          do v = 1, record%entries(e)%used
             associate (text => record%entries(e)%values(v)%text)
-               if (has_side(text)) then      ! the reference has a side: the element exists once
+               ! a reference has a side: the element exists once
+               if (has_side(text) .and. contact_stem(half, role, text) == 0) then
                   follows = .false.
                   return
                end if
@@ -208,14 +210,31 @@ contains
       character(*), intent(in) :: name
 
       is_doubled_name = any(half%is_doubled .and. half%groups == role .and. half%names == lower(name)) .and. name /= ''
+      if (.not. is_doubled_name) is_doubled_name = contact_stem(half, role, name) > 0
    end function is_doubled_name
+
+   !> Length of the name of a duplicated wheel in <wheel>_contact, if the name is not that of a point; otherwise 0.
+   pure integer function contact_stem(half, role, name) result(stem)
+      type(half_t), intent(in) :: half
+      integer, intent(in) :: role
+      character(*), intent(in) :: name
+      character(*), parameter :: ending = '_contact'
+
+      stem = len_trim(name) - len(ending)
+      if (role /= point_group .or. stem <= 0) then
+         stem = 0
+      else if (name(stem + 1:) /= ending .or. any(half%groups == point_group .and. half%names == lower(name)) .or. &
+         .not. any(half%is_doubled .and. half%groups == wheel_group .and. half%names == lower(name(:stem)))) then
+         stem = 0
+      end if
+   end function contact_stem
 
    !> Renames a duplicated record for one side, and its references to other duplicated records.
    subroutine rename(half, side, record)
       type(half_t), intent(in) :: half
       integer, intent(in) :: side
       type(record_t), intent(inout) :: record
-      integer :: e, v, role
+      integer :: e, v, role, stem
 
       do e = 1, record%used
          associate (entry => record%entries(e))
@@ -226,7 +245,12 @@ contains
                   if (entry%key == 'name' .and. len_trim(value%text) <= word_length) then
                      value%text = name_on_side(group_number(record%group), value%text, side)
                   else if (is_doubled_name(half, role, value%text)) then
-                     value%text = name_on_side(role, value%text, side)
+                     stem = contact_stem(half, role, value%text)
+                     if (stem > 0) then
+                        value%text = name_on_side(wheel_group, value%text(:stem), side)//value%text(stem + 1:)
+                     else
+                        value%text = name_on_side(role, value%text, side)
+                     end if
                   end if
                end associate
             end do
