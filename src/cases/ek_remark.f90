@@ -135,6 +135,7 @@ contains
 
       do k = 1, size(suspension%wheels)
          associate (w => suspension%wheels(k))
+            if (w%has_crown) cycle                  ! computed
             down = [0.0_wp, 0.0_wp, -1.0_wp] + w%spin(3)*w%spin                        ! in the plane of the wheel
             down = down/max(norm2(down), 0.1_wp)
             off = min(norm2(w%contact - w%centre - w%radius*down), &

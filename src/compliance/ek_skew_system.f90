@@ -6,6 +6,7 @@
 !> equilibrium, g is the moment M of the loads without a potential:
 !>
 !>     dead moment M:            N_ππ = −½ M̃
+!>     force at the lowest point of a wheel: N_ππ = ½ m̃, m of moment_without_potential
 !>     follower, force f, moment m about the reference point, arm included:
 !>                               N_rπ = N_πr = ½ f̃,  N_ππ = ½ m̃     (½ m̃ = m̃ of its own rotation less ½ g̃)
 !>
@@ -18,6 +19,7 @@ module ek_skew_system
    use ek_relative_rotation, only: pose_t
    use ek_suspension, only: suspension_t, load_t
    use ek_state, only: state_t, inputs_t
+   use ek_load, only: has_potential, moment_without_potential
    use ek_kkt, only: kkt_t, wrench, load_factor, whole_matrix
    use ek_lapack, only: dgetrf, dgetrs
    implicit none(type, external)
@@ -51,7 +53,7 @@ contains
 
       has_skew_part = .false.
       do k = 1, size(suspension%loads)
-         if (.not. (suspension%loads(k)%follows .or. any(abs(suspension%loads(k)%moment) > 0.0_wp))) cycle
+         if (has_potential(suspension%loads(k))) cycle
          if (abs(factor_of(suspension, inputs, k)) > 0.0_wp) has_skew_part = .true.
       end do
    end function has_skew_part
@@ -71,7 +73,7 @@ contains
          part(4:6, 1:3) = skew(0.5_wp*factor*force)
          part(4:6, 4:6) = skew(0.5_wp*factor*moment)
       else
-         part(4:6, 4:6) = skew(-0.5_wp*factor*load%moment)
+         part(4:6, 4:6) = skew((0.5_wp*factor)*moment_without_potential(load, pose))
       end if
    end function skew_part
 

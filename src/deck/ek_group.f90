@@ -249,13 +249,16 @@ module ek_group
       key_t(wheel_group, 'body', word, 1, 1, .true., role=body_group, about='wheel carrier'), &
       key_t(wheel_group, 'side', word, 1, 1, .true., role=wheel_side, about='side of the car'), &
       key_t(wheel_group, 'centre', word, 1, 1, .true., role=point_group, about='point: wheel centre'), &
-      key_t(wheel_group, 'contact', word, 1, 1, .true., role=point_group, about='point: contact point'), &
+      key_t(wheel_group, 'contact', word, 1, 1, .false., role=point_group, &
+      about='point: contact point; computed with crown_radius'), &
       key_t(wheel_group, 'spin_vector', number, 3, 3, .false., role=polar, &
       about='spin axis, pointing outboard, instead of toe and camber'), &
       key_t(wheel_group, 'toe', number, 1, 1, .false., acute, ' deg', dimension=angle, default='0', about='static toe'), &
       key_t(wheel_group, 'camber', number, 1, 1, .false., acute, ' deg', dimension=angle, default='0', about='static camber'), &
       key_t(wheel_group, 'radius', number, 1, 1, .false., positive, dimension=length, &
       about='radius; height of the centre above the contact point if not given'), &
+      key_t(wheel_group, 'crown_radius', number, 1, 1, .false., not_negative, dimension=length, &
+      about='radius of the crown of the tyre: the contact point is the lowest point; 0: a disc'), &
       key_t(wheel_group, 'tyre_rate', number, 1, 1, .false., positive, dimension=rate, about='vertical stiffness of the tyre'), &
       key_t(wheel_group, 'tyre_width', number, 1, 1, .false., positive, dimension=length, about='width of the tyre'), &
       key_t(wheel_group, 'sprung_mass', number, 1, 1, .false., positive, dimension=mass, &

@@ -111,7 +111,7 @@ contains
          if (half%groups(k) == body_group) half%is_doubled(k) = .not. any(half%names(k) == [character(7) :: 'chassis', 'ground'])
          if (half%groups(k) == point_group) call judge_point(records(k), half, half%is_doubled(k), deck_errors)
       end do
-      do pass = 1, 4      ! measures first, then parts, adjusters of parts, and &align, which refers to adjusters
+      do pass = 1, 5      ! wheels and measures first, then parts, adjusters of parts, and &align, which refers to adjusters
          do k = 1, size(records)
             if (.not. is_element(half%groups(k)) .or. is_of_one(half, k)) cycle
             if (pass == pass_of(half%groups(k))) half%is_doubled(k) = follows(records(k), half)
@@ -128,10 +128,11 @@ contains
    pure integer function pass_of(group)
       integer, intent(in) :: group
 
-      pass_of = 2
-      if (group == measure_group) pass_of = 1
-      if (group == adjuster_group) pass_of = 3
-      if (group == align_group) pass_of = 4
+      pass_of = 3
+      if (group == wheel_group) pass_of = 1
+      if (group == measure_group) pass_of = 2
+      if (group == adjuster_group) pass_of = 4
+      if (group == align_group) pass_of = 5
    end function pass_of
 
    !> Finds the names in `shared`, each of which must exist. 'none' alone stands for an empty list unless a record has this name.
@@ -202,7 +203,8 @@ contains
          if (role < 1 .or. role > size(group_names)) cycle      ! not the name of a record
          do v = 1, record%entries(e)%used
             associate (text => record%entries(e)%values(v)%text)
-               if (has_side(text)) then      ! the reference has a side: the element exists once
+               ! a reference has a side: the element exists once
+               if (has_side(text) .and. contact_stem(half, role, text) == 0) then
                   follows = .false.
                   return
                end if
@@ -219,14 +221,31 @@ contains
       character(*), intent(in) :: name
 
       is_doubled_name = any(half%is_doubled .and. half%groups == role .and. half%names == lower(name)) .and. name /= ''
+      if (.not. is_doubled_name) is_doubled_name = contact_stem(half, role, name) > 0
    end function is_doubled_name
+
+   !> Length of the name of a duplicated wheel in <wheel>_contact, if the name is not that of a point; otherwise 0.
+   pure integer function contact_stem(half, role, name) result(stem)
+      type(half_t), intent(in) :: half
+      integer, intent(in) :: role
+      character(*), intent(in) :: name
+      character(*), parameter :: ending = '_contact'
+
+      stem = len_trim(name) - len(ending)
+      if (role /= point_group .or. stem <= 0) then
+         stem = 0
+      else if (name(stem + 1:) /= ending .or. any(half%groups == point_group .and. half%names == lower(name)) .or. &
+         .not. any(half%is_doubled .and. half%groups == wheel_group .and. half%names == lower(name(:stem)))) then
+         stem = 0
+      end if
+   end function contact_stem
 
    !> Renames a duplicated record for one side, and its references to other duplicated records.
    subroutine rename(half, side, record)
       type(half_t), intent(in) :: half
       integer, intent(in) :: side
       type(record_t), intent(inout) :: record
-      integer :: e, v, role
+      integer :: e, v, role, stem
 
       do e = 1, record%used
          associate (entry => record%entries(e))
@@ -237,7 +256,12 @@ contains
                   if (entry%key == 'name' .and. len_trim(value%text) <= word_length) then
                      value%text = name_on_side(group_number(record%group), value%text, side)
                   else if (is_doubled_name(half, role, value%text)) then
-                     value%text = name_on_side(role, value%text, side)
+                     stem = contact_stem(half, role, value%text)
+                     if (stem > 0) then
+                        value%text = name_on_side(wheel_group, value%text(:stem), side)//value%text(stem + 1:)
+                     else
+                        value%text = name_on_side(role, value%text, side)
+                     end if
                   end if
                end associate
             end do

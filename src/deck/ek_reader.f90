@@ -6,7 +6,7 @@ module ek_reader
    use ek_kinds, only: wp, i8
    use ek_text, only: str, quoted, lower, did_you_mean
    use ek_error, only: error_t, message_list_t, fail, exit_deck
-   use ek_record, only: single, record_t, hand_over, element, place_of, own_name
+   use ek_record, only: single, record_t, hand_over, element, place_of, own_name, is_given
    use ek_group, only: group_names, group_number, is_deck_group, names_of_groups, model_group, point_group, body_group, &
       measure_group, joint_group, bushing_group, spring_groups, case_group, curve_group, mass_group, wheel_group, axle_group, &
       steering_group, load_group, manoeuvre_group, target_group, word_length, record_head, has_results, &
@@ -36,9 +36,10 @@ module ek_reader
    private
    public :: definition_t, read_design, build_design, build_model
 
-   !> The order of reading: groups to which others refer come first.
+   !> The order of reading: groups to which others refer come first. Wheels come early if a contact point is computed, otherwise
+   !> late.
    integer, parameter :: reading_order(*) = [model_group, load_state_group, point_group, curve_group, body_group, mass_group, &
-      measure_group, joint_group, bushing_group, spring_groups, wheel_group, axle_group, steering_group, load_group, &
+      wheel_group, measure_group, joint_group, bushing_group, spring_groups, wheel_group, axle_group, steering_group, load_group, &
       manoeuvre_group, adjuster_group, align_group]
 
    !> A deck as a design space: realise(plan, x) is a suspension.
@@ -155,6 +156,8 @@ contains
       type(error_t), allocatable, intent(out) :: error
       type(case_t) :: case
       character(:), allocatable :: command
+      integer, parameter :: early = findloc(reading_order, wheel_group, dim=1)
+      logical :: has_crown
       integer :: j, k, before, in_cases
 
       is_whole = .false.
@@ -187,9 +190,12 @@ contains
       if (.not. any(reading%cards%group == model_group) .and. all(reading%cards%group > 0) .and. &
          .not. reading%deck_errors%lacks(model_group)) &
          call complain_of_all(reading, 'there is no &model (it gives name, units and axes)')
+      has_crown = any([(reading%cards(k)%group == wheel_group .and. is_given(reading%records(k), 'crown_radius'), &
+         k=1, size(reading%records))])
       do j = 1, size(reading_order)
          do k = 1, size(reading%records)
             if (reading%cards(k)%group /= reading_order(j)) cycle
+            if (reading_order(j) == wheel_group .and. ((j == early) .neqv. has_crown)) cycle
             reading%k = k
             call read_record(reading)
          end do

@@ -3,16 +3,18 @@
 module ek_reader_bodies
    use ek_kinds, only: wp
    use ek_text, only: str, quoted
+   use ek_dimension, only: unit_name, length
    use ek_record, only: single, left_side, right_side, element
    use ek_measure, only: is_of_angle
-   use ek_suspension, only: body_t, load_t, wheel_t
-   use ek_blueprint, only: vector_t, body_plan_t, mass_plan_t, load_plan_t, wheel_plan_t, hardpoint, given, off_left, off_right, &
-      in_plane
+   use ek_suspension, only: body_t, load_t, wheel_t, body_name
+   use ek_blueprint, only: vector_t, body_plan_t, mass_plan_t, load_plan_t, wheel_plan_t, hardpoint, given, lowest, inward, &
+      off_left, off_right, in_plane
    use ek_design_vector, only: plane
    use ek_group, only: joint_group, measure_group
    use ek_deck_reading, only: deck_reading_t, complain, where_of, has_key, choice, text_of, switch_of, number_of, numbers_of, &
       is_second, slot, unit_of
-   use ek_reference, only: look_up, find_card, find_point, find_points, find_moving_body, check_apart, is_driver, new_vector
+   use ek_reference, only: look_up, find_card, find_point, find_place, find_points, find_moving_body, check_apart, is_driver, &
+      new_vector
    implicit none(type, external)
    private
    public :: read_point, read_body, read_mass, read_load, read_wheel, read_axle, read_steering
@@ -85,13 +87,21 @@ contains
       integer :: c
 
       call find_moving_body(reading, element%body, has_body)
-      call find_point(reading, 'at', text_of(reading, 'at'), plan%at, is_found)
+      call find_place(reading, text_of(reading, 'at'), plan%at, element%wheel, is_found)
       call choice(reading, 'factor', c)
       if (.not. (has_key(reading, 'force') .or. has_key(reading, 'moment'))) &
          call complain(reading, '', "give 'force' or 'moment'")
       element%is_case = c /= 1
       ! stored for a rejected load too: a case may check whether it is scaled
       reading%cards(reading%k)%is_used = element%is_case
+      if (element%wheel > 0) then
+         if (has_body .and. reading%plan%prototype%wheels(element%wheel)%body /= element%body) call complain(reading, 'at', &
+            'at: the contact point of wheel '//quoted(reading%plan%prototype%wheels(element%wheel)%name)//' is on body '// &
+            quoted(body_name(reading%plan%prototype, reading%plan%prototype%wheels(element%wheel)%body))//', not on '// &
+            quoted(text_of(reading, 'body')))
+         if (switch_of(reading, 'follows')) call complain(reading, 'follows', 'a load at a contact point that moves in its '// &
+            'carrier cannot rotate with it; leave follows out')
+      end if
       if (.not. reading%cards(reading%k)%is_good) return
 
       call slot(reading, 'force', plan%force)
@@ -118,6 +128,9 @@ contains
       this%side = merge(-1, 1, c == 1)
       call find_point(reading, 'centre', text_of(reading, 'centre'), plan%centre, has_centre)
       call find_point(reading, 'contact', text_of(reading, 'contact'), plan%contact, has_contact)
+      this%has_crown = has_key(reading, 'crown_radius')
+      if (.not. (this%has_crown .or. has_key(reading, 'contact'))) call complain(reading, '', "'contact' is missing")
+      if (this%has_crown) call check_crown(reading)
       centre = reading%vectors(:, plan%centre)
       ! a left wheel on the right side would reverse the signs of its results
       if (has_centre .and. c > 0 .and. this%side*centre(2) < 0.0_wp) call complain(reading, 'side', 'side is '// &
@@ -141,8 +154,48 @@ contains
       this%name = text_of(reading, 'name')
       this%where = where_of(reading)
       reading%plan%prototype%wheels = [reading%plan%prototype%wheels, this]
+      call slot(reading, 'crown_radius', plan%crown_radius)
       reading%plan%wheels = [reading%plan%wheels, plan]
+      if (this%has_crown) call compute_contact(reading, plan%contact)
    end subroutine read_wheel
+
+   !> Checks the radii of a wheel with a crown.
+   subroutine check_crown(reading)
+      type(deck_reading_t), intent(inout) :: reading
+      real(wp) :: crown, radius
+
+      if (.not. has_key(reading, 'radius')) then
+         call complain(reading, 'crown_radius', "crown_radius needs the radius of the wheel: give 'radius'")
+         return
+      end if
+      if (.not. reading%cards(reading%k)%is_good) return
+      crown = number_of(reading, 'crown_radius', 0.0_wp)
+      radius = number_of(reading, 'radius', 1.0_wp)
+      if (crown >= radius) call complain(reading, 'crown_radius', 'crown_radius must be smaller than radius ('//str(radius)// &
+         '), found '//str(crown))
+   end subroutine check_crown
+
+   !> Adds the contact point of the last wheel, its lowest point, to the blueprint. A contact point of the deck must be there.
+   subroutine compute_contact(reading, given)
+      type(deck_reading_t), intent(inout) :: reading
+      integer, intent(in) :: given               !! index of the vector of the point `contact`; 0: not given
+      real(wp), parameter :: tolerance = 1.0e-4_wp         ! m
+      real(wp) :: lowest_point(3), off
+      integer :: number, w
+
+      w = size(reading%plan%wheels)
+      call new_vector(reading, vector_t(kind=lowest, wheel=w), number)
+      reading%plan%wheels(w)%contact = number
+      if (given == 0) return
+      lowest_point = reading%vectors(:, number)
+      off = norm2(reading%vectors(:, given) - lowest_point)
+      if (off <= tolerance) return
+      lowest_point = inward(reading%plan, lowest_point)/reading%units%length
+      call complain(reading, 'contact', 'the point '//quoted(text_of(reading, 'contact'))//' is '// &
+         str(off/reading%units%length, 3)//' '//unit_name(length, reading%units)// &
+         ' away from the lowest point of the wheel, which is at = '//str(lowest_point(1), 8)//', '// &
+         str(lowest_point(2), 8)//', '//str(lowest_point(3), 8)//'; correct it, or leave contact out')
+   end subroutine compute_contact
 
    !> Finds the spin axis, from spin_vector or from toe and camber.
    subroutine find_spin(reading, plan, this)

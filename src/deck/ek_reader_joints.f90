@@ -4,17 +4,17 @@ module ek_reader_joints
    use ek_text, only: str, quoted
    use ek_rotation, only: angle_between
    use ek_dimension, only: unit_size, pure_number, length, angle, force, moment
-   use ek_measure, only: axis_axis, body_gap, global_gap, distance, rotation, is_of_angle
+   use ek_measure, only: axis_axis, body_gap, global_gap, distance, rotation, contact_gap, is_of_angle
    use ek_joint, only: term_t, joint_geometry_t, joint_terms, joint_kinds, joint_table, joint_kind_t, axes_fit, max_terms, &
       no_axis, one_or_two, two_axes, either_axis, right_angle, no_angle, not_opposed, rod_part
-   use ek_suspension, only: readout_t
+   use ek_suspension, only: readout_t, body_name
    use ek_assembly, only: append_joint
    use ek_blueprint, only: vector_t, readout_plan_t, joint_plan_t, across, upright
    use ek_group, only: measure_group, word_length, max_measures
    use ek_deck_reading, only: deck_reading_t, complain, where_of, has_key, choice, text_of, texts_of, switch_of, value_count, &
       refuse, slot
    use ek_reader_ratings, only: rating_t, read_rating, add_tilts
-   use ek_reference, only: look_up, find_bodies, find_direction, find_ends, check_apart, new_vector
+   use ek_reference, only: look_up, find_place, find_bodies, find_direction, find_ends, check_apart, new_vector
    implicit none(type, external)
    private
    public :: read_measure, read_joint
@@ -35,7 +35,7 @@ contains
       type = text_of(reading, 'type')
       call choice(reading, 'type', kind)
       call find_bodies(reading, number)
-      call find_ends(reading, .true., plan%ends, has_points)
+      call find_places(reading, plan%ends, readout%wheel, has_points)
       call find_direction(reading, 'axis', 'axis_vector', plan%u, has_u, is_set)
       call find_direction(reading, 'axis_2', 'axis_2_vector', plan%v, has_v, is_set)
       if (kind == 0) return
@@ -62,17 +62,53 @@ contains
          call complain(reading, '', "give 'axis_2' or 'axis_2_vector'")
       end if
 
+      if (readout%wheel > 0) call check_contact(reading, kind, number, readout%wheel)
+
       plan%u = max(plan%u, upright)
       plan%v = max(plan%v, upright)
       readout%name = text_of(reading, 'name')
       readout%where = where_of(reading)
-      readout%measure%kind = kind
+      readout%measure%kind = merge(contact_gap, kind, readout%wheel > 0)
       readout%measure%body_i = number(1)
       readout%measure%body_j = number(2)
       reading%plan%readouts = [reading%plan%readouts, plan]
       reading%cards(reading%k)%index = size(reading%plan%readouts)
       reading%plan%prototype%readouts = [reading%plan%prototype%readouts, readout]
    end subroutine read_measure
+
+   !> Finds the points of a measure. The second point, or the only one, may be the contact point of a wheel.
+   subroutine find_places(reading, ends, wheel, is_found)
+      type(deck_reading_t), intent(inout) :: reading
+      integer, intent(out) :: ends(2)              !! indices of the vectors
+      integer, intent(out) :: wheel                !! index of the wheel whose contact point moves in its carrier; 0: none
+      logical, intent(out) :: is_found
+      character(word_length) :: at(2)
+      logical :: is_first
+      integer :: last, other
+
+      at = texts_of(reading, 'at', 2)
+      last = merge(1, 2, at(2) == '')
+      is_first = .true.
+      other = 0
+      if (last == 2) call find_place(reading, trim(at(1)), ends(1), other, is_first)
+      call find_place(reading, trim(at(last)), ends(2), wheel, is_found)
+      if (last == 1) ends(1) = ends(2)
+      is_found = is_found .and. is_first
+      if (other > 0) call complain(reading, 'at', 'at: the contact point '//quoted(at(1))//' moves in its carrier; give it last')
+   end subroutine find_places
+
+   !> Reports a measure that cannot have the contact point of a wheel.
+   subroutine check_contact(reading, kind, bodies, wheel)
+      type(deck_reading_t), intent(inout) :: reading
+      integer, intent(in) :: kind, bodies(2), wheel
+
+      associate (model => reading%plan%prototype)
+         if (any(kind == [body_gap, global_gap]) .and. bodies(1) == 0 .and. bodies(2) == model%wheels(wheel)%body) return
+         call complain(reading, 'at', 'at: the contact point of wheel '//quoted(model%wheels(wheel)%name)// &
+            ' moves in its carrier; a measure at this point has the type '//quoted('global_gap')//' and bodies = '// &
+            quoted('chassis')//', '//quoted(body_name(model, model%wheels(wheel)%body)))
+      end associate
+   end subroutine check_contact
 
    !> Reads &joint: a driver, a coupler, or a joint defined by points and axes.
    subroutine read_joint(reading)

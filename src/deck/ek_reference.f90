@@ -4,14 +4,15 @@
 module ek_reference
    use ek_kinds, only: wp
    use ek_text, only: lower, quoted, did_you_mean
-   use ek_record, only: element, own_name, has_side, single, left_side
+   use ek_record, only: element, own_name, has_side, is_given, single, left_side
    use ek_group, only: group_names, point_group, body_group, wheel_group, joint_group, curve_group, word_length
    use ek_blueprint, only: vector_t, add_vector, along, given
    use ek_design_vector, only: find_vectors
    use ek_deck_reading, only: deck_reading_t, complain, line_of, has_key, text_of, texts_of, numbers_of, refuse, slot
    implicit none(type, external)
    private
-   public :: find_card, look_up, find_point, find_body, find_bodies, find_direction, find_ends, find_points, check_apart, find_curve
+   public :: find_card, look_up, find_point, find_place, find_body, find_bodies, find_direction, find_ends, find_points
+   public :: check_apart, find_curve
    public :: find_driver, find_wheel, is_driver, find_moving_body, new_vector
 
 contains
@@ -124,13 +125,64 @@ contains
       integer :: found
 
       vector = 0
-      call look_up(reading, key, point_group, name, found)
       is_found = .false.
+      if (find_card(reading, point_group, name) == 0 .and. wheel_of_contact(reading, name) > 0) then
+         call complain(reading, key, key//': '//quoted(name)//' is the contact point of a wheel; only loads and measures accept it')
+         return
+      end if
+      call look_up(reading, key, point_group, name, found)
       if (found == 0) return
       reading%cards(found)%is_used = .true.
       vector = reading%cards(found)%index
       is_found = reading%cards(found)%is_good
    end subroutine find_point
+
+   !> Finds the point of the key `at` of a load or a measure: a named point, or the contact point of a wheel by the name
+   !> <wheel>_contact.
+   subroutine find_place(reading, name, vector, wheel, is_found)
+      type(deck_reading_t), intent(inout) :: reading
+      character(*), intent(in) :: name
+      integer, intent(out) :: vector
+      integer, intent(out) :: wheel        !! index of the wheel whose contact point moves in its carrier; 0: a point of a body
+      logical, intent(out) :: is_found
+      character(:), allocatable :: contact
+      integer :: found, point
+
+      wheel = 0
+      found = wheel_of_contact(reading, name)
+      if (found == 0) then
+         call find_point(reading, 'at', name, vector, is_found)
+         return
+      end if
+      point = find_card(reading, point_group, name)
+      contact = element(reading%records(found), 'contact', 1)
+      if (is_given(reading%records(found), 'crown_radius')) then
+         if (point > 0 .and. contact /= name) call complain(reading, 'at', 'at: '//quoted(name)//' is a point and the '// &
+            'contact point of wheel '//quoted(trim(reading%cards(found)%name))//'; give the point another name')
+         vector = 0
+         is_found = reading%cards(found)%is_good
+         if (.not. is_found) return
+         wheel = reading%cards(found)%index
+         vector = reading%plan%wheels(wheel)%contact
+      else if (point > 0) then
+         call find_point(reading, 'at', name, vector, is_found)
+      else
+         call find_point(reading, 'at', contact, vector, is_found)
+      end if
+   end subroutine find_place
+
+   !> Index of the record of the wheel in the name <wheel>_contact; 0 if the name is not of this form.
+   pure integer function wheel_of_contact(reading, name) result(found)
+      type(deck_reading_t), intent(in) :: reading
+      character(*), intent(in) :: name
+      character(*), parameter :: ending = '_contact'
+      integer :: stem
+
+      found = 0
+      stem = len(name) - len(ending)
+      if (stem <= 0) return
+      if (name(stem + 1:) == ending) found = find_card(reading, wheel_group, name(:stem))
+   end function wheel_of_contact
 
    !> Finds the index of a named body. The index 0 is the chassis; it is also 0 if the body is not found.
    subroutine find_body(reading, key, name, body, is_found)

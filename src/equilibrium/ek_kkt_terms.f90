@@ -57,7 +57,7 @@ contains
          force = factor(k)*force
          rhs(at_j + 1:at_j + 3) = rhs(at_j + 1:at_j + 3) + force
          rhs(at_j + 4:at_j + 6) = rhs(at_j + 4:at_j + 6) + factor(k)*moment
-         if (mode == whole_tangent) call add_load_tangent(loads(k), force, arm, j, blocks)
+         if (mode == whole_tangent) call add_load_tangent(loads(k), poses(j), force, arm, j, blocks)
       end do
 
       do k = 1, size(elements)

@@ -5,7 +5,7 @@
 !> entries of the lower triangle of the matrix that are written, and their positions in the store. The pattern follows from the
 !> connections and from the kinds of measures, never from the values of one state.
 module ek_pattern
-   use ek_measure, only: axis_axis, body_gap, global_gap, distance, rotation
+   use ek_measure, only: axis_axis, body_gap, global_gap, distance, rotation, contact_gap
    use ek_element, only: element_t, bushing_element
    use ek_suspension, only: suspension_t
    implicit none(type, external)
@@ -168,7 +168,7 @@ contains
          is_used(2, 2, abs(at(3))) = .true.
          if (at(3) > 0) is_used(1, 2, at(3)) = .true.
          if (at(3) < 0) is_used(2, 1, -at(3)) = .true.
-      case (global_gap)
+      case (global_gap, contact_gap)
       case default
          is_used(:, :, abs(at(3))) = .true.
       end select

@@ -10,7 +10,7 @@ module ek_kandc_map
    use ek_free_wheels, only: has_rates
    use ek_case, only: load_table_t
    use ek_wheel_side, only: left_and_right, prefix_of, side_name, design_track
-   use ek_block, only: rotated
+   use ek_wheel_contact, only: contact_lever
    use ek_state, only: state_t, inputs_t, design_state, unpack_state
    use ek_schedule, only: schedule_t, new_schedule, inputs_at
    use ek_compliance, only: compliance_t, new_compliance, wheel_compliance
@@ -240,7 +240,7 @@ contains
       signs = [(iso_loads, k=1, compliance%wheels)]
       do w = 1, compliance%wheels
          associate (wheel => result%suspension%wheels(compliance%order(w)))
-            arm(:, w) = iso_frame*rotated(state%poses(wheel%body + 1)%a, wheel%contact - wheel%centre)
+            arm(:, w) = iso_frame*contact_lever(wheel, state%poses(wheel%body + 1)%a)
             rates(w) = wheel%tyre_rate
          end associate
       end do

@@ -179,6 +179,7 @@ contains
       x%follows = load%follows
       x%is_case = load%is_case
       x%is_weight = load%is_weight
+      x%wheel = load%wheel
       list = transfer(load%load_numbers_t, list)
       lists = transfer(x%load_numbers_t, lists)
       call set_number(lists%v, lane, list%v)

@@ -8,6 +8,7 @@ set(ek_kernels
   model/ek_law.f90
   model/ek_block.f90
   model/ek_relative_rotation.f90
+  model/ek_lowest_point.f90
   model/ek_measure.f90
   model/ek_elastic.f90
   model/ek_element.f90

@@ -72,6 +72,7 @@ contains
          load%where = self%wheels(k)%where
          load%body = self%wheels(k)%body
          load%start_of = k
+         load%wheel = merge(k, 0, self%wheels(k)%has_crown)
          self%loads = [self%loads, load]
       end do
    end subroutine add_start_loads

@@ -14,7 +14,7 @@ module ek_blueprint
    private
    public :: blueprint_t, vector_t, body_plan_t, mass_plan_t, readout_plan_t, joint_plan_t, element_plan_t, bushing_plan_t
    public :: wheel_plan_t, load_plan_t, curve_plan_t, case_plan_t, manoeuvre_plan_t, adjuster_plan_t, align_plan_t
-   public :: hardpoint, along, given, fixed, chosen, chosen_right, across
+   public :: hardpoint, along, given, fixed, chosen, chosen_right, across, lowest
    public :: new_blueprint, add_vector, mark_own_elements, inward, number_at, triple_at
 
    ! kinds of vector
@@ -25,6 +25,7 @@ module ek_blueprint
    integer, parameter :: chosen = 4        !! unit vector perpendicular to vector a: the same choice in either frame of a deck
    integer, parameter :: chosen_right = 5  !! mirror image of the `chosen` vector for the mirror image of a
    integer, parameter :: across = 6        !! horizontal unit vector perpendicular to vector a: symmetric on a mirrored axle
+   integer, parameter :: lowest = 7        !! lowest point of a wheel with a crown
 
    ! where a hardpoint must stay, or the deck has another topology
    integer, parameter, public :: anywhere = 0, in_plane = 1, off_left = 2, off_right = 3   !! side of the plane of &mirror
@@ -37,6 +38,7 @@ module ek_blueprint
       integer :: first = 0              !! index of the first of three parameters
       integer :: a = 0, b = 0           !! indices of other vectors, smaller than the index of this vector
       integer :: stays = anywhere       !! required position of a hardpoint
+      integer :: wheel = 0              !! of a lowest point: index of the wheel
       real(wp) :: value(3) = 0.0_wp
    end type vector_t
 
@@ -83,7 +85,8 @@ module ek_blueprint
 
    type :: wheel_plan_t
       integer :: centre = 0, contact = 0, spin = 0, steer_axis(2) = 0   !! indices of vectors
-      integer :: toe = 0, camber = 0, radius = 0, tyre_rate = 0, tyre_width = 0, sprung_mass = 0   !! indices of parameters
+      ! indices of parameters
+      integer :: toe = 0, camber = 0, radius = 0, crown_radius = 0, tyre_rate = 0, tyre_width = 0, sprung_mass = 0
    end type wheel_plan_t
 
    type :: load_plan_t
@@ -230,7 +233,7 @@ contains
          do j = 1, size(self%wheels)
             associate (w => self%wheels(j))
                is_used_elsewhere = is_used_elsewhere .or. &
-                  any([w%toe, w%camber, w%radius, w%tyre_rate, w%tyre_width, w%sprung_mass] == number)
+                  any([w%toe, w%camber, w%radius, w%crown_radius, w%tyre_rate, w%tyre_width, w%sprung_mass] == number)
             end associate
          end do
          do j = 1, size(self%loads)

@@ -7,6 +7,7 @@ module ek_completion
    use ek_element, only: bushing_element, set_design_value
    use ek_elastic, only: set_bushing_axes
    use ek_suspension, only: suspension_t
+   use ek_wheel_contact, only: put_at_contact
    implicit none(type, external)
    private
    public :: settle_design, settle_element
@@ -40,12 +41,16 @@ contains
       do k = 1, size(self%loads)
          self%loads(k)%arm = self%loads(k)%arm - origin_of(self, self%loads(k)%body)
       end do
-      do k = 1, size(self%wheels)
+      do k = 1, size(self%wheels)        ! then their loads
          associate (w => self%wheels(k))
             w%centre = w%centre - origin_of(self, w%body)
             w%contact = w%contact - origin_of(self, w%body)
             w%steer_axis = w%steer_axis - spread(origin_of(self, w%body), 2, 2)
          end associate
+      end do
+      do k = 1, size(self%loads)
+         t = self%loads(k)%wheel
+         if (t > 0) call put_at_contact(self%wheels, t, self%loads(k))
       end do
 
       do k = 1, size(self%rows)

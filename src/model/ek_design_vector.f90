@@ -4,8 +4,9 @@ module ek_design_vector
    use ek_kinds, only: wp
    use ek_rotation, only: cross, perpendicular, unit_vector, angle_between
    use ek_suspension, only: wheel_t
-   use ek_blueprint, only: blueprint_t, vector_t, inward, hardpoint, along, given, fixed, chosen, chosen_right, across, &
-      off_left, off_right, in_plane
+   use ek_wheel_contact, only: contact_at_design
+   use ek_blueprint, only: blueprint_t, vector_t, inward, number_at, hardpoint, along, given, fixed, chosen, chosen_right, across, &
+      lowest, off_left, off_right, in_plane
    implicit none(type, external)
    private
    public :: find_vectors, marker_axes, spin_of, plane
@@ -42,12 +43,37 @@ contains
                if (this%stays == in_plane) is_good = is_good .and. abs(vectors(2, k)) < plane
                if (this%stays == off_left) is_good = is_good .and. vectors(2, k) <= -plane
                if (this%stays == off_right) is_good = is_good .and. vectors(2, k) >= plane
+            case (lowest)
+               call find_lowest(plan, x, this%wheel, vectors, vectors(:, k), is_good)
             case default
                call find_direction(plan, x, this, vectors, vectors(:, k), is_good)
             end select
          end associate
       end do
    end subroutine find_vectors
+
+   !> Computes the contact point of a wheel with a crown at design. is_good becomes .false. if the radius of the crown is not
+   !> smaller than that of the wheel.
+   pure subroutine find_lowest(plan, x, w, vectors, contact, is_good)
+      type(blueprint_t), intent(in) :: plan
+      real(wp), intent(in) :: x(:)
+      integer, intent(in) :: w                   !! index of the wheel
+      real(wp), intent(in) :: vectors(3, 0:*)
+      real(wp), intent(out) :: contact(3)
+      logical, intent(inout) :: is_good
+      type(wheel_t) :: wheel
+      real(wp) :: core
+
+      associate (this => plan%wheels(w))
+         core = x(this%radius) - x(this%crown_radius)
+         contact = vectors(:, this%centre)
+         is_good = is_good .and. core > 0.0_wp
+         if (.not. core > 0.0_wp) return
+         call spin_of(plan%prototype%wheels(w)%side, number_at(x, this%toe), number_at(x, this%camber), &
+            vectors(:, this%spin), wheel)
+         contact = contact_at_design(contact, wheel%spin, core, x(this%crown_radius))
+      end associate
+   end subroutine find_lowest
 
    !> Computes a unit vector. If the vector has no direction, the result is zero and is_good becomes .false..
    pure subroutine find_direction(plan, x, this, vectors, direction, is_good)

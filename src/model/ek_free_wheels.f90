@@ -11,7 +11,8 @@
 !> rounding.
 module ek_free_wheels
    use ek_kinds, only: wp
-   use ek_measure, only: measure_t, evaluation_t, evaluate, global_gap
+   use ek_measure, only: measure_t, evaluation_t, evaluate
+   use ek_wheel_contact, only: height_measure
    use ek_relative_rotation, only: pose_t
    use ek_element, only: element_kinds, torsion_spring, bushing_element
    use ek_element_part, only: element_part_t, count_parts, take_apart
@@ -106,8 +107,7 @@ contains
       end do
       do k = 1, size(suspension%wheels)
          associate (w => suspension%wheels(k))
-            height = measure_t(kind=global_gap, body_i=0, body_j=w%body, u=[0.0_wp, 0.0_wp, 1.0_wp], &
-               arm_i=suspension%bodies(w%body)%origin + w%centre, arm_j=w%centre)
+            height = height_measure(suspension, k, .true.)
             call evaluate(height, poses(1), poses(w%body + 1), evaluation)
             row = 0.0_wp
             call add(1.0_wp, evaluation%gradient, 0, w%body, row)

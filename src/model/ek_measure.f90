@@ -1,4 +1,4 @@
-!> The core of the model: five scalar functions of the poses of two bodies, with gradient and Hessian.
+!> The core of the model: six scalar functions of the poses of two bodies, with gradient and Hessian.
 !>
 !> A joint is a list of measures held at a value, an elastic element is a list of measures with
 !> a law, a driver is a measure with a prescribed value, a readout is a measure written to the results.
@@ -13,9 +13,11 @@
 !> | global_gap | n·d     | [−n, −a×n, n, b×n]                |
 !> | distance   | \|d\|   | Jᵀe, J = [−I, ã, I, −b̃], e = d/\|d\| |
 !> | rotation   | m·θ     | [0, −A_i g, 0, A_i g]             |
+!> | contact_gap | n·(d + R e) | [−n, −a×n, n, b×n + V×(f_K z + f_m n)], see ek_lowest_point |
 !>
 !> u is fixed in body i and v in body j, n is a global direction; a, b are the arms of the two
-!> points, d = x_j − x_i; θ = log(A_iᵀ A_j) in the axes of body i, m a constant vector there.
+!> points, d = x_j − x_i; θ = log(A_iᵀ A_j) in the axes of body i, m a constant vector there. R e is the arm of the lowest point of
+!> a wheel on body j, whose centre is the point x_j.
 !> S(p,g) = ½(p gᵀ + g pᵀ) − (p·g) I, p̃ the skew matrix of p. Hessians refer to the
 !> exponential coordinates above and are therefore symmetric; every block was derived by hand and is checked
 !> against central differences in tests/model/test_measure.pf.
@@ -25,10 +27,11 @@ module ek_measure
    use ek_rotation, only: cross, identity3
    use ek_block, only: add_block, add_s_block, add_link_stiffness, add_gap_hessian, rotated, dyad, dyad_rest, pi_i, pi_j
    use ek_relative_rotation, only: pose_t, relative_rotation_t, relative_rotation, rotation_gradient, add_rotation_hessian
+   use ek_lowest_point, only: lowest_point, lowest_gradient, add_lowest_hessian
    implicit none(type, external)
    private
    public :: measure_t, measure_numbers_t, measure_list_t, evaluation_t
-   public :: axis_axis, body_gap, global_gap, distance, rotation
+   public :: axis_axis, body_gap, global_gap, distance, rotation, contact_gap
    public :: evaluate, measure_value, is_of_angle, add_measure_hessian
 
    integer, parameter :: axis_axis = 1    !! cosine between an axis of i and an axis of j [-]
@@ -36,12 +39,13 @@ module ek_measure
    integer, parameter :: global_gap = 3   !! displacement between two points along a global direction [m]
    integer, parameter :: distance = 4     !! distance of two points [m]
    integer, parameter :: rotation = 5     !! component of the relative rotation vector [rad]
+   integer, parameter :: contact_gap = 6  !! as global_gap, to the lowest point of a wheel on j [m]
 
    !> The numbers of a measure. At design all body axes are parallel to the global axes, so directions and arms are given in the
    !> design position.
    type :: measure_numbers_t
       real(num) :: u(3) = zero           !! direction in i (body_gap, axis_axis: unit), n, or m
-      real(num) :: v(3) = zero           !! direction in j (axis_axis)
+      real(num) :: v(3) = zero           !! direction in j (axis_axis), or core radius × axis of the wheel (contact_gap) [m]
       real(num) :: arm_i(3) = zero       !! point on i from its reference point, body axes [m]
       real(num) :: arm_j(3) = zero       !! point on j from its reference point, body axes [m]
    end type measure_numbers_t
@@ -53,7 +57,7 @@ module ek_measure
 
    !> One scalar measure between body i and body j (0 is the chassis).
    type, extends(measure_numbers_t) :: measure_t
-      integer :: kind = 0                 !! one of the five above
+      integer :: kind = 0                 !! one of the six above
       integer :: body_i = 0, body_j = 0
    end type measure_t
 
@@ -74,7 +78,7 @@ contains
    !>
    !> Degenerate cases: a distance of 0 has no direction (checked when the model is built); a rotation
    !> of exactly π has no unique axis.
-   !> Equations (M.1), (M.4), (M.5), (M.6), (M.7), (M.12) of docs/theory/measures.md.
+   !> Equations (M.1), (M.4), (M.5), (M.6), (M.7), (M.12), (M.20), (M.21) of docs/theory/measures.md.
    pure subroutine evaluate(measure, pose_i, pose_j, evaluation)
       type(measure_t), intent(in) :: measure
       type(pose_t), intent(in) :: pose_i, pose_j
@@ -118,6 +122,11 @@ contains
          case (global_gap)
             u = measure%u
             evaluation%value = dot_product(u, d)
+         case (contact_gap)
+            u = measure%u
+            v = rotated(pose_j%a, measure%v)
+            evaluation%v = v
+            evaluation%value = dot_product(u, d) + dot_product(u, lowest_point(v))
          case default
             evaluation%value = sqrt(d(1)**2 + d(2)**2 + d(3)**2)
             u = d/evaluation%value
@@ -130,6 +139,7 @@ contains
          evaluation%gradient(4:6) = -cross(w, u)
          evaluation%gradient(7:9) = u
          evaluation%gradient(10:12) = cross(b, u)
+         if (measure%kind == contact_gap) evaluation%gradient(10:12) = evaluation%gradient(10:12) + lowest_gradient(u, v)
       end select
    end subroutine evaluate
 
@@ -149,7 +159,7 @@ contains
    end function is_of_angle
 
    !> Adds weight × Hessian to the blocks of a matrix (see ek_block).
-   !> Equations (M.1), (M.4), (M.6), (M.7) of docs/theory/measures.md.
+   !> Equations (M.1), (M.4), (M.6), (M.7), (M.21) of docs/theory/measures.md.
    pure subroutine add_measure_hessian(kind, evaluation, weight, at, blocks)
       integer, intent(in) :: kind
       type(evaluation_t), intent(in) :: evaluation          !! from `evaluate`, at the same poses
@@ -169,7 +179,8 @@ contains
          if (at(3) /= 0) call add_block(dyad_rest(evaluation%v, u), pi_i, pi_j, at, blocks)
       case (body_gap)
          call add_gap_hessian(u, evaluation%a, evaluation%b, evaluation%d, at, blocks)
-      case (global_gap, distance)
+      case (global_gap, distance, contact_gap)
+         if (kind == contact_gap) call add_lowest_hessian(u, evaluation%v, at(2), blocks)
          if (kind == distance) then
             m = (weight/evaluation%value)*(identity3 - dyad(evaluation%u, evaluation%u))
             call add_link_stiffness(m, evaluation%a, evaluation%b, at, blocks)

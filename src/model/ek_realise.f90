@@ -17,6 +17,7 @@ module ek_realise
    use ek_element, only: element_kinds, element_numbers, set_numbers
    use ek_adjuster, only: is_reachable
    use ek_suspension, only: suspension_t
+   use ek_wheel_contact, only: measure_at_contact, set_rim
    use ek_case, only: case_t
    use ek_grid, only: is_grid
    use ek_manoeuvre, only: has_manoeuvres
@@ -65,12 +66,14 @@ contains
       is_kept = .false.
       if (present(keeps_origins)) is_kept = keeps_origins
       call place_bodies(plan, x, is_kept, suspension)
+      call place_wheels(plan, x, suspension, is_good)
       do k = 1, size(plan%readouts)
          associate (measure => suspension%readouts(k)%measure, this => plan%readouts(k))
             measure%arm_i = suspension%vectors(:, this%ends(1))
             measure%arm_j = suspension%vectors(:, this%ends(2))
             measure%u = suspension%vectors(:, this%u)
             measure%v = suspension%vectors(:, this%v)
+            if (suspension%readouts(k)%wheel > 0) call measure_at_contact(suspension%wheels(suspension%readouts(k)%wheel), measure)
          end associate
       end do
       do k = 1, size(plan%tilt_axes)
@@ -84,7 +87,6 @@ contains
          call place_bushing(plan, x, k, suspension, is_good)
       end do
       call place_loads(plan, x, suspension, is_good)
-      call place_wheels(plan, x, suspension, is_good)
       associate (axle => suspension%axle, steering => suspension%steering)
          axle%wheelbase = number_at(x, plan%axle(1))
          axle%cg_height = number_at(x, plan%axle(2))
@@ -347,6 +349,11 @@ contains
             wheel%sprung_mass = number_at(x, this%sprung_mass)
             call spin_of(wheel%side, number_at(x, this%toe), number_at(x, this%camber), &
                suspension%vectors(:, this%spin), wheel)
+            if (wheel%has_crown) then
+               wheel%crown = x(this%crown_radius)
+               is_good = is_good .and. wheel%crown >= 0.0_wp .and. wheel%crown < wheel%radius
+               call set_rim(wheel)
+            end if
             wheel%steer_axis = suspension%vectors(:, this%steer_axis)
             is_good = is_good .and. wheel%side*wheel%centre(2) >= 0.0_wp .and. wheel%centre(3) > wheel%contact(3) &
                .and. wheel%side*wheel%spin(2) > 0.0_wp

@@ -9,7 +9,7 @@ module ek_suspension
    use ek_measure, only: measure_t, rotation, axis_axis
    use ek_joint, only: joint_t, row_t, term_t
    use ek_element, only: element_t, copy_element
-   use ek_load, only: load_t
+   use ek_load, only: load_t, has_potential
    use ek_tilt, only: tilt_t
    use ek_adjuster, only: adjuster_t, place_t, align_t
    use ek_contract, only: are_checked, require
@@ -43,8 +43,11 @@ module ek_suspension
    !> The numbers of a wheel from which its attitude follows.
    type :: wheel_place_t
       real(wp) :: centre(3) = 0.0_wp      !! wheel centre: arm from the carrier's reference point, body axes [m]
-      real(wp) :: contact(3) = 0.0_wp     !! contact point: arm from the carrier's reference point, body axes [m]
+      real(wp) :: contact(3) = 0.0_wp     !! contact point: arm from the carrier's reference point, body axes; with a crown, at
+                                          !! design [m]
       real(wp) :: spin(3) = [0.0_wp, -1.0_wp, 0.0_wp]   !! spin axis: unit vector, outboard, body axes
+      real(wp) :: rim(3) = 0.0_wp         !! with a crown: core radius × spin axis, body axes [m]
+      real(wp) :: crown = 0.0_wp          !! with a crown: its radius [m]; 0: a disc
       real(wp) :: steer_axis(3, 2) = 0.0_wp             !! two points on the carrier, arms [m]
       real(wp) :: start_rise(2) = 0.0_wp  !! rise of wheel centre and contact point in the start state (ek_start) from design [m]
    end type wheel_place_t
@@ -70,6 +73,7 @@ module ek_suspension
       integer :: side = -1                !! −1 left, +1 right
       logical :: gives_spin = .false.     !! the deck gives the spin axis instead of toe and camber
       logical :: has_steer_axis = .false.
+      logical :: has_crown = .false.      !! the contact point is the lowest point of the wheel, and moves in the carrier
    end type wheel_t
 
    !> A named measure that is driven, coupled, or only read out.
@@ -77,6 +81,7 @@ module ek_suspension
       character(:), allocatable :: name, where
       type(measure_t) :: measure
       real(wp) :: design_value = 0.0_wp   !! value at design [m, - or rad]
+      integer :: wheel = 0                !! index of the wheel whose lowest point is the second point; 0: a point of the body
    end type readout_t
 
    !> The numbers of the vehicle, for characteristics of the axle that depend on the complete car.
@@ -239,6 +244,7 @@ contains
 
       to%load_numbers_t = from%load_numbers_t
       to%follows = from%follows
+      to%wheel = from%wheel
    end subroutine copy_load
 
    !> The number of unknowns of the bodies, the length of Δq.
@@ -322,11 +328,11 @@ contains
       end do
    end function load_number
 
-   !> Whether all loads leave the true tangent symmetric: no load rotates with its body, and no load has a moment.
+   !> Whether all loads leave the true tangent symmetric (has_potential).
    pure logical function has_symmetric_loads(self)
       type(suspension_t), intent(in) :: self
       integer :: k
-      has_symmetric_loads = .not. any([(self%loads(k)%follows .or. norm2(self%loads(k)%moment) > 0.0_wp, k=1, size(self%loads))])
+      has_symmetric_loads = all([(has_potential(self%loads(k)), k=1, size(self%loads))])
    end function has_symmetric_loads
 
 end module ek_suspension

@@ -1,6 +1,6 @@
 !> Plausibility of the values of a deck's elements, loads, axle and cases, by the ranges of ek_plausible_range.
 module ek_plausible_parts
-   use ek_kinds, only: wp
+   use ek_kinds, only: wp, millimetre
    use ek_text, only: str, quoted
    use ek_curve, only: curve_t
    use ek_element, only: element_t, axial_spring, damper, stop_spring, torsion_spring, bushing_element
@@ -209,6 +209,12 @@ contains
       do w = 1, size(suspension%wheels)
          do k = 1, size(suspension%loads)
             associate (load => suspension%loads(k), wheel => suspension%wheels(w))
+               if (wheel%has_crown .and. load%body == wheel%body .and. load%wheel == 0 .and. .not. load%is_weight .and. &
+                  norm2(load%arm - wheel%contact) <= millimetre) then
+                  call doubts%examine(load%where, 'load '//quoted(load%name))
+                  call doubts%add('fixed', 'acts at a point of the carrier, but the contact point of wheel '//quoted(wheel%name)// &
+                     ' moves; at = '//quoted(wheel%name//'_contact')//' moves with it')
+               end if
                if (load%is_case .or. load%is_weight .or. load%start_of > 0 .or. load%body /= wheel%body) cycle
                if (min(norm2(load%arm - wheel%contact), norm2(load%arm - wheel%centre)) > same) cycle
                lift = load%force(3)

@@ -18,6 +18,7 @@ module ek_attitude
    use ek_relative_rotation, only: pose_t
    use ek_block, only: rotated
    use ek_suspension, only: suspension_t, wheel_t
+   use ek_wheel_contact, only: contact_arm
    use ek_state, only: state_t, inputs_t
    use ek_kkt, only: load_factor, wrench
    use ek_wheel_side, only: share_on_wheel
@@ -90,7 +91,7 @@ contains
       type(attitude_t), intent(inout) :: attitude     !! default values, or an earlier attitude of this wheel
 
       attitude%at_centre = now%r + rotated(now%a, wheel%centre)
-      attitude%at_contact = now%r + rotated(now%a, wheel%contact)
+      attitude%at_contact = now%r + contact_arm(wheel, now%a)
       attitude%centre = attitude%at_centre - (origin + wheel%centre)
       attitude%travel = attitude%centre(3) - wheel%start_rise(1)
       attitude%contact = attitude%at_contact - (origin + wheel%contact)

@@ -10,7 +10,7 @@ module ek_compliance_table
    use ek_kkt, only: kkt_t
    use ek_path, only: path_t
    use ek_table, only: table_t, new_table, name_length
-   use ek_block, only: rotated
+   use ek_wheel_contact, only: contact_lever
    use ek_wheel_side, only: prefix_of, deck_frame
    use ek_compliance, only: compliance_t, new_compliance, wheel_compliance, wheel_compliance_nearby
    use ek_port_response, only: load_at_patch, read_at_patch
@@ -117,7 +117,7 @@ contains
 
       do w = 1, compliance%wheels
          associate (wheel => suspension%wheels(compliance%order(w)))
-            arm(:, w) = rotated(state%poses(wheel%body + 1)%a, wheel%contact - wheel%centre)
+            arm(:, w) = contact_lever(wheel, state%poses(wheel%body + 1)%a)
          end associate
       end do
       c = compliance%response(:size(c, 1), :size(c, 2))

@@ -35,7 +35,7 @@ module ek_rig
    use ek_manoeuvre_loads, only: load_wheel, load_masses, hold_steering
    use ek_rig_parts, only: rig_t, acting_t, new_rig, add_height, add_load
    use ek_case, only: case_t, append_actuation, copy_case_numbers, is_mountable, follows_place, follows_tangent, follows_table
-   use ek_measure, only: measure_t, global_gap
+   use ek_wheel_contact, only: height_measure, put_at_contact
    implicit none(type, external)
    private
    public :: rig_t, mounted_case_t, new_rig, rig_of, add_height, put_on, mount, mount_case, mount_again, take_off, &
@@ -408,7 +408,6 @@ contains
       type(suspension_t), intent(in) :: suspension       !! completed, not on a rig
       type(case_t), intent(in) :: case
       type(rig_t), intent(inout) :: rig
-      real(wp) :: arm(3)
       integer :: h, k, t, rows
 
       rig%from = case%from
@@ -432,14 +431,10 @@ contains
             if (this%is_road) row%compliance = sum(this%signs(:row%terms)**2/suspension%wheels(this%wheels(:row%terms))%tyre_rate)
             do k = 1, row%terms
                t = t + 1
-               associate (w => suspension%wheels(this%wheels(k)))
-                  arm = w%contact
-                  if (this%is_at_centre) arm = w%centre
-                  rig%terms(t)%measure = measure_t(kind=global_gap, body_i=0, body_j=w%body, u=up, &
-                     arm_i=suspension%bodies(w%body)%origin + arm, arm_j=arm)
-               end associate
+               rig%terms(t)%measure = height_measure(suspension, this%wheels(k), this%is_at_centre)
                rig%terms(t)%coefficient = this%signs(k)
-               if (k == 1) joint%arm_j = arm
+               if (k == 1) joint%arm_j = merge(suspension%wheels(this%wheels(k))%centre, &
+                  suspension%wheels(this%wheels(k))%contact, this%is_at_centre)
             end do
          end associate
       end do
@@ -452,7 +447,7 @@ contains
                cycle
             end if
             load%arm = suspension%wheels(this%wheel)%centre
-            if (this%is_at_patch) load%arm = suspension%wheels(this%wheel)%contact
+            if (this%is_at_patch) call put_at_contact(suspension%wheels, this%wheel, load)
             load%force = this%force
             load%moment = this%moment + merge(case%offset, 0.0_wp, this%has_trail)*up
          end associate
@@ -481,6 +476,7 @@ contains
       suspension%terms(size(suspension%terms) - size(rig%terms) + 1:) = rig%terms
       do k = 1, size(rig%loads)
          suspension%loads(loads + k)%load_numbers_t = rig%loads(k)%load_numbers_t
+         suspension%loads(loads + k)%wheel = rig%loads(k)%wheel
       end do
    end subroutine copy_rig_numbers
 

@@ -24,7 +24,7 @@ module ek_start
    use ek_kkt, only: kkt_t, assemble, factorise, solve, whole_tangent, residual_only
    use ek_newton, only: outcome_t, find_equilibrium
    use ek_reach, only: settle, failure_t
-   use ek_block, only: rotated
+   use ek_wheel_contact, only: contact_arm
    use ek_manoeuvre, only: standing_load
    use ek_case, only: case_t
    use ek_rig, only: mounted_case_t, mount_again
@@ -144,7 +144,7 @@ contains
       is_found = maxval(abs(left)) <= held*max(1.0_wp, maxval(abs(force)))
       if (.not. is_found .or. is_at_design) return
       do k = 1, size(suspension%wheels)
-         suspension%wheels(k)%start_rise(2) = height_of(suspension, state, k, suspension%wheels(k)%contact)
+         suspension%wheels(k)%start_rise(2) = height_of(suspension, state, k, .false.)
       end do
    end subroutine find_force
 
@@ -195,7 +195,7 @@ contains
       if (.not. is_found) return
       do k = 1, size(suspension%wheels)
          associate (wheel => suspension%wheels(k))
-            wheel%start_rise = [height_of(suspension, state, k, wheel%centre), height_of(suspension, state, k, wheel%contact)]
+            wheel%start_rise = [height_of(suspension, state, k, .true.), height_of(suspension, state, k, .false.)]
          end associate
       end do
       if (all([(is_noise(suspension%wheels(k)%start_rise(1)/millimetre, 'wheel_travel_mm', 0.0_wp, max(tolerance, solved)), &
@@ -247,7 +247,7 @@ contains
             at = 6*(wheel%body - 1)
             kkt%rhs = 0.0_wp
             kkt%rhs(at + 3) = 1.0_wp
-            arm = rotated(state%poses(wheel%body + 1)%a, wheel%contact)
+            arm = contact_arm(wheel, state%poses(wheel%body + 1)%a)
             kkt%rhs(at + 4:at + 5) = [arm(2), -arm(1)]      ! arm × unit vector upward
          end associate
          call solve(kkt)
@@ -312,16 +312,23 @@ contains
       end do
    end subroutine put_force
 
-   !> The rise of a point of the carrier of a wheel from design [m].
-   pure real(wp) function height_of(suspension, state, wheel, arm) result(height)
+   !> The rise of the centre or of the contact point of a wheel from design [m].
+   pure real(wp) function height_of(suspension, state, k, is_at_centre) result(height)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
-      integer, intent(in) :: wheel
-      real(wp), intent(in) :: arm(3)                       !! from the reference point, body axes [m]
+      integer, intent(in) :: k                             !! index of the wheel
+      logical, intent(in) :: is_at_centre
+      real(wp) :: arm(3), now(3)
 
-      associate (body => suspension%wheels(wheel)%body)
-         height = state%poses(body + 1)%r(3) - suspension%bodies(body)%origin(3) + &
-            dot_product(state%poses(body + 1)%a(3, :), arm) - arm(3)
+      associate (wheel => suspension%wheels(k), pose => state%poses(suspension%wheels(k)%body + 1))
+         arm = merge(wheel%centre, wheel%contact, is_at_centre)
+         height = pose%r(3) - suspension%bodies(wheel%body)%origin(3)
+         if (wheel%has_crown .and. .not. is_at_centre) then
+            now = contact_arm(wheel, pose%a)
+            height = height + now(3) - arm(3)
+         else
+            height = height + dot_product(pose%a(3, :), arm) - arm(3)
+         end if
       end associate
    end function height_of
 

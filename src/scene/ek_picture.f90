@@ -5,6 +5,7 @@
 module ek_picture
    use ek_kinds, only: wp, pi
    use ek_block, only: rotated
+   use ek_wheel_contact, only: contact_arm
    use ek_rotation, only: cross
    use ek_measure, only: measure_t, distance
    use ek_joint, only: joint_table, rod_part, ball_part, hinge_part, slider_part, guide_part
@@ -88,7 +89,7 @@ contains
       z = huge(1.0_wp)
       do k = 1, size(suspension%wheels)
          associate (wheel => suspension%wheels(k))
-            at = place_of(state, wheel%body, wheel%contact)
+            at = state%poses(wheel%body + 1)%r + contact_arm(wheel, state%poses(wheel%body + 1)%a)
             low = min(low, [at(1) - 1.15_wp*wheel%radius, at(2) - 0.16_wp])
             high = max(high, [at(1) + 1.15_wp*wheel%radius, at(2) + 0.16_wp])
             z = min(z, at(3))

@@ -7,6 +7,7 @@ module ek_picture_names
    use ek_element, only: element_kinds, damper_shape, stop_shape
    use ek_suspension, only: suspension_t
    use ek_wheel_side, only: deck_frame
+   use ek_wheel_contact, only: contact_arm
    use ek_skeleton, only: skeleton_t, skeleton_of, first_measure, ends_of, place_of, bar_of
    use ek_state, only: state_t
    use ek_scene, only: scene_t, add_run, add_label, line_axes
@@ -49,7 +50,9 @@ contains
       real(wp) function z_of(k)
          integer, intent(in) :: k
          real(wp) :: contact(3)
-         contact = place_of(state, suspension%wheels(k)%body, suspension%wheels(k)%contact)
+         associate (wheel => suspension%wheels(k))
+            contact = state%poses(wheel%body + 1)%r + contact_arm(wheel, state%poses(wheel%body + 1)%a)
+         end associate
          z_of = contact(3)
       end function z_of
 

@@ -20,7 +20,9 @@ module ek_part_force
    use ek_state, only: state_t, inputs_t
    use ek_element, only: element_t, bushing_element, is_linear
    use ek_element_force, only: element_evaluation_t, spring_tension, evaluate_element, add_element_tangent
-   use ek_measure, only: evaluation_t, measure_t, evaluate, add_measure_hessian, is_of_angle, distance, axis_axis, global_gap
+   use ek_measure, only: evaluation_t, measure_t, evaluate, add_measure_hessian, is_of_angle, distance, axis_axis, &
+      global_gap, contact_gap
+   use ek_lowest_point, only: turn_rim
    use ek_row, only: term_t
    use ek_load, only: wrench
    use ek_skew_system, only: factor_of
@@ -381,7 +383,7 @@ contains
    end subroutine move_markers
 
    !> Computes the changes of the value and the gradient of a measure for changes of its directions u and v. A measure is linear in
-   !> each direction. A distance has no direction; only a cosine has the direction v.
+   !> each direction. A distance has no direction; only a cosine has the direction v, and a contact point the axis of its wheel.
    !> Equation (E.7) of docs/theory/derivatives.md.
    pure subroutine turn_directions(measure, u, v, pose_i, pose_j, value, gradient)
       type(measure_t), intent(in) :: measure
@@ -390,6 +392,7 @@ contains
       real(wp), intent(out) :: value, gradient(12)
       type(measure_t) :: turned
       type(evaluation_t) :: evaluation
+      real(wp) :: by_v, gradient_by_v(3)
 
       value = 0.0_wp
       gradient = 0.0_wp
@@ -399,6 +402,13 @@ contains
       call evaluate(turned, pose_i, pose_j, evaluation)
       value = evaluation%value
       gradient = evaluation%gradient
+      if (measure%kind == contact_gap) then              ! turned%u is a change: the term of v is not linear
+         turned%v = rotated(pose_j%a, v)
+         call turn_rim(measure%u, rotated(pose_j%a, measure%v), turned%v, by_v, gradient_by_v)
+         value = value + by_v
+         gradient(10:12) = gradient(10:12) + gradient_by_v
+         return
+      end if
       if (measure%kind /= axis_axis) return
       turned%u = measure%u
       turned%v = v

@@ -240,7 +240,7 @@ contains
          blocks = 0.0_wp
          call wrench(this, pose, force, moment, arm)
          force = factor*force
-         call add_load_tangent(this, force, arm, 2, blocks)
+         call add_load_tangent(this, pose, force, arm, 2, blocks)
          call contract(blocks, 0, this%body, left, right, matrix)
          at = 6*(this%body - 1)
          matrix = matrix + matmul(transpose(left(at + 1:at + 6, :)), &

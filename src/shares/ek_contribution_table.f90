@@ -11,7 +11,7 @@ module ek_contribution_table
    use ek_schedule, only: schedule_t, inputs_at
    use ek_kkt, only: kkt_t
    use ek_path, only: path_t
-   use ek_block, only: rotated
+   use ek_wheel_contact, only: contact_lever
    use ek_loaded_wheels, only: quotient, min_compliance
    use ek_port_response, only: load_at_patch, read_at_patch
    use ek_linear_columns, only: linear_columns_t, start_linear_columns, choose_linear_columns, find_linear_columns, &
@@ -145,7 +145,7 @@ contains
          call remove_noise(self)
          do w = 1, compliance%wheels
             associate (wheel => suspension%wheels(compliance%order(w)))
-               arm(:, w) = rotated(state%poses(wheel%body + 1)%a, wheel%contact - wheel%centre)
+               arm(:, w) = contact_lever(wheel, state%poses(wheel%body + 1)%a)
             end associate
          end do
          call find_load_paths(suspension, state, inputs, kkt, compliance, self%shares, arm, self%paths)

@@ -9,6 +9,7 @@ module ek_load_path
    use ek_kinds, only: wp
    use ek_rotation, only: cross, skew
    use ek_block, only: rotated, add_block, r_j, pi_j
+   use ek_wheel_contact, only: contact_arm
    use ek_measure, only: evaluation_t, evaluate, add_measure_hessian
    use ek_element_part, only: element_part_t, count_parts, take_apart, add_geometric_stiffness
    use ek_element_force, only: element_evaluation_t, evaluate_element
@@ -202,7 +203,7 @@ contains
             blocks = 0.0_wp
             call wrench(load, state%poses(load%body + 1), force, moment, arm)
             force = factor*force
-            call add_load_tangent(load, force, arm, 2, blocks)
+            call add_load_tangent(load, state%poses(load%body + 1), force, arm, 2, blocks)
             call add(0, load%body, block_product(blocks, 0, load%body, u), sum_of)
             sum_of(at + 1:at + 6) = sum_of(at + 1:at + 6) + matmul(skew_part(load, state%poses(load%body + 1), factor), &
                u(at + 1:at + 6))
@@ -229,7 +230,7 @@ contains
       associate (this => suspension%wheels(wheel))
          at = 6*(this%body - 1)
          sum_of(at + 1:at + 3) = sum_of(at + 1:at + 3) - force
-         sum_of(at + 4:at + 6) = sum_of(at + 4:at + 6) - cross(rotated(state%poses(this%body + 1)%a, this%contact), force)
+         sum_of(at + 4:at + 6) = sum_of(at + 4:at + 6) - cross(contact_arm(this, state%poses(this%body + 1)%a), force)
       end associate
    end subroutine take_load
 

@@ -69,13 +69,15 @@ contains
       !> Adds a load of the deck or of the rig.
       subroutine add_load(k)
          integer, intent(in) :: k
-         real(wp) :: force(3), moment(3), arm(3), frame(3)
+         real(wp) :: force(3), moment(3), arm(3), frame(3), place(3)
 
          frame = deck_frame(suspension)
          associate (load => suspension%loads(k))
             call wrench(load, state%poses(b + 1), force, moment, arm)
             moment = moment - cross(arm, force)
-            call add(load%name, '', load%arm, kkt%factor(k)*frame*force, kkt%factor(k)*frame*moment)
+            place = load%arm
+            if (load%wheel > 0) place = matmul(arm, state%poses(b + 1)%a)      ! the lowest point of the wheel
+            call add(load%name, '', place, kkt%factor(k)*frame*force, kkt%factor(k)*frame*moment)
          end associate
       end subroutine add_load
 

@@ -17,7 +17,8 @@ module ek_rewritten_deck
    end type row_t
 
    type(row_t), parameter :: rows(*) = [ &
-      row_t('L', ' point.at wheel.radius wheel.tyre_width axle.wheelbase axle.cg_height axle.front_overhang'// &
+      row_t('L', ' point.at wheel.radius wheel.crown_radius wheel.tyre_width axle.wheelbase axle.cg_height'// &
+         ' axle.front_overhang'// &
          ' axle.front_width spring.free_length stop.clearance stop.rounding stop.property_offset steering.ratio steering.travel'// &
          ' case.offset case.tolerance model.start_height load_state.height '), &
       row_t('F', ' load.force bushing.preload_force damper.gas_force axle.axle_load model.start_load load_state.wheel_load '), &

@@ -11,6 +11,7 @@ add_library(ek_test_laws STATIC
   ${ek_laws_dir}/ek_example.f90
   ${ek_laws_dir}/ek_axle.f90
   ${ek_laws_dir}/ek_reading.f90
+  ${ek_laws_dir}/ek_wheel_search.f90
   ${ek_laws_dir}/ek_trial.f90
   ${ek_laws_dir}/ek_rig_table.f90
   ${ek_laws_dir}/ek_plane_linkage.f90
