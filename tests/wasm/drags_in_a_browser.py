@@ -169,6 +169,28 @@ for name, before, now in lines:
 require(page.locator("#comparison tr.changed").count() >= 1, "no line of the assessment is marked as changed")
 print(f"comparison: {len(found)} key numbers changed, {len(lines)} lines of the assessment")
 
+# the tolerance of a number, by the derivatives of the native program
+bench.deck("mcpherson_axle")
+page.click("[data-tab=points]")
+bench.curves()
+page.locator("#state").focus()
+keys.press("End")
+page.select_option("#asked", "left_toe_deg")
+page.fill("#deviation", "0,2")
+page.click("#tolerance")
+expect(page.locator("#answer table")).to_have_count(1, timeout=patient)
+with tempfile.TemporaryDirectory() as work:
+    words = ["derivatives", top / "input/mcpherson_axle/mcpherson_axle.nml", "--case", "parallel_travel", "--of", "left_toe_deg", "--at", "80"]
+    subprocess.run([Path(native).resolve(), *words, "--quiet", "--out", "d"], cwd=work, capture_output=True)
+    slopes = {row["number"]: float(row["derivative"]) for row in csv.DictReader(next(Path(work).glob("d/*_derivatives.csv")).open()) if row["number"].startswith("point.")}
+caption = page.inner_text("#answer caption")
+variance = sum(slope**2 for slope in slopes.values())
+require(f"standard deviation {0.2 * variance**0.5:.4g} " in caption, f"the standard deviation is {0.2 * variance**0.5:.4g}, the page says: {caption}")
+require(f"changes by {0.2 * sum(map(abs, slopes.values())):.4g}" in caption, f"the page says: {caption}")
+first_row = page.locator("#answer table tr").nth(1).locator("th, td").all_inner_texts()
+largest = max(slopes, key=lambda name: abs(slopes[name]))
+require(first_row[0] == largest and first_row[2] == f"{100 * slopes[largest]**2 / variance:.4g}", f"{largest} has the largest share, the page says {first_row}")
+
 # bad input: it is told, and nothing is lost
 bench.deck("mcpherson_axle")
 page.click("[data-tab=points]")
