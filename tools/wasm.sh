@@ -189,7 +189,7 @@ get_editor() {
   rm -rf "$work" "$editor.$$"
   mkdir -p "$work" "$editor.$$"
   cp "$kit"/editor/{component.js,package.json,package-lock.json} "$work"
-  (cd "$work" && npm ci --ignore-scripts --no-fund --no-audit --prefer-offline --cache "$cache/npm") >>"$log" 2>&1 || fail "npm could not install the editor component (the attempts are in $log).
+  (cd "$work" && npm ci --ignore-scripts --no-fund --no-audit --fetch-retries 1 --prefer-offline --cache "$cache/npm") >>"$log" 2>&1 || fail "npm could not install the editor component (the attempts are in $log).
   Put the folder
       $editor
   of a computer with a network there, where tools/wasm.sh or these commands in packaging/wasm/editor have made its files:

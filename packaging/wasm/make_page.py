@@ -82,7 +82,7 @@ parts = {
     "EDITOR": editor(),
     # one script: a worker of a page without a server loads no other
     "WORKER": re.sub(r"(?m)^export ", "", source("wasi.mjs")) + source("library.js") + source("worker.js"),
-    "SCRIPT": "".join(source(f"{name}.js") for name in ("page", "deck", "editor", "workbench", "views", "tables", "curves", "ask", "start")),
+    "SCRIPT": "".join(source(f"{name}.js") for name in ("page", "deck", "editor", "workbench", "views", "tables", "curves", "ask", "compare", "start")),
 }
 frame = re.sub(r"@([A-Z]+)@", lambda found: parts.get(found.group(1), found.group()), source("page.html"))
 page = frame.replace("@FOLDER@", "null").replace("@PROGRAM@", program)

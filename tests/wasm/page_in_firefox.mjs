@@ -1,6 +1,6 @@
 // node page_in_firefox.mjs MODULES PAGE FOLDER: elastokin.html in headless Firefox (needs puppeteer-core in MODULES/node_modules):
-// check, run and report of a deck, ten seeded drags of points whose curves are those of `run --set-file`, a wrong deck, a document that
-// stays when the page is closed; no message on the console, no request. Exit status 1 with a line per failure.
+// check, run and report of a deck, ten seeded drags of points whose curves are those of `run --set-file`,
+// completion, undo and a wrong deck, a document that stays when the page is closed; no message on the console, no request. Exit status 1 with a line per failure.
 import { createRequire } from "node:module";
 import { mkdirSync, rmSync } from "node:fs";
 import { resolve } from "node:path";
@@ -118,6 +118,16 @@ try {
   await page.keyboard.down("Control");
   await page.keyboard.press("Home");
   await page.keyboard.up("Control");
+  const text = await page.evaluate(() => elastokin.text());
+  await page.keyboard.type("&bus");
+  await until(() => document.querySelector(".cm-completionLabel")?.textContent === "bushing", "completion of a group");
+  await new Promise((wait) => setTimeout(wait, 200));      // the list is not taken in its first moment
+  await page.keyboard.press("Enter");
+  require_((await page.evaluate(() => elastokin.text())) === `&bushing${text}`, "completion does not write the group");
+  await page.keyboard.down("Control");
+  await page.keyboard.press("z");
+  await page.keyboard.up("Control");
+  require_((await page.evaluate(() => elastokin.text())) === text, "undo does not take back what was typed");
   await page.keyboard.type("&jiont /");
   await said("check: error in the deck");
   require_((await page.evaluate(() => document.getElementById("messages").textContent)).includes("there is no group &jiont"), "no message on a wrong group");

@@ -84,6 +84,26 @@ async function showMovers() {
       others.sort((a, b) => Math.abs(b[2]) - Math.abs(a[2]))));
 }
 
+// How far the number varies if every coordinate of the points does, by their derivatives: all coordinates are independent, with the given
+// standard deviation. On a mirrored axle, a coordinate varies on both sides alike.
+async function showTolerance() {
+  const column = element("asked").value, deviation = Number(element("deviation").value.replace(",", "."));
+  if (!(deviation > 0)) {
+    element("answer").textContent = "Enter a standard deviation of the coordinates above 0.";
+    return;
+  }
+  const result = await consult(["derivatives", ...ofTest()]);
+  if (!result) return;
+  const rows = rowsOf(result, "_derivatives.csv").map((row) => ({ ...row, effect: Number(row.derivative) * deviation }))
+    .filter(({ number, derivative, error }) => /^point\./.test(number) && Math.abs(derivative) > 10 * Math.abs(error));
+  const square = rows.reduce((sum, { effect }) => sum + effect ** 2, 0), most = rows.reduce((sum, { effect }) => sum + Math.abs(effect), 0);
+  if (rows.length === 0) return answerWith(result, `No coordinate of a point changes ${column} ${stateText()}.`);
+  const head = `${column} ${stateText()} = ${shortly(Number(rows[0].value))} has the standard deviation ${shortly(Math.sqrt(square))} if every coordinate ` +
+    `has ${shortly(deviation)} ${rows[0].unit}; if every coordinate differs by ${shortly(deviation)} ${rows[0].unit} in the worst direction, it changes by ${shortly(most)}`;
+  return answerWith(result, tableWith(head, ["Coordinate", "effect", "share of the variance, %"],
+    rows.sort((a, b) => Math.abs(b.effect) - Math.abs(a.effect)).slice(0, 10).map(({ number, effect }) => [number, effect, 100 * effect ** 2 / square])));
+}
+
 async function showParts() {
   const column = element("asked").value, result = await consult(["explain", ...ofTest()]);
   if (!result) {
@@ -190,6 +210,7 @@ function addCondition(name, wanted) {
 
 const onceSolved = (act) => () => element("asked").value === "" ? undefined : act();
 element("movers").addEventListener("click", onceSolved(showMovers));
+element("tolerance").addEventListener("click", onceSolved(showTolerance));
 element("parts").addEventListener("click", onceSolved(showParts));
 element("condition").addEventListener("click", onceSolved(() => {
   addCondition(askedNumber(), String(Number(bench.curves.columns[element("asked").value][bench.row].toPrecision(6))));

@@ -50,6 +50,7 @@ async function solve() {
       `${bad > 0 ? ` ${bad} states have no solution.` : ""}`, result.status !== 0);
   } while (bench.isWaiting);
   bench.isRunning = false;
+  document.dispatchEvent(new Event("solved"));
 }
 
 const firstLine = ({ messages, trap }) => trap ? `The program was stopped by an error in it: ${trap}` :
@@ -129,8 +130,16 @@ function setState(row) {
   drawViews();
 }
 
+// The list of baselines; a new one is chosen
+function listBaselines() {
+  const list = element("baselines"), names = bench.baselines.map(({ name }) => name);
+  if ([...list.options].map(({ value }) => value).join("\n") !== names.join("\n")) fill(list, names, names.at(-1));
+  element("forget").disabled = element("compare").disabled = names.length === 0;
+}
+
 function drawCharts() {
   const now = bench.curves, slider = element("state");
+  listBaselines();
   bench.row = rowOf(now);
   slider.max = now.columns.factor.length - 1;
   slider.value = bench.row;
@@ -143,8 +152,9 @@ function drawCharts() {
     const lines = [...before.flatMap(({ solution, colour, name }) => curvesOf(solution, quantity).map(([side, values]) =>
       ({ xs: solution.columns[solution.x], at: solution.columns.factor, values, colour, side, name }))),
       ...curvesOf(now, quantity).map(([side, values], k) => ({ xs: now.columns[now.x], at: now.columns.factor, values, colour: k ? "#c2185b" : "var(--link)", side, name: "" }))];
-    const current = lines.filter(({ name }) => name === ""), last = lines.filter(({ name }) => name !== "" && name === before.at(-1)?.name);
-    const value = current.map((line) => line.values[bench.row]), old = last.map((line) => line.values[rowOf(before.at(-1).solution)]);
+    const base = before.find(({ name }) => name === element("baselines").value) ?? before.at(-1);
+    const current = lines.filter(({ name }) => name === ""), last = lines.filter(({ name }) => name !== "" && name === base?.name);
+    const value = current.map((line) => line.values[bench.row]), old = last.map((line) => line.values[rowOf(base.solution)]);
     caption.textContent = `${quantity}: ${value.map(shortly).join(", ")} ${stateText()}`;
     if (old.length === value.length && old.length > 0) {
       caption.textContent += `, Δ ${value.map((one, k) => shortly(difference(one, old[k]))).join(", ")}; Δ at most ${shortly(largestChange(current, last))}`;
@@ -158,8 +168,6 @@ function drawCharts() {
     return figure;
   });
   element("charts").replaceChildren(...boxes);
-  fill(element("baselines"), bench.baselines.map(({ name }) => name), bench.baselines.at(-1)?.name);
-  element("forget").disabled = bench.baselines.length === 0;
 }
 
 // Largest difference of two sets of curves at the same swept values

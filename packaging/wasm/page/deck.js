@@ -71,12 +71,12 @@ function pathFrom(file, path) {
 const single = ["axle", "steering"];      // groups without a name in a path
 const unlisted = ["point", "case", "model", "include", "hardpoints", "target_band"];
 
-// Reads a document: { points, rows, links, axes, length: unit in m }. A point is { name, at: three numbers, body }, a row
+// Reads a document: { points, rows, links, isMirrored, axes, length: unit in m }. A point is { name, at: three numbers, body }, a row
 // { path, numbers } another key with numbers; every number is { path, file, start, text, value }. A link is { ends: two points, kind:
 // group, or "body" for points of one body, bodies of the ends }.
 function readDocument(given) {
   const points = [], rows = [], of = new Map(), pairs = [];
-  let axes = "x-rear", length = 0.001;
+  let axes = "x-rear", length = 0.001, isMirrored = false;
   const add = (body, point) => {
     if (!body || body === "chassis" || !point) return;
     if (!of.has(body)) of.set(body, new Set());
@@ -89,6 +89,7 @@ function readDocument(given) {
       if (group === "point" && keys.at?.numbers.length === 3) {
         points.push({ name, at: keys.at.numbers.map((one, k) => ({ ...one, file, path: `point.${name}.${"xyz"[k]}` })) });
       }
+      if (group === "mirror") isMirrored = true;
       if (group === "model") {
         axes = stringsOf(text, keys.axes)[0]?.toLowerCase() ?? axes;
         if (stringsOf(text, keys.length)[0]?.toLowerCase() === "m") length = 1;
@@ -116,7 +117,7 @@ function readDocument(given) {
       for (const other of list.slice(m + 1)) links.push({ ends: [list[m], other], kind: "body", bodies: [body, body] });
     }
   }
-  return { points, rows, axes, length, links: links.filter(({ ends }) => ends.every((end) => known.has(end))) };
+  return { points, rows, axes, length, isMirrored, links: links.filter(({ ends }) => ends.every((end) => known.has(end))) };
 }
 
 const numbersOf = ({ points, rows }) => [...points.flatMap(({ at }) => at), ...rows.flatMap(({ numbers }) => numbers)];

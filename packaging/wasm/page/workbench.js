@@ -7,7 +7,7 @@ const wanted = ["toe_deg", "camber_deg", "caster_deg", "track_change_mm", "wheel
 const colours = ["#b5651d", "#7a4fa3", "#1d8a6b", "#a8201a"];
 const drawing = "http://www.w3.org/2000/svg";
 const bench = {
-  points: [], rows: [], links: [], axes: "x-rear", units: new Map(),    // readDocument; units of the paths that the program lists
+  points: [], rows: [], links: [], isMirrored: false, axes: "x-rear", units: new Map(),    // readDocument; units of the paths that the program lists
   chosen: "", view: null, turn: 0.6,                                              // what is drawn
   opened: new Map(), past: [], future: [], kept: new Map(),             // the document as opened, its changes, and as last remembered
   curves: null, baselines: [], shown: null, headings: [],               // { columns: name -> numbers, x: name }
@@ -39,10 +39,10 @@ function textOfNumber(value) {
   return /\.|e/i.test(text) ? text : `${text}.0`;
 }
 
-// Writes coordinates of a point; those that are undefined stay.
+// Moves a point. A point on the mirror plane stays there: parts of both sides share it
 function movePoint(name, values) {
   const { at } = pointOf(name);
-  setNumbers(at.map((one, k) => [one, values[k] ?? one.value]));
+  setNumbers(at.map((one, k) => [one, k === 1 && bench.isMirrored && one.value === 0 ? 0 : values[k]]));
 }
 
 const snapshot = () => JSON.stringify([...files]);
@@ -138,10 +138,15 @@ element("quantity").addEventListener("change", ({ target }) => {
 });
 element("baseline").addEventListener("click", () => {
   if (!bench.curves) return;
-  const number = (bench.count = (bench.count ?? 0) + 1);
-  bench.baselines.push({ name: `baseline ${number}`, colour: colours[(number - 1) % colours.length], solution: bench.curves, text: bench.kept });
+  remember();      // what was typed a moment ago
+  const number = (bench.count = (bench.count ?? 0) + 1), name = element("baseline-name").value.trim() || `baseline ${number}`;
+  bench.baselines = bench.baselines.filter((one) => one.name !== name);
+  bench.baselines.push({ name, colour: colours[(number - 1) % colours.length], solution: bench.curves, text: bench.kept });
+  element("baseline-name").value = "";
+  element("baseline-name").placeholder = `baseline ${number + 1}`;
   drawCharts();
 });
+element("baselines").addEventListener("change", drawCharts);
 element("forget").addEventListener("click", () => {
   bench.baselines = bench.baselines.filter(({ name }) => name !== element("baselines").value);
   drawCharts();
