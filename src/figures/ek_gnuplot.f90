@@ -7,7 +7,7 @@ module ek_gnuplot
    implicit none(type, external)
    private
    public :: begin_script, begin_formats, end_formats, begin_charts_file, begin_scene, end_scene, begin_animation
-   public :: ink, text_ink, fill, rgb, series_rgb, heading_style, subtitle_style, value_colours, axes_style, zero_axis
+   public :: ink, text_ink, fill, rgb, series_rgb, heading_style, subtitle_style, value_colours, axes_style, zero_axis, role_name
    public :: on_title, on_label, on_soft, on_frame, on_zero, on_guide, on_grid, on_contact, on_box, on_range, on_design
    public :: on_wide_band, on_narrow_band, on_median, on_limit, on_result, on_dots, on_contour, on_contour_dots, on_low, on_high, &
       on_derivative, on_level, on_limits, on_skeleton, on_point, on_leader, on_swatch, on_part, on_line
@@ -61,6 +61,18 @@ contains
       if (role > 0) text = "rgb '"//trim(colours(role))//"'"
       if (role < 0) text = "rgb '"//palette(-role)//"'"
    end function rgb
+
+   !> The colour of a role in pages: the name of a variable of their style sheet.
+   pure function role_name(role) result(name)
+      integer, intent(in) :: role
+      character(6) :: name
+      character(6), parameter :: names(on_point) = [character(6) :: 'ink', 'soft', 'soft', 'zero', 'zero', 'zero', 'grid', 'grid', &
+         'grid', 'zero', 'wide', 'narrow', 'median', 'bad', 'c2', 'dots', 'paper', 'paper', 'c6', 'ink']
+
+      name = 'ink'
+      if (role < 0) name = 'c'//str(-role)
+      if (role > 0 .and. role <= on_point) name = names(role)
+   end function role_name
 
    !> The colour of the k-th curve of a panel; after eight curves the colours repeat.
    pure function series_rgb(k) result(text)

@@ -12,12 +12,13 @@ module ek_page
    use ek_base64, only: base64
    use ek_buffer, only: buffer_t
    use ek_svg, only: embedded_svg, escape_html
-   use ek_page_assets, only: add_style, add_script, add_live_style, add_live_script, add_turntable_script
+   use ek_page_assets, only: add_style, add_script, add_live_style, add_live_script, add_turntable_script, add_figure_script
    implicit none(type, external)
    private
    public :: page_t, begin_page, begin_section, add_text, add_warnings, add_facts
    public :: begin_table, add_cell, add_bar, add_group, end_table
-   public :: begin_charts, end_charts, add_picture, add_data_picture, add_legend, add_markup, page_text, page_number, set_data
+   public :: begin_charts, end_charts, add_picture, add_data_picture, add_figure, add_legend, add_markup, page_text
+   public :: page_number, set_data
 
    character(*), parameter :: nl = new_line('a')
 
@@ -32,6 +33,8 @@ module ek_page
       logical :: has_section = .false.
       logical :: is_live = .false.          !! the script of the page also changes rates
       logical :: has_turntable = .false.    !! the script of the page also turns the suspension
+      logical :: has_figures = .false.      !! the script of the page also draws figures of panels
+      logical :: has_charts = .true.        !! the script of the page draws charts
    end type page_t
 
 contains
@@ -49,15 +52,19 @@ contains
    end subroutine begin_page
 
    !> Sets the data of a page whose charts are drawn by its script: JSON without '<'.
-   pure subroutine set_data(page, json, is_live, has_turntable)
+   pure subroutine set_data(page, json, is_live, has_turntable, has_figures, has_charts)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: json
       logical, intent(in), optional :: is_live             !! .true.: the data have rates that the reader can change
       logical, intent(in), optional :: has_turntable       !! .true.: the data have the lines and poses of a suspension
+      logical, intent(in), optional :: has_figures         !! .true.: the data have figures of panels
+      logical, intent(in), optional :: has_charts          !! .false.: the data have no charts of tests
 
       page%data = json
       if (present(is_live)) page%is_live = is_live
       if (present(has_turntable)) page%has_turntable = has_turntable
+      if (present(has_figures)) page%has_figures = has_figures
+      if (present(has_charts)) page%has_charts = has_charts
    end subroutine set_data
 
    !> Adds a line of HTML unchanged. The caller must have escaped every string in it with escape_html.
@@ -254,6 +261,15 @@ contains
       call page%body%line('</figure>')
    end subroutine add_picture
 
+   !> Adds the place of a figure of panels, which the script of the page draws.
+   pure subroutine add_figure(page, name, caption)
+      type(page_t), intent(inout) :: page
+      character(*), intent(in) :: name, caption  !! name of the figure in the data of the page; caption below it
+
+      call page%body%line('<figure class="wide" id="figure-'//escape_html(name)//'"><noscript><p>The script of this page draws '// &
+         'this figure.</p></noscript><figcaption>'//escape_html(caption)//'</figcaption></figure>')
+   end subroutine add_figure
+
    !> Adds a raster picture (GIF, PNG) embedded in the page as base64.
    pure subroutine add_data_picture(page, bytes, kind, title, caption)
       type(page_t), intent(inout) :: page
@@ -316,7 +332,8 @@ contains
       call head%line('<style>')
       call add_style(head)
       if (page%is_live) call add_live_style(head)
-      call head%line('</style></head><body'//trim(merge(' class="is-live">', '>                ', allocated(page%data)))//'<main>')
+      call head%line('</style></head><body'// &
+         trim(merge(' class="is-live">', '>                ', allocated(page%data) .and. page%has_charts))//'<main>')
       contents = ''
       if (page%contents%length() > 0) contents = '<nav aria-label="Contents"><ul>'//page%contents%text()// &
          '<li><a href="#top">Back to top</a></li></ul></nav>'
@@ -328,6 +345,7 @@ contains
          call tail%line('</script>')
          call tail%line('<script type="module">')
          call add_script(tail)
+         if (page%has_figures) call add_figure_script(tail)
          if (page%has_turntable) call add_turntable_script(tail)
          if (page%is_live) call add_live_script(tail)
          call tail%line('</script>')
