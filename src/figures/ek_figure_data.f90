@@ -9,7 +9,7 @@ module ek_figure_data
    use ek_json, only: json_t, json_string, json_strings, json_number, json_numbers, without_tags
    use ek_chart, only: rounded
    use ek_gnuplot, only: role_name
-   use ek_figure, only: figure_t, panel_t, axis_t, series_t, kinds, as_words, centred, gap_row
+   use ek_figure, only: figure_t, panel_t, axis_t, series_t, kinds, as_labels, centred, gap_row
    implicit none(type, external)
    private
    public :: add_figures, figures_json
@@ -117,8 +117,8 @@ contains
       if (series%is_dashed) call json%item('dashed', 'true')
       if (series%is_by_value) call json%item('by_value', 'true')
       if (allocated(series%title)) call json%item('title', json_string(as_utf8(series%title)))
-      if (series%kind == as_words) then
-         call json%item('words', json_strings(series%words))
+      if (series%kind == as_labels) then
+         call json%item('labels', json_strings(series%labels))
          if (series%align /= centred) call json%item('align', str(series%align))
          if (any(abs(series%offset) > 0.0_wp)) call json%item('offset', json_numbers(series%offset))
          if (series%is_small) call json%item('small', 'true')

@@ -23,7 +23,7 @@ module ek_gnuplot
    integer, parameter :: on_result = 15         !! name of a response among factors
    integer, parameter :: on_dots = 16           !! many points, translucent
    integer, parameter :: on_contour = 17, on_contour_dots = 18
-   integer, parameter :: on_skeleton = 19       !! lines of a suspension in a view
+   integer, parameter :: on_skeleton = 19       !! lines of a suspension between its hardpoints
    integer, parameter :: on_point = 20          !! hardpoints, names in space
    integer, parameter :: on_leader = 21, on_swatch = 22
    integer, parameter :: on_part = 23           !! first kind of part in space; the others follow in the order of ek_scene
@@ -125,7 +125,7 @@ contains
       text = " font 'sans-serif,14'"//text_ink(on_soft)
    end function subtitle_style
 
-   !> Adds the head of a script that draws name.png and name.svg: what it draws and how, and the look of frame, tics and grid.
+   !> Adds the head of a script that draws name.png and name.svg: what it draws and how, and the style of frame, tics and grid.
    pure subroutine begin_script(script, name, title, separator)
       type(buffer_t), intent(inout) :: script
       character(*), intent(in) :: name, title

@@ -11,7 +11,7 @@ module ek_page
    use ek_text, only: str
    use ek_base64, only: base64
    use ek_buffer, only: buffer_t
-   use ek_svg, only: embedded_svg, escape_html
+   use ek_html, only: svg_address, escape_html
    use ek_page_assets, only: add_style, add_script, add_live_style, add_live_script, add_turntable_script, add_figure_script
    implicit none(type, external)
    private
@@ -28,7 +28,7 @@ module ek_page
       character(:), allocatable :: title
       character(:), allocatable :: data     !! JSON from which the script draws; not allocated: a page without script
       integer :: header = 0                 !! characters of the body before the list of contents
-      integer :: pictures = 0, table_columns = 0
+      integer :: table_columns = 0
       integer :: cells = 0                  !! cells of the last row while the row is incomplete, otherwise 0
       logical :: has_section = .false.
       logical :: is_live = .false.          !! the script of the page also changes rates
@@ -254,9 +254,10 @@ contains
       character(*), intent(in) :: svg, title     !! content of the file; its description
       character(*), intent(in), optional :: caption
 
-      page%pictures = page%pictures + 1
       call page%body%add(trim(merge('<figure class="drawn wide">', '<figure class="drawn">     ', present(caption))))
-      call page%body%add(embedded_svg(svg, 'p'//str(page%pictures), title))
+      call page%body%add('<img alt="'//escape_html(title)//'" src="')
+      call page%body%add(svg_address(svg))
+      call page%body%add('">')
       if (present(caption)) call page%body%add('<figcaption>'//escape_html(caption)//'</figcaption>')
       call page%body%line('</figure>')
    end subroutine add_picture
@@ -277,7 +278,6 @@ contains
       character(*), intent(in) :: kind           !! 'gif' or 'png'
       character(*), intent(in) :: title, caption
 
-      page%pictures = page%pictures + 1
       call page%body%add('<figure class="drawn wide"><img alt="'//escape_html(title)//'" src="data:image/'//kind//';base64,')
       call page%body%add(base64(bytes))
       call page%body%add('">')

@@ -44,7 +44,7 @@ module ek_report_content
       type(message_list_t) :: copies                   !! copies of the load tables of the deck, in the folder
       integer :: incomplete = 0                        !! number of tests that failed or were not run to their ends
       logical :: is_static = .false.                   !! the page has the pictures of gnuplot, and no script
-      logical :: has_pictures = .false., has_animation = .false., has_views = .false.   !! files of this report are in the folder
+      logical :: has_pictures = .false., has_animation = .false.   !! files of this report are in the folder
    end type report_t
 
 contains

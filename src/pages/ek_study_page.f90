@@ -11,7 +11,7 @@ module ek_study_page
    use ek_figure_data, only: figures_json
    use ek_effect_table, only: add_effects
    use ek_factor_order, only: most_open, factor_order, strongest_names, effect_measure
-   use ek_svg, only: escape_html
+   use ek_html, only: escape_html
    use ek_page, only: page_t, begin_page, begin_section, add_text, add_warnings, add_facts, begin_table, add_cell, add_group, &
       add_markup, end_table, add_figure, set_data, page_text, page_number
    implicit none(type, external)

@@ -54,7 +54,7 @@ function coordinates(series, is_x) {
 }
 
 class Panel {
-  constructor(own, figure) {
+  constructor(own, figure, number) {
     const [left, right, top, bottom] = figure.margins, drawn = own.view ? own : flat(own);
     Object.assign(this, { own, figure, left, top, right: figure.width - right, bottom: figure.height - bottom });
     this.letters = figure.letters * 1.15;
@@ -69,16 +69,22 @@ class Panel {
     this.to_x = (v) => this.left + this.x.share(v) * (this.right - this.left);
     this.to_y = (v) => this.bottom - this.y.share(v) * (this.bottom - this.top);
     this.draw_axes();
+    // series end at the frame, names do not
+    const clip = `clip-${figure.name}-${number}`, clipping = this.add("clipPath", { id: clip });
+    clipping.append(svg("rect", { x: this.left - 3, y: this.top - 3, width: this.right - this.left + 6, height: this.bottom - this.top + 6 }));
+    this.plot = this.add("g", { "clip-path": `url(#${clip})` });
     for (const series of own.series) this[series.kind](series);
   }
 
   add(name, attributes, content) { const node = svg(name, attributes, content); this.root.append(node); return node; }
 
-  text(words, x, y, more = {}) { return this.add("text", { x, y, "font-size": this.letters, "text-anchor": "middle", ...more }, words); }
+  mark(name, attributes) { (this.plot || this.root).append(svg(name, attributes)); }
+
+  text(content, x, y, more = {}) { return this.add("text", { x, y, "font-size": this.letters, "text-anchor": "middle", ...more }, content); }
 
   path(d, series, more = "") {
     const dash = series.dashed ? ";stroke-dasharray:8 6" : "";
-    this.add("path", { d, style: `fill:none;stroke:var(--${series.colour});stroke-width:${series.weight}${dash};stroke-linejoin:round;${more}` });
+    this.mark("path", { d, style: `fill:none;stroke:var(--${series.colour});stroke-width:${series.weight}${dash};stroke-linejoin:round;${more}` });
   }
 
   draw_axes() {
@@ -133,13 +139,13 @@ class Panel {
 
   band(series) {
     const [x, low, high] = series.values, at = (ys) => x.map((v, k) => `${this.to_x(v).toFixed(1)} ${this.to_y(ys[k]).toFixed(1)}`);
-    this.add("path", { d: `M${[...at(low), ...at(high).reverse()].join("L")}Z`, style: `fill:var(--${series.colour})` });
+    this.mark("path", { d: `M${[...at(low), ...at(high).reverse()].join("L")}Z`, style: `fill:var(--${series.colour})` });
   }
 
   boxes(series) {
     const [from, to, low, high] = series.values;
     const d = from.map((v, k) => is_number(v) ? `M${this.to_x(v)} ${this.to_y(low[k])}H${this.to_x(to[k])}V${this.to_y(high[k])}H${this.to_x(v)}Z` : "");
-    this.add("path", { d: d.join(""), style: `fill:var(--${series.colour})` });
+    this.mark("path", { d: d.join(""), style: `fill:var(--${series.colour})` });
   }
 
   segments(series) {
@@ -156,9 +162,9 @@ class Panel {
     }).join(""), series);
   }
 
-  words(series) {
+  labels(series) {
     const [x, y] = series.values, [dx, dy] = series.offset || [0, 0], size = this.letters * (series.small ? 0.85 : 1);
-    series.words.forEach((word, k) => this.text(word, this.to_x(x[k]) + dx * size * 0.6, this.to_y(y[k]) - dy * size + size / 3,
+    series.labels.forEach((label, k) => this.text(label, this.to_x(x[k]) + dx * size * 0.6, this.to_y(y[k]) - dy * size + size / 3,
       { "font-size": size, "text-anchor": ["middle", "start", "end"][series.align || 0], style: `fill:var(--${series.colour})` }));
   }
 
@@ -189,7 +195,7 @@ class Panel {
         for (let k = 0; k + 1 < ends.length; k += 2) lines += `M${ends[k]}L${ends[k + 1]}`;
       }
     }
-    fills.forEach((d, k) => d && this.add("path", { d, style: `fill:${shade_of(k / shades)};stroke:${shade_of(k / shades)};stroke-width:.6` }));
+    fills.forEach((d, k) => d && this.mark("path", { d, style: `fill:${shade_of(k / shades)};stroke:${shade_of(k / shades)};stroke-width:.6` }));
     this.path(lines, { weight: 1.2 }, "stroke:#fff");
     const right = this.right + 14, step = (this.bottom - this.top) / 40;
     for (let k = 0; k < 40; k++) this.add("rect", { x: right, y: this.bottom - (k + 1) * step, width: 14, height: step + 0.5, fill: shade_of((k + 0.5) / 40) });
@@ -207,10 +213,10 @@ class Panel {
       return [(this.left + this.right) / 2 + scale * (c * x + s * y),
         (this.top + this.bottom) / 2 - scale * ((c * y - s * x) * Math.cos(tilt) + z * Math.sin(tilt))];
     };
-    const words = (at) => place(...at).map((v) => v.toFixed(1)).join(" "), [xr, yr, zr] = axes.map((axis) => axis.range);
+    const point = (at) => place(...at).map((v) => v.toFixed(1)).join(" "), [xr, yr, zr] = axes.map((axis) => axis.range);
     let box = "";
-    for (const a of [0, 1]) for (const b of [0, 1]) box += `M${words([xr[0], yr[a], zr[b]])}L${words([xr[1], yr[a], zr[b]])}` +
-      `M${words([xr[a], yr[0], zr[b]])}L${words([xr[a], yr[1], zr[b]])}M${words([xr[a], yr[b], zr[0]])}L${words([xr[a], yr[b], zr[1]])}`;
+    for (const a of [0, 1]) for (const b of [0, 1]) box += `M${point([xr[0], yr[a], zr[b]])}L${point([xr[1], yr[a], zr[b]])}` +
+      `M${point([xr[a], yr[0], zr[b]])}L${point([xr[a], yr[1], zr[b]])}M${point([xr[a], yr[b], zr[0]])}L${point([xr[a], yr[b], zr[1]])}`;
     this.add("path", { class: "grid", d: box, fill: "none" });
     // tics at the edges nearest to the reader, below, and at the left
     const corners = [0, 1].flatMap((a) => [0, 1].map((b) => [xr[a], yr[b]])), low = (at) => place(...at, zr[0]);
@@ -230,8 +236,8 @@ class Panel {
       let d = "", pen = "M";
       x.forEach((v, k) => {
         if (!is_number(v) || !is_number(z[k])) { pen = "M"; return; }
-        d += pen + words([v, y[k], z[k]]);
-        if (more.length) d += `L${words([v + more[0][k], y[k] + more[1][k], z[k] + more[2][k]])}`;
+        d += pen + point([v, y[k], z[k]]);
+        if (more.length) d += `L${point([v + more[0][k], y[k] + more[1][k], z[k] + more[2][k]])}`;
         else pen = "L";
       });
       this.path(d, series);
@@ -239,7 +245,7 @@ class Panel {
   }
 }
 
-// A panel with the numbers that a plane figure draws: gaps alone are no values.
+// A panel with the series that a plane figure draws.
 function flat(panel) { return { series: panel.series.filter((s) => s.values.length > 1) }; }
 
 function draw_figure(place, own) {
@@ -273,7 +279,7 @@ function draw_figure(place, own) {
     const [x, y = x] = values;
     if (x.length < y.length) values[0] = y.map((_, k) => x[k % x.length]);
   }
-  for (const panel of own.panels) grid.append(new Panel(panel, own).root);
+  own.panels.forEach((panel, k) => grid.append(new Panel(panel, own, k).root));
   place.prepend(head, grid);
 }
 
