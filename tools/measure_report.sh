@@ -14,7 +14,7 @@ folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 mkdir "$folder/pictures" "$folder/bin"
 "$program" report "$deck" --out "$folder/report" --quiet >/dev/null
-cp "$folder"/report/picture.* "$folder"/report/figures/*.svg "$folder"/report/figures/*.png "$folder/pictures"
+cp "$folder"/report/picture.* "$folder/pictures"
 printf '#!/bin/sh\ncp -l "%s"/* .\n' "$folder/pictures" >"$folder/bin/gnuplot"
 chmod +x "$folder/bin/gnuplot"
 PATH="$folder/bin:$PATH"

@@ -199,7 +199,8 @@ module ek_command
       option_t('report', '--height H', 'as for run'), option_t('report', '--state NAME', 'as for run'), &
       option_t('report', '--loads', &
       'also write loads.csv (loads of every member at every state of every test) and peak-loads.csv'), &
-      option_t('report', '--no-plots', no_plots_help), &
+      option_t('report', '--no-plots', 'without the picture in space; gnuplot is not started'), &
+      option_t('report', '--plots', 'also draw the charts, views and carpets of the page as files in figures/, by gnuplot'), &
       option_t('report', '--scales DIR', 'draw the charts with the axes of the report in DIR, for comparison'), &
       option_t('report', '--static', 'write a page without scripts; its charts are pictures drawn by gnuplot'), &
       option_t('report', '--live N', &
@@ -242,7 +243,8 @@ module ek_command
       option_t('compare', '--threshold P%', &
       'smallest listed change, in percent of the value in A or of the least span of a chart (default: 1%;'//indent// &
       'without the option, standard output also lists the gradients that changed less)'), &
-      option_t('compare', '--no-plots', no_plots_help), &
+      option_t('compare', '--no-plots', 'with --static: a page without charts; gnuplot is not started'), &
+      option_t('compare', '--plots', 'also draw the charts of the page as files in figures/, by gnuplot'), &
       option_t('compare', '--static', 'as for report'), &
       option_t('compare', '--quiet', quiet_help), &
       option_t('study', '--out DIR', 'output folder (default: out, in the folder of the study file)'), &

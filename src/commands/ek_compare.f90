@@ -43,10 +43,12 @@ contains
 
       allocate (this)
       is_quiet = line%has('--quiet')
-      has_plots = .not. line%has('--no-plots')
+      has_plots = (line%has('--plots') .or. line%has('--static')) .and. .not. line%has('--no-plots')
       call refuse_stream(line, error)
       if (.not. allocated(error)) call read_windows(line, windows, error)
       if (.not. allocated(error)) call read_threshold(line, this%threshold, error)
+      if (.not. allocated(error) .and. line%has('--plots') .and. line%has('--no-plots')) &
+         call fail(error, exit_usage, '--no-plots and --plots are mutually exclusive')
       if (allocated(error)) return
       this%is_static = line%has('--static')
       allocate (this%results(line%files%count()))
@@ -94,14 +96,14 @@ contains
       figures = outbox_in(join_path(this%folder, 'figures'))
       call write_tables(this, error)
       if (allocated(error)) return
-      ! first without its pictures: the page then exists even if gnuplot fails or hangs
+      ! a static page is first written without its pictures: it then exists even if gnuplot fails or hangs
       reason = ''
-      if (has_plots) reason = 'gnuplot has not finished'
+      if (has_plots .and. this%is_static) reason = 'gnuplot has not finished'
       call box%write(page_name, page_of(this, reason))
       call box%take(error)
       if (allocated(error)) return
       call draw(has_plots, is_quiet, this, figures, reason)
-      call box%write(page_name, page_of(this, reason))
+      if (this%is_static) call box%write(page_name, page_of(this, reason))
       call box%take(error)
       if (allocated(error)) return
       call print_note(is_quiet, join_path(this%folder, gradient_table)//', '//join_path(this%folder, page_name))

@@ -112,15 +112,13 @@ contains
          call fail(error, exit_usage, '--kind: no such figure applies to this study (kind '//data%kind//')')
          return
       end if
-      ! first without pictures: the page then exists even if gnuplot fails or hangs
+      ! the page needs no picture: it is there even if gnuplot fails or hangs
       box = outbox_in(out)
       name = page_name(data)
-      call box%write(name, study_page(data, '', 'gnuplot has not finished'))
+      call box%write(name, study_page(data))
       call box%take(error)
       if (allocated(error)) return
       call figures%draw(is_quiet, reason)
-      if (len(reason) > 0) folder = ''
-      call box%write(name, study_page(data, folder, reason))
       call show_page(study%name, name, files, is_quiet, figures, box, error)
 
    contains
@@ -232,6 +230,7 @@ contains
       name = study%name//figure_ending
       call step_figure(study%name, table, figure)
       figures = outbox_in(folder)
+      reason = ''
       if (.not. allocated(figure)) then
          reason = 'no error exceeds 1e-12, so that there is no figure'
          call print_note(is_quiet, reason)
@@ -241,12 +240,13 @@ contains
          call figures%finish(error)
          if (allocated(error)) return
          call add_files(name, files)
-         call figures%draw(is_quiet, reason)
       end if
-      if (len(reason) > 0) folder = ''
       box = outbox_in(out)
       name = study%name//'.html'
-      call box%write(name, step_page(study%title, study%name, study%deck, study%case, table, folder, reason))
+      call box%write(name, step_page(study%title, study%name, study%deck, study%case, table, reason))
+      call box%take(error)
+      if (allocated(error)) return
+      call figures%draw(is_quiet, reason)
       call show_page(study%name, name, files, is_quiet, figures, box, error)
    end subroutine draw_steps
 

@@ -35,7 +35,7 @@ module ek_report
    use ek_report_data, only: report_data
    use ek_report_page, only: report_page
    use ek_verdict, only: verdict_t, verdict_lines, plain
-   use ek_report_pictures, only: draw_pictures
+   use ek_report_pictures, only: draw_pictures, find_figures
    use ek_explanation, only: explanation_t, find_explanations
    use ek_live, only: live_t, add_live
    use ek_live_reruns, only: measure_reruns
@@ -68,7 +68,7 @@ module ek_report
 
    type, extends(deck_settings_t) :: settings_t
       type(windows_t) :: windows                     !! windows of the gradients
-      logical :: has_plots = .true., is_animated = .false., is_static = .false., has_loads = .false.
+      logical :: has_plots = .true., has_figures = .false., is_animated = .false., is_static = .false., has_loads = .false.
       integer :: live = 0                            !! number of rates that the page can change; 0: no sliders
    end type settings_t
 
@@ -152,6 +152,7 @@ contains
       if (allocated(error)) return
       if (allocated(page%live)) call measure_reruns(workspace, chosen, page%tests, page%numbers, page%live)
       if (.not. page%is_static) call make_turntable(workspace%suspension, page%tests, page%paths, page%turntable)
+      call find_figures(workspace%suspension, page)
       call set_head(settings, workspace%suspension, checksum, page)
       call list_values(deck, page%deck_paths, page%deck_texts)
       call box%put(deck_file, deck_csv(page%names, page%values, page%deck_paths, page%deck_texts))
@@ -234,24 +235,26 @@ contains
       type(outbox_t), intent(inout) :: box
       type(message_list_t) :: warnings
       type(error_t), allocatable :: undrawn
-      character(:), allocatable :: message
+      character(:), allocatable :: message, lacks
 
+      lacks = 'The page has no picture in space: '
+      if (page%is_static) lacks = 'The page has no pictures: '
       ! first the page without pictures: it then exists even if gnuplot fails or never ends
       if (settings%has_plots) then
          warnings = page%warnings
-         call page%warnings%add('The page has no pictures: gnuplot has not finished')
+         call page%warnings%add(lacks//'gnuplot has not finished')
          call box%write(page_file, report_page(page), can_be_redrawn=.true.)
          page%warnings = warnings
       end if
       if (box%has_failed()) return
-      call draw_pictures(page, suspension, settings%has_plots, settings%is_animated, message, undrawn)
+      call draw_pictures(page, suspension, settings%has_plots, settings%has_figures, settings%is_animated, message, undrawn)
       if (allocated(undrawn)) then
          call print_error(undrawn%message)
          call page%warnings%add('The page lacks pictures: '//undrawn%message)
          call fail(box%undrawn, undrawn%code, 'the report was written, but some of its pictures are missing')
       else if (len(message) > 0) then
          if (settings%has_plots) call print_note(settings%is_quiet, message)
-         call page%warnings%add('The page has no pictures: '//message)
+         call page%warnings%add(lacks//message)
       end if
       page%has_pictures = .not. allocated(undrawn) .and. len(message) == 0
       call box%write(page_file, report_page(page))
@@ -264,12 +267,15 @@ contains
 
       call read_deck_settings(line, settings)
       settings%has_plots = .not. line%has('--no-plots')
+      settings%has_figures = line%has('--plots') .or. line%has('--static')
       settings%is_animated = line%has('--animate')
       settings%has_loads = line%has('--loads')
       settings%is_static = line%has('--static')
       call refuse_stream(line, error)
       if (.not. allocated(error) .and. settings%is_animated .and. .not. settings%has_plots) &
          call fail(error, exit_usage, '--no-plots and --animate are mutually exclusive')
+      if (.not. allocated(error) .and. line%has('--plots') .and. .not. settings%has_plots) &
+         call fail(error, exit_usage, '--no-plots and --plots are mutually exclusive')
       if (.not. allocated(error) .and. line%has('--live')) call read_live(line, settings, error)
       if (.not. allocated(error)) call read_windows(line, settings%windows, error)
    end subroutine read_settings

@@ -6,8 +6,7 @@ module ek_compare_page
    use ek_text, only: str, plural
    use ek_version, only: version
    use ek_test_result, only: design_row
-   use ek_chart, only: chart_t, picture_file
-   use ek_svg, only: escape_html
+   use ek_html, only: escape_html
    use ek_page, only: page_t, begin_page, begin_section, add_warnings, add_facts, begin_table, add_cell, end_table, add_text, &
       add_legend, add_markup, begin_charts, end_charts, set_data, page_text, page_number
    use ek_change, only: change_of, verdict_of, has_changed, letter_of, relative_change
@@ -344,7 +343,6 @@ contains
       type(page_t), intent(inout) :: page
       type(comparison_t), intent(in) :: this
       integer, intent(in) :: numbers(:)
-      character(:), allocatable :: link
       integer :: k
 
       if (size(numbers) == 0) return
@@ -355,13 +353,10 @@ contains
       call begin_charts(page, is_short=.true.)
       do k = 1, size(numbers)
          associate (chart => this%charts(numbers(k)), change => this%changes(numbers(k)))
-            link = ''
-            if (this%has_pictures) link = '<noscript><a href="figures/'//escape_html(picture_file(chart))//'">figures/'// &
-               escape_html(picture_file(chart))//'</a></noscript>'
             call add_markup(page, '<figure class="live" id="'//escape_html(chart%name)//'"><figcaption><b>'// &
                escape_html(chart%title)//'</b>'//escape_html(chart%y_label)// &
                step_of(change%is_known, change%largest, change%change)// &
-               '</figcaption>'//link//'</figure>')
+               '</figcaption></figure>')
          end associate
       end do
       call end_charts(page)

@@ -9,7 +9,7 @@ module ek_carpet_figure
    use ek_text, only: str
    use ek_study_data, only: study_data_t, is_geometric, range_of_values
    use ek_gnuplot, only: on_level, on_derivative
-   use ek_figure, only: figure_t, panel_t, new_figure, add_series, add_word, as_line, centred, at_left, at_right
+   use ek_figure, only: figure_t, panel_t, new_figure, add_series, add_label, as_line, centred, at_left, at_right
    implicit none(type, external)
    private
    public :: carpet_t, new_carpet, carpet_figure, study_carpet, is_drawn, on_equal
@@ -235,13 +235,13 @@ contains
          if (.not. ieee_is_finite(at(2))) cycle
          side = merge(1.0_wp, -1.0_wp, at(2) > sum(line, mask=ieee_is_finite(line))/count(ieee_is_finite(line)))
          if (i == corner) then
-            call add_word(panel, short(carpet%level(i, f)), at(1), at(2), on_equal(f), align=centred, &
+            call add_label(panel, short(carpet%level(i, f)), at(1), at(2), on_equal(f), align=centred, &
                offset=[0.0_wp, 1.5_wp*side], is_small=.true.)
          else if (is_at_begin(carpet, f, r)) then
-            call add_word(panel, short(carpet%level(i, f)), at(1), at(2), on_equal(f), align=at_right, &
+            call add_label(panel, short(carpet%level(i, f)), at(1), at(2), on_equal(f), align=at_right, &
                offset=[-0.7_wp, 0.45_wp*side], is_small=.true.)
          else
-            call add_word(panel, short(carpet%level(i, f)), at(1), at(2), on_equal(f), align=at_left, &
+            call add_label(panel, short(carpet%level(i, f)), at(1), at(2), on_equal(f), align=at_left, &
                offset=[0.7_wp, 0.45_wp*side], is_small=.true.)
          end if
       end do

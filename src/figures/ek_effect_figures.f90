@@ -5,7 +5,7 @@ module ek_effect_figures
    use ek_kinds, only: wp
    use ek_text, only: str
    use ek_study_data, only: study_data_t, effects_t, basis_text, range_of_values, is_geometric, tic_step, looks_flat
-   use ek_figure, only: figure_t, panel_t, axis_t, new_figure, add_series, add_word, add_point_names, columns_of, as_line, &
+   use ek_figure, only: figure_t, panel_t, axis_t, new_figure, add_series, add_label, add_point_names, columns_of, as_line, &
       as_both, as_points, as_boxes, as_segments, as_errors, as_heat, at_left
    use ek_gnuplot, only: on_level, on_guide, on_high, on_low, on_range, on_title, on_soft
    implicit none(type, external)
@@ -239,9 +239,9 @@ contains
             call add_series(panel, as_boxes, on_low, bars_of(effect%nominal, effect%at_low(order), 0.66_wp, 1.34_wp))
             call add_series(panel, as_boxes, on_high, bars_of(effect%nominal, effect%at_high(order), 0.66_wp, 1.34_wp))
             do k = 1, size(order)                    ! the sign of an end without a value: above the middle of the bar, or below
-               if (.not. ieee_is_finite(effect%at_low(order(k)))) call add_word(panel, '–', effect%nominal, k - 0.17_wp, &
+               if (.not. ieee_is_finite(effect%at_low(order(k)))) call add_label(panel, '–', effect%nominal, k - 0.17_wp, &
                   on_title, align=at_left, offset=[0.6_wp, 0.0_wp])
-               if (.not. ieee_is_finite(effect%at_high(order(k)))) call add_word(panel, '–', effect%nominal, k + 0.17_wp, &
+               if (.not. ieee_is_finite(effect%at_high(order(k)))) call add_label(panel, '–', effect%nominal, k + 0.17_wp, &
                   on_title, align=at_left, offset=[0.6_wp, 0.0_wp])
             end do
             call add_series(panel, as_segments, on_title, reshape([effect%nominal, 0.5_wp, 0.0_wp, 1.0_wp*size(order)], [4, 1]), &

@@ -15,7 +15,7 @@
 !>     as_boxes      left, right, bottom, top: rectangles
 !>     as_segments   x, y, dx, dy; in space x, y, z, dx, dy, dz
 !>     as_errors     x, y, half-width of an interval of x
-!>     as_words      x, y; one word for each row
+!>     as_labels     x, y; one label for each row
 !>     as_heat       x, y, value on a grid; a gap after each value of x
 !>
 !> A row of NaN is a gap in a line.
@@ -25,15 +25,15 @@ module ek_figure
    use ek_error, only: message_list_t
    implicit none(type, external)
    private
-   public :: figure_t, panel_t, axis_t, series_t, new_figure, add_series, add_word, add_point_names, label_place_t, place_labels
-   public :: as_line, as_points, as_both, as_band, as_boxes, as_segments, as_errors, as_words, as_heat, kinds, gap_row, &
+   public :: figure_t, panel_t, axis_t, series_t, new_figure, add_series, add_label, add_point_names, label_place_t, place_labels
+   public :: as_line, as_points, as_both, as_band, as_boxes, as_segments, as_errors, as_labels, as_heat, kinds, gap_row, &
       full_height, title_height, has_values, centred, at_left, at_right, columns_of, fold_at
 
    integer, parameter :: as_line = 1, as_points = 2, as_both = 3, as_band = 4, as_boxes = 5, as_segments = 6, as_errors = 7, &
-      as_words = 8, as_heat = 9
+      as_labels = 8, as_heat = 9
    character(8), parameter :: kinds(9) = [character(8) :: 'line', 'points', 'both', 'band', 'boxes', 'segments', 'errors', &
-      'words', 'heat']
-   integer, parameter :: centred = 0, at_left = 1, at_right = 2     !! a word is centred on, begins at, ends at its point
+      'labels', 'heat']
+   integer, parameter :: centred = 0, at_left = 1, at_right = 2     !! a label is centred on, begins at, ends at its point
    integer, parameter :: title_height = 88            !! height above the panels [pixels]
    real(wp), parameter :: gap = 0.02_wp               !! distance between a point and its name, as a share of the panel's width
    integer, parameter :: most_steps = 80              !! number of trial shifts of a name; the step is a quarter of its height
@@ -58,10 +58,10 @@ module ek_figure
       logical :: is_dashed = .false.
       logical :: is_by_value = .false.                !! the colour of a line is that of its last column
       character(:), allocatable :: title              !! entry of the legend, which the first panel has; not allocated: none
-      type(message_list_t) :: words
+      type(message_list_t) :: labels
       integer :: align = centred
-      real(wp) :: offset(2) = 0.0_wp                  !! of words from their points, in letters to the right and upward
-      logical :: is_small = .false.                   !! words have a smaller font
+      real(wp) :: offset(2) = 0.0_wp                  !! of labels from their points, in letters to the right and upward
+      logical :: is_small = .false.                   !! labels have a smaller font
    end type series_t
 
    type :: panel_t
@@ -158,10 +158,10 @@ contains
       call move_alloc(grown, panel%series)
    end subroutine append
 
-   !> Adds a word at a point of a panel. Words of one look that follow each other are one series.
-   pure subroutine add_word(panel, word, x, y, role, align, offset, is_small)
+   !> Adds a label at a point of a panel. Labels of the same role, alignment, offset and size are one series.
+   pure subroutine add_label(panel, label, x, y, role, align, offset, is_small)
       type(panel_t), intent(inout) :: panel
-      character(*), intent(in) :: word
+      character(*), intent(in) :: label
       real(wp), intent(in) :: x, y
       integer, intent(in) :: role
       integer, intent(in), optional :: align
@@ -171,7 +171,7 @@ contains
       real(wp), allocatable :: values(:, :)
       integer :: n
 
-      look%kind = as_words
+      look%kind = as_labels
       look%role = role
       if (present(align)) look%align = align
       if (present(offset)) look%offset = offset
@@ -179,7 +179,7 @@ contains
       n = size(panel%series)
       do n = size(panel%series), 1, -1
          associate (last => panel%series(n))
-            if (last%kind == as_words .and. last%role == role .and. last%align == look%align .and. &
+            if (last%kind == as_labels .and. last%role == role .and. last%align == look%align .and. &
                all(abs(last%offset - look%offset) < 1.0e-9_wp) .and. (last%is_small .eqv. look%is_small)) exit
          end associate
       end do
@@ -193,9 +193,9 @@ contains
          values(:, :size(last%values, 2)) = last%values
          values(:, size(last%values, 2) + 1) = [x, y]
          call move_alloc(values, last%values)
-         call last%words%add(word)
+         call last%labels%add(label)
       end associate
-   end subroutine add_word
+   end subroutine add_label
 
    !> Values that were given as columns, as (column, row).
    pure function columns_of(a, b, c, d) result(values)
@@ -280,7 +280,7 @@ contains
          end associate
          call add_series(panel, as_segments, leader, lines, weight=0.8_wp)
          do k = 1, n
-            call add_word(panel, trim(names(k)), lines(1, k) + lines(3, k), lines(2, k) + lines(4, k), role, &
+            call add_label(panel, trim(names(k)), lines(1, k) + lines(3, k), lines(2, k) + lines(4, k), role, &
                align=merge(at_right, at_left, places(k)%is_left), offset=[merge(-0.2_wp, 0.2_wp, places(k)%is_left), 0.0_wp])
          end do
       end associate

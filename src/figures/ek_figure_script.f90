@@ -10,7 +10,7 @@ module ek_figure_script
       value_colours, zero_axis, on_contour, on_contour_dots, on_label, on_soft, on_box
    use ek_gnuplot_text, only: gnuplot_text
    use ek_figure, only: figure_t, panel_t, axis_t, series_t, as_line, as_points, as_both, as_band, as_boxes, as_segments, &
-      as_errors, as_words, as_heat, gap_row, full_height, title_height, has_values, fold_at
+      as_errors, as_labels, as_heat, gap_row, full_height, title_height, has_values, fold_at
    implicit none(type, external)
    private
    public :: figure_script, two_lines
@@ -74,7 +74,7 @@ contains
                if (column > 1) call script%add(' ')
                call add_coordinate(script, series%values(column, row), 7)
             end do
-            if (series%kind == as_words) call script%add(' "'//field_of(series%words%line(row))//'"')
+            if (series%kind == as_labels) call script%add(' "'//field_of(series%labels%line(row))//'"')
             call script%line('')
          end do
          call script%line('EOD')
@@ -169,7 +169,7 @@ contains
       if (at > 0) expression = gnuplot_text(trim(label(:at)))//'."\n".'//gnuplot_text(label(at + 1:))
    end function two_lines
 
-   !> Adds a panel: its place, its axes and its series.
+   !> Adds a panel: its margins, its axes and its series.
    subroutine add_panel(script, figure, p)
       type(buffer_t), intent(inout) :: script
       type(figure_t), intent(in) :: figure

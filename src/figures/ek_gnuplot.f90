@@ -7,7 +7,7 @@ module ek_gnuplot
    implicit none(type, external)
    private
    public :: begin_script, begin_formats, end_formats, begin_charts_file, begin_scene, end_scene, begin_animation
-   public :: ink, text_ink, fill, rgb, series_rgb, heading_style, subtitle_style, value_colours, axes_style, zero_axis
+   public :: ink, text_ink, fill, rgb, series_rgb, heading_style, subtitle_style, value_colours, axes_style, zero_axis, role_name
    public :: on_title, on_label, on_soft, on_frame, on_zero, on_guide, on_grid, on_contact, on_box, on_range, on_design
    public :: on_wide_band, on_narrow_band, on_median, on_limit, on_result, on_dots, on_contour, on_contour_dots, on_low, on_high, &
       on_derivative, on_level, on_limits, on_skeleton, on_point, on_leader, on_swatch, on_part, on_line
@@ -23,7 +23,7 @@ module ek_gnuplot
    integer, parameter :: on_result = 15         !! name of a response among factors
    integer, parameter :: on_dots = 16           !! many points, translucent
    integer, parameter :: on_contour = 17, on_contour_dots = 18
-   integer, parameter :: on_skeleton = 19       !! lines of a suspension in a view
+   integer, parameter :: on_skeleton = 19       !! lines of a suspension between its hardpoints
    integer, parameter :: on_point = 20          !! hardpoints, names in space
    integer, parameter :: on_leader = 21, on_swatch = 22
    integer, parameter :: on_part = 23           !! first kind of part in space; the others follow in the order of ek_scene
@@ -61,6 +61,18 @@ contains
       if (role > 0) text = "rgb '"//trim(colours(role))//"'"
       if (role < 0) text = "rgb '"//palette(-role)//"'"
    end function rgb
+
+   !> The colour of a role in pages: the name of a variable of their style sheet.
+   pure function role_name(role) result(name)
+      integer, intent(in) :: role
+      character(6) :: name
+      character(6), parameter :: names(on_point) = [character(6) :: 'ink', 'soft', 'soft', 'zero', 'zero', 'zero', 'grid', 'grid', &
+         'grid', 'zero', 'wide', 'narrow', 'median', 'bad', 'c2', 'dots', 'paper', 'paper', 'c6', 'ink']
+
+      name = 'ink'
+      if (role < 0) name = 'c'//str(-role)
+      if (role > 0 .and. role <= on_point) name = names(role)
+   end function role_name
 
    !> The colour of the k-th curve of a panel; after eight curves the colours repeat.
    pure function series_rgb(k) result(text)
@@ -113,7 +125,7 @@ contains
       text = " font 'sans-serif,14'"//text_ink(on_soft)
    end function subtitle_style
 
-   !> Adds the head of a script that draws name.png and name.svg: what it draws and how, and the look of frame, tics and grid.
+   !> Adds the head of a script that draws name.png and name.svg: what it draws and how, and the style of frame, tics and grid.
    pure subroutine begin_script(script, name, title, separator)
       type(buffer_t), intent(inout) :: script
       character(*), intent(in) :: name, title

@@ -4,7 +4,7 @@ module ek_sample_figures
    use ek_kinds, only: wp
    use ek_text, only: str
    use ek_study_data, only: study_data_t, summary_t, range_of_values, is_geometric, tic_step, has_expected, looks_flat
-   use ek_figure, only: figure_t, panel_t, new_figure, add_series, add_word, columns_of, as_line, as_band, as_boxes, as_segments
+   use ek_figure, only: figure_t, panel_t, new_figure, add_series, add_label, columns_of, as_line, as_band, as_boxes, as_segments
    use ek_gnuplot, only: on_derivative, on_label, on_median, on_narrow_band, on_wide_band, on_limit
    implicit none(type, external)
    private
@@ -127,7 +127,7 @@ contains
             call add_bars(panel, summary)
             do k = merge(1, 2, has_scatter(summary)), merge(3, 2, has_scatter(summary))
                call add_mark(panel, summary%percentiles(2*k - 1), mark_height*top, .false.)
-               call add_word(panel, trim(words(k)), summary%percentiles(2*k - 1), (mark_height + 0.045_wp)*top, on_label, &
+               call add_label(panel, trim(words(k)), summary%percentiles(2*k - 1), (mark_height + 0.045_wp)*top, on_label, &
                   is_small=.true.)
             end do
             if (response%lower > summary%lowest - (summary%highest - summary%lowest)) &

@@ -14,7 +14,7 @@ module ek_study_figures
    use ek_effect_figures, only: map_figure, line_figure, tornado_figure, sobol_figure, morris_figure
    use ek_carpet_figure, only: carpet_figure, study_carpet
    use ek_kinds, only: wp
-   use ek_figure, only: figure_t, new_figure, add_series, add_word, fold_at, as_line, as_segments
+   use ek_figure, only: figure_t, new_figure, add_series, add_label, fold_at, as_line, as_segments
    use ek_gnuplot, only: on_level, on_label, on_result, on_soft, on_title
    implicit none(type, external)
    private
@@ -322,11 +322,11 @@ contains
             if (k <= size(factors)) label = study%factors(factors(k))%label
             if (k > size(factors)) label = study%responses(k - size(factors))%label
             at = fold_at(label, 18)
-            if (at == 0) call add_word(panel, label, real(k, wp), height, role)
-            if (at > 0) call add_word(panel, trim(label(:at)), real(k, wp), height + 0.025_wp, role)
-            if (at > 0) call add_word(panel, label(at + 1:), real(k, wp), height - 0.025_wp, role)
-            call add_word(panel, str(range(1), 5), real(k, wp), -0.045_wp, on_soft)
-            call add_word(panel, str(range(2), 5), real(k, wp), 1.035_wp, on_soft)
+            if (at == 0) call add_label(panel, label, real(k, wp), height, role)
+            if (at > 0) call add_label(panel, trim(label(:at)), real(k, wp), height + 0.025_wp, role)
+            if (at > 0) call add_label(panel, label(at + 1:), real(k, wp), height - 0.025_wp, role)
+            call add_label(panel, str(range(1), 5), real(k, wp), -0.045_wp, on_soft)
+            call add_label(panel, str(range(2), 5), real(k, wp), 1.035_wp, on_soft)
          end do
       end associate
 

@@ -10,7 +10,7 @@ module ek_number_section
    use ek_page, only: page_t, begin_section, add_markup, page_number
    use ek_report_content, only: report_t
    use ek_summary, only: summary_numbers, kept_number, relation_to
-   use ek_svg, only: escape_html
+   use ek_html, only: escape_html
    use ek_text, only: str
    use ek_decimal, only: decimal
    use ek_buffer, only: buffer_t

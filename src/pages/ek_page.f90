@@ -11,13 +11,14 @@ module ek_page
    use ek_text, only: str
    use ek_base64, only: base64
    use ek_buffer, only: buffer_t
-   use ek_svg, only: embedded_svg, escape_html
-   use ek_page_assets, only: add_style, add_script, add_live_style, add_live_script, add_turntable_script
+   use ek_html, only: svg_address, escape_html
+   use ek_page_assets, only: add_style, add_script, add_live_style, add_live_script, add_turntable_script, add_figure_script
    implicit none(type, external)
    private
    public :: page_t, begin_page, begin_section, add_text, add_warnings, add_facts
    public :: begin_table, add_cell, add_bar, add_group, end_table
-   public :: begin_charts, end_charts, add_picture, add_data_picture, add_legend, add_markup, page_text, page_number, set_data
+   public :: begin_charts, end_charts, add_picture, add_data_picture, add_figure, add_legend, add_markup, page_text
+   public :: page_number, set_data
 
    character(*), parameter :: nl = new_line('a')
 
@@ -27,11 +28,13 @@ module ek_page
       character(:), allocatable :: title
       character(:), allocatable :: data     !! JSON from which the script draws; not allocated: a page without script
       integer :: header = 0                 !! characters of the body before the list of contents
-      integer :: pictures = 0, table_columns = 0
+      integer :: table_columns = 0
       integer :: cells = 0                  !! cells of the last row while the row is incomplete, otherwise 0
       logical :: has_section = .false.
       logical :: is_live = .false.          !! the script of the page also changes rates
       logical :: has_turntable = .false.    !! the script of the page also turns the suspension
+      logical :: has_figures = .false.      !! the script of the page also draws figures of panels
+      logical :: has_charts = .true.        !! the script of the page draws charts
    end type page_t
 
 contains
@@ -49,15 +52,19 @@ contains
    end subroutine begin_page
 
    !> Sets the data of a page whose charts are drawn by its script: JSON without '<'.
-   pure subroutine set_data(page, json, is_live, has_turntable)
+   pure subroutine set_data(page, json, is_live, has_turntable, has_figures, has_charts)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: json
       logical, intent(in), optional :: is_live             !! .true.: the data have rates that the reader can change
       logical, intent(in), optional :: has_turntable       !! .true.: the data have the lines and poses of a suspension
+      logical, intent(in), optional :: has_figures         !! .true.: the data have figures of panels
+      logical, intent(in), optional :: has_charts          !! .false.: the data have no charts of tests
 
       page%data = json
       if (present(is_live)) page%is_live = is_live
       if (present(has_turntable)) page%has_turntable = has_turntable
+      if (present(has_figures)) page%has_figures = has_figures
+      if (present(has_charts)) page%has_charts = has_charts
    end subroutine set_data
 
    !> Adds a line of HTML unchanged. The caller must have escaped every string in it with escape_html.
@@ -247,12 +254,22 @@ contains
       character(*), intent(in) :: svg, title     !! content of the file; its description
       character(*), intent(in), optional :: caption
 
-      page%pictures = page%pictures + 1
       call page%body%add(trim(merge('<figure class="drawn wide">', '<figure class="drawn">     ', present(caption))))
-      call page%body%add(embedded_svg(svg, 'p'//str(page%pictures), title))
+      call page%body%add('<img alt="'//escape_html(title)//'" src="')
+      call page%body%add(svg_address(svg))
+      call page%body%add('">')
       if (present(caption)) call page%body%add('<figcaption>'//escape_html(caption)//'</figcaption>')
       call page%body%line('</figure>')
    end subroutine add_picture
+
+   !> Adds the place of a figure of panels, which the script of the page draws.
+   pure subroutine add_figure(page, name, caption)
+      type(page_t), intent(inout) :: page
+      character(*), intent(in) :: name, caption  !! name of the figure in the data of the page; caption below it
+
+      call page%body%line('<figure class="wide" id="figure-'//escape_html(name)//'"><noscript><p>The script of this page draws '// &
+         'this figure.</p></noscript><figcaption>'//escape_html(caption)//'</figcaption></figure>')
+   end subroutine add_figure
 
    !> Adds a raster picture (GIF, PNG) embedded in the page as base64.
    pure subroutine add_data_picture(page, bytes, kind, title, caption)
@@ -261,7 +278,6 @@ contains
       character(*), intent(in) :: kind           !! 'gif' or 'png'
       character(*), intent(in) :: title, caption
 
-      page%pictures = page%pictures + 1
       call page%body%add('<figure class="drawn wide"><img alt="'//escape_html(title)//'" src="data:image/'//kind//';base64,')
       call page%body%add(base64(bytes))
       call page%body%add('">')
@@ -316,7 +332,8 @@ contains
       call head%line('<style>')
       call add_style(head)
       if (page%is_live) call add_live_style(head)
-      call head%line('</style></head><body'//trim(merge(' class="is-live">', '>                ', allocated(page%data)))//'<main>')
+      call head%line('</style></head><body'// &
+         trim(merge(' class="is-live">', '>                ', allocated(page%data) .and. page%has_charts))//'<main>')
       contents = ''
       if (page%contents%length() > 0) contents = '<nav aria-label="Contents"><ul>'//page%contents%text()// &
          '<li><a href="#top">Back to top</a></li></ul></nav>'
@@ -328,6 +345,7 @@ contains
          call tail%line('</script>')
          call tail%line('<script type="module">')
          call add_script(tail)
+         if (page%has_figures) call add_figure_script(tail)
          if (page%has_turntable) call add_turntable_script(tail)
          if (page%is_live) call add_live_script(tail)
          call tail%line('</script>')

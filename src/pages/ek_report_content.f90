@@ -4,6 +4,7 @@ module ek_report_content
    use ek_path, only: path_t
    use ek_test_result, only: test_result_t
    use ek_chart, only: chart_t
+   use ek_figure, only: figure_t
    use ek_gradient, only: gradient_t
    use ek_key_number, only: key_number_t
    use ek_member_loads, only: load_record_t
@@ -27,6 +28,7 @@ module ek_report_content
       type(test_result_t), allocatable :: tests(:)
       type(path_t), allocatable :: paths(:)            !! states of each test, for pictures; empty if the test was not run
       type(chart_t), allocatable :: charts(:)          !! charts of all tests
+      type(figure_t), allocatable :: figures(:)        !! views of the hardpoints, carpets and envelopes of tests on a grid
       type(gradient_t), allocatable :: gradients(:)
       type(key_number_t), allocatable :: numbers(:)    !! key numbers of the tests
       type(key_number_t), allocatable :: missing(:)    !! key numbers without a value, which are not among `numbers`
@@ -42,7 +44,7 @@ module ek_report_content
       type(message_list_t) :: copies                   !! copies of the load tables of the deck, in the folder
       integer :: incomplete = 0                        !! number of tests that failed or were not run to their ends
       logical :: is_static = .false.                   !! the page has the pictures of gnuplot, and no script
-      logical :: has_pictures = .false., has_animation = .false., has_views = .false.   !! files of this report are in the folder
+      logical :: has_pictures = .false., has_animation = .false.   !! files of this report are in the folder
    end type report_t
 
 contains

@@ -7,7 +7,7 @@ module ek_report_data
    use ek_text, only: str
    use ek_buffer, only: buffer_t
    use ek_letters, only: as_utf8
-   use ek_json, only: json_t, json_string, json_number
+   use ek_json, only: json_t, json_string, json_number, without_tags
    use ek_test_result, only: test_result_t, design_row
    use ek_chart_axis, only: free_range, extremes
    use ek_contact, only: contact_t, contacts_of
@@ -15,6 +15,7 @@ module ek_report_data
    use ek_key_number, only: key_number_t
    use ek_number_words, only: steer_effect, target_verdict
    use ek_report_content, only: report_t
+   use ek_figure_data, only: add_figures
    use ek_live_data, only: add_live_data
    use ek_turntable, only: add_turntable
    implicit none(type, external)
@@ -58,6 +59,7 @@ contains
          if (report%tests(k)%is_run) call add_test(json, report%tests(k), report%charts, k, '')
       end do
       call json%close(']')
+      if (allocated(report%figures)) call add_figures(json, report%figures)
       if (allocated(report%turntable)) call add_turntable(json, report%turntable)
       if (allocated(report%live)) call add_live_data(json, report%live, report%numbers)
       call json%close('}')
@@ -287,24 +289,5 @@ contains
       end do
       if (is_new) call list%add(name)
    end function is_new
-
-   !> A JSON string with every '<' escaped; otherwise '</script' would end the block of data of a page.
-   function without_tags(json) result(text)
-      character(*), intent(in) :: json
-      character(:), allocatable :: text
-      type(buffer_t) :: out
-      integer :: from, at
-
-      from = 1
-      do
-         at = scan(json(from:), '<')
-         if (at == 0) exit
-         call out%add(json(from:from + at - 2))
-         call out%add('\u003c')
-         from = from + at
-      end do
-      call out%add(json(from:))
-      text = out%text()
-   end function without_tags
 
 end module ek_report_data

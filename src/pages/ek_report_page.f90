@@ -15,9 +15,10 @@ module ek_report_page
    use ek_report_content, only: report_t
    use ek_report_data, only: report_data
    use ek_number_section, only: add_summary, add_other_numbers
-   use ek_svg, only: escape_html
+   use ek_html, only: escape_html
    use ek_page, only: page_t, begin_page, begin_section, add_text, add_markup, add_warnings, add_facts, set_data, begin_table, &
-      add_cell, add_group, end_table, begin_charts, end_charts, add_picture, add_data_picture, add_legend, page_text, page_number
+      add_cell, add_group, end_table, begin_charts, end_charts, add_picture, add_data_picture, add_figure, add_legend, page_text, &
+      page_number
    use ek_member_loads, only: load_record_t
    use ek_rod_table, only: add_rod_table
    implicit none(type, external)
@@ -57,7 +58,8 @@ contains
       end do
       if (allocated(report%parts)) call add_rod_table(page, report%parts)
       if (allocated(report%loads)) call add_peak_loads(page, report%loads)
-      if (.not. report%is_static) call set_data(page, report_data(report), is_live, allocated(report%turntable))
+      if (.not. report%is_static) call set_data(page, report_data(report), is_live, allocated(report%turntable), &
+         has_figures(report))
       text = page_text(page)
    end function report_page
 
@@ -73,35 +75,41 @@ contains
       call add_markup(page, '<div id="rates"><noscript><p>The script of this page creates the sliders.</p></noscript></div>')
    end subroutine add_rates
 
+   !> Whether the page has figures of panels.
+   pure logical function has_figures(report)
+      type(report_t), intent(in) :: report
+
+      has_figures = allocated(report%figures)
+      if (has_figures) has_figures = size(report%figures) > 0
+   end function has_figures
+
    !> Adds the picture in space, the turntable, the views with hardpoints, and the animation.
    subroutine add_scene(page, report)
       type(page_t), intent(inout) :: page
       type(report_t), intent(in) :: report
       type(error_t), allocatable :: error
       character(:), allocatable :: bytes
-      logical :: has_svg, has_views, has_gif, has_turntable
+      logical :: has_picture, has_gif, has_turntable, has_views
 
-      has_svg = report%has_pictures
-      if (has_svg) has_svg = file_exists(join_path(report%folder, 'picture.svg'))
-      has_views = report%has_pictures .and. report%has_views
+      has_picture = report%has_pictures
+      if (has_picture) has_picture = file_exists(join_path(report%folder, 'picture.png'))
       has_gif = report%has_pictures .and. report%has_animation
       if (has_gif) has_gif = file_exists(join_path(report%folder, 'animation.gif'))
       has_turntable = allocated(report%turntable) .and. .not. report%is_static
-      if (.not. (has_svg .or. has_gif .or. has_turntable)) return
+      has_views = has_figures(report)
+      if (has_views) has_views = report%figures(1)%name == 'views' .and. (report%has_pictures .or. .not. report%is_static)
+      if (.not. (has_picture .or. has_gif .or. has_turntable .or. has_views)) return
       call begin_section(page, 'picture', 'The suspension')
-      if (has_svg) then
-         call read_whole(join_path(report%folder, 'picture.svg'), bytes, error)
-         if (.not. allocated(error)) call add_picture(page, bytes, 'The suspension in space: '//report%title, &
+      if (has_picture) then
+         call read_whole(join_path(report%folder, 'picture.png'), bytes, error)
+         if (.not. allocated(error)) call add_data_picture(page, bytes, 'png', 'The suspension in space: '//report%title, &
             'Solid: design. Thin lines: ends of the travel. Bodies have no shape in the model; they are drawn as bars '// &
             'between their attachment points.')
       end if
       if (has_turntable) call add_markup(page, '<div id="turntable"><noscript><p>The turntable is drawn by the script of '// &
          'this page.</p></noscript></div>')
-      if (has_views) then
-         call read_whole(join_path(report%folder, 'figures/views.svg'), bytes, error)
-         if (.not. allocated(error)) call add_picture(page, bytes, 'Hardpoints at design from the left, the front and above: '// &
-            report%title, 'Hardpoints at design; of an axle its left half, names without left_.')
-      end if
+      if (has_views) call add_panels(page, report, 'views', 'Hardpoints at design from the left, the front and above: '// &
+         report%title, 'Hardpoints at design; of an axle its left half, names without left_.')
       if (has_gif) then
          call read_whole(join_path(report%folder, 'animation.gif'), bytes, error)
          if (.not. allocated(error)) call add_data_picture(page, bytes, 'gif', 'The suspension moving: '//report%title, '')
@@ -145,10 +153,10 @@ contains
          if (report%is_static .and. .not. allocated(test%grid)) call add_legend(page, names, design_row(test%table) > 0, &
             is_scattered(test%kind))
       end if
-      if (allocated(test%grid) .and. report%has_pictures) then
-         call add_figure(page, report%folder, carpet_name(test), test%title//': toe and camber', &
+      if (allocated(test%grid)) then
+         call add_panels(page, report, carpet_name(test), test%title//': toe and camber', &
             'A line of equal travel meets a line of equal steering at a state; its height is the value there.')
-         call add_figure(page, report%folder, envelope_name(test), test%title//': envelope of the wheels', &
+         call add_panels(page, report, envelope_name(test), test%title//': envelope of the wheels', &
             'Positions of the wheel centre, and the spin axis outboard of it, in the frame of the deck. As numbers: '// &
             test%envelope)
       end if
@@ -168,21 +176,26 @@ contains
          ' of the wheel travel and '//str(size(test%grid%steer))//' of '//test%grid%driver
    end function over_what
 
-   !> Adds an SVG figure of the folder figures/ at full width. Adds nothing if the file does not exist.
-   subroutine add_figure(page, folder, name, title, caption)
+   !> Adds the place of a figure, which the script of the page draws. On a static page, adds the picture drawn by gnuplot, if its
+   !> file exists.
+   subroutine add_panels(page, report, name, title, caption)
       type(page_t), intent(inout) :: page
-      character(*), intent(in) :: folder, name, title, caption
+      type(report_t), intent(in) :: report
+      character(*), intent(in) :: name, title, caption
       type(error_t), allocatable :: error
       character(:), allocatable :: path, svg
 
-      path = join_path(folder, 'figures/'//name//'.svg')
-      if (.not. file_exists(path)) return
+      if (.not. report%is_static) then
+         call add_figure(page, name, caption)
+         return
+      end if
+      path = join_path(report%folder, 'figures/'//name//'.svg')
+      if (.not. report%has_pictures .or. .not. file_exists(path)) return
       call read_whole(path, svg, error)
       if (.not. allocated(error)) call add_picture(page, svg, title, caption)
-   end subroutine add_figure
+   end subroutine add_panels
 
-   !> Adds the charts of a test that the page script draws. The first six charts are open, the others folded. In a browser
-   !> without script, a chart is a link to the picture drawn by gnuplot.
+   !> Adds the charts of a test that the page script draws. The first six charts are open, the others folded.
    subroutine add_live_charts(page, charts, test, held)
       type(page_t), intent(inout) :: page
       type(chart_t), intent(in) :: charts(:)
@@ -199,8 +212,7 @@ contains
          label = escape_html(charts(k)%y_label)
          if (held /= '') label = label//', '//escape_html(trim(held))
          call add_markup(page, '<figure class="live" id="'//escape_html(charts(k)%name)//'"><figcaption><b>'// &
-            escape_html(charts(k)%title)//'</b>'//label//'</figcaption><noscript><a href="figures/'// &
-            escape_html(picture_file(charts(k)))//'">figures/'//escape_html(picture_file(charts(k)))//'</a></noscript></figure>')
+            escape_html(charts(k)%title)//'</b>'//label//'</figcaption></figure>')
       end do
       call end_more(page, shown, principal)
    end subroutine add_live_charts

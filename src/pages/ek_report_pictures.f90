@@ -1,5 +1,5 @@
-!> The pictures of a report: the charts of its tests, the carpets and envelopes of grid tests, the suspension in space, the
-!> three views of its hardpoints, and its animation. All are drawn in one run of gnuplot.
+!> The pictures of a report that gnuplot draws, in one run: the suspension in space and its animation, and on request the charts of
+!> its tests, the carpets and envelopes of tests on a grid, and the three views of its hardpoints.
 module ek_report_pictures
    use ek_kinds, only: wp, millimetre
    use ek_error, only: error_t, message_list_t
@@ -19,29 +19,50 @@ module ek_report_pictures
    use ek_figure_script, only: figure_script
    use ek_views, only: find_views
    use ek_picture_names, only: add_names, add_axes
-   use ek_grid_figures, only: grid_carpet, carpet_name, envelope_name, envelope_figure
+   use ek_grid_figures, only: grid_carpet, envelope_figure
    implicit none(type, external)
    private
-   public :: draw_pictures
+   public :: draw_pictures, find_figures
 
    integer, parameter :: max_frames = 40        !! largest number of frames of an animation
 
 contains
 
-   !> Draws all pictures of a report: picture.svg and .png, animation.gif if requested, and in figures/ the charts, the
-   !> carpets and envelopes of grid tests, and the three views. With --no-plots, deletes the pictures of an earlier report.
-   subroutine draw_pictures(report, suspension, wants_plots, wants_animation, message, error)
-      type(report_t), intent(inout) :: report                !! has_animation: it was requested, and something moves; has_views
+   !> Finds the figures of a report: three views of the hardpoints, and carpet and envelope of each test on a grid.
+   subroutine find_figures(suspension, report)
       type(suspension_t), intent(in) :: suspension
-      logical, intent(in) :: wants_plots, wants_animation
+      type(report_t), intent(inout) :: report
+      type(figure_t), allocatable :: views
+      integer :: k, used
+
+      call find_views(suspension, 'views', views)
+      used = count([(allocated(report%tests(k)%grid), k=1, size(report%tests))])
+      allocate (report%figures(2*used + merge(1, 0, allocated(views))))
+      used = 0
+      if (allocated(views)) then
+         used = 1
+         report%figures(1) = views
+      end if
+      do k = 1, size(report%tests)
+         if (.not. allocated(report%tests(k)%grid)) cycle
+         report%figures(used + 1) = grid_carpet(report%tests(k), suspension%name)
+         report%figures(used + 2) = envelope_figure(report%tests(k), suspension)
+         used = used + 2
+      end do
+   end subroutine find_figures
+
+   !> Draws the pictures of a report: picture.svg and .png, animation.gif if requested, and if `wants_figures`, in figures/ the
+   !> charts and figures of the page. With --no-plots, deletes the pictures of an earlier report.
+   subroutine draw_pictures(report, suspension, wants_plots, wants_figures, wants_animation, message, error)
+      type(report_t), intent(inout) :: report                !! has_animation: it was requested, and something moves
+      type(suspension_t), intent(in) :: suspension
+      logical, intent(in) :: wants_plots, wants_figures, wants_animation
       character(:), allocatable, intent(out) :: message      !! reason for missing pictures, otherwise ''
       type(error_t), allocatable, intent(out) :: error       !! a script cannot be written, or gnuplot failed
-      character(17), parameter :: in_space(5) = [character(17) :: 'picture.svg', 'picture.png', 'figures/views.svg', &
-         'figures/views.png', 'animation.gif']
+      character(13), parameter :: in_space(3) = [character(13) :: 'picture.svg', 'picture.png', 'animation.gif']
       character(4), parameter :: endings(2) = ['.svg', '.png']
       type(message_list_t) :: scripts, pictures
       type(camera_t) :: camera
-      type(figure_t), allocatable :: views
       integer :: k, e
 
       message = ''
@@ -51,39 +72,28 @@ contains
             call remove_file(join_path(report%folder, trim(in_space(k))))
          end do
          call remove_drawn(report%charts, report%folder)
-         do k = 1, size(report%tests)
-            if (.not. allocated(report%tests(k)%grid)) cycle
+         do k = 1, size(report%figures)
             do e = 1, size(endings)
-               call remove_file(join_path(report%folder, 'figures/'//carpet_name(report%tests(k))//endings(e)))
-               call remove_file(join_path(report%folder, 'figures/'//envelope_name(report%tests(k))//endings(e)))
+               call remove_file(join_path(report%folder, 'figures/'//report%figures(k)%name//endings(e)))
             end do
          end do
          message = 'switched off by --no-plots'
          return
       end if
-      call write_whole(join_path(report%folder, 'figures/charts.gp'), charts_script(report%charts), error, can_be_redrawn=.true.)
-      if (allocated(error)) return
       call write_picture(report, suspension, camera, error)
       if (allocated(error)) return
-      call scripts%add('charts.gp')
       call scripts%add('picture.gp')
-      call pictures_of(report%charts, pictures)
-      do k = 1, size(report%tests)
-         if (.not. allocated(report%tests(k)%grid)) cycle
-         call add_sheet(report%folder, carpet_name(report%tests(k)), &
-            figure_script(grid_carpet(report%tests(k), suspension%name)), scripts, &
-            pictures, error)
-         if (.not. allocated(error)) call add_sheet(report%folder, envelope_name(report%tests(k)), &
-            figure_script(envelope_figure(report%tests(k), suspension)), scripts, pictures, error)
-         if (allocated(error)) return
-      end do
       call pictures%add('../picture.svg')
       call pictures%add('../picture.png')
-      call find_views(suspension, 'views', views)
-      report%has_views = allocated(views)
-      if (report%has_views) then
-         call add_sheet(report%folder, 'views', figure_script(views), scripts, pictures, error)
+      if (wants_figures) then
+         call write_whole(join_path(report%folder, 'figures/charts.gp'), charts_script(report%charts), error, can_be_redrawn=.true.)
          if (allocated(error)) return
+         call scripts%add('charts.gp')
+         call pictures_of(report%charts, pictures)
+         do k = 1, size(report%figures)
+            call add_sheet(report%folder, report%figures(k)%name, figure_script(report%figures(k)), scripts, pictures, error)
+            if (allocated(error)) return
+         end do
       end if
       if (wants_animation) then
          call write_animation(report, suspension, camera, error)

@@ -2,15 +2,15 @@
 module ek_step_page
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
-   use ek_error, only: error_t, message_list_t
+   use ek_error, only: message_list_t
    use ek_text, only: str
    use ek_version, only: version
    use ek_decimal, only: get_decimal
-   use ek_file, only: join_path, file_exists, read_whole
    use ek_text_table, only: text_table_t, cell_of
+   use ek_figure_data, only: figures_json
    use ek_figure, only: figure_t, new_figure, add_series, columns_of, as_both
    use ek_page, only: page_t, begin_page, begin_section, add_text, add_warnings, add_facts, begin_table, add_cell, add_group, &
-      end_table, add_picture, page_text, page_number
+      end_table, add_page_figure => add_figure, set_data, page_text, page_number
    implicit none(type, external)
    private
    public :: step_page, step_figure, figure_ending
@@ -27,10 +27,9 @@ module ek_step_page
 contains
 
    !> The content of the page of a step-size study.
-   function step_page(title, name, deck, case, table, folder, message) result(text)
+   function step_page(title, name, deck, case, table, message) result(text)
       character(*), intent(in) :: title, name, deck, case     !! title, name, deck and case of the study; the title may be ''
       type(text_table_t), intent(in) :: table                 !! table of the study
-      character(*), intent(in) :: folder                      !! folder of the figure; '': no figure
       character(*), intent(in) :: message                     !! reason for a missing figure; may be ''
       character(:), allocatable :: text
       type(page_t) :: page
@@ -45,7 +44,7 @@ contains
       if (message /= '') call trouble%add(message)
       call add_warnings(page, 'Figures', trouble)
       call add_errors(page, table)
-      call add_figure(page, name, folder)
+      call add_figure(page, name, table)
       text = page_text(page)
 
    contains
@@ -86,20 +85,18 @@ contains
          '–: the method did not reach the end of the range with so many increments.')
    end subroutine add_errors
 
-   !> Adds the figure, if it was drawn.
-   subroutine add_figure(page, name, folder)
+   !> Adds the figure and its data, if an error is drawn.
+   subroutine add_figure(page, name, table)
       type(page_t), intent(inout) :: page
-      character(*), intent(in) :: name, folder
-      type(error_t), allocatable :: unread
-      character(:), allocatable :: svg, path
+      character(*), intent(in) :: name
+      type(text_table_t), intent(in) :: table
+      type(figure_t), allocatable :: figure
 
-      if (folder == '') return
-      path = join_path(folder, name//figure_ending//'.svg')
-      if (.not. file_exists(path)) return
-      call read_whole(path, svg, unread)
-      if (allocated(unread)) return
+      call step_figure(name, table, figure)
+      if (.not. allocated(figure)) return
       call begin_section(page, 'figures', 'Figures')
-      call add_picture(page, svg, 'Errors over the number of increments', 'figures/'//name//figure_ending//'.gp draws this figure.')
+      call add_page_figure(page, figure%name, 'figures/'//figure%name//'.gp draws this figure.')
+      call set_data(page, figures_json([figure]), has_figures=.true., has_charts=.false.)
    end subroutine add_figure
 
    !> Finds the figure: magnitudes of the errors over the number of increments, both on logarithmic axes. An error that is nowhere

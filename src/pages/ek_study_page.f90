@@ -2,17 +2,18 @@
 module ek_study_page
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
-   use ek_error, only: error_t, message_list_t
+   use ek_error, only: message_list_t
    use ek_text, only: str, plural
    use ek_version, only: version
-   use ek_file, only: join_path, file_exists, read_whole
    use ek_study_data, only: study_data_t, study_axis_t, summary_t, percents, methods, range_of_values, yield_interval
-   use ek_study_figures, only: rules, applies, figure_name, sheets, others
+   use ek_study_figures, only: rules, applies, figure_of, sheets, others
+   use ek_figure, only: figure_t
+   use ek_figure_data, only: figures_json
    use ek_effect_table, only: add_effects
    use ek_factor_order, only: most_open, factor_order, strongest_names, effect_measure
-   use ek_svg, only: escape_html
+   use ek_html, only: escape_html
    use ek_page, only: page_t, begin_page, begin_section, add_text, add_warnings, add_facts, begin_table, add_cell, add_group, &
-      add_markup, end_table, add_picture, page_text, page_number
+      add_markup, end_table, add_figure, set_data, page_text, page_number
    implicit none(type, external)
    private
    public :: study_page, page_name
@@ -29,15 +30,12 @@ contains
       name = study%name//'.html'
    end function page_name
 
-   !> The page of a study as HTML. The page shows the figures that apply, from the folder of figures. Without a folder ('') it shows
-   !> no pictures.
-   function study_page(study, figures, message) result(text)
+   !> The page of a study as HTML. Its script draws the figures that apply.
+   function study_page(study) result(text)
       type(study_data_t), intent(in) :: study
-      character(*), intent(in) :: figures            !! folder of the pictures
-      character(*), intent(in) :: message            !! reason for missing pictures; may be ''
       character(:), allocatable :: text
       type(page_t) :: page
-      type(message_list_t) :: names, values, trouble
+      type(message_list_t) :: names, values
       character(:), allocatable :: title, name
 
       title = study%title
@@ -61,13 +59,11 @@ contains
          ' failed and '//trim(merge('is ', 'are', study%failed == 1))//' omitted below'//trim(merge( &
          ', but counted as outside in the shares within limits', repeat(' ', 52), any_limit(study, of_study=.false.))), &
          study%reasons)
-      if (message /= '') call trouble%add(message)
-      call add_warnings(page, 'Figures', trouble)
       ! the summary, in the order of the first page on paper
       call add_responses(page, study)
       call add_extremes(page, study)
       call add_factors(page, study)
-      if (figures /= '') call add_figures(page, study, figures)
+      call add_figures(page, study)
       call add_moments(page, study)
       call add_effects(page, study)
       text = page_text(page)
@@ -328,33 +324,34 @@ contains
 
    end subroutine add_factors
 
-   !> Adds the pictures that were drawn. Pictures of second sheets are folded.
-   subroutine add_figures(page, study, folder)
+   !> Adds the figures that apply, and their data. Second sheets are folded.
+   subroutine add_figures(page, study)
       type(page_t), intent(inout) :: page
       type(study_data_t), intent(in) :: study
-      character(*), intent(in) :: folder
-      type(error_t), allocatable :: error
-      character(:), allocatable :: svg, name
-      integer :: k, sheet
-      logical :: is_begun
+      type(figure_t), allocatable :: figures(:)
+      integer :: k, sheet, used
 
-      is_begun = .false.
+      used = 0
+      do k = 1, size(rules)
+         if (applies(rules(k), study)) used = used + sheets(rules(k), study)
+      end do
+      if (used == 0) return
+      allocate (figures(used))
+      call begin_section(page, 'figures', 'Figures')
+      used = 0
       do k = 1, size(rules)
          if (.not. applies(rules(k), study)) cycle
          do sheet = 1, sheets(rules(k), study)
-            name = figure_name(rules(k), study, sheet)
-            if (.not. file_exists(join_path(folder, name//'.svg'))) cycle
-            call read_whole(join_path(folder, name//'.svg'), svg, error)
-            if (allocated(error)) cycle
-            if (.not. is_begun) call begin_section(page, 'figures', 'Figures')
-            is_begun = .true.
+            used = used + 1
+            figures(used) = figure_of(rules(k), study, sheet)
             if (sheet == 1) call add_text(page, 'h3', trim(rules(k)%title))
             if (sheet == 2) call add_markup(page, '<details class="more"><summary>'//escape_html(trim(rules(k)%title))//': '// &
                others(rules(k))//'</summary>')
-            call add_picture(page, svg, trim(rules(k)%title), 'figures/'//name//'.gp draws this figure.')
+            call add_figure(page, figures(used)%name, 'figures/'//figures(used)%name//'.gp draws this figure.')
             if (sheet == 2) call add_markup(page, '</details>')
          end do
       end do
+      call set_data(page, figures_json(figures), has_figures=.true., has_charts=.false.)
    end subroutine add_figures
 
    !> Adds the best and the worst designs as a table, then, folded, the settings of these designs.

@@ -16,7 +16,7 @@ module ek_json
    use ek_version, only: version
    implicit none(type, external)
    private
-   public :: json_t, json_string, json_strings, json_number, json_numbers
+   public :: json_t, json_string, json_strings, json_number, json_numbers, without_tags
 
    character(*), parameter :: line_end = new_line('a')
 
@@ -186,5 +186,24 @@ contains
       call buffer%add(']')
       literal = buffer%text()
    end function json_numbers
+
+   !> JSON with every '<' escaped; otherwise '</script' would end the block of data of a page.
+   function without_tags(json) result(text)
+      character(*), intent(in) :: json
+      character(:), allocatable :: text
+      type(buffer_t) :: out
+      integer :: from, at
+
+      from = 1
+      do
+         at = scan(json(from:), '<')
+         if (at == 0) exit
+         call out%add(json(from:from + at - 2))
+         call out%add('\u003c')
+         from = from + at
+      end do
+      call out%add(json(from:))
+      text = out%text()
+   end function without_tags
 
 end module ek_json

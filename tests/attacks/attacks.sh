@@ -71,55 +71,55 @@ evil_list() { # evil_list TEST TITLE FILE: a report whose list has these cells, 
 }
 line_end_in_a_title() {
   evil_list sweep $'x\'\nsystem "touch pwned"\n#' sweep.csv
-  run 0 "$program" compare evil good --out both && gone pwned && gone both/figures/pwned
+  run 0 "$program" compare evil good --plots --out both && gone pwned && gone both/figures/pwned
 }
 line_end_in_a_test() {
   evil_list $'x\nsystem "touch pwned"\n#' title sweep.csv
-  run 5 "$program" compare evil good --out both && gone pwned && gone both/figures/pwned && says 'is not a plain file name'
+  run 5 "$program" compare evil good --plots --out both && gone pwned && gone both/figures/pwned && says 'is not a plain file name'
 }
 line_end_in_a_file() {
   evil_list sweep title $'sweep.csv\nsystem "touch pwned"'
-  run 5 "$program" compare evil good --out both && gone pwned && says 'is not a plain file name'
+  run 5 "$program" compare evil good --plots --out both && gone pwned && says 'is not a plain file name'
 }
 test_that_leaves_the_folder() {
   mkdir victim && echo mine >victim/v.svg && cp victim/v.svg kept
   evil_list ../../victim/v title sweep.csv
-  run 5 "$program" compare evil good --out both && same victim/v.svg kept && [ "$(ls victim)" = v.svg ] && says 'is not a plain file name'
+  run 5 "$program" compare evil good --plots --out both && same victim/v.svg kept && [ "$(ls victim)" = v.svg ] && says 'is not a plain file name'
 }
 file_that_leaves_the_folder() {
   evil_list sweep title ../good/sweep.csv
-  run 5 "$program" compare evil good --out both && says 'is not a plain file name'
+  run 5 "$program" compare evil good --plots --out both && says 'is not a plain file name'
 }
 file_with_a_whole_path() {
   evil_list sweep title /etc/passwd
-  run 5 "$program" compare evil good --out both && says 'is not a plain file name'
+  run 5 "$program" compare evil good --plots --out both && says 'is not a plain file name'
 }
 column_that_leaves_the_folder() { # the name of a wheel becomes part of the name of a picture
   mkdir victim
   a_report good
   mkdir evil && cp good/* evil 2>/dev/null
   sed -i 's|wheel_travel_mm|/../../../victim/x_wheel_travel_mm,right_wheel_travel_mm|; s|toe_deg|/../../../victim/x_toe_deg|; /^[0-9]/s|,|,1,|2' evil/sweep.csv
-  timeout 60 "$program" compare evil evil --out both >out.txt 2>said.txt
+  timeout 60 "$program" compare evil evil --plots --out both >out.txt 2>said.txt
   [ -z "$(ls victim)" ] && [ -z "$(find . -name '*.svg' ! -path './both/figures/*')" ]
 }
 column_with_a_quote() {
   a_report good
   mkdir evil && cp good/* evil 2>/dev/null
   sed -i "s|^state,factor|state',\"factor|" evil/sweep.csv
-  timeout 60 "$program" compare evil good --out both >out.txt 2>said.txt
+  timeout 60 "$program" compare evil good --plots --out both >out.txt 2>said.txt
   [ $? -lt 128 ] && gone pwned
 }
 pipe_in_a_report() { # would be waited for for ever
   a_report good && a_report evil
   rm evil/sweep.csv && mkfifo evil/sweep.csv
-  run 5 "$program" compare evil good --out both && says 'not a regular file' || return 1
+  run 5 "$program" compare evil good --plots --out both && says 'not a regular file' || return 1
   rm evil/tests.csv && mkfifo evil/tests.csv
-  run 5 "$program" compare evil good --out both && says 'not a regular file'
+  run 5 "$program" compare evil good --plots --out both && says 'not a regular file'
 }
 endless_table_in_a_report() {
   a_report good && a_report evil
   rm evil/gradients.csv && ln -s /dev/zero evil/gradients.csv
-  run 5 "$program" compare evil good --out both && says 'not a regular file'
+  run 5 "$program" compare evil good --plots --out both && says 'not a regular file'
 }
 
 # ---- S3, S4, S5 and settings of a user -----------------------------------------------------------

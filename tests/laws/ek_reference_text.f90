@@ -87,6 +87,15 @@ contains
          at = last + len('</svg>')
       end do
       plain = plain//page(at:)
+      at = 1
+      do                                       ! pictures as addresses
+         first = index(plain(at:), ' src="data:')
+         if (first == 0) exit
+         at = at + first + len(' src="data:') - 2
+         last = at + index(plain(at + 1:), '"')
+         if (last == at) exit
+         plain = plain(:at)//plain(last:)
+      end do
    end function without_drawings
 
    !> CSV text with one column's values as a dash.

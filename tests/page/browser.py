@@ -53,7 +53,7 @@ contrast = """() => {
   const walker = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
   while (walker.nextNode()) {
     const node = walker.currentNode.parentElement;
-    if (!walker.currentNode.data.trim() || node.closest('script,noscript,.drawn>svg') || !node.getClientRects().length) continue;
+    if (!walker.currentNode.data.trim() || node.closest('script,noscript') || !node.getClientRects().length) continue;
     const look = getComputedStyle(node), a = light(rgba(node.closest('svg') ? look.fill : look.color)), b = light(behind(node));
     const ratio = (Math.max(a, b) + 0.05) / (Math.min(a, b) + 0.05);
     if (ratio < worst[0]) worst = [ratio, node.outerHTML.slice(0, 90)];

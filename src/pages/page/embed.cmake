@@ -1,7 +1,7 @@
 # Makes ek_page_assets.f90 of the style sheet and the script of the pages:
 #   cmake -DSTYLE=page.css "-DSCRIPT=chart.js,page.js" -DLIVE_STYLE=live.css -DLIVE_SCRIPT=live.js \
-#     -DTURNTABLE_SCRIPT=turntable.js -DMODULE=ek_page_assets.f90 -P embed.cmake
-# The parts of pages whose rates can be changed, and of those with a turntable, are added to those of all pages.
+#     -DTURNTABLE_SCRIPT=turntable.js -DFIGURE_SCRIPT=figure.js -DMODULE=ek_page_assets.f90 -P embed.cmake
+# The parts of pages whose rates can be changed, and of those with a turntable or figures, are added to those of all pages.
 # Comments of a whole line and indents are left out.
 include(${CMAKE_CURRENT_LIST_DIR}/../../embed.cmake)
 
@@ -27,12 +27,13 @@ ek_statements_of_files(script ${SCRIPT})
 ek_statements_of_files(live_style ${LIVE_STYLE})
 ek_statements_of_files(live_script ${LIVE_SCRIPT})
 ek_statements_of_files(turntable_script ${TURNTABLE_SCRIPT})
+ek_statements_of_files(figure_script ${FIGURE_SCRIPT})
 file(WRITE ${MODULE} "!> Style sheet and script of the pages, made by embed.cmake from the files in src/pages/page.
 module ek_page_assets
    use ek_buffer, only: buffer_t
    implicit none(type, external)
    private
-   public :: add_style, add_script, add_live_style, add_live_script, add_turntable_script
+   public :: add_style, add_script, add_live_style, add_live_script, add_turntable_script, add_figure_script
 
    character(*), parameter :: nl = new_line('a')
 
@@ -57,6 +58,10 @@ ${live_script}   end subroutine add_live_script
    pure subroutine add_turntable_script(out)
       type(buffer_t), intent(inout) :: out
 ${turntable_script}   end subroutine add_turntable_script
+
+   pure subroutine add_figure_script(out)
+      type(buffer_t), intent(inout) :: out
+${figure_script}   end subroutine add_figure_script
 
 end module ek_page_assets
 ")

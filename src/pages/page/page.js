@@ -45,7 +45,7 @@ class Test {
   }
 }
 
-const tests = data.tests.map((own) => [own, document.getElementById(`test-${own.name}`)]).filter(([, section]) => section)
+const tests = (data.tests || []).map((own) => [own, document.getElementById(`test-${own.name}`)]).filter(([, section]) => section)
   .map(([own, section]) => new Test(own, section));
 const charts = tests.flatMap((t) => t.charts), of_figure = new Map(charts.map((c) => [c.figure, c]));
 
@@ -75,6 +75,7 @@ status.setAttribute("role", "status");
 bar.append(controls, status);
 const [search, choose, remove] = controls.children, file = controls.querySelector("input[type=file]");
 choose.hidden = !data.numbers;
+controls.hidden = status.hidden = tests.length === 0;
 
 // Charts by their title, numbers by their name; a folded block with a match opens.
 search.addEventListener("input", () => {
