@@ -23,7 +23,8 @@ module ek_export
    use ek_mathworks, only: kandc_parameters_t, find_parameters, mathworks_script, mathworks_json, corner_names
    use ek_plain_tables, only: kinematics_table, loads_table, compliance_of_map, tables_json
    use ek_export_sources, only: sources_t, solve_sources
-   use ek_export_figure, only: panel_list_t, export_script
+   use ek_export_figure, only: panel_list_t, export_figure
+   use ek_figure_script, only: figure_script
    use ek_export_panels, only: carmaker_panels, carsim_panels, mathworks_panels, csv_panels
    implicit none(type, external)
    private
@@ -79,8 +80,8 @@ contains
       end select
       if (allocated(error)) return
       if (settings%has_plots .and. .not. box%has_failed()) then
-         if (panels%used > 0) call box%add_script(name, export_script(panels, name, axle%map%title//': '//settings%target, &
-            separator))
+         if (panels%used > 0) call box%add_script(name, figure_script(export_figure(panels, name, &
+            axle%map%title//': '//settings%target, separator)))
          call box%draw(settings%is_quiet, reason)
          if (len(reason) == 0) call box%announce(name//'.png')
       end if

@@ -6,10 +6,13 @@ module ek_fit_files
    use ek_decimal, only: decimal
    use ek_frame, only: frame_t, new_frame
    use ek_buffer, only: buffer_t
+   use ek_kinds, only: wp
+   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use ek_version, only: version
    use ek_workspace, only: workspace_t
-   use ek_gnuplot, only: begin_script, begin_formats, end_formats, ink, on_range, on_limits, on_design, on_derivative
-   use ek_gnuplot_text, only: gnuplot_text
+   use ek_figure, only: figure_t, new_figure, add_series, columns_of, as_line, as_points, as_segments
+   use ek_figure_script, only: figure_script
+   use ek_gnuplot, only: on_level, on_range, on_limits, on_design, on_derivative
    use ek_parameter, only: choice_t, parameter_path
    use ek_study, only: is_given
    use ek_fit, only: fit_t
@@ -45,7 +48,7 @@ contains
       call box%put(fit%name//'_factors.csv', factors_csv(problem, found, statistics))
       call box%put(fit%name//'_points.csv', points_csv(fit, workspace, problem, found))
       call box%put(fit%name//'.set', settings(fit, workspace, problem))
-      call box%add_script(fit%name, script(fit, workspace, problem))
+      call box%add_script(fit%name, figure_script(fit_figure(fit, workspace, problem, found)))
       if (.not. allocated(box%undrawn)) call box%announce(fit%name//'.gp')
       if (draws) then
          call box%draw(is_quiet, reason)
@@ -187,52 +190,73 @@ contains
 
    end function settings
 
-   !> The script of the figure: a panel for each of the first 12 curves with start, target and result, from the file of the points.
-   !> Without curves, one plot shows the differences of all points.
-   function script(fit, workspace, problem) result(text)
+   !> The figure: a panel for each of the first 12 curves with start, target and result. Without curves, one panel shows the
+   !> differences of all points.
+   function fit_figure(fit, workspace, problem, found) result(figure)
       type(fit_t), intent(in) :: fit
       type(workspace_t), intent(in) :: workspace
       type(fit_problem_t), intent(in) :: problem
-      character(:), allocatable :: text
-      type(buffer_t) :: gp
-      integer, allocatable :: curves(:)
-      integer :: k, t, rows
+      type(fit_result_t), intent(in) :: found
+      type(figure_t) :: figure
+      character(:), allocatable :: title
+      integer, allocatable :: curves(:), points(:)
+      integer :: k, p, t
 
       curves = pack([(t, t=1, size(fit%targets))], [(count(problem%points%target == t) > 1, t=1, size(fit%targets))])
       curves = curves(:min(size(curves), most_panels))
-      rows = max(1, (size(curves) + 2)/3)
-      call begin_script(gp, fit%name, 'fit '//fit%name//': start, target and result', 'comma')
-      call gp%line('set key above')
-      call gp%line('points = '//gnuplot_text(fit%name//'_points.csv'))
-      call gp%line('of(name, column) = strcol(1) eq name ? column(column) : NaN')
-      call begin_formats(gp, fit%name, 1500, 420*rows + 60, 11)
+      title = fit%name
+      if (fit%title /= '') title = title//': '//fit%title
+      figure = new_figure(fit%name, 'Fit: start, target and result', title, size(curves))
       if (size(curves) == 0) then
-         call gp%line("   set title 'differences in deviations'")
-         call gp%line("   plot points every ::1 using 0:12:xticlabels(1) with impulses linewidth 4 notitle")
-      else
-         call gp%line('   set multiplot layout '//str(rows)//', '//str(min(3, size(curves)))//' title '// &
-            gnuplot_text(trim(fit%name//' '//fit%title)))
-         do k = 1, size(curves)
-            t = findloc(problem%points%target, curves(k), dim=1)
-            call gp%line('   set title '//gnuplot_text(fit%targets(curves(k))%name))
-            call gp%line('   set xlabel '//gnuplot_text(abscissa(t)))
-            call gp%line('   set ylabel '//gnuplot_text(problem%wanted(t)%name))
-            call gp%line("   plot "//part(9, "with lines"//ink(on_range)//" dashtype 2 linewidth 2 title 'start'")//', \')
-            if (any(is_given(problem%points%low) .and. problem%points%target == curves(k))) call gp%line('      '// &
-               part(7, "with lines"//ink(on_limits)//" title 'low'")//', \')
-            if (any(is_given(problem%points%high) .and. problem%points%target == curves(k))) call gp%line('      '// &
-               part(8, "with lines"//ink(on_limits)//" title 'high'")//', \')
-            call gp%line('      '//part(6, "with points pointtype 6"//ink(on_design)//" title 'target'")//', \')
-            call gp%line('      '//part(10, "with lines"//ink(on_derivative)//" linewidth 2 title 'result'"))
-         end do
-         call gp%line('   unset multiplot')
+         call add_differences()
+         return
       end if
-      call end_formats(gp)
-      text = gp%text()
+      do p = 1, size(curves)
+         points = pack([(k, k=1, size(problem%points))], problem%points%target == curves(p))
+         associate (panel => figure%panels(p), at => problem%wanted(points)%at)
+            panel%title = fit%targets(curves(p))%name
+            panel%x%label = abscissa(points(1))
+            panel%y%label = problem%wanted(points(1))%name
+            panel%note = 'no point has a value'
+            call add_series(panel, as_line, on_range, columns_of(at, found%before(points)), is_dashed=.true., title='start')
+            if (any(is_given(problem%points(points)%low))) call add_series(panel, as_line, on_limits, &
+               columns_of(at, known(problem%points(points)%low)), weight=1.0_wp, title='low')
+            if (any(is_given(problem%points(points)%high))) call add_series(panel, as_line, on_limits, &
+               columns_of(at, known(problem%points(points)%high)), weight=1.0_wp, title='high')
+            call add_series(panel, as_points, on_design, columns_of(at, known(problem%points(points)%value)), weight=0.7_wp, &
+               title='target')
+            call add_series(panel, as_line, on_derivative, columns_of(at, found%after(points)), title='result')
+         end associate
+      end do
 
    contains
 
-      !> Label of the abscissa: the case and 'swept value', or the column over which the curve is given.
+      !> Adds the differences of the points from their targets, in deviations, as strokes.
+      subroutine add_differences()
+         real(wp) :: strokes(4, size(problem%points))
+         integer :: k
+
+         associate (panel => figure%panels(1))
+            panel%y%label = 'difference in deviations'
+            panel%x%has_range = .true.
+            panel%x%range = [0.5_wp, size(problem%points) + 0.5_wp]
+            do k = 1, size(problem%points)
+               strokes(:, k) = [1.0_wp*k, 0.0_wp, 0.0_wp, difference_of(problem%points(k), found%after(k))]
+               call panel%x%names%add(fit%targets(problem%points(k)%target)%name)
+            end do
+            call add_series(panel, as_segments, on_level, strokes, weight=4.0_wp)
+         end associate
+      end subroutine add_differences
+
+      !> A value that is given, otherwise NaN.
+      elemental real(wp) function known(value)
+         real(wp), intent(in) :: value
+
+         known = value
+         if (.not. is_given(value)) known = ieee_value(1.0_wp, ieee_quiet_nan)
+      end function known
+
+      !> Label of the abscissa of a point: the case and 'swept value', or the column over which the curve is given.
       function abscissa(t) result(label)
          integer, intent(in) :: t
          character(:), allocatable :: label
@@ -244,14 +268,6 @@ contains
          end associate
       end function abscissa
 
-      !> The part of a plot command that draws one column of a target in a style.
-      function part(column, style) result(words)
-         integer, intent(in) :: column
-         character(*), intent(in) :: style
-         character(:), allocatable :: words
-         words = 'points every ::1 using 5:(of('//gnuplot_text(fit%targets(curves(k))%name)//', '//str(column)//')) '//style
-      end function part
-
-   end function script
+   end function fit_figure
 
 end module ek_fit_files

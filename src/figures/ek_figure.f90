@@ -25,7 +25,8 @@ module ek_figure
    use ek_error, only: message_list_t
    implicit none(type, external)
    private
-   public :: figure_t, panel_t, axis_t, series_t, new_figure, add_series, add_label, add_point_names, label_place_t, place_labels
+   public :: figure_t, panel_t, axis_t, series_t, new_figure, add_series, add_source, add_label, add_point_names
+   public :: label_place_t, place_labels
    public :: as_line, as_points, as_both, as_band, as_boxes, as_segments, as_errors, as_labels, as_heat, kinds, gap_row, &
       full_height, title_height, has_values, centred, at_left, at_right, columns_of, fold_at
 
@@ -54,6 +55,7 @@ module ek_figure
       integer :: kind = as_line
       integer :: role = 1                             !! what its colour stands for (ek_gnuplot)
       real(wp), allocatable :: values(:, :)           !! (column, row)
+      character(:), allocatable :: source             !! in place of values: gnuplot's file, rows, columns and style
       real(wp) :: weight = 2.0_wp                     !! width of a line or size of a point
       logical :: is_dashed = .false.
       logical :: is_by_value = .false.                !! the colour of a line is that of its last column
@@ -84,6 +86,7 @@ module ek_figure
       integer :: height = 420                         !! height of a row of panels [pixels]
       integer :: left = 110, right = 30, bottom = 80, top = 34      !! margins of a panel [pixels]
       integer :: letters = 15                         !! size of the font
+      character(1) :: separator = ' '                 !! of the columns of data, as in the files of its sources
       character(:), allocatable :: scale_label        !! label of one scale for the colours of all panels; not allocated: none
    end type figure_t
 
@@ -143,6 +146,19 @@ contains
       if (present(title)) series%title = title
       call append(panel, series)
    end subroutine add_series
+
+   !> Appends a series that gnuplot reads from a file or computes.
+   pure subroutine add_source(panel, source, title)
+      type(panel_t), intent(inout) :: panel
+      character(*), intent(in) :: source              !! element of a plot command
+      character(*), intent(in), optional :: title
+      type(series_t) :: series
+
+      series%source = source
+      allocate (series%values(0, 0))
+      if (present(title)) series%title = title
+      call append(panel, series)
+   end subroutine add_source
 
    !> Appends a series to a panel, by copies that keep the other series.
    pure subroutine append(panel, series)
@@ -223,7 +239,8 @@ contains
       type(series_t), intent(in) :: series
       integer :: k
 
-      has_values = .false.
+      has_values = allocated(series%source)
+      if (has_values) return
       do k = 1, size(series%values, 2)
          if (all(ieee_is_finite(series%values(:2, k)))) has_values = .true.
       end do

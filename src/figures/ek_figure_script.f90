@@ -26,11 +26,11 @@ contains
       type(buffer_t) :: script
       integer :: p, s
 
-      call begin_script(script, figure%name, figure%title, 'whitespace')
+      call begin_script(script, figure%name, figure%title, trim(merge('comma     ', 'whitespace', figure%separator == ',')))
       call script%line('unset key; set style fill solid 1 noborder')
       do p = 1, size(figure%panels)
          do s = 1, size(figure%panels(p)%series)
-            call add_data(script, figure%panels(p), p, s)
+            call add_data(script, figure%panels(p), p, s, figure%separator)
          end do
       end do
       call begin_formats(script, figure%name, figure%width, full_height(figure), figure%letters)
@@ -56,14 +56,15 @@ contains
    end function block_of
 
    !> Adds the data of a series, with seven digits. A gap is an empty line; in space, two empty lines.
-   pure subroutine add_data(script, panel, p, s)
+   pure subroutine add_data(script, panel, p, s, separator)
       type(buffer_t), intent(inout) :: script
       type(panel_t), intent(in) :: panel
       integer, intent(in) :: p, s
+      character(1), intent(in) :: separator
       integer :: row, column
 
       associate (series => panel%series(s))
-         if (.not. has_values(series)) return
+         if (.not. has_values(series) .or. allocated(series%source)) return
          call script%line(block_of(p, s)//' << EOD')
          do row = 1, size(series%values, 2)
             if (gap_row(series%values(:, row))) then
@@ -71,7 +72,7 @@ contains
                cycle
             end if
             do column = 1, size(series%values, 1)
-               if (column > 1) call script%add(' ')
+               if (column > 1) call script%add(separator)
                call add_coordinate(script, series%values(column, row), 7)
             end do
             if (series%kind == as_labels) call script%add(' "'//field_of(series%labels%line(row))//'"')
@@ -261,7 +262,9 @@ contains
       do s = 1, size(panel%series)
          title = ' notitle'
          if (allocated(panel%series(s)%title)) title = ' title '//gnuplot_text(panel%series(s)%title)
-         if (has_values(panel%series(s))) then
+         if (allocated(panel%series(s)%source)) then
+            line = line//', \'//nl//'     '//panel%series(s)%source//title
+         else if (has_values(panel%series(s))) then
             line = line//', \'//nl//'     '//block_of(p, s)//' '//look_of(panel, panel%series(s))//title
          else if (allocated(panel%series(s)%title)) then       ! gnuplot refuses data without a value; the legend has the name
             line = line//', \'//nl//'     NaN '//look_of(panel, panel%series(s), is_empty=.true.)//title

@@ -1,4 +1,4 @@
-# Front axle with push rods and rockers: carmaker: points of the exported file over curves that were solved separately
+# Front axle with push rods and rockers: carmaker
 #
 #     gnuplot push_carmaker.gp
 #
@@ -14,8 +14,8 @@ set tics out nomirror scale 6.00000E-01 textcolor rgb '#404040'
 set grid linetype 1 linecolor rgb '#E6E6E6' linewidth 1
 set xzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
 set yzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
-set key at screen 8.00000E-03, screen 9.98000E-01 left top Left reverse horizontal
-$curve1 << EOD
+unset key; set style fill solid 1 noborder
+$s1_1 << EOD
 -9.99434E+00 2.36250E-01
 -9.68192E+00 2.28817E-01
 -9.36949E+00 2.21387E-01
@@ -30,24 +30,24 @@ $curve1 << EOD
 -6.55800E+00 1.54666E-01
 -6.24564E+00 1.47269E-01
 -5.93329E+00 1.39875E-01
--5.62095E+00 1.32484E-01
+-5.62095E+00 1.32485E-01
 -5.30861E+00 1.25097E-01
 -4.99629E+00 1.17713E-01
--4.68397E+00 1.10332E-01
+-4.68396E+00 1.10332E-01
 -4.37165E+00 1.02955E-01
 -4.05934E+00 9.55801E-02
 -3.74704E+00 8.82089E-02
 -3.43475E+00 8.08408E-02
--3.12246E+00 7.34760E-02
--2.81019E+00 6.61143E-02
+-3.12247E+00 7.34760E-02
+-2.81019E+00 6.61142E-02
 -2.49791E+00 5.87557E-02
 -2.18565E+00 5.14003E-02
 -1.87339E+00 4.40481E-02
 -1.56114E+00 3.66989E-02
 -1.24890E+00 2.93529E-02
 -9.36663E-01 2.20101E-02
--6.24434E-01 1.46703E-02
--3.12214E-01 7.33360E-03
+-6.24435E-01 1.46703E-02
+-3.12213E-01 7.33360E-03
 0 0
 3.07403E-01 -7.21777E-03
 6.14799E-01 -1.44326E-02
@@ -62,12 +62,12 @@ $curve1 << EOD
 3.38103E+00 -7.92339E-02
 3.68835E+00 -8.64196E-02
 3.99566E+00 -9.36025E-02
-4.30297E+00 -1.00783E-01
+4.30297E+00 -1.00782E-01
 4.61027E+00 -1.07960E-01
 4.91756E+00 -1.15134E-01
 5.22484E+00 -1.22306E-01
 5.53212E+00 -1.29474E-01
-5.83939E+00 -1.36641E-01
+5.83939E+00 -1.36640E-01
 6.14665E+00 -1.43804E-01
 6.45390E+00 -1.50964E-01
 6.76114E+00 -1.58122E-01
@@ -87,7 +87,7 @@ $curve1 << EOD
 1.10617E+01 -2.58053E-01
 1.13688E+01 -2.65172E-01
 1.16759E+01 -2.72288E-01
-1.19830E+01 -2.79401E-01
+1.19831E+01 -2.79402E-01
 1.22901E+01 -2.86513E-01
 1.25972E+01 -2.93622E-01
 1.29043E+01 -3.00728E-01
@@ -115,7 +115,7 @@ $curve1 << EOD
 1.96578E+01 -4.56507E-01
 1.99647E+01 -4.63565E-01
 EOD
-$curve2 << EOD
+$s2_1 << EOD
 -9.99434E+00 3.34655E-02
 -9.68192E+00 3.67308E-02
 -9.36949E+00 3.97174E-02
@@ -133,12 +133,12 @@ $curve2 << EOD
 -5.62095E+00 5.38422E-02
 -5.30861E+00 5.32113E-02
 -4.99629E+00 5.23024E-02
--4.68397E+00 5.11157E-02
+-4.68396E+00 5.11157E-02
 -4.37165E+00 4.96511E-02
 -4.05934E+00 4.79088E-02
 -3.74704E+00 4.58887E-02
 -3.43475E+00 4.35909E-02
--3.12246E+00 4.10155E-02
+-3.12247E+00 4.10155E-02
 -2.81019E+00 3.81625E-02
 -2.49791E+00 3.50319E-02
 -2.18565E+00 3.16238E-02
@@ -146,8 +146,8 @@ $curve2 << EOD
 -1.56114E+00 2.39752E-02
 -1.24890E+00 1.97348E-02
 -9.36663E-01 1.52170E-02
--6.24434E-01 1.04219E-02
--3.12214E-01 5.34959E-03
+-6.24435E-01 1.04219E-02
+-3.12213E-01 5.34959E-03
 0 0
 3.07403E-01 -5.53813E-03
 6.14799E-01 -1.13450E-02
@@ -167,7 +167,7 @@ $curve2 << EOD
 4.91756E+00 -1.20836E-01
 5.22484E+00 -1.30670E-01
 5.53212E+00 -1.40771E-01
-5.83939E+00 -1.51141E-01
+5.83939E+00 -1.51142E-01
 6.14665E+00 -1.61780E-01
 6.45390E+00 -1.72686E-01
 6.76114E+00 -1.83860E-01
@@ -176,10 +176,10 @@ $curve2 << EOD
 7.68283E+00 -2.18992E-01
 7.99004E+00 -2.31239E-01
 8.29724E+00 -2.43754E-01
-8.60444E+00 -2.56536E-01
+8.60444E+00 -2.56537E-01
 8.91163E+00 -2.69587E-01
 9.21881E+00 -2.82906E-01
-9.52598E+00 -2.96493E-01
+9.52598E+00 -2.96492E-01
 9.83314E+00 -3.10347E-01
 1.01403E+01 -3.24470E-01
 1.04474E+01 -3.38860E-01
@@ -187,7 +187,7 @@ $curve2 << EOD
 1.10617E+01 -3.68444E-01
 1.13688E+01 -3.83638E-01
 1.16759E+01 -3.99100E-01
-1.19830E+01 -4.14830E-01
+1.19831E+01 -4.14830E-01
 1.22901E+01 -4.30827E-01
 1.25972E+01 -4.47093E-01
 1.29043E+01 -4.63626E-01
@@ -215,7 +215,7 @@ $curve2 << EOD
 1.96578E+01 -8.95093E-01
 1.99647E+01 -9.17784E-01
 EOD
-$curve3 << EOD
+$s3_1 << EOD
 -9.99434E+00 1.40822E-01
 -9.68192E+00 1.48713E-01
 -9.36949E+00 1.56617E-01
@@ -233,27 +233,27 @@ $curve3 << EOD
 -5.62095E+00 2.52513E-01
 -5.30861E+00 2.60592E-01
 -4.99629E+00 2.68684E-01
--4.68397E+00 2.76790E-01
+-4.68396E+00 2.76790E-01
 -4.37165E+00 2.84909E-01
 -4.05934E+00 2.93042E-01
 -3.74704E+00 3.01188E-01
--3.43475E+00 3.09348E-01
--3.12246E+00 3.17521E-01
+-3.43475E+00 3.09347E-01
+-3.12247E+00 3.17521E-01
 -2.81019E+00 3.25708E-01
 -2.49791E+00 3.33908E-01
 -2.18565E+00 3.42122E-01
 -1.87339E+00 3.50349E-01
--1.56114E+00 3.58591E-01
+-1.56114E+00 3.58590E-01
 -1.24890E+00 3.66845E-01
 -9.36663E-01 3.75113E-01
--6.24434E-01 3.83395E-01
--3.12214E-01 3.91691E-01
+-6.24435E-01 3.83395E-01
+-3.12213E-01 3.91691E-01
 0 4.00000E-01
 3.07403E-01 4.08195E-01
-6.14799E-01 4.16402E-01
+6.14799E-01 4.16403E-01
 9.22187E-01 4.24624E-01
 1.22957E+00 4.32858E-01
-1.53694E+00 4.41106E-01
+1.53694E+00 4.41105E-01
 1.84431E+00 4.49366E-01
 2.15167E+00 4.57641E-01
 2.45902E+00 4.65928E-01
@@ -263,31 +263,31 @@ $curve3 << EOD
 3.68835E+00 4.99211E-01
 3.99566E+00 5.07565E-01
 4.30297E+00 5.15932E-01
-4.61027E+00 5.24313E-01
-4.91756E+00 5.32707E-01
+4.61027E+00 5.24312E-01
+4.91756E+00 5.32706E-01
 5.22484E+00 5.41114E-01
 5.53212E+00 5.49535E-01
 5.83939E+00 5.57969E-01
 6.14665E+00 5.66416E-01
 6.45390E+00 5.74877E-01
-6.76114E+00 5.83351E-01
+6.76114E+00 5.83352E-01
 7.06838E+00 5.91839E-01
 7.37561E+00 6.00340E-01
 7.68283E+00 6.08855E-01
 7.99004E+00 6.17383E-01
-8.29724E+00 6.25925E-01
+8.29724E+00 6.25924E-01
 8.60444E+00 6.34479E-01
 8.91163E+00 6.43048E-01
 9.21881E+00 6.51630E-01
 9.52598E+00 6.60225E-01
 9.83314E+00 6.68834E-01
-1.01403E+01 6.77456E-01
+1.01403E+01 6.77457E-01
 1.04474E+01 6.86092E-01
 1.07546E+01 6.94742E-01
 1.10617E+01 7.03405E-01
 1.13688E+01 7.12081E-01
 1.16759E+01 7.20771E-01
-1.19830E+01 7.29475E-01
+1.19831E+01 7.29475E-01
 1.22901E+01 7.38192E-01
 1.25972E+01 7.46923E-01
 1.29043E+01 7.55667E-01
@@ -315,7 +315,7 @@ $curve3 << EOD
 1.96578E+01 9.51498E-01
 1.99647E+01 9.60557E-01
 EOD
-$curve4 << EOD
+$s4_1 << EOD
 -9.99434E+00 -1.03497E-01
 -9.68192E+00 -1.03363E-01
 -9.36949E+00 -1.03230E-01
@@ -324,7 +324,7 @@ $curve4 << EOD
 -8.43227E+00 -1.02842E-01
 -8.11987E+00 -1.02716E-01
 -7.80748E+00 -1.02591E-01
--7.49510E+00 -1.02468E-01
+-7.49510E+00 -1.02469E-01
 -7.18273E+00 -1.02347E-01
 -6.87036E+00 -1.02228E-01
 -6.55800E+00 -1.02110E-01
@@ -333,12 +333,12 @@ $curve4 << EOD
 -5.62095E+00 -1.01766E-01
 -5.30861E+00 -1.01654E-01
 -4.99629E+00 -1.01544E-01
--4.68397E+00 -1.01436E-01
+-4.68396E+00 -1.01436E-01
 -4.37165E+00 -1.01330E-01
 -4.05934E+00 -1.01224E-01
 -3.74704E+00 -1.01121E-01
 -3.43475E+00 -1.01019E-01
--3.12246E+00 -1.00919E-01
+-3.12247E+00 -1.00919E-01
 -2.81019E+00 -1.00820E-01
 -2.49791E+00 -1.00723E-01
 -2.18565E+00 -1.00627E-01
@@ -346,8 +346,8 @@ $curve4 << EOD
 -1.56114E+00 -1.00440E-01
 -1.24890E+00 -1.00349E-01
 -9.36663E-01 -1.00260E-01
--6.24434E-01 -1.00172E-01
--3.12214E-01 -1.00085E-01
+-6.24435E-01 -1.00171E-01
+-3.12213E-01 -1.00085E-01
 0 -1.00000E-01
 3.07403E-01 -9.99178E-02
 6.14799E-01 -9.98370E-02
@@ -387,7 +387,7 @@ $curve4 << EOD
 1.10617E+01 -9.79017E-02
 1.13688E+01 -9.78670E-02
 1.16759E+01 -9.78335E-02
-1.19830E+01 -9.78011E-02
+1.19831E+01 -9.78011E-02
 1.22901E+01 -9.77698E-02
 1.25972E+01 -9.77397E-02
 1.29043E+01 -9.77108E-02
@@ -407,7 +407,7 @@ $curve4 << EOD
 1.72025E+01 -9.74169E-02
 1.75094E+01 -9.74034E-02
 1.78164E+01 -9.73909E-02
-1.81233E+01 -9.73792E-02
+1.81233E+01 -9.73793E-02
 1.84302E+01 -9.73685E-02
 1.87371E+01 -9.73587E-02
 1.90440E+01 -9.73498E-02
@@ -415,7 +415,7 @@ $curve4 << EOD
 1.96578E+01 -9.73346E-02
 1.99647E+01 -9.73282E-02
 EOD
-$curve5 << EOD
+$s5_1 << EOD
 -9.99434E+00 2.31923E+02
 -9.68192E+00 2.31708E+02
 -9.36949E+00 2.31494E+02
@@ -424,7 +424,7 @@ $curve5 << EOD
 -8.43227E+00 2.30849E+02
 -8.11987E+00 2.30634E+02
 -7.80748E+00 2.30419E+02
--7.49510E+00 2.30204E+02
+-7.49510E+00 2.30203E+02
 -7.18273E+00 2.29988E+02
 -6.87036E+00 2.29773E+02
 -6.55800E+00 2.29557E+02
@@ -432,13 +432,13 @@ $curve5 << EOD
 -5.93329E+00 2.29125E+02
 -5.62095E+00 2.28909E+02
 -5.30861E+00 2.28693E+02
--4.99629E+00 2.28477E+02
--4.68397E+00 2.28260E+02
+-4.99629E+00 2.28476E+02
+-4.68396E+00 2.28260E+02
 -4.37165E+00 2.28044E+02
 -4.05934E+00 2.27827E+02
 -3.74704E+00 2.27610E+02
 -3.43475E+00 2.27393E+02
--3.12246E+00 2.27176E+02
+-3.12247E+00 2.27176E+02
 -2.81019E+00 2.26959E+02
 -2.49791E+00 2.26742E+02
 -2.18565E+00 2.26525E+02
@@ -446,8 +446,8 @@ $curve5 << EOD
 -1.56114E+00 2.26090E+02
 -1.24890E+00 2.25872E+02
 -9.36663E-01 2.25654E+02
--6.24434E-01 2.25436E+02
--3.12214E-01 2.25218E+02
+-6.24435E-01 2.25436E+02
+-3.12213E-01 2.25218E+02
 0 225
 3.07403E-01 2.24785E+02
 6.14799E-01 2.24570E+02
@@ -487,7 +487,7 @@ $curve5 << EOD
 1.10617E+01 2.17198E+02
 1.13688E+01 2.16979E+02
 1.16759E+01 2.16761E+02
-1.19830E+01 2.16542E+02
+1.19831E+01 2.16542E+02
 1.22901E+01 2.16323E+02
 1.25972E+01 2.16104E+02
 1.29043E+01 2.15885E+02
@@ -515,7 +515,7 @@ $curve5 << EOD
 1.96578E+01 2.11048E+02
 1.99647E+01 2.10827E+02
 EOD
-$curve6 << EOD
+$s6_1 << EOD
 -10 -5.20815E+00
 -9.79592E+00 -5.10358E+00
 -9.59184E+00 -4.99904E+00
@@ -544,7 +544,7 @@ $curve6 << EOD
 -4.89796E+00 -2.59891E+00
 -4.69388E+00 -2.49471E+00
 -4.48980E+00 -2.39052E+00
--4.28571E+00 -2.28634E+00
+-4.28571E+00 -2.28633E+00
 -4.08163E+00 -2.18216E+00
 -3.87755E+00 -2.07800E+00
 -3.67347E+00 -1.97384E+00
@@ -556,12 +556,12 @@ $curve6 << EOD
 -2.44898E+00 -1.34905E+00
 -2.24490E+00 -1.24494E+00
 -2.04082E+00 -1.14083E+00
--1.83673E+00 -1.03673E+00
+-1.83674E+00 -1.03673E+00
 -1.63265E+00 -9.32639E-01
 -1.42857E+00 -8.28548E-01
 -1.22449E+00 -7.24461E-01
 -1.02041E+00 -6.20377E-01
--8.16327E-01 -5.16297E-01
+-8.16326E-01 -5.16297E-01
 -6.12245E-01 -4.12219E-01
 -4.08163E-01 -3.08144E-01
 -2.04082E-01 -2.04071E-01
@@ -571,7 +571,7 @@ $curve6 << EOD
 6.25000E-01 2.18711E-01
 8.33333E-01 3.24946E-01
 1.04167E+00 4.31182E-01
-1.25000E+00 5.37418E-01
+1.25000E+00 5.37417E-01
 1.45833E+00 6.43654E-01
 1.66667E+00 7.49892E-01
 1.87500E+00 8.56131E-01
@@ -615,17 +615,17 @@ $curve6 << EOD
 9.79167E+00 4.89785E+00
 10 5.00443E+00
 EOD
-$curve7 << EOD
--10 6.75985E-01
+$s7_1 << EOD
+-10 6.75986E-01
 -9.79592E+00 6.70809E-01
 -9.59184E+00 6.65614E-01
 -9.38776E+00 6.60400E-01
 -9.18367E+00 6.55167E-01
 -8.97959E+00 6.49914E-01
 -8.77551E+00 6.44643E-01
--8.57143E+00 6.39353E-01
+-8.57143E+00 6.39352E-01
 -8.36735E+00 6.34043E-01
--8.16327E+00 6.28715E-01
+-8.16327E+00 6.28714E-01
 -7.95918E+00 6.23367E-01
 -7.75510E+00 6.18000E-01
 -7.55102E+00 6.12615E-01
@@ -635,7 +635,7 @@ $curve7 << EOD
 -6.73469E+00 5.90882E-01
 -6.53061E+00 5.85402E-01
 -6.32653E+00 5.79902E-01
--6.12245E+00 5.74383E-01
+-6.12245E+00 5.74384E-01
 -5.91837E+00 5.68846E-01
 -5.71429E+00 5.63289E-01
 -5.51020E+00 5.57714E-01
@@ -656,19 +656,19 @@ $curve7 << EOD
 -2.44898E+00 4.71803E-01
 -2.24490E+00 4.65923E-01
 -2.04082E+00 4.60025E-01
--1.83673E+00 4.54108E-01
+-1.83674E+00 4.54108E-01
 -1.63265E+00 4.48172E-01
 -1.42857E+00 4.42217E-01
 -1.22449E+00 4.36243E-01
 -1.02041E+00 4.30250E-01
--8.16327E-01 4.24238E-01
+-8.16326E-01 4.24238E-01
 -6.12245E-01 4.18207E-01
 -4.08163E-01 4.12157E-01
 -2.04082E-01 4.06088E-01
 0 4.00000E-01
 2.08333E-01 3.93766E-01
-4.16667E-01 3.87511E-01
-6.25000E-01 3.81237E-01
+4.16667E-01 3.87512E-01
+6.25000E-01 3.81238E-01
 8.33333E-01 3.74944E-01
 1.04167E+00 3.68630E-01
 1.25000E+00 3.62297E-01
@@ -700,22 +700,22 @@ $curve7 << EOD
 6.66667E+00 1.90660E-01
 6.87500E+00 1.83790E-01
 7.08333E+00 1.76900E-01
-7.29167E+00 1.69990E-01
+7.29167E+00 1.69989E-01
 7.50000E+00 1.63059E-01
 7.70833E+00 1.56109E-01
 7.91667E+00 1.49139E-01
 8.12500E+00 1.42149E-01
 8.33333E+00 1.35138E-01
 8.54167E+00 1.28108E-01
-8.75000E+00 1.21058E-01
+8.75000E+00 1.21057E-01
 8.95833E+00 1.13987E-01
-9.16667E+00 1.06896E-01
+9.16667E+00 1.06897E-01
 9.37500E+00 9.97858E-02
 9.58333E+00 9.26551E-02
 9.79167E+00 8.55042E-02
 10 7.83332E-02
 EOD
-$curve8 << EOD
+$s8_1 << EOD
 -1000 -5.37203E-01
 -900 -4.83517E-01
 -800 -4.29823E-01
@@ -738,7 +738,7 @@ $curve8 << EOD
 900 4.84126E-01
 1000 5.37955E-01
 EOD
-$curve9 << EOD
+$s9_1 << EOD
 -1000 -2.90113E-02
 -900 -2.61084E-02
 -800 -2.32059E-02
@@ -761,7 +761,7 @@ $curve9 << EOD
 900 2.60771E-02
 1000 2.89727E-02
 EOD
-$curve10 << EOD
+$s10_1 << EOD
 -100 -1.32875E-02
 -90 -1.19591E-02
 -80 -1.06306E-02
@@ -784,7 +784,7 @@ $curve10 << EOD
 90 1.19659E-02
 100 1.32958E-02
 EOD
-$curve11 << EOD
+$s11_1 << EOD
 -100 -1.17453E-01
 -90 -1.05709E-01
 -80 -9.39647E-02
@@ -807,7 +807,7 @@ $curve11 << EOD
 90 1.05730E-01
 100 1.17480E-01
 EOD
-$curve12 << EOD
+$s12_1 << EOD
 -100 -1.09160E-01
 -90 -9.82436E-02
 -80 -8.73274E-02
@@ -832,83 +832,186 @@ $curve12 << EOD
 EOD
 
 do for [format in formats] {
-if (format eq 'png') { set terminal pngcairo size 1500, 1740 font 'sans-serif,11' noenhanced }
-if (format eq 'svg') { set terminal svg size 1500, 1740 font 'sans-serif,11' noenhanced background 'white' }
-if (format eq 'pdf') { set terminal pdfcairo size 30cm, 34cm font 'sans-serif,11' noenhanced }
+if (format eq 'png') { set terminal pngcairo size 1500, 1688 font 'sans-serif,12' noenhanced }
+if (format eq 'svg') { set terminal svg size 1500, 1688 font 'sans-serif,12' noenhanced background 'white' }
+if (format eq 'pdf') { set terminal pdfcairo size 30cm, 33cm font 'sans-serif,12' noenhanced }
 set output 'push_carmaker.'.format
-   set multiplot layout 4, 3 title 'Front axle with push rods and rockers: carmaker'
-   set title 'tx over travel, side L'
-   set xlabel 'wheel centre, height [mm]'
-   set ylabel 'tx [mm]'
-   set yrange [*:*]
-   plot $curve1 using 1:2 with lines linecolor rgb '#D55E00' linewidth 2 title 'solved separately', \
-      'push.skc' skip 27 every ::0:0:14:0 using ($2==1 ? $5*1000 : NaN):($3*1000) with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#0072B2' title 'written file'
-   set title 'ty over travel, side L'
-   set xlabel 'wheel centre, height [mm]'
-   set ylabel 'ty [mm]'
-   set yrange [*:*]
-   plot $curve2 using 1:2 with lines linecolor rgb '#D55E00' linewidth 2 title '', \
-      'push.skc' skip 27 every ::0:0:14:0 using ($2==1 ? $5*1000 : NaN):($4*1000) with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#0072B2' title ''
-   set title 'rx over travel, side L'
-   set xlabel 'wheel centre, height [mm]'
-   set ylabel 'rx [deg]'
-   set yrange [*:*]
-   plot $curve3 using 1:2 with lines linecolor rgb '#D55E00' linewidth 2 title '', \
-      'push.skc' skip 27 every ::0:0:14:0 using ($2==1 ? $5*1000 : NaN):($6*5.72958E+01) with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#0072B2' title ''
-   set title 'rz over travel, side L'
-   set xlabel 'wheel centre, height [mm]'
-   set ylabel 'rz [deg]'
-   set yrange [*:*]
-   plot $curve4 using 1:2 with lines linecolor rgb '#D55E00' linewidth 2 title '', \
-      'push.skc' skip 27 every ::0:0:14:0 using ($2==1 ? $5*1000 : NaN):($8*5.72958E+01) with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#0072B2' title ''
-   set title 'lSpring over travel, side L'
-   set xlabel 'wheel centre, height [mm]'
-   set ylabel 'lSpring [mm]'
-   set yrange [*:*]
-   plot $curve5 using 1:2 with lines linecolor rgb '#D55E00' linewidth 2 title '', \
-      'push.skc' skip 27 every ::0:0:14:0 using ($2==1 ? $5*1000 : NaN):($9*1000) with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#0072B2' title ''
-   set title 'rz over steer, side L'
-   set xlabel 'steer, driver [mm]'
-   set ylabel 'rz [deg]'
-   set yrange [*:*]
-   plot $curve6 using 1:2 with lines linecolor rgb '#D55E00' linewidth 2 title '', \
-      'push.skc' skip 27 every ::0:0:14:0 using ($1==1 ? word("-10 0 10", int($2)+1)+0 : NaN):($8*5.72958E+01) with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#0072B2' title ''
-   set title 'rx over steer, side L'
-   set xlabel 'steer, driver [mm]'
-   set ylabel 'rx [deg]'
-   set yrange [*:*]
-   plot $curve7 using 1:2 with lines linecolor rgb '#D55E00' linewidth 2 title '', \
-      'push.skc' skip 27 every ::0:0:14:0 using ($1==1 ? word("-10 0 10", int($2)+1)+0 : NaN):($6*5.72958E+01) with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#0072B2' title ''
-   set title 'Com Frc.x → tx'
-   set xlabel 'N'
-   set ylabel 'mm'
-   set yrange [*:*]
-   plot $curve8 using 1:2 with lines linecolor rgb '#D55E00' linewidth 2 title '', \
-      5.37579E-04*x with lines dashtype 2 linewidth 2 linecolor rgb '#0072B2' title ''
-   set title 'Com Frc.y → ty'
-   set xlabel 'N'
-   set ylabel 'mm'
-   set yrange [*:*]
-   plot $curve9 using 1:2 with lines linecolor rgb '#D55E00' linewidth 2 title '', \
-      2.89918E-05*x with lines dashtype 2 linewidth 2 linecolor rgb '#0072B2' title ''
-   set title 'Com Trq.x → rx'
-   set xlabel 'N m'
-   set ylabel 'deg'
-   set yrange [*:*]
-   plot $curve10 using 1:2 with lines linecolor rgb '#D55E00' linewidth 2 title '', \
-      1.32880E-04*x with lines dashtype 2 linewidth 2 linecolor rgb '#0072B2' title ''
-   set title 'Com Trq.y → ry'
-   set xlabel 'N m'
-   set ylabel 'deg'
-   set yrange [*:*]
-   plot $curve11 using 1:2 with lines linecolor rgb '#D55E00' linewidth 2 title '', \
-      1.17467E-03*x with lines dashtype 2 linewidth 2 linecolor rgb '#0072B2' title ''
-   set title 'Com Trq.z → rz'
-   set xlabel 'N m'
-   set ylabel 'deg'
-   set yrange [*:*]
-   plot $curve12 using 1:2 with lines linecolor rgb '#D55E00' linewidth 2 title '', \
-      1.09108E-03*x with lines dashtype 2 linewidth 2 linecolor rgb '#0072B2' title ''
-   unset multiplot
+set label 1 'Front axle with push rods and rockers: carmaker' at screen 2.00000E-02, screen 9.82230E-01 font 'sans-serif:Bold,20' textcolor rgb '#202020'
+set label 2 'points of the exported file over curves that were solved separately' at screen 2.00000E-02, screen 9.64450E-01 font 'sans-serif,14' textcolor rgb '#606060'
+set multiplot
+set palette defined (0 '#440154', 2.50000E-01 '#3B528B', 5.00000E-01 '#21918C', 7.50000E-01 '#5EC962', 1 '#E8D000')
+set key at screen 9.70000E-01, screen 9.92890E-01 right top samplen 1.60000E+00 textcolor rgb '#404040'
+unset colorbox
+
+set lmargin at screen 7.33330E-02; set rmargin at screen 3.13330E-01; set bmargin at screen 7.58290E-01; set tmargin at screen 9.27730E-01
+set title 'tx over travel, side L' offset 0, -4.00000E-01 font 'sans-serif:Bold,12' textcolor rgb '#202020'
+set xlabel 'wheel centre, height [mm]' offset 0, 3.00000E-01 textcolor rgb '#404040'
+set ylabel 'tx [mm]' offset 6.00000E-01, 0 textcolor rgb '#404040'
+set xtics scale 6.00000E-01 autofreq; set grid xtics; unset logscale x; set format x
+set yzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
+set xrange [*:*]
+set ytics scale 6.00000E-01 autofreq; set grid ytics; unset logscale y; set format y
+set xzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
+set yrange [*:*]
+set border 3
+plot $s1_1 using 1:2 with lines linewidth 2 linecolor rgb '#D55E00' title 'solved separately', \
+     'push.skc' skip 27 every ::0:0:14:0 using ($2==1 ? $5*1000 : NaN):($3*1000) with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#0072B2' title 'written file'
+unset label 1; unset label 2; unset label 9; unset key
+
+set lmargin at screen 4.06670E-01; set rmargin at screen 6.46670E-01; set bmargin at screen 7.58290E-01; set tmargin at screen 9.27730E-01
+set title 'ty over travel, side L' offset 0, -4.00000E-01 font 'sans-serif:Bold,12' textcolor rgb '#202020'
+set xlabel 'wheel centre, height [mm]' offset 0, 3.00000E-01 textcolor rgb '#404040'
+set ylabel 'ty [mm]' offset 6.00000E-01, 0 textcolor rgb '#404040'
+set xtics scale 6.00000E-01 autofreq; set grid xtics; unset logscale x; set format x
+set yzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
+set xrange [*:*]
+set ytics scale 6.00000E-01 autofreq; set grid ytics; unset logscale y; set format y
+set xzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
+set yrange [*:*]
+set border 3
+plot $s2_1 using 1:2 with lines linewidth 2 linecolor rgb '#D55E00' title 'solved separately', \
+     'push.skc' skip 27 every ::0:0:14:0 using ($2==1 ? $5*1000 : NaN):($4*1000) with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#0072B2' title 'written file'
+
+set lmargin at screen 7.40000E-01; set rmargin at screen 9.80000E-01; set bmargin at screen 7.58290E-01; set tmargin at screen 9.27730E-01
+set title 'rx over travel, side L' offset 0, -4.00000E-01 font 'sans-serif:Bold,12' textcolor rgb '#202020'
+set xlabel 'wheel centre, height [mm]' offset 0, 3.00000E-01 textcolor rgb '#404040'
+set ylabel 'rx [deg]' offset 6.00000E-01, 0 textcolor rgb '#404040'
+set xtics scale 6.00000E-01 autofreq; set grid xtics; unset logscale x; set format x
+set yzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
+set xrange [*:*]
+set ytics scale 6.00000E-01 autofreq; set grid ytics; unset logscale y; set format y
+set xzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
+set yrange [*:*]
+set border 3
+plot $s3_1 using 1:2 with lines linewidth 2 linecolor rgb '#D55E00' title 'solved separately', \
+     'push.skc' skip 27 every ::0:0:14:0 using ($2==1 ? $5*1000 : NaN):($6*5.72958E+01) with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#0072B2' title 'written file'
+
+set lmargin at screen 7.33330E-02; set rmargin at screen 3.13330E-01; set bmargin at screen 5.21330E-01; set tmargin at screen 6.90760E-01
+set title 'rz over travel, side L' offset 0, -4.00000E-01 font 'sans-serif:Bold,12' textcolor rgb '#202020'
+set xlabel 'wheel centre, height [mm]' offset 0, 3.00000E-01 textcolor rgb '#404040'
+set ylabel 'rz [deg]' offset 6.00000E-01, 0 textcolor rgb '#404040'
+set xtics scale 6.00000E-01 autofreq; set grid xtics; unset logscale x; set format x
+set yzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
+set xrange [*:*]
+set ytics scale 6.00000E-01 autofreq; set grid ytics; unset logscale y; set format y
+set xzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
+set yrange [*:*]
+set border 3
+plot $s4_1 using 1:2 with lines linewidth 2 linecolor rgb '#D55E00' title 'solved separately', \
+     'push.skc' skip 27 every ::0:0:14:0 using ($2==1 ? $5*1000 : NaN):($8*5.72958E+01) with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#0072B2' title 'written file'
+
+set lmargin at screen 4.06670E-01; set rmargin at screen 6.46670E-01; set bmargin at screen 5.21330E-01; set tmargin at screen 6.90760E-01
+set title 'lSpring over travel, side L' offset 0, -4.00000E-01 font 'sans-serif:Bold,12' textcolor rgb '#202020'
+set xlabel 'wheel centre, height [mm]' offset 0, 3.00000E-01 textcolor rgb '#404040'
+set ylabel 'lSpring [mm]' offset 6.00000E-01, 0 textcolor rgb '#404040'
+set xtics scale 6.00000E-01 autofreq; set grid xtics; unset logscale x; set format x
+set yzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
+set xrange [*:*]
+set ytics scale 6.00000E-01 autofreq; set grid ytics; unset logscale y; set format y
+set xzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
+set yrange [*:*]
+set border 3
+plot $s5_1 using 1:2 with lines linewidth 2 linecolor rgb '#D55E00' title 'solved separately', \
+     'push.skc' skip 27 every ::0:0:14:0 using ($2==1 ? $5*1000 : NaN):($9*1000) with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#0072B2' title 'written file'
+
+set lmargin at screen 7.40000E-01; set rmargin at screen 9.80000E-01; set bmargin at screen 5.21330E-01; set tmargin at screen 6.90760E-01
+set title 'rz over steer, side L' offset 0, -4.00000E-01 font 'sans-serif:Bold,12' textcolor rgb '#202020'
+set xlabel 'steer, driver [mm]' offset 0, 3.00000E-01 textcolor rgb '#404040'
+set ylabel 'rz [deg]' offset 6.00000E-01, 0 textcolor rgb '#404040'
+set xtics scale 6.00000E-01 autofreq; set grid xtics; unset logscale x; set format x
+set yzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
+set xrange [*:*]
+set ytics scale 6.00000E-01 autofreq; set grid ytics; unset logscale y; set format y
+set xzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
+set yrange [*:*]
+set border 3
+plot $s6_1 using 1:2 with lines linewidth 2 linecolor rgb '#D55E00' title 'solved separately', \
+     'push.skc' skip 27 every ::0:0:14:0 using ($1==1 ? word("-10 0 10", int($2)+1)+0 : NaN):($8*5.72958E+01) with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#0072B2' title 'written file'
+
+set lmargin at screen 7.33330E-02; set rmargin at screen 3.13330E-01; set bmargin at screen 2.84360E-01; set tmargin at screen 4.53790E-01
+set title 'rx over steer, side L' offset 0, -4.00000E-01 font 'sans-serif:Bold,12' textcolor rgb '#202020'
+set xlabel 'steer, driver [mm]' offset 0, 3.00000E-01 textcolor rgb '#404040'
+set ylabel 'rx [deg]' offset 6.00000E-01, 0 textcolor rgb '#404040'
+set xtics scale 6.00000E-01 autofreq; set grid xtics; unset logscale x; set format x
+set yzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
+set xrange [*:*]
+set ytics scale 6.00000E-01 autofreq; set grid ytics; unset logscale y; set format y
+set xzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
+set yrange [*:*]
+set border 3
+plot $s7_1 using 1:2 with lines linewidth 2 linecolor rgb '#D55E00' title 'solved separately', \
+     'push.skc' skip 27 every ::0:0:14:0 using ($1==1 ? word("-10 0 10", int($2)+1)+0 : NaN):($6*5.72958E+01) with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#0072B2' title 'written file'
+
+set lmargin at screen 4.06670E-01; set rmargin at screen 6.46670E-01; set bmargin at screen 2.84360E-01; set tmargin at screen 4.53790E-01
+set title 'Com Frc.x → tx' offset 0, -4.00000E-01 font 'sans-serif:Bold,12' textcolor rgb '#202020'
+set xlabel 'N' offset 0, 3.00000E-01 textcolor rgb '#404040'
+set ylabel 'mm' offset 6.00000E-01, 0 textcolor rgb '#404040'
+set xtics scale 6.00000E-01 autofreq; set grid xtics; unset logscale x; set format x
+set yzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
+set xrange [*:*]
+set ytics scale 6.00000E-01 autofreq; set grid ytics; unset logscale y; set format y
+set xzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
+set yrange [*:*]
+set border 3
+plot $s8_1 using 1:2 with lines linewidth 2 linecolor rgb '#D55E00' title 'solved separately', \
+     5.37579E-04*x with lines dashtype 2 linewidth 2 linecolor rgb '#0072B2' title 'written file'
+
+set lmargin at screen 7.40000E-01; set rmargin at screen 9.80000E-01; set bmargin at screen 2.84360E-01; set tmargin at screen 4.53790E-01
+set title 'Com Frc.y → ty' offset 0, -4.00000E-01 font 'sans-serif:Bold,12' textcolor rgb '#202020'
+set xlabel 'N' offset 0, 3.00000E-01 textcolor rgb '#404040'
+set ylabel 'mm' offset 6.00000E-01, 0 textcolor rgb '#404040'
+set xtics scale 6.00000E-01 autofreq; set grid xtics; unset logscale x; set format x
+set yzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
+set xrange [*:*]
+set ytics scale 6.00000E-01 autofreq; set grid ytics; unset logscale y; set format y
+set xzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
+set yrange [*:*]
+set border 3
+plot $s9_1 using 1:2 with lines linewidth 2 linecolor rgb '#D55E00' title 'solved separately', \
+     2.89918E-05*x with lines dashtype 2 linewidth 2 linecolor rgb '#0072B2' title 'written file'
+
+set lmargin at screen 7.33330E-02; set rmargin at screen 3.13330E-01; set bmargin at screen 4.73930E-02; set tmargin at screen 2.16820E-01
+set title 'Com Trq.x → rx' offset 0, -4.00000E-01 font 'sans-serif:Bold,12' textcolor rgb '#202020'
+set xlabel 'N m' offset 0, 3.00000E-01 textcolor rgb '#404040'
+set ylabel 'deg' offset 6.00000E-01, 0 textcolor rgb '#404040'
+set xtics scale 6.00000E-01 autofreq; set grid xtics; unset logscale x; set format x
+set yzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
+set xrange [*:*]
+set ytics scale 6.00000E-01 autofreq; set grid ytics; unset logscale y; set format y
+set xzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
+set yrange [*:*]
+set border 3
+plot $s10_1 using 1:2 with lines linewidth 2 linecolor rgb '#D55E00' title 'solved separately', \
+     1.32880E-04*x with lines dashtype 2 linewidth 2 linecolor rgb '#0072B2' title 'written file'
+
+set lmargin at screen 4.06670E-01; set rmargin at screen 6.46670E-01; set bmargin at screen 4.73930E-02; set tmargin at screen 2.16820E-01
+set title 'Com Trq.y → ry' offset 0, -4.00000E-01 font 'sans-serif:Bold,12' textcolor rgb '#202020'
+set xlabel 'N m' offset 0, 3.00000E-01 textcolor rgb '#404040'
+set ylabel 'deg' offset 6.00000E-01, 0 textcolor rgb '#404040'
+set xtics scale 6.00000E-01 autofreq; set grid xtics; unset logscale x; set format x
+set yzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
+set xrange [*:*]
+set ytics scale 6.00000E-01 autofreq; set grid ytics; unset logscale y; set format y
+set xzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
+set yrange [*:*]
+set border 3
+plot $s11_1 using 1:2 with lines linewidth 2 linecolor rgb '#D55E00' title 'solved separately', \
+     1.17467E-03*x with lines dashtype 2 linewidth 2 linecolor rgb '#0072B2' title 'written file'
+
+set lmargin at screen 7.40000E-01; set rmargin at screen 9.80000E-01; set bmargin at screen 4.73930E-02; set tmargin at screen 2.16820E-01
+set title 'Com Trq.z → rz' offset 0, -4.00000E-01 font 'sans-serif:Bold,12' textcolor rgb '#202020'
+set xlabel 'N m' offset 0, 3.00000E-01 textcolor rgb '#404040'
+set ylabel 'deg' offset 6.00000E-01, 0 textcolor rgb '#404040'
+set xtics scale 6.00000E-01 autofreq; set grid xtics; unset logscale x; set format x
+set yzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
+set xrange [*:*]
+set ytics scale 6.00000E-01 autofreq; set grid ytics; unset logscale y; set format y
+set xzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
+set yrange [*:*]
+set border 3
+plot $s12_1 using 1:2 with lines linewidth 2 linecolor rgb '#D55E00' title 'solved separately', \
+     1.09108E-03*x with lines dashtype 2 linewidth 2 linecolor rgb '#0072B2' title 'written file'
+unset multiplot
+unset label
 unset output
 }

@@ -1,4 +1,4 @@
-# McPherson front axle with rack, anti-roll bar and stops: carsim: points of the exported file over curves that were solved separately
+# McPherson front axle with rack, anti-roll bar and stops: carsim
 #
 #     gnuplot mcpherson_axle_carsim.gp
 #
@@ -14,11 +14,11 @@ set tics out nomirror scale 6.00000E-01 textcolor rgb '#404040'
 set grid linetype 1 linecolor rgb '#E6E6E6' linewidth 1
 set xzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
 set yzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
-set key at screen 8.00000E-03, screen 9.98000E-01 left top Left reverse horizontal
-$curve1 << EOD
+unset key; set style fill solid 1 noborder
+$s1_1 << EOD
 -9.99461E+00,1.22228E-01
 -9.68224E+00,1.21610E-01
--9.36987E+00,1.20986E-01
+-9.36988E+00,1.20986E-01
 -9.05751E+00,1.20358E-01
 -8.74515E+00,1.19724E-01
 -8.43279E+00,1.19085E-01
@@ -31,11 +31,11 @@ $curve1 << EOD
 -6.24634E+00,1.14477E-01
 -5.93401E+00,1.13799E-01
 -5.62167E+00,1.13116E-01
--5.30934E+00,1.12428E-01
+-5.30933E+00,1.12428E-01
 -4.99700E+00,1.11736E-01
 -4.68467E+00,1.11038E-01
 -4.37235E+00,1.10336E-01
--4.06002E+00,1.09628E-01
+-4.06002E+00,1.09629E-01
 -3.74770E+00,1.08916E-01
 -3.43538E+00,1.08200E-01
 -3.12306E+00,1.07478E-01
@@ -45,12 +45,12 @@ $curve1 << EOD
 -1.87381E+00,1.04544E-01
 -1.56151E+00,1.03798E-01
 -1.24920E+00,1.03048E-01
--9.36897E-01,1.02293E-01
+-9.36898E-01,1.02293E-01
 -6.24596E-01,1.01533E-01
 -3.12297E-01,1.00769E-01
 0,1.00000E-01
 3.07491E-01,9.92382E-02
-6.14980E-01,9.84719E-02
+6.14980E-01,9.84718E-02
 9.22467E-01,9.77010E-02
 1.22995E+00,9.69256E-02
 1.53744E+00,9.61457E-02
@@ -60,8 +60,8 @@ $curve1 << EOD
 2.76735E+00,9.29813E-02
 3.07483E+00,9.21790E-02
 3.38230E+00,9.13723E-02
-3.68977E+00,9.05611E-02
-3.99725E+00,8.97455E-02
+3.68978E+00,9.05611E-02
+3.99724E+00,8.97455E-02
 4.30471E+00,8.89255E-02
 4.61218E+00,8.81011E-02
 4.91965E+00,8.72722E-02
@@ -70,14 +70,14 @@ $curve1 << EOD
 5.84204E+00,8.47593E-02
 6.14950E+00,8.39130E-02
 6.45696E+00,8.30622E-02
-6.76442E+00,8.22071E-02
+6.76441E+00,8.22071E-02
 7.07187E+00,8.13477E-02
 7.37933E+00,8.04839E-02
 7.68678E+00,7.96158E-02
 7.99423E+00,7.87434E-02
 8.30169E+00,7.78666E-02
 8.60914E+00,7.69856E-02
-8.91659E+00,7.61002E-02
+8.91658E+00,7.61002E-02
 9.22403E+00,7.52106E-02
 9.53148E+00,7.43167E-02
 9.83893E+00,7.34185E-02
@@ -115,10 +115,10 @@ $curve1 << EOD
 1.96768E+01,4.24664E-02
 1.99842E+01,4.14314E-02
 EOD
-$curve2 << EOD
--9.99461E+00,-3.49066E-01
+$s2_1 << EOD
+-9.99461E+00,-3.49065E-01
 -9.68224E+00,-3.54150E-01
--9.36987E+00,-3.59212E-01
+-9.36988E+00,-3.59212E-01
 -9.05751E+00,-3.64250E-01
 -8.74515E+00,-3.69264E-01
 -8.43279E+00,-3.74255E-01
@@ -131,21 +131,21 @@ $curve2 << EOD
 -6.24634E+00,-4.08532E-01
 -5.93401E+00,-4.13334E-01
 -5.62167E+00,-4.18112E-01
--5.30934E+00,-4.22866E-01
+-5.30933E+00,-4.22866E-01
 -4.99700E+00,-4.27596E-01
 -4.68467E+00,-4.32303E-01
 -4.37235E+00,-4.36985E-01
 -4.06002E+00,-4.41644E-01
 -3.74770E+00,-4.46278E-01
 -3.43538E+00,-4.50888E-01
--3.12306E+00,-4.55474E-01
--2.81075E+00,-4.60036E-01
+-3.12306E+00,-4.55475E-01
+-2.81075E+00,-4.60037E-01
 -2.49843E+00,-4.64574E-01
 -2.18612E+00,-4.69088E-01
 -1.87381E+00,-4.73577E-01
 -1.56151E+00,-4.78042E-01
 -1.24920E+00,-4.82482E-01
--9.36897E-01,-4.86899E-01
+-9.36898E-01,-4.86899E-01
 -6.24596E-01,-4.91290E-01
 -3.12297E-01,-4.95657E-01
 0,-5.00000E-01
@@ -160,8 +160,8 @@ $curve2 << EOD
 2.76735E+00,-5.37404E-01
 3.07483E+00,-5.41439E-01
 3.38230E+00,-5.45450E-01
-3.68977E+00,-5.49437E-01
-3.99725E+00,-5.53400E-01
+3.68978E+00,-5.49437E-01
+3.99724E+00,-5.53400E-01
 4.30471E+00,-5.57338E-01
 4.61218E+00,-5.61252E-01
 4.91965E+00,-5.65142E-01
@@ -170,14 +170,14 @@ $curve2 << EOD
 5.84204E+00,-5.76663E-01
 6.14950E+00,-5.80454E-01
 6.45696E+00,-5.84220E-01
-6.76442E+00,-5.87962E-01
+6.76441E+00,-5.87962E-01
 7.07187E+00,-5.91679E-01
-7.37933E+00,-5.95371E-01
+7.37933E+00,-5.95372E-01
 7.68678E+00,-5.99039E-01
 7.99423E+00,-6.02681E-01
 8.30169E+00,-6.06299E-01
 8.60914E+00,-6.09891E-01
-8.91659E+00,-6.13459E-01
+8.91658E+00,-6.13459E-01
 9.22403E+00,-6.17001E-01
 9.53148E+00,-6.20518E-01
 9.83893E+00,-6.24011E-01
@@ -215,23 +215,23 @@ $curve2 << EOD
 1.96768E+01,-7.22173E-01
 1.99842E+01,-7.24806E-01
 EOD
-$curve3 << EOD
+$s3_1 << EOD
 -9.99461E+00,1.77473E-01
 -9.68224E+00,1.72456E-01
--9.36987E+00,1.67404E-01
+-9.36988E+00,1.67404E-01
 -9.05751E+00,1.62319E-01
 -8.74515E+00,1.57199E-01
 -8.43279E+00,1.52045E-01
 -8.12043E+00,1.46857E-01
--7.80808E+00,1.41635E-01
+-7.80808E+00,1.41634E-01
 -7.49573E+00,1.36378E-01
--7.18338E+00,1.31088E-01
+-7.18338E+00,1.31087E-01
 -6.87103E+00,1.25763E-01
 -6.55869E+00,1.20404E-01
 -6.24634E+00,1.15011E-01
 -5.93401E+00,1.09584E-01
 -5.62167E+00,1.04123E-01
--5.30934E+00,9.86275E-02
+-5.30933E+00,9.86275E-02
 -4.99700E+00,9.30982E-02
 -4.68467E+00,8.75348E-02
 -4.37235E+00,8.19373E-02
@@ -243,9 +243,9 @@ $curve3 << EOD
 -2.49843E+00,4.76375E-02
 -2.18612E+00,4.18018E-02
 -1.87381E+00,3.59321E-02
--1.56151E+00,3.00284E-02
+-1.56151E+00,3.00283E-02
 -1.24920E+00,2.40906E-02
--9.36897E-01,1.81189E-02
+-9.36898E-01,1.81189E-02
 -6.24596E-01,1.21133E-02
 -3.12297E-01,6.07362E-03
 0,0
@@ -253,31 +253,31 @@ $curve3 << EOD
 6.14980E-01,-1.20596E-02
 9.22467E-01,-1.81388E-02
 1.22995E+00,-2.42509E-02
-1.53744E+00,-3.03959E-02
+1.53744E+00,-3.03960E-02
 1.84492E+00,-3.65739E-02
 2.15240E+00,-4.27847E-02
 2.45988E+00,-4.90284E-02
 2.76735E+00,-5.53049E-02
 3.07483E+00,-6.16144E-02
 3.38230E+00,-6.79568E-02
-3.68977E+00,-7.43320E-02
-3.99725E+00,-8.07401E-02
-4.30471E+00,-8.71811E-02
+3.68978E+00,-7.43320E-02
+3.99724E+00,-8.07401E-02
+4.30471E+00,-8.71810E-02
 4.61218E+00,-9.36549E-02
 4.91965E+00,-1.00162E-01
 5.22711E+00,-1.06701E-01
-5.53458E+00,-1.13274E-01
+5.53458E+00,-1.13273E-01
 5.84204E+00,-1.19879E-01
 6.14950E+00,-1.26517E-01
 6.45696E+00,-1.33188E-01
-6.76442E+00,-1.39892E-01
+6.76441E+00,-1.39892E-01
 7.07187E+00,-1.46628E-01
 7.37933E+00,-1.53398E-01
 7.68678E+00,-1.60200E-01
 7.99423E+00,-1.67035E-01
 8.30169E+00,-1.73903E-01
 8.60914E+00,-1.80804E-01
-8.91659E+00,-1.87738E-01
+8.91658E+00,-1.87738E-01
 9.22403E+00,-1.94705E-01
 9.53148E+00,-2.01704E-01
 9.83893E+00,-2.08736E-01
@@ -315,10 +315,10 @@ $curve3 << EOD
 1.96768E+01,-4.51110E-01
 1.99842E+01,-4.59227E-01
 EOD
-$curve4 << EOD
+$s4_1 << EOD
 -9.99461E+00,3.02301E-01
 -9.68224E+00,2.96831E-01
--9.36987E+00,2.91104E-01
+-9.36988E+00,2.91104E-01
 -9.05751E+00,2.85121E-01
 -8.74515E+00,2.78881E-01
 -8.43279E+00,2.72384E-01
@@ -331,7 +331,7 @@ $curve4 << EOD
 -6.24634E+00,2.19726E-01
 -5.93401E+00,2.11177E-01
 -5.62167E+00,2.02371E-01
--5.30934E+00,1.93309E-01
+-5.30933E+00,1.93309E-01
 -4.99700E+00,1.83991E-01
 -4.68467E+00,1.74416E-01
 -4.37235E+00,1.64584E-01
@@ -345,7 +345,7 @@ $curve4 << EOD
 -1.87381E+00,7.66949E-02
 -1.56151E+00,6.45540E-02
 -1.24920E+00,5.21565E-02
--9.36897E-01,3.95024E-02
+-9.36898E-01,3.95024E-02
 -6.24596E-01,2.65916E-02
 -3.12297E-01,1.34241E-02
 0,0
@@ -360,24 +360,24 @@ $curve4 << EOD
 2.76735E+00,-1.30177E-01
 3.07483E+00,-1.45886E-01
 3.38230E+00,-1.61844E-01
-3.68977E+00,-1.78051E-01
-3.99725E+00,-1.94507E-01
+3.68978E+00,-1.78051E-01
+3.99724E+00,-1.94507E-01
 4.30471E+00,-2.11213E-01
 4.61218E+00,-2.28167E-01
 4.91965E+00,-2.45371E-01
-5.22711E+00,-2.62824E-01
+5.22711E+00,-2.62823E-01
 5.53458E+00,-2.80526E-01
 5.84204E+00,-2.98477E-01
-6.14950E+00,-3.16677E-01
+6.14950E+00,-3.16678E-01
 6.45696E+00,-3.35127E-01
-6.76442E+00,-3.53827E-01
+6.76441E+00,-3.53827E-01
 7.07187E+00,-3.72775E-01
 7.37933E+00,-3.91973E-01
 7.68678E+00,-4.11421E-01
 7.99423E+00,-4.31118E-01
 8.30169E+00,-4.51064E-01
 8.60914E+00,-4.71260E-01
-8.91659E+00,-4.91706E-01
+8.91658E+00,-4.91706E-01
 9.22403E+00,-5.12401E-01
 9.53148E+00,-5.33346E-01
 9.83893E+00,-5.54540E-01
@@ -407,7 +407,7 @@ $curve4 << EOD
 1.72174E+01,-1.13823E+00
 1.75248E+01,-1.16568E+00
 1.78322E+01,-1.19338E+00
-1.81396E+01,-1.22133E+00
+1.81396E+01,-1.22134E+00
 1.84471E+01,-1.24954E+00
 1.87545E+01,-1.27799E+00
 1.90619E+01,-1.30670E+00
@@ -415,7 +415,7 @@ $curve4 << EOD
 1.96768E+01,-1.36487E+00
 1.99842E+01,-1.39433E+00
 EOD
-$curve5 << EOD
+$s5_1 << EOD
 -1000,8.50401E-02
 -900,7.65065E-02
 -800,6.79795E-02
@@ -438,10 +438,10 @@ $curve5 << EOD
 900,-7.59840E-02
 1000,-8.43951E-02
 EOD
-$curve6 << EOD
--100,-1.01892E-01
+$s6_1 << EOD
+-100,-1.01891E-01
 -90,-9.17104E-02
--80,-8.15275E-02
+-80,-8.15276E-02
 -70,-7.13429E-02
 -60,-6.11564E-02
 -50,-5.09682E-02
@@ -461,7 +461,7 @@ $curve6 << EOD
 90,9.18573E-02
 100,1.02073E-01
 EOD
-$curve7 << EOD
+$s7_1 << EOD
 -1000,-5.70569E-02
 -900,-5.16019E-02
 -800,-4.60911E-02
@@ -484,7 +484,7 @@ $curve7 << EOD
 900,5.61009E-02
 1000,6.26110E-02
 EOD
-$curve8 << EOD
+$s8_1 << EOD
 -1000,-3.21504E+00
 -900,-2.89515E+00
 -800,-2.57490E+00
@@ -494,7 +494,7 @@ $curve8 << EOD
 -400,-1.29031E+00
 -300,-9.68269E-01
 -200,-6.45870E-01
--100,-3.23114E-01
+-100,-3.23113E-01
 0,0
 100,3.23470E-01
 200,6.47297E-01
@@ -507,10 +507,10 @@ $curve8 << EOD
 900,2.92405E+00
 1000,3.25072E+00
 EOD
-$curve9 << EOD
+$s9_1 << EOD
 -9.99461E+00,-9.16775E+00
 -9.68224E+00,-8.88259E+00
--9.36987E+00,-8.59734E+00
+-9.36988E+00,-8.59734E+00
 -9.05751E+00,-8.31201E+00
 -8.74515E+00,-8.02660E+00
 -8.43279E+00,-7.74110E+00
@@ -523,7 +523,7 @@ $curve9 << EOD
 -6.24634E+00,-5.74022E+00
 -5.93401E+00,-5.45404E+00
 -5.62167E+00,-5.16777E+00
--5.30934E+00,-4.88142E+00
+-5.30933E+00,-4.88142E+00
 -4.99700E+00,-4.59497E+00
 -4.68467E+00,-4.30845E+00
 -4.37235E+00,-4.02183E+00
@@ -531,13 +531,13 @@ $curve9 << EOD
 -3.74770E+00,-3.44834E+00
 -3.43538E+00,-3.16146E+00
 -3.12306E+00,-2.87450E+00
--2.81075E+00,-2.58744E+00
+-2.81075E+00,-2.58745E+00
 -2.49843E+00,-2.30030E+00
 -2.18612E+00,-2.01308E+00
 -1.87381E+00,-1.72576E+00
 -1.56151E+00,-1.43836E+00
 -1.24920E+00,-1.15086E+00
--9.36897E-01,-8.63280E-01
+-9.36898E-01,-8.63280E-01
 -6.24596E-01,-5.75609E-01
 -3.12297E-01,-2.87849E-01
 0,0
@@ -552,31 +552,31 @@ $curve9 << EOD
 2.76735E+00,2.55471E+00
 3.07483E+00,2.83901E+00
 3.38230E+00,3.12339E+00
-3.68977E+00,3.40786E+00
-3.99725E+00,3.69242E+00
+3.68978E+00,3.40786E+00
+3.99724E+00,3.69242E+00
 4.30471E+00,3.97707E+00
 4.61218E+00,4.26181E+00
 4.91965E+00,4.54664E+00
 5.22711E+00,4.83155E+00
 5.53458E+00,5.11656E+00
-5.84204E+00,5.40166E+00
+5.84204E+00,5.40165E+00
 6.14950E+00,5.68684E+00
 6.45696E+00,5.97212E+00
-6.76442E+00,6.25748E+00
+6.76441E+00,6.25748E+00
 7.07187E+00,6.54294E+00
 7.37933E+00,6.82848E+00
 7.68678E+00,7.11412E+00
 7.99423E+00,7.39985E+00
 8.30169E+00,7.68566E+00
 8.60914E+00,7.97157E+00
-8.91659E+00,8.25757E+00
+8.91658E+00,8.25757E+00
 9.22403E+00,8.54367E+00
 9.53148E+00,8.82985E+00
 9.83893E+00,9.11612E+00
 1.01464E+01,9.40249E+00
 1.04538E+01,9.68895E+00
 1.07613E+01,9.97550E+00
-1.10687E+01,1.02621E+01
+1.10687E+01,1.02622E+01
 1.13761E+01,1.05489E+01
 1.16836E+01,1.08357E+01
 1.19910E+01,1.11226E+01
@@ -592,7 +592,7 @@ $curve9 << EOD
 1.50654E+01,1.39970E+01
 1.53728E+01,1.42850E+01
 1.56802E+01,1.45730E+01
-1.59877E+01,1.48611E+01
+1.59877E+01,1.48612E+01
 1.62951E+01,1.51494E+01
 1.66025E+01,1.54377E+01
 1.69099E+01,1.57262E+01
@@ -609,65 +609,144 @@ $curve9 << EOD
 EOD
 
 do for [format in formats] {
-if (format eq 'png') { set terminal pngcairo size 1500, 1320 font 'sans-serif,11' noenhanced }
-if (format eq 'svg') { set terminal svg size 1500, 1320 font 'sans-serif,11' noenhanced background 'white' }
-if (format eq 'pdf') { set terminal pdfcairo size 30cm, 26cm font 'sans-serif,11' noenhanced }
+if (format eq 'png') { set terminal pngcairo size 1500, 1288 font 'sans-serif,12' noenhanced }
+if (format eq 'svg') { set terminal svg size 1500, 1288 font 'sans-serif,12' noenhanced background 'white' }
+if (format eq 'pdf') { set terminal pdfcairo size 30cm, 25cm font 'sans-serif,12' noenhanced }
 set output 'mcpherson_axle_carsim.'.format
-   set multiplot layout 3, 3 title 'McPherson front axle with rack, anti-roll bar and stops: carsim'
-   set title 'TOE_TABLE, iside 1'
-   set xlabel 'wheel centre, height [mm]'
-   set ylabel 'deg'
-   set yrange [*:*]
-   plot $curve1 using 1:2 with lines linecolor rgb '#D55E00' linewidth 2 title 'solved separately', \
-      'mcpherson_axle_carsim.par' skip 10 every ::0:0:3:0 using 1:2 with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#0072B2' title 'written file'
-   set title 'CAMBER_TABLE, iside 1'
-   set xlabel 'wheel centre, height [mm]'
-   set ylabel 'deg'
-   set yrange [*:*]
-   plot $curve2 using 1:2 with lines linecolor rgb '#D55E00' linewidth 2 title '', \
-      'mcpherson_axle_carsim.par' skip 17 every ::0:0:3:0 using 1:2 with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#0072B2' title ''
-   set title 'SUSP_X_TABLE, iside 1'
-   set xlabel 'wheel centre, height [mm]'
-   set ylabel 'mm'
-   set yrange [*:*]
-   plot $curve3 using 1:2 with lines linecolor rgb '#D55E00' linewidth 2 title '', \
-      'mcpherson_axle_carsim.par' skip 24 every ::0:0:3:0 using 1:2 with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#0072B2' title ''
-   set title 'SUSP_LAT_TABLE, iside 1'
-   set xlabel 'wheel centre, height [mm]'
-   set ylabel 'mm'
-   set yrange [*:*]
-   plot $curve4 using 1:2 with lines linecolor rgb '#D55E00' linewidth 2 title '', \
-      'mcpherson_axle_carsim.par' skip 31 every ::0:0:3:0 using 1:2 with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#0072B2' title ''
-   set title 'CS_FY, steer under Fy'
-   set xlabel 'N'
-   set ylabel 'deg'
-   set yrange [*:*]
-   plot $curve5 using 1:2 with lines linecolor rgb '#D55E00' linewidth 2 title '', \
-      -8.47141E-05*x with lines dashtype 2 linewidth 2 linecolor rgb '#0072B2' title ''
-   set title 'CS_MZ, steer under Mz'
-   set xlabel 'N m'
-   set ylabel 'deg'
-   set yrange [*:*]
-   plot $curve6 using 1:2 with lines linecolor rgb '#D55E00' linewidth 2 title '', \
-      1.01982E-03*x with lines dashtype 2 linewidth 2 linecolor rgb '#0072B2' title ''
-   set title 'CC_FX, camber under Fx'
-   set xlabel 'N'
-   set ylabel 'deg'
-   set yrange [*:*]
-   plot $curve7 using 1:2 with lines linecolor rgb '#D55E00' linewidth 2 title '', \
-      5.98386E-05*x with lines dashtype 2 linewidth 2 linecolor rgb '#0072B2' title ''
-   set title 'C_LONG, x under Fx'
-   set xlabel 'N'
-   set ylabel 'mm'
-   set yrange [*:*]
-   plot $curve8 using 1:2 with lines linecolor rgb '#D55E00' linewidth 2 title '', \
-      3.23292E-03*x with lines dashtype 2 linewidth 2 linecolor rgb '#0072B2' title ''
-   set title 'CMP_SPR_SEAT, compression of the spring'
-   set xlabel 'wheel centre, height [mm]'
-   set ylabel 'mm'
-   set yrange [*:*]
-   plot $curve9 using 1:2 with lines linecolor rgb '#D55E00' linewidth 2 title '', \
-      9.21940E-01*x with lines dashtype 2 linewidth 2 linecolor rgb '#0072B2' title ''
-   unset multiplot
+set label 1 'McPherson front axle with rack, anti-roll bar and stops: carsim' at screen 2.00000E-02, screen 9.76710E-01 font 'sans-serif:Bold,20' textcolor rgb '#202020'
+set label 2 'points of the exported file over curves that were solved separately' at screen 2.00000E-02, screen 9.53420E-01 font 'sans-serif,14' textcolor rgb '#606060'
+set multiplot
+set palette defined (0 '#440154', 2.50000E-01 '#3B528B', 5.00000E-01 '#21918C', 7.50000E-01 '#5EC962', 1 '#E8D000')
+set key at screen 9.70000E-01, screen 9.90680E-01 right top samplen 1.60000E+00 textcolor rgb '#404040'
+unset colorbox
+
+set lmargin at screen 7.33330E-02; set rmargin at screen 3.13330E-01; set bmargin at screen 6.83230E-01; set tmargin at screen 9.05280E-01
+set title 'TOE_TABLE, iside 1' offset 0, -4.00000E-01 font 'sans-serif:Bold,12' textcolor rgb '#202020'
+set xlabel 'wheel centre, height [mm]' offset 0, 3.00000E-01 textcolor rgb '#404040'
+set ylabel 'deg' offset 6.00000E-01, 0 textcolor rgb '#404040'
+set xtics scale 6.00000E-01 autofreq; set grid xtics; unset logscale x; set format x
+set yzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
+set xrange [*:*]
+set ytics scale 6.00000E-01 autofreq; set grid ytics; unset logscale y; set format y
+set xzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
+set yrange [*:*]
+set border 3
+plot $s1_1 using 1:2 with lines linewidth 2 linecolor rgb '#D55E00' title 'solved separately', \
+     'mcpherson_axle_carsim.par' skip 10 every ::0:0:3:0 using 1:2 with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#0072B2' title 'written file'
+unset label 1; unset label 2; unset label 9; unset key
+
+set lmargin at screen 4.06670E-01; set rmargin at screen 6.46670E-01; set bmargin at screen 6.83230E-01; set tmargin at screen 9.05280E-01
+set title 'CAMBER_TABLE, iside 1' offset 0, -4.00000E-01 font 'sans-serif:Bold,12' textcolor rgb '#202020'
+set xlabel 'wheel centre, height [mm]' offset 0, 3.00000E-01 textcolor rgb '#404040'
+set ylabel 'deg' offset 6.00000E-01, 0 textcolor rgb '#404040'
+set xtics scale 6.00000E-01 autofreq; set grid xtics; unset logscale x; set format x
+set yzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
+set xrange [*:*]
+set ytics scale 6.00000E-01 autofreq; set grid ytics; unset logscale y; set format y
+set xzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
+set yrange [*:*]
+set border 3
+plot $s2_1 using 1:2 with lines linewidth 2 linecolor rgb '#D55E00' title 'solved separately', \
+     'mcpherson_axle_carsim.par' skip 17 every ::0:0:3:0 using 1:2 with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#0072B2' title 'written file'
+
+set lmargin at screen 7.40000E-01; set rmargin at screen 9.80000E-01; set bmargin at screen 6.83230E-01; set tmargin at screen 9.05280E-01
+set title 'SUSP_X_TABLE, iside 1' offset 0, -4.00000E-01 font 'sans-serif:Bold,12' textcolor rgb '#202020'
+set xlabel 'wheel centre, height [mm]' offset 0, 3.00000E-01 textcolor rgb '#404040'
+set ylabel 'mm' offset 6.00000E-01, 0 textcolor rgb '#404040'
+set xtics scale 6.00000E-01 autofreq; set grid xtics; unset logscale x; set format x
+set yzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
+set xrange [*:*]
+set ytics scale 6.00000E-01 autofreq; set grid ytics; unset logscale y; set format y
+set xzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
+set yrange [*:*]
+set border 3
+plot $s3_1 using 1:2 with lines linewidth 2 linecolor rgb '#D55E00' title 'solved separately', \
+     'mcpherson_axle_carsim.par' skip 24 every ::0:0:3:0 using 1:2 with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#0072B2' title 'written file'
+
+set lmargin at screen 7.33330E-02; set rmargin at screen 3.13330E-01; set bmargin at screen 3.72670E-01; set tmargin at screen 5.94720E-01
+set title 'SUSP_LAT_TABLE, iside 1' offset 0, -4.00000E-01 font 'sans-serif:Bold,12' textcolor rgb '#202020'
+set xlabel 'wheel centre, height [mm]' offset 0, 3.00000E-01 textcolor rgb '#404040'
+set ylabel 'mm' offset 6.00000E-01, 0 textcolor rgb '#404040'
+set xtics scale 6.00000E-01 autofreq; set grid xtics; unset logscale x; set format x
+set yzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
+set xrange [*:*]
+set ytics scale 6.00000E-01 autofreq; set grid ytics; unset logscale y; set format y
+set xzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
+set yrange [*:*]
+set border 3
+plot $s4_1 using 1:2 with lines linewidth 2 linecolor rgb '#D55E00' title 'solved separately', \
+     'mcpherson_axle_carsim.par' skip 31 every ::0:0:3:0 using 1:2 with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#0072B2' title 'written file'
+
+set lmargin at screen 4.06670E-01; set rmargin at screen 6.46670E-01; set bmargin at screen 3.72670E-01; set tmargin at screen 5.94720E-01
+set title 'CS_FY, steer under Fy' offset 0, -4.00000E-01 font 'sans-serif:Bold,12' textcolor rgb '#202020'
+set xlabel 'N' offset 0, 3.00000E-01 textcolor rgb '#404040'
+set ylabel 'deg' offset 6.00000E-01, 0 textcolor rgb '#404040'
+set xtics scale 6.00000E-01 autofreq; set grid xtics; unset logscale x; set format x
+set yzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
+set xrange [*:*]
+set ytics scale 6.00000E-01 autofreq; set grid ytics; unset logscale y; set format y
+set xzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
+set yrange [*:*]
+set border 3
+plot $s5_1 using 1:2 with lines linewidth 2 linecolor rgb '#D55E00' title 'solved separately', \
+     -8.47141E-05*x with lines dashtype 2 linewidth 2 linecolor rgb '#0072B2' title 'written file'
+
+set lmargin at screen 7.40000E-01; set rmargin at screen 9.80000E-01; set bmargin at screen 3.72670E-01; set tmargin at screen 5.94720E-01
+set title 'CS_MZ, steer under Mz' offset 0, -4.00000E-01 font 'sans-serif:Bold,12' textcolor rgb '#202020'
+set xlabel 'N m' offset 0, 3.00000E-01 textcolor rgb '#404040'
+set ylabel 'deg' offset 6.00000E-01, 0 textcolor rgb '#404040'
+set xtics scale 6.00000E-01 autofreq; set grid xtics; unset logscale x; set format x
+set yzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
+set xrange [*:*]
+set ytics scale 6.00000E-01 autofreq; set grid ytics; unset logscale y; set format y
+set xzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
+set yrange [*:*]
+set border 3
+plot $s6_1 using 1:2 with lines linewidth 2 linecolor rgb '#D55E00' title 'solved separately', \
+     1.01982E-03*x with lines dashtype 2 linewidth 2 linecolor rgb '#0072B2' title 'written file'
+
+set lmargin at screen 7.33330E-02; set rmargin at screen 3.13330E-01; set bmargin at screen 6.21120E-02; set tmargin at screen 2.84160E-01
+set title 'CC_FX, camber under Fx' offset 0, -4.00000E-01 font 'sans-serif:Bold,12' textcolor rgb '#202020'
+set xlabel 'N' offset 0, 3.00000E-01 textcolor rgb '#404040'
+set ylabel 'deg' offset 6.00000E-01, 0 textcolor rgb '#404040'
+set xtics scale 6.00000E-01 autofreq; set grid xtics; unset logscale x; set format x
+set yzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
+set xrange [*:*]
+set ytics scale 6.00000E-01 autofreq; set grid ytics; unset logscale y; set format y
+set xzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
+set yrange [*:*]
+set border 3
+plot $s7_1 using 1:2 with lines linewidth 2 linecolor rgb '#D55E00' title 'solved separately', \
+     5.98386E-05*x with lines dashtype 2 linewidth 2 linecolor rgb '#0072B2' title 'written file'
+
+set lmargin at screen 4.06670E-01; set rmargin at screen 6.46670E-01; set bmargin at screen 6.21120E-02; set tmargin at screen 2.84160E-01
+set title 'C_LONG, x under Fx' offset 0, -4.00000E-01 font 'sans-serif:Bold,12' textcolor rgb '#202020'
+set xlabel 'N' offset 0, 3.00000E-01 textcolor rgb '#404040'
+set ylabel 'mm' offset 6.00000E-01, 0 textcolor rgb '#404040'
+set xtics scale 6.00000E-01 autofreq; set grid xtics; unset logscale x; set format x
+set yzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
+set xrange [*:*]
+set ytics scale 6.00000E-01 autofreq; set grid ytics; unset logscale y; set format y
+set xzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
+set yrange [*:*]
+set border 3
+plot $s8_1 using 1:2 with lines linewidth 2 linecolor rgb '#D55E00' title 'solved separately', \
+     3.23292E-03*x with lines dashtype 2 linewidth 2 linecolor rgb '#0072B2' title 'written file'
+
+set lmargin at screen 7.40000E-01; set rmargin at screen 9.80000E-01; set bmargin at screen 6.21120E-02; set tmargin at screen 2.84160E-01
+set title 'CMP_SPR_SEAT, compression of the spring' offset 0, -4.00000E-01 font 'sans-serif:Bold,12' textcolor rgb '#202020'
+set xlabel 'wheel centre, height [mm]' offset 0, 3.00000E-01 textcolor rgb '#404040'
+set ylabel 'mm' offset 6.00000E-01, 0 textcolor rgb '#404040'
+set xtics scale 6.00000E-01 autofreq; set grid xtics; unset logscale x; set format x
+set yzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
+set xrange [*:*]
+set ytics scale 6.00000E-01 autofreq; set grid ytics; unset logscale y; set format y
+set xzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
+set yrange [*:*]
+set border 3
+plot $s9_1 using 1:2 with lines linewidth 2 linecolor rgb '#D55E00' title 'solved separately', \
+     9.21940E-01*x with lines dashtype 2 linewidth 2 linecolor rgb '#0072B2' title 'written file'
+unset multiplot
+unset label
 unset output
 }

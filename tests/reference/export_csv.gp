@@ -1,4 +1,4 @@
-# McPherson front axle with rack, anti-roll bar and stops: csv: points of the exported file over curves that were solved separately
+# McPherson front axle with rack, anti-roll bar and stops: csv
 #
 #     gnuplot mcpherson_axle_tables.gp
 #
@@ -14,24 +14,24 @@ set tics out nomirror scale 6.00000E-01 textcolor rgb '#404040'
 set grid linetype 1 linecolor rgb '#E6E6E6' linewidth 1
 set xzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
 set yzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
-set key at screen 8.00000E-03, screen 9.98000E-01 left top Left reverse horizontal
-$curve1 << EOD
+unset key; set style fill solid 1 noborder
+$s1_1 << EOD
 -9.99461E+00,1.77473E-01
 -9.68224E+00,1.72456E-01
--9.36987E+00,1.67404E-01
+-9.36988E+00,1.67404E-01
 -9.05751E+00,1.62319E-01
 -8.74515E+00,1.57199E-01
 -8.43279E+00,1.52045E-01
 -8.12043E+00,1.46857E-01
--7.80808E+00,1.41635E-01
+-7.80808E+00,1.41634E-01
 -7.49573E+00,1.36378E-01
--7.18338E+00,1.31088E-01
+-7.18338E+00,1.31087E-01
 -6.87103E+00,1.25763E-01
 -6.55869E+00,1.20404E-01
 -6.24634E+00,1.15011E-01
 -5.93401E+00,1.09584E-01
 -5.62167E+00,1.04123E-01
--5.30934E+00,9.86275E-02
+-5.30933E+00,9.86275E-02
 -4.99700E+00,9.30982E-02
 -4.68467E+00,8.75348E-02
 -4.37235E+00,8.19373E-02
@@ -43,9 +43,9 @@ $curve1 << EOD
 -2.49843E+00,4.76375E-02
 -2.18612E+00,4.18018E-02
 -1.87381E+00,3.59321E-02
--1.56151E+00,3.00284E-02
+-1.56151E+00,3.00283E-02
 -1.24920E+00,2.40906E-02
--9.36897E-01,1.81189E-02
+-9.36898E-01,1.81189E-02
 -6.24596E-01,1.21133E-02
 -3.12297E-01,6.07362E-03
 0,0
@@ -53,31 +53,31 @@ $curve1 << EOD
 6.14980E-01,-1.20596E-02
 9.22467E-01,-1.81388E-02
 1.22995E+00,-2.42509E-02
-1.53744E+00,-3.03959E-02
+1.53744E+00,-3.03960E-02
 1.84492E+00,-3.65739E-02
 2.15240E+00,-4.27847E-02
 2.45988E+00,-4.90284E-02
 2.76735E+00,-5.53049E-02
 3.07483E+00,-6.16144E-02
 3.38230E+00,-6.79568E-02
-3.68977E+00,-7.43320E-02
-3.99725E+00,-8.07401E-02
-4.30471E+00,-8.71811E-02
+3.68978E+00,-7.43320E-02
+3.99724E+00,-8.07401E-02
+4.30471E+00,-8.71810E-02
 4.61218E+00,-9.36549E-02
 4.91965E+00,-1.00162E-01
 5.22711E+00,-1.06701E-01
-5.53458E+00,-1.13274E-01
+5.53458E+00,-1.13273E-01
 5.84204E+00,-1.19879E-01
 6.14950E+00,-1.26517E-01
 6.45696E+00,-1.33188E-01
-6.76442E+00,-1.39892E-01
+6.76441E+00,-1.39892E-01
 7.07187E+00,-1.46628E-01
 7.37933E+00,-1.53398E-01
 7.68678E+00,-1.60200E-01
 7.99423E+00,-1.67035E-01
 8.30169E+00,-1.73903E-01
 8.60914E+00,-1.80804E-01
-8.91659E+00,-1.87738E-01
+8.91658E+00,-1.87738E-01
 9.22403E+00,-1.94705E-01
 9.53148E+00,-2.01704E-01
 9.83893E+00,-2.08736E-01
@@ -115,10 +115,10 @@ $curve1 << EOD
 1.96768E+01,-4.51110E-01
 1.99842E+01,-4.59227E-01
 EOD
-$curve2 << EOD
+$s2_1 << EOD
 -9.99461E+00,-3.02301E-01
 -9.68224E+00,-2.96831E-01
--9.36987E+00,-2.91104E-01
+-9.36988E+00,-2.91104E-01
 -9.05751E+00,-2.85121E-01
 -8.74515E+00,-2.78881E-01
 -8.43279E+00,-2.72384E-01
@@ -131,7 +131,7 @@ $curve2 << EOD
 -6.24634E+00,-2.19726E-01
 -5.93401E+00,-2.11177E-01
 -5.62167E+00,-2.02371E-01
--5.30934E+00,-1.93309E-01
+-5.30933E+00,-1.93309E-01
 -4.99700E+00,-1.83991E-01
 -4.68467E+00,-1.74416E-01
 -4.37235E+00,-1.64584E-01
@@ -145,7 +145,7 @@ $curve2 << EOD
 -1.87381E+00,-7.66949E-02
 -1.56151E+00,-6.45540E-02
 -1.24920E+00,-5.21565E-02
--9.36897E-01,-3.95024E-02
+-9.36898E-01,-3.95024E-02
 -6.24596E-01,-2.65916E-02
 -3.12297E-01,-1.34241E-02
 0,0
@@ -160,24 +160,24 @@ $curve2 << EOD
 2.76735E+00,1.30177E-01
 3.07483E+00,1.45886E-01
 3.38230E+00,1.61844E-01
-3.68977E+00,1.78051E-01
-3.99725E+00,1.94507E-01
+3.68978E+00,1.78051E-01
+3.99724E+00,1.94507E-01
 4.30471E+00,2.11213E-01
 4.61218E+00,2.28167E-01
 4.91965E+00,2.45371E-01
-5.22711E+00,2.62824E-01
+5.22711E+00,2.62823E-01
 5.53458E+00,2.80526E-01
 5.84204E+00,2.98477E-01
-6.14950E+00,3.16677E-01
+6.14950E+00,3.16678E-01
 6.45696E+00,3.35127E-01
-6.76442E+00,3.53827E-01
+6.76441E+00,3.53827E-01
 7.07187E+00,3.72775E-01
 7.37933E+00,3.91973E-01
 7.68678E+00,4.11421E-01
 7.99423E+00,4.31118E-01
 8.30169E+00,4.51064E-01
 8.60914E+00,4.71260E-01
-8.91659E+00,4.91706E-01
+8.91658E+00,4.91706E-01
 9.22403E+00,5.12401E-01
 9.53148E+00,5.33346E-01
 9.83893E+00,5.54540E-01
@@ -207,7 +207,7 @@ $curve2 << EOD
 1.72174E+01,1.13823E+00
 1.75248E+01,1.16568E+00
 1.78322E+01,1.19338E+00
-1.81396E+01,1.22133E+00
+1.81396E+01,1.22134E+00
 1.84471E+01,1.24954E+00
 1.87545E+01,1.27799E+00
 1.90619E+01,1.30670E+00
@@ -215,10 +215,10 @@ $curve2 << EOD
 1.96768E+01,1.36487E+00
 1.99842E+01,1.39433E+00
 EOD
-$curve3 << EOD
+$s3_1 << EOD
 -9.99461E+00,1.22228E-01
 -9.68224E+00,1.21610E-01
--9.36987E+00,1.20986E-01
+-9.36988E+00,1.20986E-01
 -9.05751E+00,1.20358E-01
 -8.74515E+00,1.19724E-01
 -8.43279E+00,1.19085E-01
@@ -231,11 +231,11 @@ $curve3 << EOD
 -6.24634E+00,1.14477E-01
 -5.93401E+00,1.13799E-01
 -5.62167E+00,1.13116E-01
--5.30934E+00,1.12428E-01
+-5.30933E+00,1.12428E-01
 -4.99700E+00,1.11736E-01
 -4.68467E+00,1.11038E-01
 -4.37235E+00,1.10336E-01
--4.06002E+00,1.09628E-01
+-4.06002E+00,1.09629E-01
 -3.74770E+00,1.08916E-01
 -3.43538E+00,1.08200E-01
 -3.12306E+00,1.07478E-01
@@ -245,12 +245,12 @@ $curve3 << EOD
 -1.87381E+00,1.04544E-01
 -1.56151E+00,1.03798E-01
 -1.24920E+00,1.03048E-01
--9.36897E-01,1.02293E-01
+-9.36898E-01,1.02293E-01
 -6.24596E-01,1.01533E-01
 -3.12297E-01,1.00769E-01
 0,1.00000E-01
 3.07491E-01,9.92382E-02
-6.14980E-01,9.84719E-02
+6.14980E-01,9.84718E-02
 9.22467E-01,9.77010E-02
 1.22995E+00,9.69256E-02
 1.53744E+00,9.61457E-02
@@ -260,8 +260,8 @@ $curve3 << EOD
 2.76735E+00,9.29813E-02
 3.07483E+00,9.21790E-02
 3.38230E+00,9.13723E-02
-3.68977E+00,9.05611E-02
-3.99725E+00,8.97455E-02
+3.68978E+00,9.05611E-02
+3.99724E+00,8.97455E-02
 4.30471E+00,8.89255E-02
 4.61218E+00,8.81011E-02
 4.91965E+00,8.72722E-02
@@ -270,14 +270,14 @@ $curve3 << EOD
 5.84204E+00,8.47593E-02
 6.14950E+00,8.39130E-02
 6.45696E+00,8.30622E-02
-6.76442E+00,8.22071E-02
+6.76441E+00,8.22071E-02
 7.07187E+00,8.13477E-02
 7.37933E+00,8.04839E-02
 7.68678E+00,7.96158E-02
 7.99423E+00,7.87434E-02
 8.30169E+00,7.78666E-02
 8.60914E+00,7.69856E-02
-8.91659E+00,7.61002E-02
+8.91658E+00,7.61002E-02
 9.22403E+00,7.52106E-02
 9.53148E+00,7.43167E-02
 9.83893E+00,7.34185E-02
@@ -315,10 +315,10 @@ $curve3 << EOD
 1.96768E+01,4.24664E-02
 1.99842E+01,4.14314E-02
 EOD
-$curve4 << EOD
--9.99461E+00,-3.49066E-01
+$s4_1 << EOD
+-9.99461E+00,-3.49065E-01
 -9.68224E+00,-3.54150E-01
--9.36987E+00,-3.59212E-01
+-9.36988E+00,-3.59212E-01
 -9.05751E+00,-3.64250E-01
 -8.74515E+00,-3.69264E-01
 -8.43279E+00,-3.74255E-01
@@ -331,21 +331,21 @@ $curve4 << EOD
 -6.24634E+00,-4.08532E-01
 -5.93401E+00,-4.13334E-01
 -5.62167E+00,-4.18112E-01
--5.30934E+00,-4.22866E-01
+-5.30933E+00,-4.22866E-01
 -4.99700E+00,-4.27596E-01
 -4.68467E+00,-4.32303E-01
 -4.37235E+00,-4.36985E-01
 -4.06002E+00,-4.41644E-01
 -3.74770E+00,-4.46278E-01
 -3.43538E+00,-4.50888E-01
--3.12306E+00,-4.55474E-01
--2.81075E+00,-4.60036E-01
+-3.12306E+00,-4.55475E-01
+-2.81075E+00,-4.60037E-01
 -2.49843E+00,-4.64574E-01
 -2.18612E+00,-4.69088E-01
 -1.87381E+00,-4.73577E-01
 -1.56151E+00,-4.78042E-01
 -1.24920E+00,-4.82482E-01
--9.36897E-01,-4.86899E-01
+-9.36898E-01,-4.86899E-01
 -6.24596E-01,-4.91290E-01
 -3.12297E-01,-4.95657E-01
 0,-5.00000E-01
@@ -360,8 +360,8 @@ $curve4 << EOD
 2.76735E+00,-5.37404E-01
 3.07483E+00,-5.41439E-01
 3.38230E+00,-5.45450E-01
-3.68977E+00,-5.49437E-01
-3.99725E+00,-5.53400E-01
+3.68978E+00,-5.49437E-01
+3.99724E+00,-5.53400E-01
 4.30471E+00,-5.57338E-01
 4.61218E+00,-5.61252E-01
 4.91965E+00,-5.65142E-01
@@ -370,14 +370,14 @@ $curve4 << EOD
 5.84204E+00,-5.76663E-01
 6.14950E+00,-5.80454E-01
 6.45696E+00,-5.84220E-01
-6.76442E+00,-5.87962E-01
+6.76441E+00,-5.87962E-01
 7.07187E+00,-5.91679E-01
-7.37933E+00,-5.95371E-01
+7.37933E+00,-5.95372E-01
 7.68678E+00,-5.99039E-01
 7.99423E+00,-6.02681E-01
 8.30169E+00,-6.06299E-01
 8.60914E+00,-6.09891E-01
-8.91659E+00,-6.13459E-01
+8.91658E+00,-6.13459E-01
 9.22403E+00,-6.17001E-01
 9.53148E+00,-6.20518E-01
 9.83893E+00,-6.24011E-01
@@ -415,10 +415,10 @@ $curve4 << EOD
 1.96768E+01,-7.22173E-01
 1.99842E+01,-7.24806E-01
 EOD
-$curve5 << EOD
+$s5_1 << EOD
 -9.99461E+00,2.15233E+02
 -9.68224E+00,2.14948E+02
--9.36987E+00,2.14663E+02
+-9.36988E+00,2.14663E+02
 -9.05751E+00,2.14378E+02
 -8.74515E+00,2.14092E+02
 -8.43279E+00,2.13807E+02
@@ -431,7 +431,7 @@ $curve5 << EOD
 -6.24634E+00,2.11806E+02
 -5.93401E+00,2.11520E+02
 -5.62167E+00,2.11233E+02
--5.30934E+00,2.10947E+02
+-5.30933E+00,2.10947E+02
 -4.99700E+00,2.10661E+02
 -4.68467E+00,2.10374E+02
 -4.37235E+00,2.10087E+02
@@ -445,10 +445,10 @@ $curve5 << EOD
 -1.87381E+00,2.07791E+02
 -1.56151E+00,2.07504E+02
 -1.24920E+00,2.07216E+02
--9.36897E-01,2.06929E+02
+-9.36898E-01,2.06929E+02
 -6.24596E-01,2.06641E+02
 -3.12297E-01,2.06353E+02
-0,2.06066E+02
+0,2.06065E+02
 3.07491E-01,2.05782E+02
 6.14980E-01,2.05498E+02
 9.22467E-01,2.05215E+02
@@ -458,11 +458,11 @@ $curve5 << EOD
 2.15240E+00,2.04079E+02
 2.45988E+00,2.03795E+02
 2.76735E+00,2.03511E+02
-3.07483E+00,2.03227E+02
+3.07483E+00,2.03226E+02
 3.38230E+00,2.02942E+02
-3.68977E+00,2.02658E+02
-3.99725E+00,2.02373E+02
-4.30471E+00,2.02088E+02
+3.68978E+00,2.02658E+02
+3.99724E+00,2.02373E+02
+4.30471E+00,2.02089E+02
 4.61218E+00,2.01804E+02
 4.91965E+00,2.01519E+02
 5.22711E+00,2.01234E+02
@@ -470,14 +470,14 @@ $curve5 << EOD
 5.84204E+00,2.00664E+02
 6.14950E+00,2.00379E+02
 6.45696E+00,2.00093E+02
-6.76442E+00,1.99808E+02
+6.76441E+00,1.99808E+02
 7.07187E+00,1.99523E+02
 7.37933E+00,1.99237E+02
 7.68678E+00,1.98951E+02
 7.99423E+00,1.98666E+02
 8.30169E+00,1.98380E+02
 8.60914E+00,1.98094E+02
-8.91659E+00,1.97808E+02
+8.91658E+00,1.97808E+02
 9.22403E+00,1.97522E+02
 9.53148E+00,1.97236E+02
 9.83893E+00,1.96949E+02
@@ -511,11 +511,11 @@ $curve5 << EOD
 1.84471E+01,1.88896E+02
 1.87545E+01,1.88607E+02
 1.90619E+01,1.88318E+02
-1.93693E+01,1.88028E+02
+1.93693E+01,1.88029E+02
 1.96768E+01,1.87739E+02
 1.99842E+01,1.87450E+02
 EOD
-$curve6 << EOD
+$s6_1 << EOD
 -10,4.21518E+00
 -9.79592E+00,4.13170E+00
 -9.59184E+00,4.04820E+00
@@ -524,7 +524,7 @@ $curve6 << EOD
 -8.97959E+00,3.79760E+00
 -8.77551E+00,3.71403E+00
 -8.57143E+00,3.63044E+00
--8.36735E+00,3.54682E+00
+-8.36735E+00,3.54683E+00
 -8.16327E+00,3.46319E+00
 -7.95918E+00,3.37954E+00
 -7.75510E+00,3.29587E+00
@@ -533,7 +533,7 @@ $curve6 << EOD
 -7.14286E+00,3.04474E+00
 -6.93878E+00,2.96098E+00
 -6.73469E+00,2.87721E+00
--6.53061E+00,2.79342E+00
+-6.53061E+00,2.79341E+00
 -6.32653E+00,2.70960E+00
 -6.12245E+00,2.62576E+00
 -5.91837E+00,2.54190E+00
@@ -556,12 +556,12 @@ $curve6 << EOD
 -2.44898E+00,1.11289E+00
 -2.24490E+00,1.02862E+00
 -2.04082E+00,9.44321E-01
--1.83673E+00,8.60002E-01
+-1.83674E+00,8.60002E-01
 -1.63265E+00,7.75658E-01
 -1.42857E+00,6.91289E-01
 -1.22449E+00,6.06896E-01
 -1.02041E+00,5.22477E-01
--8.16327E-01,4.38033E-01
+-8.16326E-01,4.38033E-01
 -6.12245E-01,3.53563E-01
 -4.08163E-01,2.69068E-01
 -2.04082E-01,1.84547E-01
@@ -599,23 +599,23 @@ $curve6 << EOD
 6.45833E+00,-2.58989E+00
 6.66667E+00,-2.67715E+00
 6.87500E+00,-2.76445E+00
-7.08333E+00,-2.85178E+00
+7.08333E+00,-2.85177E+00
 7.29167E+00,-2.93914E+00
 7.50000E+00,-3.02653E+00
 7.70833E+00,-3.11396E+00
 7.91667E+00,-3.20142E+00
 8.12500E+00,-3.28892E+00
 8.33333E+00,-3.37645E+00
-8.54167E+00,-3.46402E+00
+8.54167E+00,-3.46401E+00
 8.75000E+00,-3.55161E+00
 8.95833E+00,-3.63925E+00
-9.16667E+00,-3.72692E+00
+9.16667E+00,-3.72691E+00
 9.37500E+00,-3.81462E+00
 9.58333E+00,-3.90236E+00
 9.79167E+00,-3.99013E+00
 10,-4.07794E+00
 EOD
-$curve7 << EOD
+$s7_1 << EOD
 -10,-9.37040E-01
 -9.79592E+00,-9.28942E-01
 -9.59184E+00,-9.20809E-01
@@ -647,21 +647,21 @@ $curve7 << EOD
 -4.28571E+00,-6.97429E-01
 -4.08163E+00,-6.88374E-01
 -3.87755E+00,-6.79286E-01
--3.67347E+00,-6.70163E-01
+-3.67347E+00,-6.70162E-01
 -3.46939E+00,-6.61005E-01
 -3.26531E+00,-6.51812E-01
 -3.06122E+00,-6.42585E-01
--2.85714E+00,-6.33323E-01
+-2.85714E+00,-6.33324E-01
 -2.65306E+00,-6.24027E-01
 -2.44898E+00,-6.14696E-01
 -2.24490E+00,-6.05330E-01
 -2.04082E+00,-5.95929E-01
--1.83673E+00,-5.86493E-01
+-1.83674E+00,-5.86493E-01
 -1.63265E+00,-5.77023E-01
 -1.42857E+00,-5.67518E-01
 -1.22449E+00,-5.57977E-01
 -1.02041E+00,-5.48402E-01
--8.16327E-01,-5.38792E-01
+-8.16326E-01,-5.38792E-01
 -6.12245E-01,-5.29146E-01
 -4.08163E-01,-5.19466E-01
 -2.04082E-01,-5.09751E-01
@@ -706,7 +706,7 @@ $curve7 << EOD
 7.91667E+00,-9.42857E-02
 8.12500E+00,-8.28755E-02
 8.33333E+00,-7.14272E-02
-8.54167E+00,-5.99407E-02
+8.54167E+00,-5.99406E-02
 8.75000E+00,-4.84159E-02
 8.95833E+00,-3.68528E-02
 9.16667E+00,-2.52514E-02
@@ -717,53 +717,116 @@ $curve7 << EOD
 EOD
 
 do for [format in formats] {
-if (format eq 'png') { set terminal pngcairo size 1500, 1320 font 'sans-serif,11' noenhanced }
-if (format eq 'svg') { set terminal svg size 1500, 1320 font 'sans-serif,11' noenhanced background 'white' }
-if (format eq 'pdf') { set terminal pdfcairo size 30cm, 26cm font 'sans-serif,11' noenhanced }
+if (format eq 'png') { set terminal pngcairo size 1500, 1288 font 'sans-serif,12' noenhanced }
+if (format eq 'svg') { set terminal svg size 1500, 1288 font 'sans-serif,12' noenhanced background 'white' }
+if (format eq 'pdf') { set terminal pdfcairo size 30cm, 25cm font 'sans-serif,12' noenhanced }
 set output 'mcpherson_axle_tables.'.format
-   set multiplot layout 3, 3 title 'McPherson front axle with rack, anti-roll bar and stops: csv'
-   set title 'left_x_mm'
-   set xlabel 'wheel centre, height [mm]'
-   set ylabel 'x_mm'
-   set yrange [*:*]
-   plot $curve1 using 1:2 with lines linecolor rgb '#D55E00' linewidth 2 title 'solved separately', \
-      'mcpherson_axle_kinematics.csv' using (abs(column("steer_mm"))<1.00000E-09 ? -column("left_z_mm") : NaN):(column("left_x_mm")) with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#0072B2' title 'written file'
-   set title 'left_y_mm'
-   set xlabel 'wheel centre, height [mm]'
-   set ylabel 'y_mm'
-   set yrange [*:*]
-   plot $curve2 using 1:2 with lines linecolor rgb '#D55E00' linewidth 2 title '', \
-      'mcpherson_axle_kinematics.csv' using (abs(column("steer_mm"))<1.00000E-09 ? -column("left_z_mm") : NaN):(column("left_y_mm")) with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#0072B2' title ''
-   set title 'left_toe_deg'
-   set xlabel 'wheel centre, height [mm]'
-   set ylabel 'toe_deg'
-   set yrange [*:*]
-   plot $curve3 using 1:2 with lines linecolor rgb '#D55E00' linewidth 2 title '', \
-      'mcpherson_axle_kinematics.csv' using (abs(column("steer_mm"))<1.00000E-09 ? -column("left_z_mm") : NaN):(column("left_toe_deg")) with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#0072B2' title ''
-   set title 'left_camber_deg'
-   set xlabel 'wheel centre, height [mm]'
-   set ylabel 'camber_deg'
-   set yrange [*:*]
-   plot $curve4 using 1:2 with lines linecolor rgb '#D55E00' linewidth 2 title '', \
-      'mcpherson_axle_kinematics.csv' using (abs(column("steer_mm"))<1.00000E-09 ? -column("left_z_mm") : NaN):(column("left_camber_deg")) with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#0072B2' title ''
-   set title 'left_spring_length_mm'
-   set xlabel 'wheel centre, height [mm]'
-   set ylabel 'spring_length_mm'
-   set yrange [*:*]
-   plot $curve5 using 1:2 with lines linecolor rgb '#D55E00' linewidth 2 title '', \
-      'mcpherson_axle_kinematics.csv' using (abs(column("steer_mm"))<1.00000E-09 ? -column("left_z_mm") : NaN):(column("left_spring_length_mm")) with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#0072B2' title ''
-   set title 'left_toe_deg over steer'
-   set xlabel 'steer, driver [mm]'
-   set ylabel 'toe_deg'
-   set yrange [*:*]
-   plot $curve6 using 1:2 with lines linecolor rgb '#D55E00' linewidth 2 title '', \
-      'mcpherson_axle_kinematics.csv' using (abs(column("travel_mm"))<1.00000E-09 ? column("steer_mm") : NaN):(column("left_toe_deg")) with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#0072B2' title ''
-   set title 'left_camber_deg over steer'
-   set xlabel 'steer, driver [mm]'
-   set ylabel 'camber_deg'
-   set yrange [*:*]
-   plot $curve7 using 1:2 with lines linecolor rgb '#D55E00' linewidth 2 title '', \
-      'mcpherson_axle_kinematics.csv' using (abs(column("travel_mm"))<1.00000E-09 ? column("steer_mm") : NaN):(column("left_camber_deg")) with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#0072B2' title ''
-   unset multiplot
+set label 1 'McPherson front axle with rack, anti-roll bar and stops: csv' at screen 2.00000E-02, screen 9.76710E-01 font 'sans-serif:Bold,20' textcolor rgb '#202020'
+set label 2 'points of the exported file over curves that were solved separately' at screen 2.00000E-02, screen 9.53420E-01 font 'sans-serif,14' textcolor rgb '#606060'
+set multiplot
+set palette defined (0 '#440154', 2.50000E-01 '#3B528B', 5.00000E-01 '#21918C', 7.50000E-01 '#5EC962', 1 '#E8D000')
+set key at screen 9.70000E-01, screen 9.90680E-01 right top samplen 1.60000E+00 textcolor rgb '#404040'
+unset colorbox
+
+set lmargin at screen 7.33330E-02; set rmargin at screen 3.13330E-01; set bmargin at screen 6.83230E-01; set tmargin at screen 9.05280E-01
+set title 'left_x_mm' offset 0, -4.00000E-01 font 'sans-serif:Bold,12' textcolor rgb '#202020'
+set xlabel 'wheel centre, height [mm]' offset 0, 3.00000E-01 textcolor rgb '#404040'
+set ylabel 'x_mm' offset 6.00000E-01, 0 textcolor rgb '#404040'
+set xtics scale 6.00000E-01 autofreq; set grid xtics; unset logscale x; set format x
+set yzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
+set xrange [*:*]
+set ytics scale 6.00000E-01 autofreq; set grid ytics; unset logscale y; set format y
+set xzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
+set yrange [*:*]
+set border 3
+plot $s1_1 using 1:2 with lines linewidth 2 linecolor rgb '#D55E00' title 'solved separately', \
+     'mcpherson_axle_kinematics.csv' using (abs(column("steer_mm"))<1.00000E-09 ? -column("left_z_mm") : NaN):(column("left_x_mm")) with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#0072B2' title 'written file'
+unset label 1; unset label 2; unset label 9; unset key
+
+set lmargin at screen 4.06670E-01; set rmargin at screen 6.46670E-01; set bmargin at screen 6.83230E-01; set tmargin at screen 9.05280E-01
+set title 'left_y_mm' offset 0, -4.00000E-01 font 'sans-serif:Bold,12' textcolor rgb '#202020'
+set xlabel 'wheel centre, height [mm]' offset 0, 3.00000E-01 textcolor rgb '#404040'
+set ylabel 'y_mm' offset 6.00000E-01, 0 textcolor rgb '#404040'
+set xtics scale 6.00000E-01 autofreq; set grid xtics; unset logscale x; set format x
+set yzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
+set xrange [*:*]
+set ytics scale 6.00000E-01 autofreq; set grid ytics; unset logscale y; set format y
+set xzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
+set yrange [*:*]
+set border 3
+plot $s2_1 using 1:2 with lines linewidth 2 linecolor rgb '#D55E00' title 'solved separately', \
+     'mcpherson_axle_kinematics.csv' using (abs(column("steer_mm"))<1.00000E-09 ? -column("left_z_mm") : NaN):(column("left_y_mm")) with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#0072B2' title 'written file'
+
+set lmargin at screen 7.40000E-01; set rmargin at screen 9.80000E-01; set bmargin at screen 6.83230E-01; set tmargin at screen 9.05280E-01
+set title 'left_toe_deg' offset 0, -4.00000E-01 font 'sans-serif:Bold,12' textcolor rgb '#202020'
+set xlabel 'wheel centre, height [mm]' offset 0, 3.00000E-01 textcolor rgb '#404040'
+set ylabel 'toe_deg' offset 6.00000E-01, 0 textcolor rgb '#404040'
+set xtics scale 6.00000E-01 autofreq; set grid xtics; unset logscale x; set format x
+set yzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
+set xrange [*:*]
+set ytics scale 6.00000E-01 autofreq; set grid ytics; unset logscale y; set format y
+set xzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
+set yrange [*:*]
+set border 3
+plot $s3_1 using 1:2 with lines linewidth 2 linecolor rgb '#D55E00' title 'solved separately', \
+     'mcpherson_axle_kinematics.csv' using (abs(column("steer_mm"))<1.00000E-09 ? -column("left_z_mm") : NaN):(column("left_toe_deg")) with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#0072B2' title 'written file'
+
+set lmargin at screen 7.33330E-02; set rmargin at screen 3.13330E-01; set bmargin at screen 3.72670E-01; set tmargin at screen 5.94720E-01
+set title 'left_camber_deg' offset 0, -4.00000E-01 font 'sans-serif:Bold,12' textcolor rgb '#202020'
+set xlabel 'wheel centre, height [mm]' offset 0, 3.00000E-01 textcolor rgb '#404040'
+set ylabel 'camber_deg' offset 6.00000E-01, 0 textcolor rgb '#404040'
+set xtics scale 6.00000E-01 autofreq; set grid xtics; unset logscale x; set format x
+set yzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
+set xrange [*:*]
+set ytics scale 6.00000E-01 autofreq; set grid ytics; unset logscale y; set format y
+set xzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
+set yrange [*:*]
+set border 3
+plot $s4_1 using 1:2 with lines linewidth 2 linecolor rgb '#D55E00' title 'solved separately', \
+     'mcpherson_axle_kinematics.csv' using (abs(column("steer_mm"))<1.00000E-09 ? -column("left_z_mm") : NaN):(column("left_camber_deg")) with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#0072B2' title 'written file'
+
+set lmargin at screen 4.06670E-01; set rmargin at screen 6.46670E-01; set bmargin at screen 3.72670E-01; set tmargin at screen 5.94720E-01
+set title 'left_spring_length_mm' offset 0, -4.00000E-01 font 'sans-serif:Bold,12' textcolor rgb '#202020'
+set xlabel 'wheel centre, height [mm]' offset 0, 3.00000E-01 textcolor rgb '#404040'
+set ylabel 'spring_length_mm' offset 6.00000E-01, 0 textcolor rgb '#404040'
+set xtics scale 6.00000E-01 autofreq; set grid xtics; unset logscale x; set format x
+set yzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
+set xrange [*:*]
+set ytics scale 6.00000E-01 autofreq; set grid ytics; unset logscale y; set format y
+set xzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
+set yrange [*:*]
+set border 3
+plot $s5_1 using 1:2 with lines linewidth 2 linecolor rgb '#D55E00' title 'solved separately', \
+     'mcpherson_axle_kinematics.csv' using (abs(column("steer_mm"))<1.00000E-09 ? -column("left_z_mm") : NaN):(column("left_spring_length_mm")) with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#0072B2' title 'written file'
+
+set lmargin at screen 7.40000E-01; set rmargin at screen 9.80000E-01; set bmargin at screen 3.72670E-01; set tmargin at screen 5.94720E-01
+set title 'left_toe_deg over steer' offset 0, -4.00000E-01 font 'sans-serif:Bold,12' textcolor rgb '#202020'
+set xlabel 'steer, driver [mm]' offset 0, 3.00000E-01 textcolor rgb '#404040'
+set ylabel 'toe_deg' offset 6.00000E-01, 0 textcolor rgb '#404040'
+set xtics scale 6.00000E-01 autofreq; set grid xtics; unset logscale x; set format x
+set yzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
+set xrange [*:*]
+set ytics scale 6.00000E-01 autofreq; set grid ytics; unset logscale y; set format y
+set xzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
+set yrange [*:*]
+set border 3
+plot $s6_1 using 1:2 with lines linewidth 2 linecolor rgb '#D55E00' title 'solved separately', \
+     'mcpherson_axle_kinematics.csv' using (abs(column("travel_mm"))<1.00000E-09 ? column("steer_mm") : NaN):(column("left_toe_deg")) with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#0072B2' title 'written file'
+
+set lmargin at screen 7.33330E-02; set rmargin at screen 3.13330E-01; set bmargin at screen 6.21120E-02; set tmargin at screen 2.84160E-01
+set title 'left_camber_deg over steer' offset 0, -4.00000E-01 font 'sans-serif:Bold,12' textcolor rgb '#202020'
+set xlabel 'steer, driver [mm]' offset 0, 3.00000E-01 textcolor rgb '#404040'
+set ylabel 'camber_deg' offset 6.00000E-01, 0 textcolor rgb '#404040'
+set xtics scale 6.00000E-01 autofreq; set grid xtics; unset logscale x; set format x
+set yzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
+set xrange [*:*]
+set ytics scale 6.00000E-01 autofreq; set grid ytics; unset logscale y; set format y
+set xzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
+set yrange [*:*]
+set border 3
+plot $s7_1 using 1:2 with lines linewidth 2 linecolor rgb '#D55E00' title 'solved separately', \
+     'mcpherson_axle_kinematics.csv' using (abs(column("travel_mm"))<1.00000E-09 ? column("steer_mm") : NaN):(column("left_camber_deg")) with points pointtype 6 pointsize 1.10000E+00 linecolor rgb '#0072B2' title 'written file'
+unset multiplot
+unset label
 unset output
 }
