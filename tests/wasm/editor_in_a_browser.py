@@ -3,7 +3,7 @@
     editor_in_a_browser.py PAGE PROGRAM [--shots DIR]
 
 Completion offers the keys of every group, and the strings of every key that takes only some, as `PROGRAM schema` lists them; names of
-points and parts are those of the deck. The meaning of a key is shown with its unit in this deck. A mistake is marked at its key while
+points and parts are those of the deck, and those of a study are those of its deck. The meaning of a key is shown with its unit in this deck. A mistake is marked at its key while
 it is typed. Text, tables and drawing have one order of undo. Requires playwright (PyPI) and a Chromium in the path. Exit status 1 with a
 line per failure.
 """
@@ -12,6 +12,7 @@ import re
 import shutil
 import subprocess
 import sys
+import tempfile
 import time
 from pathlib import Path
 
@@ -122,6 +123,25 @@ with sync_playwright() as tool:
     require(text().endswith("\n&bushing name = 'more', bodies = 'lca', 'chassis', at = 'lca_rear', kt = 1, 2, 3 /"), f"completed: {text()[-120:]}")
     shot("completed")
 
+    # a study: paths, cases and key numbers of its deck, as the program lists them
+    study = "&study name = 's', kind = 'grid', deck = 'axle.nml', case = 'roll' /\n"
+    data = page.evaluate_handle("""(files) => {
+      const data = new DataTransfer();
+      for (const [name, text] of Object.entries(files)) data.items.add(new File([text], name));
+      return data;
+    }""", {"axle.nml": original, "study.nml": study})
+    page.dispatch_event("body", "drop", {"dataTransfer": data})
+    expect(status).to_contain_text("check: done", timeout=patient)
+    page.select_option("#file", "study.nml")
+    with tempfile.TemporaryDirectory() as work:
+        (Path(work) / "axle.nml").write_text(original)
+        listed = json.loads(subprocess.run([Path(native).resolve(), "list", "axle.nml", "--json"], cwd=work, text=True, capture_output=True, check=True).stdout)
+    for typed, kind, name in (("&factor path = '", "paths", "path"), ("', case = '", "cases", "name"), ("' /\n&response quantity = '", "numbers", "name")):
+        at_end(typed)
+        found, wanted = offered(), {one[name] for one in listed[kind]}      # the list shows no more than a hundred at a time
+        require(found and set(found) <= wanted and len(found) >= min(len(wanted), 100), f"in a study, {len(found)} {kind} are offered: {set(found) - wanted}")
+        keys.press("Escape")
+
     # what a key means; its unit is that of the deck
     def meaning_of(word, context):
         page.evaluate("([context, word]) => { const at = elastokin.text().lastIndexOf(context) + context.indexOf(word) + 1;"
@@ -138,6 +158,8 @@ with sync_playwright() as tool:
         require(page.locator(".meaning").count() == 1, f"the meaning of {word} is not shown")
         return page.inner_text(".meaning")
 
+    deck("mcpherson_axle")
+    at_end("\n&bushing name = 'more', bodies = 'lca', 'chassis', at = 'lca_rear', kt = 1, 2, 3 /")
     found = meaning_of("kt", "kt = 1, 2, 3")
     require("rates along the marker axes" in found and "unit N/mm" in found and "default 0, 0, 0" in found, f"kt means {found}")
     shot("meaning")

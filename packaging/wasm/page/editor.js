@@ -122,6 +122,17 @@ function putKey(card, name) {
   };
 }
 
+// In a study or fit, of whose groups the program has no schema: paths, cases and key numbers of its deck
+async function stringsOfStudy(key) {
+  const text = files.get(shown) ?? "", study = groupsOf(text).find(({ name }) => name === "study" || name === "fit");
+  const model = pathFrom(shown, stringsOf(text, study?.keys.deck)[0] ?? ""), kind = { path: "paths", case: "cases", quantity: "numbers" }[key];
+  if (key === "deck") return [...files.keys()].filter((path) => path !== shown && /\.nml$/i.test(path)).map((label) => ({ label }));
+  if (!kind || !files.has(model)) return [];
+  const result = await program.run(["list", model, "--json"], [...files]);
+  if (result?.status !== 0) return [];      // a deck with errors has no list
+  return JSON.parse(result.output)[kind].map(({ path, name, value, unit }) => ({ label: path ?? name, detail: path ? `${value} ${unit}` : unit, type: "variable" }));
+}
+
 async function complete({ state, pos, explicit }) {
   await learnDictionary();
   const place = placeOf(state.doc, pos), word = /[\w.]*$/.exec(state.doc.lineAt(pos).text.slice(0, pos - state.doc.lineAt(pos).from))[0];
@@ -131,9 +142,9 @@ async function complete({ state, pos, explicit }) {
     const groups = Object.entries(dictionary.groups).map(([label, { description }]) => ({ label, detail: description, type: "keyword" }));
     return { from, options: groups, validFor: /^\w*$/ };
   }
-  if (!properties) return null;
+  if (!properties && place.quote < 0) return null;
   if (place.quote >= 0) {
-    const options = stringsFor(place.group, place.key);
+    const options = properties ? stringsFor(place.group, place.key) : await stringsOfStudy(place.key);
     return options.length > 0 ? { from: place.quote + 1, options, validFor: /^[^']*$/ } : null;
   }
   const card = properties[place.key], isAfterSign = card && /^\s*[\w.]*$/.test(place.value);
