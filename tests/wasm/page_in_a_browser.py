@@ -91,7 +91,7 @@ with sync_playwright() as tool:
 
     page.click("[data-command=report]")
     said("report: done")
-    said("Figures by gnuplot are left out")
+    said("Pictures by gnuplot are left out")
     frame = page.frame_locator("#page iframe")
     expect(frame.locator("h1")).to_contain_text("McPherson", timeout=patient)
     require(frame.locator("svg").count() > 20, "the report has no charts")

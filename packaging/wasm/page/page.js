@@ -208,7 +208,7 @@ async function mark(words) {
 }
 
 function show(words, result, seconds) {
-  const pictures = /gnuplot is not installed/.test(result.messages) ? " Figures by gnuplot are left out." : "";
+  const pictures = /gnuplot is not installed/.test(result.messages) ? " Pictures by gnuplot are left out." : "";
   if (result.trap) {
     say(`The program was stopped by an error in it: ${result.trap}. The document is unchanged; please report this deck.`, "bad");
   } else {
