@@ -27,7 +27,7 @@ module ek_align
       private
       type(suspension_t) :: drawn                    !! with trimmed preloads, adjusters not set
       type(suspension_t) :: trial
-      type(start_space_t) :: start
+      type(start_space_t) :: start, held             !! two, as the rigs of a start state and of held wheels differ
    end type align_space_t
 
 contains
@@ -130,7 +130,7 @@ contains
       space%trial%adjusters(adjusters)%value = values
       call adjust(space%trial)
       call find_start(space%trial, tight, space%start, is_found)      ! without a start state: design height
-      call hold(space%trial, tight, space%start, state, is_found)
+      call hold(space%trial, tight, space%held, state, is_found)
       if (.not. is_found) return
       used = 0
       do k = 1, size(space%trial%aligns)

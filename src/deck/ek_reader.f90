@@ -306,7 +306,7 @@ contains
    end subroutine complete_prototype
 
    !> Selects the start state of the tests (ek_start), and adds the loads that it needs. A preload trim holds the design position,
-   !> so that only a height or a load of the deck gives another state.
+   !> so that only adjusters, and a height or a load of the deck, give another state.
    subroutine choose_start(reading)
       type(deck_reading_t), intent(inout) :: reading
       logical :: has_loads
@@ -324,7 +324,7 @@ contains
             model%start = 'wheel_load'
          else if (plan%start(1) > 0) then
             model%start = 'height'
-         else if (model%balance /= 'none') then
+         else if (model%balance /= 'none' .and. size(model%adjusters) == 0) then
             model%start = ''
          else if (model%start == '') then
             model%start = merge('loads ', 'height', has_loads)

@@ -56,6 +56,7 @@ contains
       end select
       if (type == 0 .or. .not. reading%cards(reading%k)%is_good) return
       call slot(reading, 'value', plan%value)
+      reading%parameters%list(plan%value)%is_given = .true.      ! 0 as drawn: listed, and found by paths with *
       unit = unit_of(reading, 'value')
       adjuster%value = number_of(reading, 'value', 0.0_wp)*unit
       if (adjuster%has_pivot) then

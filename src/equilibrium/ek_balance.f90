@@ -119,7 +119,7 @@ contains
       text = 'align: the adjusters do not give the angles; '
       if (failure%adjuster > 0) then
          associate (this => suspension%adjusters(failure%adjuster))
-            text = text//'adjuster '//quoted(this%name)//' would need '//str(failure%needed*1000.0_wp, 4)// &
+            text = text//'adjuster '//quoted(this%name)//' would need about '//str(failure%needed*1000.0_wp, 3)// &
                ' mm, but its range is '//str(this%low*1000.0_wp, 4)//' to '//str(this%high*1000.0_wp, 4)// &
                ' mm; at the end of the range, an angle is '//str(failure%worst_angle/degree, 4)//' deg off'
          end associate
