@@ -26,7 +26,7 @@ module ek_figure
    implicit none(type, external)
    private
    public :: figure_t, panel_t, axis_t, series_t, new_figure, add_series, add_source, add_label, add_point_names
-   public :: label_place_t, place_labels
+   public :: label_place_t, place_labels, drawn_range
    public :: as_line, as_points, as_both, as_band, as_boxes, as_segments, as_errors, as_labels, as_heat, kinds, gap_row, &
       full_height, title_height, has_values, centred, at_left, at_right, columns_of, fold_at
 
@@ -266,6 +266,20 @@ contains
       type(figure_t), intent(in) :: figure
       full_height = title_height + figure%height*((size(figure%panels) + figure%columns - 1)/figure%columns)
    end function full_height
+
+   !> The range of an axis as it is drawn. Ends that differ by rounding only, as of a constant result, are moved apart, because
+   !> gnuplot draws nothing in an empty range.
+   pure function drawn_range(axis) result(range)
+      type(axis_t), intent(in) :: axis               !! has_range
+      real(wp) :: range(2)
+      real(wp), parameter :: least = 1.0e-7_wp       ! width, as a share of the ends
+      real(wp) :: size_of_ends
+
+      range = axis%range
+      size_of_ends = maxval(abs(range))
+      if (abs(range(2) - range(1)) > least*size_of_ends) return
+      range = range + max(1.0e-6_wp, 0.1_wp*size_of_ends)*[-1, 1]
+   end function drawn_range
 
    !> Adds the names of the first points of a panel, with lines from the points to their names. If there is enough room, names
    !> do not overlap other names or points. The panel must have its ranges.

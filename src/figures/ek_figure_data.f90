@@ -9,7 +9,7 @@ module ek_figure_data
    use ek_json, only: json_t, json_string, json_strings, json_number, json_numbers, without_tags
    use ek_chart, only: rounded
    use ek_gnuplot, only: role_name
-   use ek_figure, only: figure_t, panel_t, axis_t, series_t, kinds, as_labels, centred, gap_row
+   use ek_figure, only: figure_t, panel_t, axis_t, series_t, kinds, as_labels, centred, gap_row, drawn_range
    implicit none(type, external)
    private
    public :: add_figures, figures_json
@@ -94,7 +94,7 @@ contains
 
       call json%open('{', name)
       call json%item('label', json_string(as_utf8(axis%label)))
-      if (axis%has_range) call json%item('range', json_numbers(rounded(axis%range, digits)))
+      if (axis%has_range) call json%item('range', json_numbers(rounded(drawn_range(axis), digits)))
       if (axis%is_log) call json%item('log', 'true')
       if (axis%names%count() > 0) call json%item('names', json_strings(axis%names))
       if (.not. axis%has_tics) call json%item('bare', 'true')

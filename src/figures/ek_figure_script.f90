@@ -10,7 +10,7 @@ module ek_figure_script
       value_colours, zero_axis, on_contour, on_contour_dots, on_label, on_soft, on_box
    use ek_gnuplot_text, only: gnuplot_text
    use ek_figure, only: figure_t, panel_t, axis_t, series_t, as_line, as_points, as_both, as_band, as_boxes, as_segments, &
-      as_errors, as_labels, as_heat, gap_row, full_height, title_height, has_values, fold_at
+      as_errors, as_labels, as_heat, gap_row, full_height, title_height, has_values, fold_at, drawn_range
    implicit none(type, external)
    private
    public :: figure_script, two_lines
@@ -212,7 +212,7 @@ contains
             if (panel%frame > 0) call script%line('set border '//str(panel%frame))
             if (panel%frame == 0) call script%line('unset border')
          end if
-         if (panel%value%has_range) call script%line('set cbrange '//range_of(panel%value%range)//'; '// &
+         if (panel%value%has_range) call script%line('set cbrange '//range_of(drawn_range(panel%value))//'; '// &
             trim(merge('set  ', 'unset', panel%value%is_log))//' logscale cb')
          call add_plot(script, panel, p)
       end associate
@@ -234,7 +234,7 @@ contains
          trim(merge('set  ', 'unset', axis%is_log))//' logscale '//name//'; set format '//name// &
          trim(merge(" '%g'", '     ', axis%is_log)))
       call script%line(zero_axis(merge('y', 'x', name == 'x'), axis%has_zero))
-      if (axis%has_range) call script%line('set '//name//'range '//range_of(axis%range))
+      if (axis%has_range) call script%line('set '//name//'range '//range_of(drawn_range(axis)))
       if (.not. axis%has_range) call script%line('set '//name//'range [*:*]')
    end subroutine add_axis
 
