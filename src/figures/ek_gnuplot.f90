@@ -7,7 +7,7 @@ module ek_gnuplot
    implicit none(type, external)
    private
    public :: begin_script, begin_formats, end_formats, begin_charts_file, begin_scene, end_scene, begin_animation
-   public :: ink, text_ink, fill, rgb, series_rgb, heading_style, subtitle_style, value_colours, axes_style, zero_axis, role_name
+   public :: ink, text_ink, fill, rgb, series_rgb, heading_style, subtitle_style, value_colours, zero_axis, role_name
    public :: on_title, on_label, on_soft, on_frame, on_zero, on_guide, on_grid, on_contact, on_box, on_range, on_design
    public :: on_wide_band, on_narrow_band, on_median, on_limit, on_result, on_dots, on_contour, on_contour_dots, on_low, on_high, &
       on_derivative, on_level, on_limits, on_skeleton, on_point, on_leader, on_swatch, on_part, on_line

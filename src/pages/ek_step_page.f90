@@ -132,6 +132,7 @@ contains
       allocate (figure)
       figure = new_figure(name//figure_ending, 'Errors over the number of increments', &
          name//'; magnitudes; errors below 1e-12 are not drawn', size(panels))
+      figure%left = 150          ! room for tics such as 0.0001 beside the labels
       do p = 1, size(panels)
          e = panels(p)
          associate (panel => figure%panels(p))
