@@ -8,7 +8,7 @@ program elastokin
    use ek_threads, only: use_one_thread
    use ek_clock, only: check_set_date
    use ek_system, only: prepare_surroundings
-   use ek_console, only: print_error, print_text
+   use ek_console, only: print_error, print_message, print_text
    use ek_help_files, only: write_help_files
    use ek_run_log, only: begin_log, end_log
    implicit none(type, external)
@@ -40,7 +40,7 @@ program elastokin
    if (allocated(error)) then
       status = error%code
       call print_error(error%message)
-      if (status == exit_usage) call print_error('see elastokin --help')
+      if (status == exit_usage) call print_message('see '//help_command())
    end if
    call end_log(program_name(build), status, unlogged)
    if (allocated(unlogged)) then
@@ -48,5 +48,15 @@ program elastokin
       if (status == 0) status = unlogged%code
    end if
    if (status /= 0) stop status, quiet=.true.
+
+contains
+
+   !> The command line that prints the help of this command.
+   function help_command() result(text)
+      character(:), allocatable :: text
+      text = 'elastokin --help'
+      if (.not. allocated(line%command)) return
+      if (line%command /= '') text = 'elastokin '//line%command//' --help'
+   end function help_command
 
 end program elastokin

@@ -195,7 +195,7 @@ contains
          end do
          is_wanted = is_wanted .or. is_this
          if (any(is_this) .or. any(key_compliances == names(k))) cycle
-         call mistakes%add('--of: no column that is linear in the compliance matrix is called '//quoted(trim(names(k)))// &
+         call mistakes%add('--of: '//quoted(trim(names(k)))//' is not a compliance column'// &
             suggestion(trim(names(k)), table%columns%names))
       end do
       if (mistakes%count() == 0 .and. .not. any(is_wanted)) call mistakes%add('--of: the model has none of these columns')
@@ -383,7 +383,7 @@ contains
          change(:, law) = values - table%values
       end do
       do k = 1, size(values)
-         call text%line('1 kN/mm more changes '//heading(table, k)//' = '//number(table%values(k))//' '//unit(table, k)//' by:')
+         call text%line('effect of +1 kN/mm on '//heading(table, k)//' (now '//number(table%values(k))//' '//unit(table, k)//'):')
          call largest(change(k, :), shown, order)
          do law = 1, size(order)
             associate (row => table%row(table%shares%law(order(law))))

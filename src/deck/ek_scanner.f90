@@ -337,8 +337,8 @@ contains
             content = content//quote
             k = k + 1
          end do
-         call complain(deck_errors, record, cursor%line, 'the string '//quote//content//text(k:last)// &
-            ' has no closing quote on its line')
+         call complain(deck_errors, record, cursor%line, 'a string that begins with '//quote// &
+            ' is not closed on this line: '//quote//content//text(k:last))
          ! continue after its first word: most strings are names, and the rest of the line is then read as intended
          cursor%at = first - 1 + scan(text(first:last)//' ', ' ,/!'//tab)
          content = text(first:cursor%at - 1)

@@ -73,8 +73,8 @@ contains
             law%y(kept) = law%y(k)
             law%lines(kept) = law%lines(k)
          else if (abs(law%y(k) - law%y(kept)) > 0.0_wp) then
-            call flaws%add(max(law%lines(k), law%lines(kept)), name//': expected each displacement once, found that of line '// &
-               str(min(law%lines(k), law%lines(kept)))//' again with another force')
+            call flaws%add(max(law%lines(k), law%lines(kept)), name//': a displacement is given twice, here and in line '// &
+               str(min(law%lines(k), law%lines(kept)))//', with different forces')
             return
          end if
       end do

@@ -86,7 +86,8 @@ contains
       type(key_source_t) :: source
       integer :: k, wheel
 
-      call new_number('Steering', quantity, unit, 'inner wheel at 20 deg: left in a turn to the left', at_place, number)
+      call new_number('Steering', quantity, unit, 'steer of the inner wheel = 20 deg; left turn for the left wheel', &
+         at_place, number)
       if (column_index(test%table, column) == 0) return
       do k = 1, size(test%prefixes)
          wheel = merge(2, 1, test%sides(k) > 0 .and. size(test%prefixes) > 1)

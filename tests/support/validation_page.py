@@ -58,8 +58,8 @@ of each quantity over all axles and states.
   Cardan angles. The matrix of elastokin has the same asymmetry.
 - Vertical stiffness of the tyre: the published heights and loads show that the tyre deflects as if its contact point
   were at 0.6 of the radius below the wheel centre, while its force acts at the whole radius. elastokin has one contact
-  point, at the whole radius. So the decks add 0.4 of the rise of the contact point above the wheel centre to the
-  published height of the road. The test checks this rule at every state.
+  point, at the whole radius. So the road height in these decks is the published height plus 0.4 times the rise of
+  the contact point relative to the wheel centre. The test checks this rule at every state.
 - Trail, scrub radius, hub offsets and track: IPGKinematics measures them in the direction of the wheel, with a
   contact point that does not turn with the carrier about the spin axis. The comparison converts elastokin's columns
   to this definition. The lateral position of this contact point is known to 2.4e-3 mm, which limits scrub radius and
