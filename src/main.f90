@@ -56,7 +56,7 @@ contains
       character(:), allocatable :: text
       text = 'elastokin --help'
       if (.not. allocated(line%command)) return
-      if (line%command /= '') text = 'elastokin '//line%command//' --help'
+      if (any(commands%name == line%command)) text = 'elastokin '//line%command//' --help'
    end function help_command
 
 end program elastokin

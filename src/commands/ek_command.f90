@@ -202,6 +202,8 @@ module ek_command
       option_t('report', '--no-plots', 'without the picture in space; gnuplot is not started'), &
       option_t('report', '--plots', 'also draw the charts, views and carpets of the page as files in figures/, by gnuplot'), &
       option_t('report', '--scales DIR', 'draw the charts with the axes of the report in DIR, for comparison'), &
+      option_t('report', '--measured test=FILE', 'compare measured curves (CSV) with this test; may be repeated; needs --map'), &
+      option_t('report', '--map FILE', 'the meaning of the headings of --measured: &channel groups'), &
       option_t('report', '--static', 'write a page without scripts; its charts are pictures drawn by gnuplot'), &
       option_t('report', '--live N', &
       'add sliders for the N rates (1 to 24) that contribute most to the compliances;'// &

@@ -9,7 +9,7 @@ module ek_console
    use ek_run_log, only: log_message, log_output
    implicit none(type, external)
    private
-   public :: print_note, print_warning, print_error, print_text, print_model_remarks, print_remarks, show_progress, &
+   public :: print_message, print_note, print_warning, print_error, print_text, print_model_remarks, print_remarks, show_progress, &
       clear_progress
 
 contains

@@ -22,7 +22,7 @@ module ek_report
    use ek_report_files, only: contents_csv, test_line, name_files
    use ek_report_names, only: contents_file, gradients_file, gradients_json_file, compliance_file, numbers_file, &
       numbers_json_file, deck_file, used_deck_file, data_file, page_file, loads_file, peaks_file, list_file, files_of_reports, &
-      files_of_loads, windows_folder
+      files_of_loads, windows_folder, measured_file
    use ek_deck_file, only: deck_csv
    use ek_deck, only: deck_t
    use ek_deck_values, only: list_values
@@ -33,6 +33,8 @@ module ek_report
    use ek_plausible_shape, only: vehicle_size
    use ek_report_content, only: report_t, add_fact
    use ek_report_data, only: report_data
+   use ek_report_measured, only: read_measured, compare_all_measured
+   use ek_measurement, only: measured_csv
    use ek_report_page, only: report_page
    use ek_verdict, only: verdict_t, verdict_lines, plain
    use ek_report_pictures, only: draw_pictures, find_figures
@@ -88,7 +90,7 @@ contains
       type(examination_t) :: found
       type(model_remarks_t) :: remarks
       type(chart_t), allocatable :: scales(:)                           ! of another report
-      type(error_t), allocatable :: incomplete
+      type(error_t), allocatable :: incomplete, unmapped
       type(outbox_t) :: box
       character(:), allocatable :: checksum
       integer :: k
@@ -116,10 +118,13 @@ contains
       call planned_tests(workspace%suspension, chosen, page%tests)
       call name_files(page%tests)
       call stop_at_windows(settings%windows, page%tests, chosen)
+      call read_measured(line, workspace%suspension, page%tests, chosen, page%measured, error)
+      if (allocated(error)) return
       call find_model_remarks(workspace%suspension, workspace%raw, workspace%deck_cases, chosen, .true., remarks)
       call print_model_remarks(settings%is_quiet, remarks, page%warnings)
       if (any([(counts_from_start(chosen(k)), k=1, size(chosen))])) page%start = start_text(workspace%suspension)
-      call box%remove([character(18) :: page_file, contents_file, compliance_file, deck_file, used_deck_file, files_of_loads])
+      call box%remove([character(19) :: page_file, contents_file, compliance_file, deck_file, used_deck_file, measured_file, &
+         files_of_loads])
       call remove_parts(workspace%suspension, page%folder)
 
       if (settings%has_loads) then
@@ -146,6 +151,11 @@ contains
          if (.not. allocated(page%live%rates)) call page%warnings%add('--live: no rate can be changed on the page: no test has '// &
             'a design state at which a bushing, spring or bar with a constant rate contributes to a key compliance')
       end if
+      if (allocated(page%measured)) then
+         call compare_all_measured(page%tests, page%measured, page%warnings, unmapped)
+         call box%put(measured_file, measured_csv(page%measured))
+         if (allocated(unmapped)) call print_error(unmapped%message)
+      end if
       if (allocated(scales)) call take_scales(scales, page%charts)
       call put_numbers(workspace, checksum, page, box)
       call box%take(error)
@@ -168,6 +178,8 @@ contains
       call box%announce(page_file)
       call print_verdicts(settings%is_quiet, page)
       call move_alloc(incomplete, error)
+      if (allocated(unmapped) .and. .not. allocated(error)) call fail(error, unmapped%code, &
+         'measured curves have no column; see the errors above')
       call box%finish(error)
    end subroutine report
 

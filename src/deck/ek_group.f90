@@ -20,13 +20,13 @@ module ek_group
       study_group = 11, factor_group = 12, response_group = 13, include_group = 14, mirror_group = 15, &
       curve_group = 16, damper_group = 17, stop_group = 18, torsion_group = 19, axle_group = 20, steering_group = 21, &
       mass_group = 22, correlation_group = 23, hardpoints_group = 24, target_group = 25, fit_group = 26, fit_target_group = 27, &
-      manoeuvre_group = 28, load_state_group = 29, adjuster_group = 30, align_group = 31
+      manoeuvre_group = 28, load_state_group = 29, adjuster_group = 30, align_group = 31, channel_group = 32
    character(*), parameter :: group_names(*) = [character(11) :: 'model', 'point', 'body', 'measure', 'joint', &
       'bushing', 'spring', 'wheel', 'load', 'case', 'study', 'factor', 'response', 'include', 'mirror', 'curve', 'damper', &
       'stop', 'torsion', 'axle', 'steering', 'mass', 'correlation', 'hardpoints', 'target_band', &
-      'fit', 'target', 'manoeuvre', 'load_state', 'adjuster', 'align']
+      'fit', 'target', 'manoeuvre', 'load_state', 'adjuster', 'align', 'channel']
 
-   !> What a record of each group describes, for `elastokin schema`; '' for groups of a study or a fit.
+   !> What a record of each group describes, for `elastokin schema`; '' for groups of a study, a fit or a map.
    character(*), parameter :: group_summaries(*) = [character(90) :: 'the model: name, units, frame and preload trim', &
       'a hardpoint', 'a rigid body', 'a scalar between two bodies', 'a joint, driver or coupler', 'a bushing', &
       'a spring between two points, or on a measure', 'a wheel, with its carrier and tyre', 'a force and moment on a body', &
@@ -36,14 +36,14 @@ module ek_group
       'the axle and the car around it', 'the steering wheel and the rack', 'an additional mass on a body', '', &
       'points from a file', 'a range in which a key number should lie', '', '', 'load factor and accelerations of the car', &
       'a state from which all tests can start', 'a rod, shim, slot or seat by which the axle is set up', &
-      'static angles of a wheel that adjusters give']
+      'static angles of a wheel that adjusters give', '']
 
    integer, parameter :: every_group = 0      !! group, in the table of keys, of a key that every group has
    integer, parameter :: spring_groups(*) = [spring_group, damper_group, stop_group, torsion_group]   ! elements of one measure
    integer, parameter :: result_groups(*) = [measure_group, joint_group, bushing_group, spring_groups]   ! their names make columns
-   ! groups of a study, of a fit; all others belong to a deck
+   ! groups of a study, of a fit, of a map of measured channels; all others belong to a deck
    integer, parameter, public :: study_groups(4) = [study_group, factor_group, response_group, correlation_group], &
-      fit_groups(3) = [fit_group, factor_group, fit_target_group]
+      fit_groups(3) = [fit_group, factor_group, fit_target_group], map_groups(1) = [channel_group]
 
    ! types of value
    integer, parameter, public :: word = 1      !! quoted string of at most word_length characters: names and choices
@@ -428,7 +428,14 @@ module ek_group
       key_t(fit_target_group, 'file', prose, 1, 1, .false.), &
       key_t(fit_target_group, 'column', heading, 1, 1, .false.), &
       key_t(fit_target_group, 'deviation', number, 1, 1, .false., positive), &
-      key_t(fit_target_group, 'weight', number, 1, 1, .false., not_negative)]
+      key_t(fit_target_group, 'map', prose, 1, 1, .false.), &
+      key_t(fit_target_group, 'weight', number, 1, 1, .false., not_negative), &
+      key_t(channel_group, 'heading', heading, 1, 1, .true.), &
+      key_t(channel_group, 'quantity', heading, 1, 1, .true.), &
+      key_t(channel_group, 'test', word, 1, 1, .false.), &
+      key_t(channel_group, 'unit', word, 1, 1, .false.), &
+      key_t(channel_group, 'scale', number, 1, 1, .false., not_zero), &
+      key_t(channel_group, 'zeroed', switch, 1, 1, .false.)]
 
    type(key_t), parameter :: keys_of_files(*) = [ &
       key_t(include_group, 'file', prose, 1, 1, .true., about='file with further groups of the deck'), &
@@ -453,10 +460,10 @@ contains
       group_number = findloc(group_names, name, dim=1)
    end function group_number
 
-   !> Whether a group belongs to a deck; .false. for groups of a study or a fit and for 0.
+   !> Whether a group belongs to a deck; .false. for groups of a study, of a fit or of a map, and for 0.
    pure logical function is_deck_group(group)
       integer, intent(in) :: group
-      is_deck_group = group > 0 .and. .not. any([study_groups, fit_groups] == group)
+      is_deck_group = group > 0 .and. .not. any([study_groups, fit_groups, map_groups] == group)
    end function is_deck_group
 
    !> Whether a deck may have at most one record of a group.

@@ -9,6 +9,7 @@ module ek_report_content
    use ek_key_number, only: key_number_t
    use ek_member_loads, only: load_record_t
    use ek_part_record, only: part_record_t
+   use ek_measurement, only: measurement_t
    use ek_explanation, only: explanation_t
    use ek_live, only: live_t
    use ek_turntable, only: turntable_t
@@ -34,6 +35,7 @@ module ek_report_content
       type(key_number_t), allocatable :: missing(:)    !! key numbers without a value, which are not among `numbers`
       type(load_record_t), allocatable :: loads        !! loads of the members, if requested
       type(part_record_t), allocatable :: parts        !! loads on the parts in states with names, if there are such states
+      type(measurement_t), allocatable :: measured(:)  !! measured curves, if given
       type(explanation_t), allocatable :: explanations(:)     !! contributions to the rates and the key compliances
       type(live_t), allocatable :: live                !! rates that the page can change, if requested
       type(turntable_t), allocatable :: turntable      !! the suspension in space, if something moves

@@ -7,7 +7,9 @@ module ek_report_data
    use ek_text, only: str
    use ek_buffer, only: buffer_t
    use ek_letters, only: as_utf8
-   use ek_json, only: json_t, json_string, json_number, without_tags
+   use ek_json, only: json_t, json_string, json_number, json_numbers, without_tags
+   use ek_measurement, only: measurement_t
+   use ek_table, only: table_t, column_index
    use ek_test_result, only: test_result_t, design_row
    use ek_chart_axis, only: free_range, extremes
    use ek_contact, only: contact_t, contacts_of
@@ -56,7 +58,7 @@ contains
       call json%close(']')
       call json%open('[', 'tests')
       do k = 1, size(report%tests)
-         if (report%tests(k)%is_run) call add_test(json, report%tests(k), report%charts, k, '')
+         if (report%tests(k)%is_run) call add_test(json, report%tests(k), report%charts, k, '', report%measured)
       end do
       call json%close(']')
       if (allocated(report%figures)) call add_figures(json, report%figures)
@@ -121,12 +123,13 @@ contains
    end function limit_of
 
    !> Adds a test: its abscissae and columns, each once, and the charts, which refer to columns by name.
-   subroutine add_test(json, test, charts, number, of)
+   subroutine add_test(json, test, charts, number, of, measured)
       type(json_t), intent(inout) :: json
       type(test_result_t), intent(in) :: test
       type(chart_t), intent(in) :: charts(:)
       integer, intent(in) :: number                   !! index of the test
       character(*), intent(in) :: of                  !! prefix of the names of stops: the result to which they belong
+      type(measurement_t), intent(in), optional :: measured(:)
       type(message_list_t) :: written
       integer :: k, l, pass
 
@@ -143,6 +146,7 @@ contains
          if (charts(k)%test == number) call add_chart(json, charts(k))
       end do
       call json%close(']')
+      if (present(measured)) call add_measured(json, test, charts, number, measured)
       do pass = 1, 2
          written = message_list_t()
          call json%open('{', trim(merge('x', 'y', pass == 1)))
@@ -159,6 +163,74 @@ contains
       end do
       call json%close('}')
    end subroutine add_test
+
+   !> Adds the measured curves of a test: the abscissa of the chart and the values at the measured points, in their order.
+   subroutine add_measured(json, test, charts, number, measured)
+      type(json_t), intent(inout) :: json
+      type(test_result_t), intent(in) :: test
+      type(chart_t), intent(in) :: charts(:)
+      integer, intent(in) :: number                   !! index of the test
+      type(measurement_t), intent(in) :: measured(:)
+      character(:), allocatable :: over
+      type(table_t) :: table
+      integer :: k, l, place
+
+      if (.not. any(measured%place == number)) return
+      table = test%table
+      if (allocated(test%read)) table = test%read
+      call json%open('[', 'measured')
+      do k = 1, size(measured)
+         if (measured(k)%place /= number) cycle
+         do l = 1, size(measured(k)%channels)
+            associate (channel => measured(k)%channels(l), rows => measured(k)%rows)
+               over = abscissa_of(trim(channel%column), charts, number)
+               place = column_index(table, over)
+               if (place == 0) cycle
+               call json%open('{')
+               call json%item('y', json_string(trim(channel%column)))
+               call json%item('at', numbers_of(pack(table%values(place, max(rows, 1)), rows > 0)*test%abscissa_size))
+               call json%item('values', numbers_of(pack(channel%y, rows > 0)))
+               call json%close('}')
+            end associate
+         end do
+      end do
+      call json%close(']')
+   end subroutine add_measured
+
+   !> The column of the abscissa of the chart that shows a column; where only the left wheel is drawn, the right column belongs to the
+   !> same chart. '' without a chart.
+   function abscissa_of(column, charts, number) result(over)
+      character(*), intent(in) :: column
+      type(chart_t), intent(in) :: charts(:)
+      integer, intent(in) :: number                   !! index of the test
+      character(:), allocatable :: over
+      integer :: k, l, pass
+
+      over = ''
+      do pass = 1, 2
+         do k = 1, size(charts)
+            if (charts(k)%test /= number) cycle
+            do l = 1, size(charts(k)%traces)
+               associate (trace => charts(k)%traces(l))
+                  if (pass == 1 .and. column_of(trace) == column) over = trace%over
+                  if (pass == 2 .and. index(column, 'right_') == 1) then
+                     if (column_of(trace) == 'left_'//column(7:)) over = trace%over
+                  end if
+               end associate
+               if (over /= '') return
+            end do
+         end do
+      end do
+   end function abscissa_of
+
+   !> A list of numbers with the digits of a curve.
+   function numbers_of(values) result(literal)
+      real(wp), intent(in) :: values(:)
+      character(:), allocatable :: literal
+      integer :: k
+
+      literal = json_numbers([(rounded(values(k), figures), k=1, size(values))])
+   end function numbers_of
 
    !> Adds the ranges of states in which stops are in contact; adds nothing if there are none.
    subroutine add_contacts(json, test, of)

@@ -21,6 +21,7 @@ module ek_report_page
       page_number
    use ek_member_loads, only: load_record_t
    use ek_rod_table, only: add_rod_table
+   use ek_measured_table, only: add_measured_table
    implicit none(type, external)
    private
    public :: report_page, add_pictures, add_constants, add_peak_loads
@@ -53,6 +54,7 @@ contains
       call add_scene(page, report)
       call add_other_numbers(page, report)
       if (allocated(report%explanations)) call add_explanations(page, report%explanations)
+      if (allocated(report%measured)) call add_measured_table(page, report%measured)
       do k = 1, size(report%tests)
          call add_test(page, report, report%tests(k), k)
       end do

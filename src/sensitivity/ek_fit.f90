@@ -24,6 +24,7 @@ module ek_fit
       real(wp) :: value, low, high
       character(:), allocatable :: file           !! CSV file of a curve; '': no file
       character(:), allocatable :: column         !! column of the file; by default, the name of the quantity
+      character(:), allocatable :: map            !! map from the headings of the file to quantities (ek_rig_map); '': none
       real(wp) :: deviation                       !! standard deviation of one value of the target
       real(wp) :: weight = 1.0_wp
       character(:), allocatable :: where          !! 'file:line' of the &target, for messages

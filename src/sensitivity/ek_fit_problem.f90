@@ -4,7 +4,7 @@
 module ek_fit_problem
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t, fail, exit_deck
-   use ek_text, only: str, quoted
+   use ek_text, only: str, quoted, did_you_mean
    use ek_table, only: name_length
    use ek_number_range, only: is_inside
    use ek_deck, only: deck_t
@@ -22,6 +22,9 @@ module ek_fit_problem
    use ek_sheet, only: sheet_t, read_sheet, column_of, mistakes_of, complain
    use ek_sheet_columns, only: take_columns, find_unit_row, or_empty
    use ek_unit_row, only: unit_of_heading
+   use ek_case, only: case_t
+   use ek_measurement, only: measurement_t
+   use ek_rig_map, only: map_channel_t, read_map, read_measurement
    implicit none(type, external)
    private
    public :: fit_problem_t, fit_variable_t, fit_point_t, make_problem
@@ -326,7 +329,8 @@ contains
       type(fit_point_t), allocatable :: points(:)
       integer :: k, used
 
-      call read_curve(this, home, swept_unit, rows, flaws)
+      if (this%map == '') call read_curve(this, home, swept_unit, rows, flaws)
+      if (this%map /= '') call read_measured_curve(this, home, workspace%cases(first%case)%case, rows, flaws)
       do k = 1, flaws%count()
          call mistakes%add(head//flaws%line(k))
       end do
@@ -456,5 +460,54 @@ contains
          if (of(k) > 0) rows(2 + k, :) = limits(1 + findloc(of_limits, of(k), dim=1), :)
       end do
    end subroutine read_curve
+
+   !> Reads the measured curve of a target by the map of its file. Points without a value are omitted.
+   subroutine read_measured_curve(target, home, case, rows, mistakes)
+      type(fit_target_t), intent(in) :: target
+      character(*), intent(in) :: home                     !! folder of the fit, with its slash
+      type(case_t), intent(in) :: case                     !! case of the target
+      real(wp), allocatable, intent(out) :: rows(:, :)     !! as read_curve
+      type(message_list_t), intent(inout) :: mistakes      !! receives all errors of map and table
+      type(map_channel_t), allocatable :: channels(:)
+      type(measurement_t) :: measurement
+      type(error_t), allocatable :: error
+      character(:), allocatable :: kind
+      real(wp), allocatable :: y(:)
+      integer :: place
+
+      allocate (rows(4, 0))
+      kind = ''
+      if (allocated(case%test)) kind = case%test
+      call read_map(in_home(target%map), channels, error)
+      if (.not. allocated(error)) call read_measurement(in_home(target%file), case%name, kind, channels, measurement, error)
+      if (allocated(error)) then
+         call mistakes%add(error%message)
+         return
+      end if
+      place = findloc(measurement%channels%column == target%quantity, .true., dim=1)
+      if (place == 0) then
+         call mistakes%add(measurement%file//': no column is '//quoted(target%quantity)//' by the map '//target%map// &
+            did_you_mean(target%quantity, measurement%channels%column))
+         return
+      else if (measurement%channels(place)%is_zeroed .neqv. target%is_change) then
+         call mistakes%add(measurement%file//': channel '//quoted(trim(measurement%channels(place)%heading))// &
+            ': zeroed of the map and of = ''change'' of the target belong together')
+         return
+      end if
+      y = measurement%channels(place)%y
+      deallocate (rows)
+      allocate (rows(4, count(is_given(y))), source=not_given())
+      rows(1, :) = pack(measurement%x, is_given(y))
+      rows(2, :) = pack(y, is_given(y))
+
+   contains
+
+      function in_home(file) result(path)
+         character(*), intent(in) :: file
+         character(:), allocatable :: path
+         path = file
+         if (index(path, '/') /= 1) path = home//path
+      end function in_home
+   end subroutine read_measured_curve
 
 end module ek_fit_problem

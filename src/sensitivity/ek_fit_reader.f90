@@ -167,20 +167,22 @@ contains
       this%high = number_of(reading, 'high', not_given())
       this%file = text_of(reading, 'file')
       this%column = text_of(reading, 'column', this%quantity)
+      this%map = text_of(reading, 'map')
       this%deviation = number_of(reading, 'deviation', not_given())
       this%weight = number_of(reading, 'weight', 1.0_wp)
       this%where = where_of(reading)
       if (this%is_slope) then
          if (.not. this%window > 0.0_wp) call complain(reading, '', 'of = ''slope'' needs window, half of its width')
-         call refuse(reading, [character(6) :: 'at', 'file', 'column'], 'a slope is taken around design and is one number')
+         call refuse(reading, [character(6) :: 'at', 'file', 'column', 'map'], 'a slope is taken around design and is one number')
       else
          call refuse(reading, ['window'], 'only of = ''slope'' has a window')
       end if
       if (this%file /= '') then
          call refuse(reading, [character(5) :: 'at', 'value', 'low', 'high'], 'the file gives the curve; its columns '// &
             'low and high are limits')
+         if (this%map /= '') call refuse(reading, [character(6) :: 'column', 'over'], 'the map gives the headings of the file')
       else
-         call refuse(reading, ['column'], 'only a file has columns')
+         call refuse(reading, [character(6) :: 'column', 'map'], 'only a file has columns')
          if (.not. (is_given(this%value) .or. is_given(this%low) .or. is_given(this%high))) &
             call complain(reading, '', 'needs value, or low or high, or the file of a curve')
          if (is_given(this%value) .and. (is_given(this%low) .or. is_given(this%high))) &

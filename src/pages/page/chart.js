@@ -71,13 +71,16 @@ class Chart {
       if (test.deck && test.deck[c.y]) Object.assign(curve, { column: c.y, deck: { x: curve.x, y: test.deck[c.y] } });
       const same = match && (match.curves.find((t) => t.name === c.name) || match.curves.find((t) => t.name === both));
       if (same) curve.other = { x: test.other.x[same.x], y: test.other.y[same.y] };
+      // a curve of both wheels is compared with what was measured at either
+      const columns = c.name === both ? [c.y, c.y.replace(/^left_/, "right_")] : [c.y];
+      curve.measured = (test.data.measured || []).filter(({ y }) => columns.includes(y)).map(({ at, values }) => ({ x: at, y: values }));
       return curve;
     });
   }
 
   // Ends of the axes: of the zoomed range, or of the whole test; both reports if one is overlaid.
   axes() {
-    const all = this.curves.flatMap((c) => [c, c.other]).filter(Boolean), { match, description } = this;
+    const all = this.curves.flatMap((c) => [c, c.other, ...c.measured]).filter(Boolean), { match, description } = this;
     const xs = all.flatMap((c) => c.x.filter((x) => x !== null));
     let [x0, x1] = this.test.zoom || [Math.min(...xs), Math.max(...xs)];
     if (x0 === x1) [x0, x1] = [x0 - 1, x1 + 1];
@@ -86,6 +89,10 @@ class Chart {
       const some = y.filter((v) => v !== null), step = (description.high - description.low) / 10;
       low = Math.min(low, description.low + step * Math.floor((Math.min(...some) - description.low) / step));
       high = Math.max(high, description.low + step * Math.ceil((Math.max(...some) - description.low) / step));
+    }
+    for (const v of this.curves.flatMap((c) => c.measured.flatMap((m) => m.y))) {
+      if (v === null) continue;
+      [low, high] = [Math.min(low, v), Math.max(high, v)];
     }
     if (this.test.zoom) {
       const ys = all.flatMap((c) => c.y.filter((y, k) => y !== null && c.x[k] >= x0 && c.x[k] <= x1 && y >= low && y <= high));
@@ -124,6 +131,9 @@ class Chart {
       const seen = !this.test.hidden.has(curve.name), colour = `--colour:var(--c${(curve.colour - 1) % 8 + 1})`;
       if (curve.other && seen) plot.append(this.line(curve.other, "curve other", colour));
       if (curve.deck && seen) plot.append(this.line(curve.deck, "curve deck", ""));
+      for (const measured of seen ? curve.measured : [])
+        plot.append(svg("path", { class: "measured loop", d: this.path_of(measured), style: colour }),
+          svg("path", { class: "measured", d: this.path_of(measured, true), style: colour }));
       if (seen) plot.append(curve.path = this.line(curve, `curve dash${curve.dash}`, colour));
       const k = curve.design;
       if (seen && k >= 0 && curve.y[k] !== null)
@@ -165,12 +175,12 @@ class Chart {
     return svg("path", { class: this.description.points ? `${look} points` : look, d: this.path_of(curve), style });
   }
 
-  path_of(curve) {
+  path_of(curve, has_points = this.description.points) {
     let path = "", pen = "M";
     for (let k = 0; k < curve.x.length; k++) {
       if (curve.x[k] === null || curve.y[k] === null) { pen = "M"; continue; }
       const at = `${this.to_x(curve.x[k]).toFixed(1)} ${this.to_y(curve.y[k]).toFixed(1)}`;
-      path += this.description.points ? `M${at}h0` : pen + at;
+      path += has_points ? `M${at}h0` : pen + at;
       pen = "L";
     }
     return path;
@@ -192,6 +202,11 @@ class Chart {
       curve.button = button;
       curve.value = value;
       keys.append(button);
+    }
+    if (this.curves.some((c) => c.measured.length)) {
+      const note = document.createElement("small");
+      note.textContent = "points: measured";
+      keys.append(note);
     }
     return keys;
   }
