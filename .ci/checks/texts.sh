@@ -64,7 +64,7 @@ documents_agree() {
 # The tutorial, and the smallest examples of the manual, each in an empty folder, letter by letter; the commands of the other pages; the snippets of the gallery of joints stand in their decks; the figures are drawn
 tutorial_works() {
   local page
-  for page in docs/tutorial.md docs/loads.md docs/points.md docs/adjust.md input/README.md input/RIG.md input/STUDIES.md; do
+  for page in docs/{tutorial,rig_test,read_report,targets,import,optimiser,failed_states,loads,points,adjust,joints}.md input/{README,RIG,STUDIES}.md; do
     PATH=$top/build/release/bin:$PATH tests/support/run_tutorial.py "$page" || return 1
   done
   PATH=$top/build/release/bin:$PATH tests/support/run_commands.py docs/*.md || return 1
