@@ -18,7 +18,7 @@ import sys
 top = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 terms = ["ride height", "lb/in", "bump stop gap", "rotate a bushing", "steering rack compliance", "CSV without header",
          "only three columns", "resume a study", "bar with drop links", "push rod"]
-ours = re.compile(r"(README|python/README|studies/(?:[^/]*/)?README|docs/(?!theory/|extending|compilers|tour|validation)[^/]*)\.md$")
+ours = re.compile(r"(README|python/README|(?:studies|examples)/(?:[^/]*/)?README|docs/(?!theory/|extending|compilers|tour|validation)[^/]*)\.md$")
 longest_readme, longest_line, longest_sentence, share_with_two_colons = 150, 120, 35, 0.01
 number = re.compile(r"(?<![\w.+−-])[-+−]?\d+(?:[ ,]\d{3})*(?:\.\d+)?(?:e-?\d+)?(?![\w])")
 wrong = []
