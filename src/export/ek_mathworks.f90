@@ -67,8 +67,8 @@ contains
    !> Fills the arrays of the parameters from the maps of the axles that have a map.
    subroutine find_parameters(p)
       type(kandc_parameters_t), intent(inout) :: p      !! its maps, has and checksums are set
-      character(*), parameter :: brake = 'first row braking (Fx < 0 at the contact point), '// &
-         'second driving (Fx > 0 at the wheel centre)'
+      character(*), parameter :: brake = 'row 1 braking (Fx < 0 at the contact point), '// &
+         'row 2 driving (Fx > 0 at the wheel centre)'
 
       p%used = 0
       call add('BumpSteer', 'deg/mm', 'steer per travel')
