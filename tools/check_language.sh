@@ -88,6 +88,21 @@ whole numbers?  =>  integer
 END
 }
 
+# what is never right where a user reads: in the documents of users (without code), the strings of the program and the page of a report
+user_wording() {
+  cat <<'END'
+(?:contact|the|each|both) patch|patches|patch (?:moves|held)  =>  contact point
+caster trail(?! change)  =>  mechanical trail
+spindle (?:length|offset)  =>  kingpin offset, caster offset at the wheel centre
+steer-axis  =>  steering axis
+mistakes?|troubles?  =>  error (of a deck), deviation (of numbers)
+refus(?:e|es|ed|al|ing)  =>  reject, not supported
+left out|leaves? out  =>  omit
+the turntable  =>  3-D view
+folded|unfold(?:ed)?  =>  collapsed, expanded
+END
+}
+
 # phrases that may stay  =>  reason
 allowed() {
   cat <<'END'
@@ -98,6 +113,11 @@ looks? like  =>  a remark names the likely cause
 anti[- ]lift|drive lift|brake lift  =>  names of quantities
 sway bar  =>  the glossary: American for anti-roll bar
 wheel lift in steer  =>  name of a quantity
+contact patch is a point  =>  of the tyre
+patch, contact patch, wheel contact point  =>  find a term: names elsewhere
+hub offset, spindle length  =>  find a term: names elsewhere
+spindle length and spindle offset with two meanings  =>  names elsewhere
+caster trail(?:, caster offset| \(80000030\))  =>  names elsewhere
 keywords?  =>  not the word list
 MemTotal  =>  a name of Linux
 json-schema.org/draft  =>  an address
@@ -178,25 +198,61 @@ while IFS= read -r -d '' file; do
   prose "$file" | awk -v name="$name" '{print name ":" FNR ":" $0}'
 done <"$work/files" >"$work/lines" || exit 1
 
-STAY=$stay perl -CSDA -Mutf8 -e '
-  use strict; use warnings;
-  my ($list, $lines) = @ARGV;
-  my (@pattern, @use, $found);
-  open(my $in, "<", $list) or die;
-  while (<$in>) { chomp; my ($p, $u) = split /  =>  /, $_, 2; push @pattern, qr/(?<!\w)(?:$p)(?!\w)/i; push @use, $u; }
-  my $stay = $ENV{STAY}; utf8::decode($stay) unless utf8::is_utf8($stay); $stay = qr/$stay/i;
-  open($in, "<", $lines) or die;
-  while (<$in>) {
-    chomp;
-    my ($where, $text) = /^([^:]*:\d+):(.*)$/ or next;
-    $text =~ s/$stay/~/g;
-    for my $k (0 .. $#pattern) {
-      while ($text =~ /$pattern[$k]/g) { print "$where: \"$&\": use: $use[$k]\n"; $found++; }
+# Lines of the file LINES that contain a pattern of LIST
+find_words() { # find_words LIST LINES
+  STAY=$stay perl -CSDA -Mutf8 -e '
+    use strict; use warnings;
+    my ($list, $lines) = @ARGV;
+    my (@pattern, @use, $found);
+    open(my $in, "<", $list) or die;
+    while (<$in>) { chomp; my ($p, $u) = split /  =>  /, $_, 2; push @pattern, qr/(?<!\w)(?:$p)(?!\w)/i; push @use, $u; }
+    my $stay = $ENV{STAY}; utf8::decode($stay) unless utf8::is_utf8($stay); $stay = qr/$stay/i;
+    open($in, "<", $lines) or die;
+    while (<$in>) {
+      chomp;
+      my ($where, $text) = /^([^:]*:\d+):(.*)$/ or next;
+      $text =~ s/$stay/~/g;
+      for my $k (0 .. $#pattern) {
+        while ($text =~ /$pattern[$k]/g) { print "$where: \"$&\": use: $use[$k]\n"; $found++; }
+      }
     }
-  }
-  exit($found ? 1 : 0);
-' <(wording) "$work/lines"
-status=$?
+    exit($found ? 1 : 0);
+  ' "$@"
+}
+
+# What users read, as FILE:LINE:text: documents without code, strings of more than a word in Fortran, the text of a report page
+user_lines() {
+  git -C "$top" ls-files -- '*.md' ':!:docs/theory' ':!:docs/compilers.md' ':!:docs/extending.md' ':!:docs/tour.md' ':!:CONTRIBUTING.md' \
+    ':!:packaging' ':!:tests' | while IFS= read -r file; do
+    awk -v name="$file" '/^```/ {code = !code; next} code || /^    / {next} {gsub(/`[^`]*`/, ""); print name ":" FNR ":" $0}' "$top/$file"
+  done
+  git -C "$top" ls-files -- 'src/*.f90' 'src/*.F90' | while IFS= read -r file; do
+    awk -v q="'" -v name="$file" '{
+      out = ""; part = ""; open = ""; n = length($0)
+      for (k = 1; k <= n; k++) {
+        c = substr($0, k, 1)
+        if (open != "") { if (c == open) { open = ""; if (part ~ / [^ ]/) out = out " | " part; part = "" } else part = part c }
+        else if (c == q || c == "\"") open = c
+        else if (c == "!") break
+      }
+      if (out != "") print name ":" FNR ":" out
+    }' "$top/$file"
+  done
+  local program=$top/build/release/bin/elastokin
+  if [ -x "$program" ] && "$program" report "$top/input/mcpherson_axle/mcpherson_axle.nml" --quiet --no-plots --out "$work/report" >"$work/report.txt" 2>&1; then
+    perl -CSDA -0777 -ne 's{<(script|style)\b.*?</\1>}{}gs; s{<code>.*?</code>}{}gs; s{<[^>]*>}{\n}g; my $n = 0;
+      for (split /\n/) { $n++; print "page of a report:$n:$_\n" if /\S/ }' "$work/report/report.html"
+  else
+    echo "check_language: remark: no program in build/release, so no page of a report was read" >&2
+  fi
+}
+
+status=0
+find_words <(wording) "$work/lines" || status=1
+if [ $# -eq 0 ]; then
+  user_lines >"$work/user" || exit 1
+  find_words <(user_wording) "$work/user" || status=1
+fi
 
 # Sentences of the pages in FILE...: code and tables of names are skipped, cells of tables may be terse
 sentences() {

@@ -124,7 +124,7 @@ set arrow from -0.30, -0.75 to 0.15, 0.85 as 4
 set arrow from -0.01, 0.72 to 0.11, 0.72 as 2
 set label 'steering axis' at 0.5, 0.83
 set arrow from -0.30, -0.88 to 0, -0.88 as 5
-set label 'caster trail > 0: axis ahead of the patch' at 0, -1.08 center tc rgb red
+set label 'mechanical trail > 0: axis ahead of the contact point' at 0, -1.08 center tc rgb red
 set label 'x' at 1.32, -0.12 tc rgb blue; set arrow from 0.95, 0 to 1.25, 0 as 1
 plot NaN
 eval clean
@@ -138,7 +138,7 @@ set arrow from -0.12, -0.75 to 0.28, 0.85 as 4
 set arrow from -0.11, 0.72 to 0.23, 0.72 as 2
 set label 'steering axis' at 0.34, 0.6
 set arrow from -0.5, -0.88 to -0.12, -0.88 as 5
-set label 'scrub radius > 0: axis inboard of the patch' at 0, -1.08 center tc rgb red
+set label 'scrub radius > 0: axis inboard of the contact point' at 0, -1.08 center tc rgb red
 plot NaN
 eval clean
 
@@ -172,7 +172,7 @@ set label "'anti': the right wheel's force is reversed" at 0, -1.0 center tc rgb
 plot NaN
 eval clean
 
-set label 1 'braking > 0: rearward at the patch' at 0, 1.35 center font ',12'
+set label 1 'braking > 0: rearward at the contact point' at 0, 1.35 center font ',12'
 set label 2 'from the left, front at the left' at 0, 1.15 center tc rgb '#777777'
 set object 1 circle at 0, 0.1 radius 0.6 lw 1.5 fs solid 0.1 border rgb body fc rgb body
 set arrow from -1.5, -0.5 to 1.5, -0.5 as 3
@@ -188,7 +188,7 @@ set object 1 circle at 0, 0.1 radius 0.6 lw 1.5 fs solid 0.1 border rgb body fc 
 set arrow from -1.5, -0.5 to 1.5, -0.5 as 3
 set arrow from 0, 0.1 to -0.6, 0.1 as 2
 set label 'the body reacts the drive torque;' at 0, -0.8 center tc rgb red
-set label "at the patch with drive_reaction = 'patch'" at 0, -1.0 center noenhanced tc rgb red
+set label "at the contact point with drive_reaction = 'patch'" at 0, -1.0 center noenhanced tc rgb red
 plot NaN
 eval clean
 unset multiplot

@@ -1,7 +1,7 @@
 """Takes the pages of the site from their folders in the repository, rewrites their links, and turns equations into MathML.
 
 Pages outside docs/ keep their path (input/README.md), except the README of the repository, which is project.md. A link to a page or a picture
-becomes one between the pages of the site; a link to a deck becomes one to a copy of it; a link to anything else (a folder, a source file)
+becomes one between the pages of the site; a link to a deck, a study or an example becomes one to a copy of it; a link to anything else (a folder, a source file)
 becomes plain text, because the site has no copy. gallery.md and api_c.md are written here. The tutorial contains the workbench with its
 deck, if EK_PAGE names an elastokin.html.
 """
@@ -19,14 +19,15 @@ top = Path(__file__).resolve().parents[2]
 special = {"README.md": "project.md"}
 
 # which files of the repository are on the site, by their paths there
-outside = ["README.md", "CHANGELOG.md", "python/README.md", "studies/paper/toe.png"]
-patterns = ["input/*.md", "input/*/*.md", "input/*/*.nml", "input/*/*.png"]
+outside = ["README.md", "CHANGELOG.md", "CONTRIBUTING.md", "python/README.md"]
+patterns = ["input/*.md", "input/*/*.md", "input/*/*.nml", "input/*/*.png", "studies/*.md", "studies/*/*.*", "examples/*.*",
+            "examples/drivers/*.*", "examples/drivers/dakota/*.*"]
 
 
 def paths():
     found = list(outside)
     for pattern in patterns:
-        found += sorted(str(Path(name).relative_to(top)) for name in glob(str(top / pattern)))
+        found += sorted(str(Path(name).relative_to(top)) for name in glob(str(top / pattern)) if Path(name).is_file())
     return found
 
 

@@ -143,7 +143,7 @@ contains
             if (off <= much*w%radius) cycle
             call words%add('wheel '//quoted(w%name)//': its contact point is '//str(off/millimetre, 3)// &
                ' mm away from the point where a wheel of radius '//str(w%radius/millimetre, 4)//' mm touches the ground; all '// &
-               'forces at the contact patch act at the contact point')
+               'forces of the road act at the contact point')
          end associate
       end do
    end subroutine patch_remarks

@@ -50,7 +50,7 @@ contains
          call skip_blanks(text, cursor)
          if (cursor%at > len(text)) exit
          if (deck_errors%count() >= max_mistakes) then
-            call complain(deck_errors, blank, cursor%line, 'the file has '//str(max_mistakes)//' mistakes up to this line; the '// &
+            call complain(deck_errors, blank, cursor%line, 'the file has '//str(max_mistakes)//' errors up to this line; the '// &
                'rest is not read. Is it a deck?')
             call deck_errors%cut()
             exit

@@ -113,9 +113,9 @@ contains
       call add('x forward, y to the left, z up; m, rad, N; relative to design, rotations with the static angles')
       select case (map%vertical)
       case ('road')
-         call add('comp: height of the road under the tyre rate, positive up; forces of the ground act at the patch')
+         call add('comp: height of the road under the tyre rate, positive up; forces of the ground act at the contact point')
       case ('patch')
-         call add('comp: height of the contact patch relative to the body, positive up; forces of the ground act there')
+         call add('comp: height of the contact point relative to the body, positive up; forces of the ground act there')
       case default
          call add('comp: height of the wheel centre relative to the body, positive up; forces act there')
       end select
@@ -135,7 +135,7 @@ contains
       end do
       select case (map%held)
       case ('road')
-         call add('compliance: loads at the wheel centre, the patch held on the road by the tyre rate')
+         call add('compliance: loads at the wheel centre, the contact point held on the road by the tyre rate')
       case ('centre')
          call add('compliance: loads at the wheel centre, its height held')
       case default

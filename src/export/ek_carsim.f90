@@ -138,7 +138,7 @@ contains
       my = load_response(map, side, 5, .true.)
       mz = load_response(map, side, 6, .true.)
       outward = merge(1.0_wp, -1.0_wp, side == 1)
-      call file%line('# compliance: Fx forward and Fy to the left at the contact patch, My about y (to the left), Mz up;')
+      call file%line('# compliance: Fx forward and Fy to the left at the contact point, My about y (to the left), Mz up;')
       call file%line('# deg per N, deg per N m, mm per N: units and signs to be confirmed on a screen')
       call file%line('# toe, positive: front edge inward; steer, positive: to the left; camber, positive: top outward;')
       call file%line('# inclination, positive: top to the right; dive, positive: top forward')

@@ -67,7 +67,8 @@ contains
    !> Fills the arrays of the parameters from the maps of the axles that have a map.
    subroutine find_parameters(p)
       type(kandc_parameters_t), intent(inout) :: p      !! its maps, has and checksums are set
-      character(*), parameter :: brake = 'first row braking (Fx < 0 at the patch), second driving (Fx > 0 at the wheel centre)'
+      character(*), parameter :: brake = 'row 1 braking (Fx < 0 at the contact point), '// &
+         'row 2 driving (Fx > 0 at the wheel centre)'
 
       p%used = 0
       call add('BumpSteer', 'deg/mm', 'steer per travel')
@@ -84,9 +85,9 @@ contains
       call add('LngCastCompl', 'deg/N', brake, 2)
       call add('LngWhlCtrCompl', 'mm/N', brake, 2)
       call add('LatWhlCtrComplLngBrk', 'mm/N', brake, 2)
-      call add('LatSteerCompl', 'deg/N', 'steer per Fy at the patch')
-      call add('LatCambCompl', 'deg/N', 'camber per Fy at the patch')
-      call add('LatWhlCtrComplLat', 'mm/N', 'y of the wheel centre per Fy at the patch')
+      call add('LatSteerCompl', 'deg/N', 'steer per Fy at the contact point')
+      call add('LatCambCompl', 'deg/N', 'camber per Fy at the contact point')
+      call add('LatWhlCtrComplLat', 'mm/N', 'y of the wheel centre per Fy at the contact point')
       call add('AlgnTrqSteerCompl', 'deg/(N m)', 'steer per Mz')
       call add('AlgnTrqCambCompl', 'deg/(N m)', 'camber per Mz')
       call add('StatToe', 'deg', 'toe at design, positive: front edge inward')

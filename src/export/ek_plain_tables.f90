@@ -123,7 +123,7 @@ contains
       end do
       table = new_table(columns, size(loads%load, 2))
       call add_head(table, map, is_sae, checksum)
-      call table%header%add('forces at the contact patch; '//held_text(map))
+      call table%header%add('forces at the contact point; '//held_text(map))
       do row = 1, size(loads%load, 2)
          do k = 1, 5
             table%values([k, k + 5], row) = loads%load([k, k + 5], row)*frame(load_parts(k))
@@ -174,7 +174,7 @@ contains
 
       select case (map%held)
       case ('road')
-         text = 'patches held on the road by the tyre rate'
+         text = 'contact points held on the road by the tyre rate'
       case ('centre')
          text = 'wheel centres held at their height'
       case default
@@ -204,7 +204,7 @@ contains
    pure function place(map) result(text)
       type(kandc_map_t), intent(in) :: map
       character(13) :: text
-      text = 'contact patch'
+      text = 'contact point'
       if (map%vertical == 'road') text = 'road'
       if (map%vertical == 'centre') text = 'wheel centre'
    end function place

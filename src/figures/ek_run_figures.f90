@@ -209,8 +209,8 @@ contains
          'wheelbase_change_mm'])
       call add_quantities('toe', 'Toe', ['toe_deg'])
       call add_quantities('camber', 'Camber', ['camber_deg'])
-      call add_quantities('lateral', 'Lateral movement of the contact patch', ['track_change_mm'])
-      call add_quantities('longitudinal', 'Longitudinal movement of the contact patch', ['wheelbase_change_mm'])
+      call add_quantities('lateral', 'Lateral movement of the contact point', ['track_change_mm'])
+      call add_quantities('longitudinal', 'Longitudinal movement of the contact point', ['wheelbase_change_mm'])
       call add_quantities('steer_axis', 'Steering axis', [character(23) :: 'caster_deg', 'kingpin_inclination_deg', &
          'scrub_radius_mm', 'caster_trail_mm'])
       chart = ending_chart(test, 'force', '_force_n', '', 'force, N    (+ compression)', 1.0_wp)

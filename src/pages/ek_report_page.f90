@@ -108,7 +108,7 @@ contains
             'Solid: design. Thin lines: ends of the travel. Bodies have no shape in the model; they are drawn as bars '// &
             'between their attachment points.')
       end if
-      if (has_turntable) call add_markup(page, '<div id="turntable"><noscript><p>The turntable is drawn by the script of '// &
+      if (has_turntable) call add_markup(page, '<div id="turntable"><noscript><p>The 3-D view is drawn by the script of '// &
          'this page.</p></noscript></div>')
       if (has_views) call add_panels(page, report, 'views', 'Hardpoints at design from the left, the front and above: '// &
          report%title, 'Hardpoints at design; of an axle its left half, names without left_.')

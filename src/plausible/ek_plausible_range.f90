@@ -108,7 +108,7 @@ module ek_plausible_range
       range_t('kingpin inclination', computed_angle, -6.0_wp, 30.0_wp, .true., &
       'is the upper point outboard of the lower one?'), &
       range_t('scrub radius', derived, -150.0_wp, 250.0_wp, .true., 'check the points of the steering axis'), &
-      range_t('caster trail', derived, -100.0_wp, 200.0_wp, .true., 'check the points of the steering axis'), &
+      range_t('mechanical trail', derived, -100.0_wp, 200.0_wp, .true., 'check the points of the steering axis'), &
       range_t('link length', derived, 20.0_wp, 2500.0_wp, .false., 'check its two points'), &
       ! response at design; sources below the table
       range_t('wheel rate', derived_rate, 2.0_wp, 3000.0_wp, .false., 'check the rods and levers between wheel and spring'), &

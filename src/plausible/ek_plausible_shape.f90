@@ -85,7 +85,7 @@ contains
       call doubts%judge('kingpin inclination', atan2(-wheel%side*up(2), up(3)))
       ground = low + up*((wheel%contact(3) - low(3))/up(3))
       call doubts%judge('scrub radius', wheel%side*(wheel%contact(2) - ground(2)))
-      call doubts%judge('caster trail', wheel%contact(1) - ground(1))
+      call doubts%judge('mechanical trail', wheel%contact(1) - ground(1))
    end subroutine doubt_steer_axis
 
    !> Checks that a wheel is on the right carrier: no other body has its joints much nearer to the wheel centre.

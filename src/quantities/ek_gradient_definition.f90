@@ -36,8 +36,8 @@ module ek_gradient_definition
       definition_t(of_travel, 'bump camber', 'camber_deg', outward//in_bump), &
       definition_t(of_travel, 'bump caster', 'caster_deg', rearward//in_bump), &
       definition_t(of_travel, 'bump caster, instant axis', 'instant_caster_deg', rearward//in_bump), &
-      definition_t(of_travel, 'half-track change', 'track_change_mm', '+ patch moves outward'//in_bump), &
-      definition_t(of_travel, 'wheelbase change', 'wheelbase_change_mm', '+ patch moves rearward'//in_bump), &
+      definition_t(of_travel, 'half-track change', 'track_change_mm', '+ contact point moves outward'//in_bump), &
+      definition_t(of_travel, 'wheelbase change', 'wheelbase_change_mm', '+ contact point moves rearward'//in_bump), &
       definition_t(of_travel, 'wheel rate', 'vertical_force_n', '+ load increases'//in_bump), &
       definition_t(of_travel, 'roll-centre height change', 'roll_centre_height_mm', '+ rises over the ground'//in_bump), &
       ! Per roll of the wheels relative to the body, positive with the left wheel up for both wheels, as the column axle_roll_deg;
@@ -51,10 +51,10 @@ module ek_gradient_definition
       definition_t(of_roll, 'roll rate', 'roll_moment_nm', '+ restoring'), &
       definition_t(of_lateral, 'lateral force steer', 'toe_deg', to_left//under, 's'), &
       definition_t(of_lateral, 'lateral force camber', 'camber_deg', outward//under), &
-      definition_t(of_lateral, 'lateral deflection', 'track_change_mm', '+ patch moves with the force', 'i'), &
+      definition_t(of_lateral, 'lateral deflection', 'track_change_mm', '+ contact point moves with the force', 'i'), &
       definition_t(of_aligning, 'aligning torque steer', 'toe_deg', to_left//left_torque, 's'), &
       definition_t(of_aligning, 'aligning torque camber', 'camber_deg', outward//left_torque), &
-      definition_t(of_braking, 'braking deflection', 'wheelbase_change_mm', '+ patch moves rearward'), &
+      definition_t(of_braking, 'braking deflection', 'wheelbase_change_mm', '+ contact point moves rearward'), &
       definition_t(of_braking, 'braking camber', 'camber_deg', outward), &
       definition_t(of_braking, 'braking steer', 'toe_deg', to_left, 's'), &
       definition_t(of_braking, 'braking toe', 'toe_deg', inward), &

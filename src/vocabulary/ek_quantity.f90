@@ -18,7 +18,7 @@ module ek_quantity
       character(name_length) :: name = ''    !! column without the wheel's prefix; '*' stands for load_held and height_held
       integer :: needs = 0                   !! sum of the conditions below
       character(name_length) :: title = ''   !! as long as a name: a column without a title has its name
-      character(49) :: sign = ''      !! meaning of a positive value, or a condition
+      character(56) :: sign = ''      !! meaning of a positive value, or a condition
       real(wp) :: span = 0.0_wp       !! least span of a chart, in the unit of the column; smaller spans are drawn flat; 0: no chart
    end type quantity_t
 
@@ -32,7 +32,7 @@ module ek_quantity
 
    real(wp), parameter :: fine = 0.05_wp, middle = 1.0_wp, wide = 10.0_wp
    character(*), parameter :: inward = '+ top inward', outward = '+ top outward', rearward = '+ top rearward', &
-      right = '+ patch moves with the force', to_left = '+ to the left', under = ' under a force to the right', &
+      right = '+ contact point moves with the force', to_left = '+ to the left', under = ' under a force to the right', &
       in_phase = ', in phase, *', at_centre = 'at the wheel centre', body_down = '+ body moves down', &
       body_up = '+ body moves up', shortest = 'shortest distance'
 
@@ -40,8 +40,8 @@ module ek_quantity
       quantity_t('wheel_travel_mm', 0, 'Wheel travel', '+ bump', middle), &
       quantity_t('toe_deg', 0, 'Toe', '+ front edge inward', fine), &
       quantity_t('camber_deg', 0, 'Camber', outward, fine), &
-      quantity_t('track_change_mm', 0, 'Half-track change', 'contact patch, + outward', middle), &
-      quantity_t('wheelbase_change_mm', 0, 'Wheelbase change', 'contact patch, + rearward', middle), &
+      quantity_t('track_change_mm', 0, 'Half-track change', 'contact point, + outward', middle), &
+      quantity_t('wheelbase_change_mm', 0, 'Wheelbase change', 'contact point, + rearward', middle), &
       quantity_t('wheel_centre_x_mm', 0, 'Wheel centre, longitudinal', 'x of the deck', middle), &
       quantity_t('wheel_centre_y_mm'), quantity_t('wheel_centre_z_mm'), &
       quantity_t('contact_patch_x_mm'), quantity_t('contact_patch_y_mm'), quantity_t('contact_patch_z_mm')]
@@ -49,10 +49,10 @@ module ek_quantity
    type(quantity_t), parameter, public :: steer_axis(*) = [ &
       quantity_t('caster_deg', axis, 'Caster', rearward, fine), &
       quantity_t('kingpin_inclination_deg', axis, 'Kingpin inclination', inward, fine), &
-      quantity_t('scrub_radius_mm', axis, 'Scrub radius', '+ axis meets the ground inboard of the patch', middle), &
-      quantity_t('caster_trail_mm', axis, 'Caster trail', '+ axis meets the ground ahead of the patch', middle), &
-      quantity_t('spindle_length_mm', axis, 'Spindle length', '+ wheel centre outboard of the axis', middle), &
-      quantity_t('spindle_offset_mm', axis, 'Spindle offset', '+ wheel centre aft of the axis')]
+      quantity_t('scrub_radius_mm', axis, 'Scrub radius', '+ axis meets the ground inboard of the contact point', middle), &
+      quantity_t('caster_trail_mm', axis, 'Mechanical trail', '+ axis meets the ground ahead of the contact point', middle), &
+      quantity_t('spindle_length_mm', axis, 'Kingpin offset at the wheel centre', '+ wheel centre outboard of the axis', middle), &
+      quantity_t('spindle_offset_mm', axis, 'Caster offset at the wheel centre', '+ wheel centre aft of the axis')]
 
    type(quantity_t), parameter, public :: wheel_now(*) = [ &
       quantity_t('steer_deg', 0, 'Steer', to_left, fine), &
@@ -64,8 +64,8 @@ module ek_quantity
    type(quantity_t), parameter, public :: instant_axis(*) = [ &
       quantity_t('instant_caster_deg', matrix, 'Caster, instant axis', rearward, fine), &
       quantity_t('instant_kingpin_inclination_deg', matrix, 'Kingpin inclination, instant axis', inward, fine), &
-      quantity_t('instant_scrub_radius_mm', matrix, 'Scrub radius, instant axis', '+ inboard of the patch', middle), &
-      quantity_t('instant_caster_trail_mm', matrix, 'Caster trail, instant axis', '+ ahead of the patch', middle), &
+      quantity_t('instant_scrub_radius_mm', matrix, 'Scrub radius, instant axis', '+ inboard of the contact point', middle), &
+      quantity_t('instant_caster_trail_mm', matrix, 'Mechanical trail, instant axis', '+ ahead of the contact point', middle), &
       quantity_t('instant_spindle_length_mm', matrix), quantity_t('instant_spindle_offset_mm', matrix)]
 
    type(quantity_t), parameter, public :: wheel_rates(*) = [ &
@@ -116,7 +116,7 @@ module ek_quantity
       quantity_t('lateral_anti_trail_*_centre_deflection_mm_per_kn', both), &
       quantity_t('lateral_anti_trail_*_steer_deg_per_kn', both), quantity_t('lateral_anti_trail_*_camber_deg_per_kn', both), &
       quantity_t('aligning_anti_*_steer_deg_per_100nm', both), quantity_t('aligning_anti_*_camber_deg_per_100nm', both), &
-      quantity_t('braking_*_deflection_mm_per_kn', soft, 'Braking deflection, *', '+ patch moves rearward'), &
+      quantity_t('braking_*_deflection_mm_per_kn', soft, 'Braking deflection, *', '+ contact point moves rearward'), &
       quantity_t('braking_*_steer_deg_per_kn', soft, 'Braking steer, *', to_left), &
       quantity_t('braking_*_camber_deg_per_kn', soft), quantity_t('braking_*_caster_deg_per_kn', soft_axis), &
       quantity_t('braking_*_toe_deg_per_kn', soft), quantity_t('braking_*_rotation_x_deg_per_kn', soft), &
@@ -175,10 +175,10 @@ module ek_quantity
 
    type(quantity_t), parameter, public :: wheel_axis(*) = [ &
       quantity_t('side_view_angle_deg', 0, 'Side-view angle', rearward, fine), &
-      quantity_t('centre_axis_distance_mm', axis, 'Steer-axis offset, wheel centre', shortest), &
-      quantity_t('patch_axis_distance_mm', axis, 'Steer-axis offset, patch', shortest), &
-      quantity_t('along_spindle_length_mm', axis, 'Spindle length, along', '+ wheel centre outboard, along the spin axis'), &
-      quantity_t('across_spindle_offset_mm', axis, 'Spindle offset, across', '+ spin axis aft of the steering axis'), &
+      quantity_t('centre_axis_distance_mm', axis, 'Distance of the steering axis, wheel centre', shortest), &
+      quantity_t('patch_axis_distance_mm', axis, 'Distance of the steering axis, contact point', shortest), &
+      quantity_t('along_spindle_length_mm', axis, 'Kingpin offset, along the spin axis', '+ wheel centre outboard'), &
+      quantity_t('across_spindle_offset_mm', axis, 'Caster offset, across the spin axis', '+ spin axis aft of the steering axis'), &
       quantity_t('spin_axis_x'), quantity_t('spin_axis_y'), quantity_t('spin_axis_z')]
 
    type(quantity_t), parameter, public :: instant_distances(*) = [ &
@@ -191,7 +191,7 @@ module ek_quantity
       quantity_t('ride_frequency_hz', soft + sprung, 'Ride frequency', 'ride rate; sprung mass or whole wheel load', 0.05_wp)]
 
    type(quantity_t), parameter, public :: axle_geometry(*) = [ &
-      quantity_t('total_track_mm', pair, 'Total track', 'distance of the patches', middle), &
+      quantity_t('total_track_mm', pair, 'Total track', 'distance of the contact points', middle), &
       quantity_t('total_track_change_mm', pair), quantity_t('ideal_outer_steer_deg', turning), &
       quantity_t('outer_steer_error_deg', turning, 'Deviation of the outer wheel', '+ steers more than ideal', fine), &
       quantity_t('curb_to_curb_m', turning + width, 'Turning circle, curb to curb', '', middle), &

@@ -47,7 +47,7 @@ $data << EOD
 EOD
 set output 'centre_track_change_mm.svg'
 set label 1 'Half-track change' at screen 2.00000E-02, screen 9.45000E-01 font 'sans-serif:Bold,15' textcolor rgb '#202020'
-set label 2 'mm    (contact patch, + outward)' at screen 2.00000E-02, screen 8.75000E-01 font ',12' textcolor rgb '#606060'
+set label 2 'mm    (contact point, + outward)' at screen 2.00000E-02, screen 8.75000E-01 font ',12' textcolor rgb '#606060'
 set xlabel 'wheel travel [mm]    (+ bump)' offset 0, 6.50000E-01 font ',12' textcolor rgb '#606060'
 set yrange [*:*]
 unset object; unset label 3
@@ -412,7 +412,7 @@ $data << EOD
 EOD
 set output 'centre_total_track_mm.svg'
 set label 1 'Total track' at screen 2.00000E-02, screen 9.45000E-01 font 'sans-serif:Bold,15' textcolor rgb '#202020'
-set label 2 'mm    (distance of the patches)' at screen 2.00000E-02, screen 8.75000E-01 font ',12' textcolor rgb '#606060'
+set label 2 'mm    (distance of the contact points)' at screen 2.00000E-02, screen 8.75000E-01 font ',12' textcolor rgb '#606060'
 set xlabel 'wheel travel [mm]    (+ bump)' offset 0, 6.50000E-01 font ',12' textcolor rgb '#606060'
 set yrange [*:*]
 unset object; unset label 3

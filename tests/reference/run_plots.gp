@@ -45,7 +45,7 @@ set output 'plane_axle_centre_camber.'.format
         'plane_axle_centre.csv' using "right_camber_deg":(column("factor") == 0 ? column("right_wheel_travel_mm") : NaN) with points linestyle 20 notitle
 unset output
 }
-# Lateral movement of the contact patch
+# Lateral movement of the contact point
 #
 #     gnuplot plane_axle_centre_lateral.gp
 #
@@ -76,7 +76,7 @@ set key at screen 9.75000E-01, screen 9.65000E-01 right top horizontal Right nor
 set lmargin at screen 1.15000E-01; set rmargin at screen 9.70000E-01
 set tmargin at screen 8.80000E-01; set bmargin at screen 1.15000E-01
 set ylabel 'wheel travel [mm]    (+ bump)' textcolor rgb '#202020'
-set xlabel 'Half-track change, mm    (contact patch, + outward)' textcolor rgb '#202020'
+set xlabel 'Half-track change, mm    (contact point, + outward)' textcolor rgb '#202020'
 set xrange [*:*]
 
 do for [format in formats] {
@@ -84,7 +84,7 @@ if (format eq 'png') { set terminal pngcairo size 1200, 900 font 'sans-serif,15'
 if (format eq 'svg') { set terminal svg size 1200, 900 font 'sans-serif,15' noenhanced background 'white' }
 if (format eq 'pdf') { set terminal pdfcairo size 24cm, 18cm font 'sans-serif,15' noenhanced }
 set output 'plane_axle_centre_lateral.'.format
-   set label 1 'Lateral movement of the contact patch' at screen 2.50000E-02, screen 9.65000E-01 font 'sans-serif:Bold,20' textcolor rgb '#202020'
+   set label 1 'Lateral movement of the contact point' at screen 2.50000E-02, screen 9.65000E-01 font 'sans-serif:Bold,20' textcolor rgb '#202020'
    set label 2 'axle of two plane four-bars, centre' at screen 2.50000E-02, screen 9.22000E-01 font 'sans-serif,14' textcolor rgb '#606060'
    plot 'plane_axle_centre.csv' using "left_track_change_mm":"left_wheel_travel_mm" with lines linestyle 1 title 'left', \
         'plane_axle_centre.csv' using "right_track_change_mm":"right_wheel_travel_mm" with lines linestyle 2 dashtype (12, 7) title 'right', \
@@ -92,7 +92,7 @@ set output 'plane_axle_centre_lateral.'.format
         'plane_axle_centre.csv' using "right_track_change_mm":(column("factor") == 0 ? column("right_wheel_travel_mm") : NaN) with points linestyle 20 notitle
 unset output
 }
-# Longitudinal movement of the contact patch
+# Longitudinal movement of the contact point
 #
 #     gnuplot plane_axle_centre_longitudinal.gp
 #
@@ -123,7 +123,7 @@ set key at screen 9.75000E-01, screen 9.65000E-01 right top horizontal Right nor
 set lmargin at screen 1.15000E-01; set rmargin at screen 9.70000E-01
 set tmargin at screen 8.80000E-01; set bmargin at screen 1.15000E-01
 set ylabel 'wheel travel [mm]    (+ bump)' textcolor rgb '#202020'
-set xlabel 'Wheelbase change, mm    (contact patch, + rearward)' textcolor rgb '#202020'
+set xlabel 'Wheelbase change, mm    (contact point, + rearward)' textcolor rgb '#202020'
 set xrange [* < -1 : 1 < *]
 
 do for [format in formats] {
@@ -131,7 +131,7 @@ if (format eq 'png') { set terminal pngcairo size 1200, 900 font 'sans-serif,15'
 if (format eq 'svg') { set terminal svg size 1200, 900 font 'sans-serif,15' noenhanced background 'white' }
 if (format eq 'pdf') { set terminal pdfcairo size 24cm, 18cm font 'sans-serif,15' noenhanced }
 set output 'plane_axle_centre_longitudinal.'.format
-   set label 1 'Longitudinal movement of the contact patch' at screen 2.50000E-02, screen 9.65000E-01 font 'sans-serif:Bold,20' textcolor rgb '#202020'
+   set label 1 'Longitudinal movement of the contact point' at screen 2.50000E-02, screen 9.65000E-01 font 'sans-serif:Bold,20' textcolor rgb '#202020'
    set label 2 'axle of two plane four-bars, centre' at screen 2.50000E-02, screen 9.22000E-01 font 'sans-serif,14' textcolor rgb '#606060'
    plot 'plane_axle_centre.csv' using "left_wheelbase_change_mm":"left_wheel_travel_mm" with lines linestyle 1 title 'left', \
         'plane_axle_centre.csv' using "right_wheelbase_change_mm":"right_wheel_travel_mm" with lines linestyle 2 dashtype (12, 7) title 'right', \
@@ -198,7 +198,7 @@ set output 'plane_axle_centre_overview.'.format
 
    set title 'Half-track change' font 'sans-serif:Bold,14' textcolor rgb '#202020'
    set ylabel 'wheel travel [mm]'."\n".'(+ bump)' textcolor rgb '#202020'
-   set xlabel 'Half-track change, mm    (contact patch, + outward)' textcolor rgb '#202020'
+   set xlabel 'Half-track change, mm    (contact point, + outward)' textcolor rgb '#202020'
    set xrange [*:*]
    plot 'plane_axle_centre.csv' using "left_track_change_mm":"left_wheel_travel_mm" with lines linestyle 1 notitle, \
         'plane_axle_centre.csv' using "right_track_change_mm":"right_wheel_travel_mm" with lines linestyle 2 dashtype (12, 7) notitle, \
@@ -207,7 +207,7 @@ set output 'plane_axle_centre_overview.'.format
 
    set title 'Wheelbase change' font 'sans-serif:Bold,14' textcolor rgb '#202020'
    set ylabel 'wheel travel [mm]'."\n".'(+ bump)' textcolor rgb '#202020'
-   set xlabel 'Wheelbase change, mm    (contact patch, + rearward)' textcolor rgb '#202020'
+   set xlabel 'Wheelbase change, mm    (contact point, + rearward)' textcolor rgb '#202020'
    set xrange [* < -1 : 1 < *]
    plot 'plane_axle_centre.csv' using "left_wheelbase_change_mm":"left_wheel_travel_mm" with lines linestyle 1 notitle, \
         'plane_axle_centre.csv' using "right_wheelbase_change_mm":"right_wheel_travel_mm" with lines linestyle 2 dashtype (12, 7) notitle, \
@@ -367,14 +367,14 @@ set output 'tiny_sweep_overview.'.format
 
    set title 'Half-track change' font 'sans-serif:Bold,14' textcolor rgb '#202020'
    set ylabel 'wheel travel [mm]'."\n".'(+ bump)' textcolor rgb '#202020'
-   set xlabel 'Half-track change, mm    (contact patch, + outward)' textcolor rgb '#202020'
+   set xlabel 'Half-track change, mm    (contact point, + outward)' textcolor rgb '#202020'
    set xrange [*:*]
    plot 'tiny_sweep.csv' using "track_change_mm":"wheel_travel_mm" with lines linestyle 1 notitle, \
         'tiny_sweep.csv' using "track_change_mm":(column("factor") == 0 ? column("wheel_travel_mm") : NaN) with points linestyle 20 notitle
 
    set title 'Wheelbase change' font 'sans-serif:Bold,14' textcolor rgb '#202020'
    set ylabel 'wheel travel [mm]'."\n".'(+ bump)' textcolor rgb '#202020'
-   set xlabel 'Wheelbase change, mm    (contact patch, + rearward)' textcolor rgb '#202020'
+   set xlabel 'Wheelbase change, mm    (contact point, + rearward)' textcolor rgb '#202020'
    set xrange [* < -1 : 1 < *]
    plot 'tiny_sweep.csv' using "wheelbase_change_mm":"wheel_travel_mm" with lines linestyle 1 notitle, \
         'tiny_sweep.csv' using "wheelbase_change_mm":(column("factor") == 0 ? column("wheel_travel_mm") : NaN) with points linestyle 20 notitle

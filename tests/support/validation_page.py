@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""validation_page.py [--check] PROGRAM: writes docs/validation.md, or checks that it is up to date.
+"""validation_page.py [--check] PROGRAM: writes docs/validation.md and docs/validation/*.csv, or checks that they are up to date.
 
 PROGRAM is validation_numbers of a build (cmake --build build/release --target validation_numbers); it is run in the
-top folder of the repository and prints all comparisons. With --check nothing is written; the status is 1 if the page
+top folder of the repository and prints all comparisons. With --check nothing is written; the status is 1 if a file
 differs: in its text, or in a number by more than two units of its last digit and 2e-9.
 """
 import csv
@@ -14,13 +14,12 @@ from pathlib import Path
 
 top = Path(__file__).resolve().parents[2]
 page = top / "docs/validation.md"
-study = top / "studies/step_size/README.md"
 
 intro = """# Validation against published numbers
 
 This page compares elastokin with published numbers of other programs and of a textbook, and with solutions computed
-outside elastokin for published hardpoints. Each number is also a test. `tests/support/validation_page.py` writes the
-page; to make it again:
+outside elastokin for published hardpoints. Each number is also a test. The page has the definitions and the largest
+differences, and the table of each source is a CSV file. `tests/support/validation_page.py` writes both:
 
     tools/build.sh release validation_numbers
     tests/support/validation_page.py build/release/tests/validation_numbers
@@ -32,7 +31,7 @@ the tests (`tests/validation`). The frames, signs and units of the tables are th
 
 """
 
-# name, heading, test, lists every number, text
+# name, heading, test, whether the table lists every number, text; of the quantities in `shown` the page has the rows, too
 sources = [
     ("Adams/Car", "Adams/Car", "test_adams.pf", True, """\
 Source: the front double wishbone of the shared database of Adams/Car 2024.1, published in the repository
@@ -49,7 +48,7 @@ Source: the front double wishbone of the shared database of Adams/Car 2024.1, pu
 Source: seven axles of Formula Student cars, computed with IPGKinematics 3.6.7 and published with their inputs in
 the repository SDS-RC-FEE-CTU-in-Prague/FormulaCarMaker. Only the numbers are used. They have 7 digits; the
 compliances beside design have 5. Decks: `fse04_front.nml` to `pltka_rear.nml`. The table has the largest difference
-of each quantity over all axles and states.
+of each quantity over all axles and states; these are the rows of the pose of the wheel.
 
 - Pose of the wheel: R = Rz(rz) Rx(rx) Ry(ry), x forward, y left.
 - Compliance: the difference of two states under ±1000 N or ±100 N m at the wheel centre, divided by twice the load,
@@ -105,6 +104,8 @@ table has the largest difference of each quantity.
 """),
 ]
 
+shown = {"IPGKinematics": ["x", "y", "z", "rx", "ry", "rz"]}
+
 paper = """## The paper
 
 J. S. Kang, *Elastokinematic analysis of a suspension system with linear recursive formula*, International Journal
@@ -112,14 +113,10 @@ of Automotive Technology 6(4), 2005. `--method recursive` is its formula, equati
 ([derivation](theory/kkt.md#three-increments)). This repository does not contain the paper's
 vehicle, so its curves are not compared.
 
-What the paper claims is checked with `input/mcpherson`, load 0 to -3000 N (`tests/equilibrium/test_methods.pf`,
-`studies/step_size`). Its measure of error is the residual |Φ| of the joint constraints at the end of the sweep,
-equation (31):
-
-TABLE
-- Equation (31) tends to zero with the first power of the increment. The error against the exact equilibrium under
-  the same load does not: about 1.2 % of the travel remains.
-- Differences between the curves over the stroke: `studies/paper`.
+What the paper claims is checked with `input/mcpherson`, load 0 to -3000 N (`tests/equilibrium/test_methods.pf`). Its
+measure of error, the residual |Φ| of the joint constraints at the end of the sweep (equation (31)), tends to zero with
+the first power of the increment. The error against the exact equilibrium under the same load does not: about 1.2 % of
+the travel remains ([table](../studies/step_size/README.md), [comparison with the paper](paper.md)).
 
 ## A second program
 
@@ -237,21 +234,28 @@ def summary(rows):
     return lines
 
 
-def steps():
-    """The table of step sizes from the study."""
-    lines = study.read_text(encoding="utf-8").splitlines()
-    first = next(k for k, line in enumerate(lines) if line.startswith("| increments |"))
-    last = next(k for k in range(first, len(lines)) if not lines[k].startswith("|"))
-    return "\n".join(lines[first:last]) + "\n"
+def file_of(name):
+    return f"{name.lower().replace('/', '_').replace('-', '_')}.csv"
 
 
-def text_of(rows):
+def cells(line):
+    """The cells of a line of a table, as a line of CSV."""
+    return ",".join(f'"{cell}"' if "," in cell else cell for cell in line[2:-2].split(" | "))
+
+
+def texts_of(rows):
+    """The files and their texts: the page, and a CSV file per source."""
+    found = {page: ""}
     text = intro + "\n".join(summary(rows)) + "\n"
     for name, heading, test, is_full, words in sources:
         mine = [row for row in rows if row["program"] == name]
         table = full_table(mine) if is_full else short_table(mine)
-        text += f"\n## {heading}\n\n{words}\nTest: `tests/validation/{test}`.\n\n" + "\n".join(table) + "\n"
-    return text + "\n" + paper.replace("TABLE", steps())
+        found[page.parent / "validation" / file_of(name)] = "\n".join(cells(line) for line in table[:1] + table[2:]) + "\n"
+        kept = [line for line in table[2:] if line[2:].partition(" | ")[0] in shown.get(name, [])]
+        text += f"\n## {heading}\n\n{words}\nTest: `tests/validation/{test}`. Table: [{file_of(name)}](validation/{file_of(name)}).\n"
+        text += "\n" + "\n".join(table[:2] + kept) + "\n" if kept else ""
+    found[page] = text + "\n" + paper + "\nNext: [limits](limits.md), or [reproduce a rig test](rig_test.md).\n"
+    return found
 
 
 numeral = re.compile(r"-?\d+(?:\.\d+)?(?:e[+-]?\d+)?")
@@ -267,15 +271,15 @@ def agree(a, b):
     return abs(x - y) <= max(2.0 * digit if "." in a else 0.0, 2e-9)
 
 
-def compare(old, new):
-    """The first line that differs, or None."""
+def compare(name, old, new):
+    """The first line of a file that differs, or None."""
     before, after = old.splitlines(), new.splitlines()
     for k, (a, b) in enumerate(zip(before, after), start=1):
         numbers = numeral.findall(a), numeral.findall(b)
         if numeral.sub("#", a) != numeral.sub("#", b) or not all(map(agree, *numbers)):
-            return f"docs/validation.md:{k}: found {a!r}, expected {b!r}"
+            return f"{name}:{k}: found {a!r}, expected {b!r}"
     if len(before) != len(after):
-        return f"docs/validation.md: found {len(before)} lines, expected {len(after)}"
+        return f"{name}: found {len(before)} lines, expected {len(after)}"
     return None
 
 
@@ -283,13 +287,22 @@ def main():
     arguments = [word for word in sys.argv[1:] if word != "--check"]
     if len(arguments) != 1:
         sys.exit(__doc__)
-    new = text_of(read(arguments[0]))
+    new = texts_of(read(arguments[0]))
+    listed = set((page.parent / "validation").glob("*.csv"))
     if "--check" not in sys.argv:
-        page.write_text(new, encoding="utf-8")
+        (page.parent / "validation").mkdir(exist_ok=True)
+        for path in listed - set(new):
+            path.unlink()
+        for path, text in new.items():
+            path.write_text(text, encoding="utf-8")
         return
-    trouble = compare(page.read_text(encoding="utf-8"), new) if page.exists() else "docs/validation.md: missing"
-    if trouble:
-        sys.exit(f"{trouble}; run tests/support/validation_page.py build/release/tests/validation_numbers")
+    troubles = [f"{path.relative_to(top)}: no source has this file" for path in sorted(listed - set(new))]
+    for path, text in new.items():
+        name = path.relative_to(top)
+        troubles.append(compare(name, path.read_text(encoding="utf-8"), text) if path.exists() else f"{name}: missing")
+    troubles = [trouble for trouble in troubles if trouble]
+    if troubles:
+        sys.exit("\n".join(troubles) + "\nrun tests/support/validation_page.py build/release/tests/validation_numbers")
 
 
 main()
