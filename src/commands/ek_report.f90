@@ -190,7 +190,7 @@ contains
       end do
    end function kind_of
 
-   !> The failure of --fail-outside: a number is outside its target or its usual range.
+   !> Checks that no number is outside its target or its usual range (--fail-outside).
    subroutine fail_outside(page, error)
       type(report_t), intent(in) :: page
       type(error_t), allocatable, intent(out) :: error          !! exit_outside
@@ -395,7 +395,7 @@ contains
       call box%write(windows_folder//'/'//test%file, csv_text(table))
    end subroutine write_windows
 
-   !> Prints the lines of the assessment to standard error, with aligned texts and coloured words, and last the address of the page.
+   !> Prints the lines of the assessment to standard error, aligned and coloured, and last the address of the page.
    subroutine print_verdicts(is_quiet, page)
       logical, intent(in) :: is_quiet
       type(report_t), intent(in) :: page

@@ -50,7 +50,7 @@ contains
       is_cause = value%texts%line(1) /= value%texts%line(r) .and. .not. is_setting(value%path)
    end function is_cause
 
-   !> Whether a value of the deck is a setting of the run, its tests or its words, not of the model.
+   !> Whether a value of the deck is a setting of the run, its tests or its report, not of the model.
    pure logical function is_setting(path)
       character(*), intent(in) :: path
 
@@ -58,7 +58,7 @@ contains
          index(path, 'model.balance') == 1 .or. index(path, 'target_band.') == 1
    end function is_setting
 
-   !> A difference in words: 'tie_rod_inner.z +5 mm' of a point, otherwise 'spring.coil.rate 29.77 → 35.72'.
+   !> A difference as a phrase: 'tie_rod_inner.z +5 mm' of a point, otherwise 'spring.coil.rate 29.77 → 35.72'.
    function step_of(value, r, unit) result(text)
       type(deck_difference_t), intent(in) :: value
       integer, intent(in) :: r

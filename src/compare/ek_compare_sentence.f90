@@ -20,7 +20,7 @@ module ek_compare_sentence
    use ek_deck_file, only: deck_record_t
    use ek_compare_cause, only: cause_text, settings_text
    use ek_compare_targets, only: read_target
-   use ek_comparison, only: comparison_t, difference_t, descending
+   use ek_comparison, only: comparison_t, difference_t, descending, largest_lines
    implicit none(type, external)
    private
    public :: sentences_of
@@ -74,18 +74,20 @@ contains
       type(comparison_t), intent(in) :: this
       type(message_list_t), intent(out) :: lines
       type(item_t), allocatable :: items(:)
-      character(:), allocatable :: line
+      character(:), allocatable :: line, effects
       integer :: r
 
       do r = 2, size(this%results)
          call find_items(this, r, items)
-         line = effects_text(items)//cause_text(this%results, this%deck, r)//settings_text(this%results, this%deck, this%facts, r)
+         effects = effects_text(items)
+         if (size(this%numbers) == 0) effects = gradient_text(this)
+         line = effects//cause_text(this%results, this%deck, r)//settings_text(this%results, this%deck, this%facts, r)
          if (size(this%results) > 2) line = letter_of(r)//': '//line
          call lines%add(line)
       end do
    end subroutine sentences_of
 
-   !> The changes in words: at most three, or that nothing noticeable changed.
+   !> The changes as a phrase: at most three, or that nothing noticeable changed.
    function effects_text(items) result(text)
       type(item_t), intent(in) :: items(:)             !! sorted
       character(:), allocatable :: text
@@ -97,6 +99,17 @@ contains
          if (k > 1) text = text//', '//items(k)%text
       end do
    end function effects_text
+
+   !> The largest change of a gradient, for results without key numbers.
+   function gradient_text(this) result(text)
+      type(comparison_t), intent(in) :: this
+      character(:), allocatable :: text
+      type(message_list_t) :: largest
+
+      largest = largest_lines(this%shown, this%threshold, 1)
+      text = 'no gradient changed by more than '//str(100*this%threshold, 4)//' %'
+      if (largest%count() > 0) text = largest%line(1)
+   end function gradient_text
 
    !> Finds the changes of result r, sorted: changes of a word first, then by size; one for each fact.
    subroutine find_items(this, r, items)
@@ -144,7 +157,7 @@ contains
       if (len(name) >= length) is_named = name(len(name) - length + 1:) == row(2:length + 1)
    end function is_named
 
-   !> Creates the item of key number k. The steps are those of the wheel that changed more; NaN and noise are no change.
+   !> Creates the item of key number k. The steps are those of the wheel that changed more; Differences that are NaN or noise do not count.
    subroutine make_item(before, after, k, kinds, rank, item)
       type(key_number_t), intent(in) :: before(:), after(:)
       integer, intent(in) :: k
@@ -216,7 +229,7 @@ contains
       if (unit /= '–') text = text//' '//unit
    end function change_text
 
-   !> The change of the words of key number k in parentheses: ' (oversteer now, understeer before)'; '' if no word changed.
+   !> Finds the change of the phrases of key number k, in parentheses: ' (oversteer now, understeer before)'; '' if they are equal.
    subroutine find_flip(before, after, k, kinds, flip)
       type(key_number_t), intent(in) :: before(:), after(:)
       integer, intent(in) :: k
@@ -243,7 +256,7 @@ contains
 
    contains
 
-      !> Two words with 'and'; one if the first is empty.
+      !> Two phrases joined by 'and'; one if the first is empty.
       pure function joined(one, other) result(words)
          character(*), intent(in) :: one, other
          character(:), allocatable :: words

@@ -1,5 +1,5 @@
-!> The assessment of a key number: whether it is inside its target or its usual range, and its meaning for an engineer. Strings out
-!> of numbers only, so that terminal, page, JSON and comparison use the same words.
+!> The assessment of a key number: whether it is inside its target or its usual range, and its meaning for an engineer. The strings
+!> follow from numbers only, so that terminal, page, JSON and comparison use the same terms.
 module ek_assessment
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp, millimetre
@@ -34,7 +34,7 @@ module ek_assessment
 
 contains
 
-   !> Assesses a key number by its target, or else by the usual range of the axle. The word is that of the worse wheel.
+   !> Compares a key number with its target, or else by the usual range of the axle. The word is that of the worse wheel.
    subroutine assess(number, kind, numbers, assessment)
       type(key_number_t), intent(in) :: number
       type(axle_kind_t), intent(in) :: kind
@@ -97,8 +97,8 @@ contains
       is_judged = kind%is_driven .or. .not. any(driving == name)
    end function is_judged
 
-   !> The range of an assessment in words: 'usual for the front axle of a car (−10 … −2)', 'outside the target ≤ −10'; '' if there
-   !> is none.
+   !> The range of an assessment as a phrase: 'usual for the front axle of a car (−10 … −2)', 'outside the target ≤ −10'; '' without a
+   !> range.
    function assessment_words(number, kind, assessment) result(words)
       type(key_number_t), intent(in) :: number
       type(axle_kind_t), intent(in) :: kind
@@ -124,7 +124,7 @@ contains
       words = words//' ('//limits_words(assessment%usual%low, assessment%usual%high, 3)//')'
    end function assessment_words
 
-   !> Limits in words: '−30 … −20', '≤ −10' or '≥ 2'.
+   !> Limits as a phrase: '−30 … −20', '≤ −10' or '≥ 2'.
    pure function limits_words(low, high, digits) result(words)
       real(wp), intent(in) :: low, high           !! ∓huge if not given
       integer, intent(in) :: digits
@@ -149,7 +149,7 @@ contains
       if (limit < 0.0_wp) text = '−'//text
    end function short
 
-   !> The axle in words: 'car, front axle, driven', or that the class is not given.
+   !> The axle as a phrase: 'car, front axle, driven', or that the class is not given.
    function kind_words(kind) result(words)
       type(axle_kind_t), intent(in) :: kind
       character(:), allocatable :: words
@@ -162,8 +162,8 @@ contains
       if (.not. has_ranges(kind%class)) words = words//'; no usual range is known for '//class_words(kind%class)
    end function kind_words
 
-   !> The meaning of a key number: 'toe-out in bump, roll understeer 1.5 %', 'understeer', 'neutral'; '' if the value needs no
-   !> words.
+   !> The meaning of a key number: 'toe-out in bump, roll understeer 1.5 %', 'understeer', 'neutral'; '' if the value has no
+   !> particular meaning.
    function meaning_of(number, kind, numbers) result(words)
       type(key_number_t), intent(in) :: number
       type(axle_kind_t), intent(in) :: kind
@@ -207,7 +207,7 @@ contains
       end select
    end function meaning_of
 
-   !> One of two words by the sign of a value that is equal on both wheels; otherwise the directions of both wheels.
+   !> One of two phrases by the sign of a value that is equal on both wheels; otherwise the directions of both wheels.
    function one_way(number, is_neutral, positive, negative) result(words)
       type(key_number_t), intent(in) :: number
       logical, intent(in) :: is_neutral

@@ -38,7 +38,7 @@ module ek_report_content
       type(live_t), allocatable :: live                !! rates that the page can change, if requested
       type(turntable_t), allocatable :: turntable      !! the suspension in space, if something moves
       type(tilt_t), allocatable :: tilts(:)            !! rated tilts of joints and bushings
-      type(axle_kind_t) :: axle = axle_kind_t()        !! class and position of the axle, for its usual ranges and words
+      type(axle_kind_t) :: axle = axle_kind_t()        !! class and position of the axle, for its usual ranges
       type(message_list_t) :: drawn                    !! scripts and pictures of this report, relative to the folder
       type(message_list_t) :: copies                   !! copies of the load tables of the deck, in the folder
       integer :: incomplete = 0                        !! number of tests that failed or were not run to their ends

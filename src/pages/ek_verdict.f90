@@ -96,12 +96,13 @@ contains
 
    end subroutine verdict_lines
 
-   !> The tests in words: 'all 13 complete', or '2 of 13 incomplete'.
+   !> The tests as a phrase: 'all 13 complete', or '2 of 13 incomplete'.
    pure function tests_words(incomplete, tests) result(words)
       integer, intent(in) :: incomplete, tests
       character(:), allocatable :: words
 
-      words = 'all '//str(tests)//' complete'
+      words = str(tests)//' complete'
+      if (tests > 1) words = 'all '//words
       if (incomplete > 0) words = str(incomplete)//' of '//str(tests)//' incomplete'
    end function tests_words
 
