@@ -216,14 +216,11 @@ contains
 
       words = 'neutral'
       if (is_neutral) return
-      if (is_opposite(number)) then
-         words = sides_text(number)//' in bump'
-      else if (max(number%left, number%right) > 0.0_wp .and. min(number%left, number%right) < 0.0_wp) then
-         words = ''
-      else
-         words = negative
-         if (mean_value(number) > 0.0_wp) words = positive
-      end if
+      words = negative
+      if (mean_value(number) > 0.0_wp) words = positive
+      if (number%is_of_axle .or. .not. (ieee_is_finite(number%left) .and. ieee_is_finite(number%right))) return
+      if (number%left*number%right < 0.0_wp) words = ''
+      if (is_opposite(number)) words = sides_text(number)//' in bump'
    end function one_way
 
    !> The effect of bump toe in roll, from the key number of roll steer: ', roll understeer 1.5 %'; '' if it is not known.

@@ -358,6 +358,7 @@ contains
    !> the two differ by more than half. 0 otherwise.
    pure integer function held_number(number, numbers) result(k)
       type(key_number_t), intent(in) :: number, numbers(:)
+      real(wp) :: values(2)          ! at held vertical force, at held height; of the left wheel if it has both
 
       select case (number%name)
       case ('braking_deflection')
@@ -368,7 +369,13 @@ contains
          k = 0
       end select
       if (k == 0) return
-      if (abs(number%left - numbers(k)%left) <= max(0.5_wp*abs(number%left), neutral_band(number%unit))) k = 0
+      values = [number%left, numbers(k)%left]
+      if (.not. all(ieee_is_finite(values))) values = [number%right, numbers(k)%right]
+      if (.not. all(ieee_is_finite(values))) then
+         k = 0
+      else if (abs(values(1) - values(2)) <= max(0.5_wp*abs(values(1)), neutral_band(number%unit))) then
+         k = 0
+      end if
    end function held_number
 
    !> Phrase about the largest force on a member if the loads of the members are requested; otherwise about the largest force

@@ -9,6 +9,7 @@ an empty file and a file of 2 MB are reported in the page; the work is not lost,
 browser cannot store a document. Exit status 1 with a line per failure.
 """
 import csv
+import json
 import os
 import random
 import subprocess
