@@ -5,7 +5,7 @@ module ek_error
    implicit none(type, external)
    private
    public :: error_t, fail, message_list_t
-   public :: exit_usage, exit_deck, exit_model, exit_convergence, exit_file, exit_stopped
+   public :: exit_usage, exit_deck, exit_model, exit_convergence, exit_file, exit_stopped, exit_outside
 
    integer, parameter :: exit_usage = 1        !! wrong command line
    integer, parameter :: exit_deck = 2         !! errors in a deck
@@ -13,6 +13,7 @@ module ek_error
    integer, parameter :: exit_convergence = 4  !! a state did not converge; the converged states are written
    integer, parameter :: exit_file = 5         !! a file cannot be read or written
    integer, parameter :: exit_stopped = 6      !! a study was stopped before its end; used by the command line only
+   integer, parameter :: exit_outside = 7      !! a number is outside its range, with --fail-outside; command line only
 
    !> An error: its message and the exit status of the program.
    type :: error_t

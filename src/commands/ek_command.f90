@@ -31,7 +31,7 @@ module ek_command
    character(*), parameter :: exit_status_text = &
       'Exit status: 0 success, 1 usage, 2 deck, 3 model (mechanism or redundant constraint),'//nl// &
       '4 a state did not converge (the converged states are written), 5 files,'//nl// &
-      '6 a study was stopped (run the same command again to resume).'
+      '6 a study was stopped (run the same command again to resume), 7 a number is outside (--fail-outside).'
 
    type(command_t), parameter :: commands(*) = [ &
       command_t('run', 'run DECK [options]', 'run DECK', 'sweep the cases of a deck; write CSV files (and plots)', &
@@ -208,6 +208,7 @@ module ek_command
       option_t('report', '--live N', &
       'add sliders for the N rates (1 to 24) that contribute most to the compliances;'// &
       indent//'the sliders change numbers and curves that are linear in the compliance matrix; not with --static'), &
+      option_t('report', '--fail-outside', 'return exit status 7 if a number is outside its target or usual range'), &
       option_t('report', '--quiet', quiet_help), &
       option_t('explain', '--out DIR', 'output folder (default: out)'), &
       option_t('explain', '--case NAME', 'explain only this case or standard test'), &

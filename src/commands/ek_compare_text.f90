@@ -10,6 +10,7 @@ module ek_compare_text
    use ek_comparison, only: comparison_t, descending, difference, percent
    use ek_deck_difference, only: deck_difference_t, few_changes, difference_size, step_text
    use ek_compare_targets, only: target_lines
+   use ek_compare_sentence, only: sentences_of
    use ek_compare_page, only: verdicts
    use ek_verdict, only: plain
    implicit none(type, external)
@@ -18,7 +19,7 @@ module ek_compare_text
 
 contains
 
-   !> The string for standard output: the paths of the results, the differences of the decks, the counts of changes, the values and
+   !> The string for standard output: one sentence for each result after A, the paths of the results, the differences of the decks, the counts of changes, the values and
    !> verdicts of the targets, the largest differences of curves, and the table of gradients. Many differences of the decks are last.
    function text_of(this, is_short) result(text)
       type(comparison_t), intent(in) :: this
@@ -28,6 +29,11 @@ contains
       type(buffer_t) :: out
       integer :: k, r
 
+      call sentences_of(this, lines)
+      do k = 1, lines%count()
+         call out%line(lines%line(k))
+      end do
+      call out%line('')
       do r = 1, size(this%results)
          call out%line(letter_of(r)//': '//this%results(r)%path)
       end do

@@ -9,7 +9,8 @@ module ek_console
    use ek_run_log, only: log_message, log_output
    implicit none(type, external)
    private
-   public :: print_message, print_note, print_warning, print_error, print_text, print_model_remarks, print_remarks, show_progress, &
+   public :: print_message, print_note, print_marked, print_warning, print_error, print_text, print_model_remarks, print_remarks, &
+      show_progress, &
       clear_progress
 
 contains
@@ -21,6 +22,35 @@ contains
       if (.not. quiet) call print_message(text)
       if (quiet) call log_message(printable(text))
    end subroutine print_note
+
+   !> Prints an informational message that begins with a word of an assessment: 'outside' in red, 'at the edge' in yellow, 'inside'
+   !> in green; without a colour if standard error is not a terminal, or NO_COLOR is set. Without a word, blanks stand for it.
+   subroutine print_marked(quiet, text, word)
+      logical, intent(in) :: quiet
+      character(*), intent(in) :: text, word
+      character(*), parameter :: words(3) = [character(11) :: 'outside', 'at the edge', 'inside'], codes(3) = ['31', '33', '32']
+      character(len(words)) :: mark
+      integer :: k
+
+      mark = word
+      if (.not. quiet) then
+         k = findloc(words, word, dim=1)
+         if (k > 0 .and. has_colours()) then
+            call write_standard_error(achar(27)//'['//codes(k)//'m'//mark//achar(27)//'[0m  '//printable(text)//new_line('a'))
+         else
+            call write_standard_error(mark//'  '//printable(text)//new_line('a'))
+         end if
+      end if
+      call log_message(trim(mark//'  '//printable(text)))
+   end subroutine print_marked
+
+   !> Whether standard error is a terminal and NO_COLOR is not set (https://no-color.org).
+   logical function has_colours()
+      integer :: length
+
+      call get_environment_variable('NO_COLOR', length=length)
+      has_colours = is_terminal(2) .and. length == 0
+   end function has_colours
 
    !> Prints a warning: results may be unreliable.
    subroutine print_warning(text)

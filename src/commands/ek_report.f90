@@ -1,10 +1,11 @@
 !> elastokin report: runs the tests of a deck, and writes gradients, charts and pictures as one page and its files.
 module ek_report
-   use ek_error, only: error_t, message_list_t, fail, exit_usage, exit_convergence
+   use ek_error, only: error_t, message_list_t, fail, exit_usage, exit_convergence, exit_outside
    use ek_text, only: str, plural
    use ek_version, only: version
    use ek_clock, only: date_text
    use ek_file, only: make_folder, join_path
+   use ek_system, only: working_folder
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t, default_tolerance
    use ek_workspace, only: workspace_t, balance_or_explain
@@ -30,13 +31,14 @@ module ek_report
    use ek_planned_test, only: planned_tests
    use ek_key_numbers, only: key_numbers
    use ek_key_number_table, only: key_numbers_csv, key_numbers_json
-   use ek_plausible_shape, only: vehicle_size
+   use ek_assessment, only: axle_kind_t
    use ek_report_content, only: report_t, add_fact
    use ek_report_data, only: report_data
    use ek_report_measured, only: read_measured, compare_all_measured
    use ek_measurement, only: measured_csv
    use ek_report_page, only: report_page
    use ek_verdict, only: verdict_t, verdict_lines, plain
+   use ek_usual_range, only: outside
    use ek_report_pictures, only: draw_pictures, find_figures
    use ek_explanation, only: explanation_t, find_explanations
    use ek_live, only: live_t, add_live
@@ -47,7 +49,7 @@ module ek_report
    use ek_command_line, only: command_line_t, refuse_stream, read_windows
    use ek_number_targets, only: set_targets
    use ek_load_deck, only: deck_settings_t, read_deck_settings, load_deck, chosen_cases, examine_chosen
-   use ek_console, only: print_note, print_error, print_model_remarks
+   use ek_console, only: print_note, print_marked, print_error, print_model_remarks
    use ek_kinds, only: wp, millimetre
    use ek_path, only: path_t
    use ek_case_result, only: case_result_t, solve_options_t, solve_with_remarks, add_header
@@ -71,6 +73,7 @@ module ek_report
    type, extends(deck_settings_t) :: settings_t
       type(windows_t) :: windows                     !! windows of the gradients
       logical :: has_plots = .true., has_figures = .false., is_animated = .false., is_static = .false., has_loads = .false.
+      logical :: fails_outside = .false.             !! a number outside its range is a failure
       integer :: live = 0                            !! number of rates that the page can change; 0: no sliders
    end type settings_t
 
@@ -109,8 +112,8 @@ contains
       page%folder = settings%out
       box = outbox_in(page%folder)
       page%is_static = settings%is_static
-      page%vehicle = vehicle_size(workspace%raw)
-      if (workspace%raw%axle%has_axle) page%axle = merge(-1, 1, workspace%raw%axle%is_front)
+      call list_values(deck, page%deck_paths, page%deck_texts)
+      page%axle = kind_of(workspace%raw, page%deck_paths)
       call make_folder(page%folder, error)
       if (.not. allocated(error)) call make_folder(join_path(page%folder, 'figures'), error)
       if (.not. allocated(error)) call balance_or_explain(default_tolerance, workspace, error)
@@ -164,7 +167,6 @@ contains
       if (.not. page%is_static) call make_turntable(workspace%suspension, page%tests, page%paths, page%turntable)
       call find_figures(workspace%suspension, page)
       call set_head(settings, workspace%suspension, checksum, page)
-      call list_values(deck, page%deck_paths, page%deck_texts)
       call box%put(deck_file, deck_csv(page%names, page%values, page%deck_paths, page%deck_texts))
       call box%take(error)
       if (.not. allocated(error)) call write_deck_as_used(deck, join_path(page%folder, used_deck_file), error, page%copies)
@@ -177,11 +179,41 @@ contains
       if (allocated(error)) return
       call box%announce(page_file)
       call print_verdicts(settings%is_quiet, page)
+      if (settings%fails_outside .and. .not. allocated(incomplete)) call fail_outside(page, incomplete)
       call move_alloc(incomplete, error)
       if (allocated(unmapped) .and. .not. allocated(error)) call fail(error, unmapped%code, &
          'measured curves have no column; see the errors above')
       call box%finish(error)
    end subroutine report
+
+   !> The class and position of the axle, and what the deck gives of the drive and the sprung masses.
+   type(axle_kind_t) function kind_of(suspension, given) result(kind)
+      type(suspension_t), intent(in) :: suspension
+      type(message_list_t), intent(in) :: given                 !! paths of the values that the deck gives
+      integer :: k
+
+      kind%gives_sprung_mass = all(suspension%wheels%sprung_mass > 0.0_wp)
+      if (.not. suspension%axle%has_axle) return
+      kind%position = merge(-1, 1, suspension%axle%is_front)
+      kind%class = suspension%axle%class
+      kind%is_driven = suspension%axle%drive_share > 0.0_wp
+      do k = 1, given%count()
+         if (given%line(k) == 'axle.drive_share') kind%gives_drive = .true.
+      end do
+   end function kind_of
+
+   !> Checks that no number is outside its target or its usual range (--fail-outside).
+   subroutine fail_outside(page, error)
+      type(report_t), intent(in) :: page
+      type(error_t), allocatable, intent(out) :: error          !! exit_outside
+      type(verdict_t), allocatable :: lines(:)
+      integer :: many
+
+      call verdict_lines(page, lines)
+      many = count(lines%verdict == outside)
+      if (many > 0) call fail(error, exit_outside, '--fail-outside: '//plural(many, 'number is', 'numbers are')// &
+         ' outside the target or the usual range')
+   end subroutine fail_outside
 
    !> Adds the windows of the gradients to the stops of each test.
    subroutine stop_at_windows(windows, tests, cases)
@@ -210,7 +242,7 @@ contains
          call key_numbers(page%tests, page%gradients, page%numbers, page%missing)
          call set_targets(workspace%definition%targets, page%numbers, page%warnings)
          call box%put(numbers_file, key_numbers_csv(page%numbers, is_pair))
-         call box%put(numbers_json_file, key_numbers_json(page%numbers, is_pair, model, checksum, page%start))
+         call box%put(numbers_json_file, key_numbers_json(page, is_pair, model, checksum))
          call box%write(contents_file, contents_csv(page%tests))
       end associate
    end subroutine put_numbers
@@ -283,6 +315,7 @@ contains
       settings%is_animated = line%has('--animate')
       settings%has_loads = line%has('--loads')
       settings%is_static = line%has('--static')
+      settings%fails_outside = line%has('--fail-outside')
       call refuse_stream(line, error)
       if (.not. allocated(error) .and. settings%is_animated .and. .not. settings%has_plots) &
          call fail(error, exit_usage, '--no-plots and --animate are mutually exclusive')
@@ -374,17 +407,22 @@ contains
       call box%write(windows_folder//'/'//test%file, csv_text(table))
    end subroutine write_windows
 
-   !> Prints the lines of the verdict to standard error.
+   !> Prints the lines of the assessment to standard error, aligned and coloured, and last the address of the page.
    subroutine print_verdicts(is_quiet, page)
       logical, intent(in) :: is_quiet
       type(report_t), intent(in) :: page
       type(verdict_t), allocatable :: lines(:)
-      integer :: k
+      character(:), allocatable :: path
+      integer :: k, width
 
       call verdict_lines(page, lines)
+      width = maxval([(len_trim(lines(k)%domain), k=1, size(lines))])
       do k = 1, size(lines)
-         call print_note(is_quiet, trim(lines(k)%domain)//': '//plain(lines(k)%text))
+         call print_marked(is_quiet, lines(k)%domain(:width)//'  '//plain(lines(k)%text), trim(lines(k)%verdict))
       end do
+      path = join_path(page%folder, page_file)
+      if (index(path, '/') /= 1) path = join_path(working_folder(), path)
+      call print_note(is_quiet, 'file://'//path)
    end subroutine print_verdicts
 
    !> Sets title and facts of the page.

@@ -10,6 +10,7 @@ module ek_compare_page
    use ek_page, only: page_t, begin_page, begin_section, add_warnings, add_facts, begin_table, add_cell, end_table, add_text, &
       add_legend, add_markup, begin_charts, end_charts, set_data, page_text, page_number
    use ek_change, only: change_of, verdict_of, has_changed, letter_of, relative_change
+   use ek_compare_sentence, only: sentences_of
    use ek_compare_targets, only: add_targets
    use ek_comparison, only: comparison_t, difference_t, difference, largest_change, descending, counted
    use ek_deck_difference, only: deck_difference_t, few_changes, step_text
@@ -30,7 +31,7 @@ contains
       character(*), intent(in) :: why_none          !! reason for missing pictures; '' if there is no message
       character(:), allocatable :: text
       type(page_t) :: page
-      type(message_list_t) :: names, values, warnings
+      type(message_list_t) :: names, values, warnings, sentences
       integer :: r, t, k
 
       do r = 1, size(this%results)
@@ -45,6 +46,10 @@ contains
          call warnings%add('The page has no pictures: '//why_none)
          call add_warnings(page, 'Warnings', warnings)
       end if
+      call sentences_of(this, sentences)
+      do k = 1, sentences%count()
+         call add_text(page, 'p', sentences%line(k))
+      end do
       if (size(this%deck) <= few_changes) call add_changes(page, this)
       call add_results(page, this)
       do t = 1, size(this%results(1)%tests)

@@ -11,7 +11,7 @@ module ek_compare_targets
    use ek_page, only: page_t, add_text, begin_table, add_cell, end_table, page_number
    implicit none(type, external)
    private
-   public :: target_t, find_targets, add_targets, target_lines
+   public :: target_t, find_targets, add_targets, target_lines, read_target
 
    character(*), parameter :: band = 'target_band.', low = '.low', high = '.high'     !! parts of the paths in deck.csv
 
@@ -96,6 +96,19 @@ contains
       call this%verdicts%add(verdict)
       call this%bands%add(band_text(limits, is_given))
    end subroutine judge
+
+   !> Reads the band of a key number from the values of a deck.
+   subroutine read_target(deck, name, limits, has_target)
+      type(deck_record_t), intent(in) :: deck
+      character(*), intent(in) :: name                 !! without left_ and right_
+      real(wp), intent(out) :: limits(2)               !! ∓huge for a limit that is not given
+      logical, intent(out) :: has_target
+      logical :: is_given(2)
+
+      call read_limit(deck, band//name//low, -huge(1.0_wp), limits(1), is_given(1))
+      call read_limit(deck, band//name//high, huge(1.0_wp), limits(2), is_given(2))
+      has_target = any(is_given)
+   end subroutine read_target
 
    !> Reads a limit of a band from the values of a deck.
    subroutine read_limit(deck, path, default, limit, is_given)

@@ -4,6 +4,7 @@
 module ek_choices
    use ek_dimension, only: length_names, force_names, angle_names, mass_names
    use ek_rig_test, only: rig_tests
+   use ek_usual_range, only: class_names
    use ek_joint, only: joint_kinds
    use ek_new_curve, only: curve_kinds
    use ek_case, only: method_names, solver_names, follow_names
@@ -50,6 +51,8 @@ contains
          words = [character(word_length) :: 'left', 'right']
       case ('axle.position')
          words = [character(word_length) :: 'front', 'rear']
+      case ('axle.class')
+         words = [character(word_length) :: class_names]
       case ('axle.drive_reaction')
          words = [character(word_length) :: 'wheel_centre', 'patch']
       case ('axle.brake_reaction')

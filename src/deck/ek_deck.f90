@@ -227,7 +227,8 @@ contains
    end subroutine move_deck
 
    !> Checksum of everything that can change a result, 16 hexadecimal digits (FNV-1a, 64 bits). Settings and load tables are
-   !> included. Comments, notes, titles, layout, target bands and the division of the deck into files are ignored.
+   !> included. Comments, notes, titles, layout, target bands, the class of the axle and the division of the deck into files are
+   !> ignored.
    function deck_checksum(deck) result(digits)
       type(deck_t), intent(in) :: deck
       character(16) :: digits
@@ -258,7 +259,7 @@ contains
    end subroutine include_tables
 
    !> Adds the groups, keys and values of records to a checksum, without the groups &include, &hardpoints and &target_band, and
-   !> without the keys note, title, format (of a study) and property_file.
+   !> without the keys note, title, format (of a study), property_file and class (of an axle).
    subroutine include_records(records, sum)
       type(record_t), intent(in) :: records(:)
       type(checksum_t), intent(inout) :: sum
@@ -269,7 +270,7 @@ contains
          call include(sum, '&'//records(k)%group)
          do e = 1, records(k)%used
             associate (entry => records(k)%entries(e))
-               if (any([character(13) :: 'note', 'title', 'format', 'property_file'] == entry%key)) cycle
+               if (any([character(13) :: 'note', 'title', 'format', 'property_file', 'class'] == entry%key)) cycle
                call include(sum, ';'//entry%key//'('//str(entry%first)//')')
                do v = 1, entry%used
                   call include(sum, merge("'", ',', entry%values(v)%is_string)//entry%values(v)%text)

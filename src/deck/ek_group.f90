@@ -266,6 +266,7 @@ module ek_group
       key_t(wheel_group, 'steer_axis', word, 2, 2, .false., role=point_group, about='two points on the geometric steering axis'), &
       key_t(axle_group, 'name', word, 1, 1, .false., about='name in messages'), &
       key_t(axle_group, 'position', word, 1, 1, .true., about='position in the car'), &
+      key_t(axle_group, 'class', word, 1, 1, .false., about='class of the car, for the usual ranges of a report'), &
       key_t(axle_group, 'wheelbase', number, 1, 1, .true., positive, dimension=length, about='wheelbase'), &
       key_t(axle_group, 'cg_height', number, 1, 1, .true., positive, dimension=length, &
       about='height of the centre of gravity of the car above the ground'), &

@@ -225,8 +225,8 @@ contains
          text_of(reading, 'side')//' (y points '//trim(merge('left ', 'right', reading%plan%is_iso))//')')
    end subroutine find_spin
 
-   !> Reads &axle: its position (front or rear), the share of the front axle in the braking force, the share of this axle in the
-   !> driving force, the points at which the driving and the braking force act, and the vehicle data.
+   !> Reads &axle: its position (front or rear), the class of the car, the share of the front axle in the braking force, the share of
+   !> this axle in the driving force, the points at which the driving and the braking force act, and the vehicle data.
    subroutine read_axle(reading)
       type(deck_reading_t), intent(inout) :: reading
       integer :: c, number(9)
@@ -248,6 +248,7 @@ contains
       associate (this => reading%plan%prototype%axle)
          call choice(reading, 'position', c)
          this%is_front = c == 1
+         call choice(reading, 'class', this%class)
          if (has_key(reading, 'front_overhang') .and. c == 2) call complain(reading, 'front_overhang', &
             "front_overhang belongs to the front axle, found position = 'rear'")
          call choice(reading, 'drive_reaction', c)

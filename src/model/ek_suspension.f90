@@ -102,6 +102,7 @@ module ek_suspension
       logical :: has_axle = .false.       !! the deck has an &axle
       character(:), allocatable :: where
       logical :: is_front = .true.
+      integer :: class = 0                !! class of the car: index in class_names of ek_usual_range; 0: not given
       logical :: drives_at_patch = .false.   !! the axle carries the drive torque (solid axle): driving force acts at contact point;
                                              !! otherwise (independent suspension) at the wheel centre
       logical :: brakes_at_centre = .false.  !! the body takes the brake torque (inboard brakes): braking force acts at wheel centre;

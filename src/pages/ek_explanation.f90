@@ -5,6 +5,7 @@ module ek_explanation
    use ek_kinds, only: wp
    use ek_text, only: str
    use ek_largest, only: largest
+   use ek_key_numbers, only: without_side
    use ek_quantity, only: quantity_t, quantity_named, unit_of, unit_text
    use ek_case_result, only: case_result_t
    use ek_schedule, only: new_schedule
@@ -17,7 +18,7 @@ module ek_explanation
    use ek_page, only: page_t, begin_section, add_text, begin_table, add_cell, add_group, add_bar, end_table, page_number
    implicit none(type, external)
    private
-   public :: explanation_t, find_explanations, add_explanations, parts_of, percent_text
+   public :: explanation_t, find_explanations, add_explanations, parts_of, cause_of, percent_text
 
    integer, parameter :: shown = 10      !! largest number of contributions of a column
 
@@ -163,6 +164,48 @@ contains
          return
       end do
    end function parts_of
+
+   !> The element that contributes more than half of a compliance: '85 % from the stiffness of rack_drive'; '' if there is none, or if
+   !> the column is not an explained compliance. The contributions of all axes of an element, of the left and of the right one, belong
+   !> together. Above 150 %, the contributions of several elements cancel, and none is the cause.
+   function cause_of(list, column) result(text)
+      type(explanation_t), intent(in) :: list(:)
+      character(*), intent(in) :: column               !! without left_
+      character(:), allocatable :: text
+      real(wp), parameter :: limit = 1.5_wp
+      real(wp) :: share, most
+      integer :: c, k, l, cause
+
+      text = ''
+      if (index(column, '_held_') == 0) return
+      do c = 1, size(list)
+         if (without_side(list(c)%column) /= column .or. reads_zero(list(c)%value)) cycle
+         most = 0.5_wp
+         cause = 0
+         do k = 1, list(c)%rows
+            share = 0.0_wp
+            do l = 1, list(c)%rows
+               if (element_of(list(c)%row(l)) == element_of(list(c)%row(k))) share = share + list(c)%part(l)/list(c)%value
+            end do
+            if (.not. share > most) cycle
+            most = share
+            cause = k
+         end do
+         if (cause == 0 .or. most > limit .or. nint(100*most) <= 50) return
+         text = str(nint(100*most))//' % from '
+         if (index(trim(list(c)%row(cause))//'|', ' stiffness|') > 0) text = text//'the stiffness of '
+         text = text//element_of(list(c)%row(cause))
+         return
+      end do
+   end function cause_of
+
+   !> The element of a contribution, without its part and the name of its side: 'lca_front' for 'left_lca_front y'.
+   function element_of(row) result(name)
+      character(*), intent(in) :: row
+      character(:), allocatable :: name
+
+      name = without_side(row(:index(trim(row), ' ', back=.true.) - 1))
+   end function element_of
 
    !> Adds the section of contributions; adds nothing for an empty list.
    subroutine add_explanations(page, list)

@@ -5,6 +5,8 @@ module ek_key_number_table
    use ek_frame, only: frame_t, new_frame
    use ek_key_number, only: key_number_t
    use ek_key_numbers, only: number_heads
+   use ek_report_content, only: report_t
+   use ek_verdict, only: add_assessment
    implicit none(type, external)
    private
    public :: key_numbers_csv, key_numbers_json
@@ -24,12 +26,11 @@ contains
       text = frame%csv()
    end function key_numbers_csv
 
-   !> The key numbers as JSON: { "model", "checksum", "key_numbers": [ { … } ] }.
-   function key_numbers_json(numbers, is_pair, model, checksum, start) result(text)
-      type(key_number_t), intent(in) :: numbers(:)
+   !> The key numbers as JSON: { "model", "checksum", "assessment", "key_numbers": [ { … } ] }.
+   function key_numbers_json(report, is_pair, model, checksum) result(text)
+      type(report_t), intent(in) :: report
       logical, intent(in) :: is_pair
       character(*), intent(in) :: model, checksum
-      character(:), allocatable, intent(in), optional :: start     !! start state, if the deck does not hold it; '': it does
       character(:), allocatable :: text
       type(frame_t) :: frame
       type(json_t) :: json
@@ -37,12 +38,11 @@ contains
       call json%open('{')
       call json%item('model', json_string(model))
       call json%item('checksum', json_string(checksum))
-      if (present(start)) then
-         if (allocated(start)) then
-            if (start /= '') call json%item('start_state', json_string(start))
-         end if
+      if (allocated(report%start)) then
+         if (report%start /= '') call json%item('start_state', json_string(report%start))
       end if
-      frame = frame_of(numbers, is_pair)
+      call add_assessment(json, report)
+      frame = frame_of(report%numbers, is_pair)
       call frame%add_json('key_numbers', json)
       call json%close('}')
       text = json%text()

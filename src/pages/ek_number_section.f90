@@ -7,7 +7,7 @@ module ek_number_section
    use ek_explanation, only: parts_of
    use ek_number_words, only: steer_effect, target_verdict, short_name, is_equal, is_opposite, sides_text
    use ek_verdict, only: verdict_t, verdict_lines
-   use ek_page, only: page_t, begin_section, add_markup, page_number
+   use ek_page, only: page_t, begin_section, add_markup, page_number, verdict_html
    use ek_report_content, only: report_t
    use ek_summary, only: summary_numbers, kept_number, relation_to
    use ek_html, only: escape_html
@@ -46,7 +46,7 @@ contains
                escape_html(short_name(number))//'</span>')
             call add_markup(page, '<span class="value">'//values_of(number)//'</span>')
             call add_markup(page, sparkline(number, report%tests))
-            effect = steer_effect(number, report%axle)
+            effect = steer_effect(number, report%axle%position)
             if (effect /= '') call add_markup(page, '<span class="effect">'//escape_html(trim(effect))//'</span>')
             call add_markup(page, target_of(number))
             if (number%held /= '') call add_markup(page, '<span class="held">'//escape_html(trim(number%held))//'</span>')
@@ -69,7 +69,7 @@ contains
       call add_markup(page, '<dl class="verdicts">')
       do k = 1, size(lines)
          mark = ''
-         if (lines(k)%verdict /= '') mark = ' <span class="target '//trim(lines(k)%verdict)//'">'//trim(lines(k)%verdict)//'</span>'
+         if (lines(k)%verdict /= '') mark = verdict_html(trim(lines(k)%verdict))
          call add_markup(page, '<div><dt>'//escape_html(trim(lines(k)%domain))//'</dt><dd>'//escape_html(lines(k)%text)//mark// &
             '</dd></div>')
       end do

@@ -5,6 +5,7 @@ module ek_number_words
    use ek_noise, only: is_within, solved
    use ek_quantity, only: all_quantities, unit_of, unit_text
    use ek_key_number, only: key_number_t, anti_phase
+   use ek_usual_range, only: neutral_band
    use ek_page, only: page_number
    implicit none(type, external)
    private
@@ -16,13 +17,12 @@ module ek_number_words
    character(*), parameter :: away(*) = [character(44) :: 'wheel_roll_steer', 'lateral_force_steer', 'aligning_torque_steer', &
       'lateral_in_load_held_steer_deg_per_kn', 'lateral_in_height_held_steer_deg_per_kn', &
       'aligning_in_load_held_steer_deg_per_100nm', 'aligning_in_height_held_steer_deg_per_100nm']
-   real(wp), parameter :: nothing = 5.0e-4_wp       !! deg per deg, kN or 100 N m: smaller values are neutral
 
 contains
 
    !> The effect of a key number of steer on the car in a bend. A front axle that steers out of the bend understeers, a rear
-   !> axle oversteers; steer into the bend has the opposite effect. A small value is neutral. If the axle is not known, the
-   !> effects of both axles are given. '' for other key numbers, and without a value.
+   !> axle oversteers; steer into the bend has the opposite effect. A value in the neutral band (ek_usual_range) is neutral. If the
+   !> axle is not known, the effects of both axles are given. '' for other key numbers, and without a value.
    pure function steer_effect(number, axle) result(effect)
       type(key_number_t), intent(in) :: number
       integer, intent(in) :: axle                   !! −1 front, 1 rear, 0 not known
@@ -33,7 +33,7 @@ contains
       if (.not. any(away == number%name)) return
       value = mean_value(number)
       if (.not. ieee_is_finite(value)) return
-      if (abs(value) < nothing) then
+      if (abs(value) <= neutral_band(number%unit)) then
          effect = 'neutral'
       else if (axle == 0) then
          effect = 'understeer at the front, oversteer at the rear'

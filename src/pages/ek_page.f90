@@ -18,7 +18,7 @@ module ek_page
    public :: page_t, begin_page, begin_section, add_text, add_warnings, add_facts
    public :: begin_table, add_cell, add_bar, add_group, end_table
    public :: begin_charts, end_charts, add_picture, add_data_picture, add_figure, add_legend, add_markup, page_text
-   public :: page_number, set_data
+   public :: page_number, set_data, verdict_html
 
    character(*), parameter :: nl = new_line('a')
 
@@ -203,11 +203,14 @@ contains
    !> A verdict as HTML, by word and colour; '' without a verdict.
    pure function verdict_html(verdict) result(html)
       character(*), intent(in) :: verdict
-      character(:), allocatable :: html
+      character(:), allocatable :: html, class
 
       html = ''
-      if (verdict /= '') html = ' <span class="target '//trim(merge('inside ', 'outside', verdict == 'inside'))//'">'// &
-         escape_html(verdict)//'</span>'
+      if (verdict == '') return
+      class = 'outside'
+      if (verdict == 'inside') class = 'inside'
+      if (verdict == 'at the edge') class = 'edge'
+      html = ' <span class="target '//class//'">'//escape_html(verdict)//'</span>'
    end function verdict_html
 
    !> Adds the next cell with a bar. The bar begins in the middle and extends to the right; for a negative share, to the left.

@@ -13,7 +13,7 @@ module ek_report_content
    use ek_explanation, only: explanation_t
    use ek_live, only: live_t
    use ek_turntable, only: turntable_t
-   use ek_plausible_range, only: size_t
+   use ek_assessment, only: axle_kind_t
    use ek_tilt, only: tilt_t
    implicit none(type, external)
    private
@@ -40,8 +40,7 @@ module ek_report_content
       type(live_t), allocatable :: live                !! rates that the page can change, if requested
       type(turntable_t), allocatable :: turntable      !! the suspension in space, if something moves
       type(tilt_t), allocatable :: tilts(:)            !! rated tilts of joints and bushings
-      type(size_t) :: vehicle = size_t()               !! size of the vehicle, for its usual ranges
-      integer :: axle = 0                              !! position of the axle: −1 front, 1 rear, 0 unknown; for the effect of steer
+      type(axle_kind_t) :: axle = axle_kind_t()        !! class and position of the axle, for its usual ranges
       type(message_list_t) :: drawn                    !! scripts and pictures of this report, relative to the folder
       type(message_list_t) :: copies                   !! copies of the load tables of the deck, in the folder
       integer :: incomplete = 0                        !! number of tests that failed or were not run to their ends

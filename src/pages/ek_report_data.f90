@@ -15,7 +15,9 @@ module ek_report_data
    use ek_contact, only: contact_t, contacts_of
    use ek_chart, only: chart_t, trace_t, view_of, rounded
    use ek_key_number, only: key_number_t
-   use ek_number_words, only: steer_effect, target_verdict
+   use ek_number_words, only: steer_effect
+   use ek_assessment, only: assessment_t, assess, meaning_of
+   use ek_verdict, only: add_assessment
    use ek_report_content, only: report_t
    use ek_figure_data, only: add_figures
    use ek_live_data, only: add_live_data
@@ -51,6 +53,7 @@ contains
             json_string(as_utf8(report%deck_texts%line(k)))//']')
       end do
       call json%close(']')
+      call add_assessment(json, report)
       call json%open('[', 'numbers')
       do k = 1, size(report%numbers)
          call add_number(json, report, report%numbers(k))
@@ -92,6 +95,8 @@ contains
       type(json_t), intent(inout) :: json
       type(report_t), intent(in) :: report
       type(key_number_t), intent(in) :: number
+      type(assessment_t) :: assessment
+      character(:), allocatable :: meaning, effect
 
       call json%open('{')
       call json%item('name', json_string(number%name))
@@ -103,14 +108,24 @@ contains
       call json%item('held', json_string(trim(number%held)))
       call json%item('condition', json_string(number%condition))
       call json%item('definition', json_string(number%definition))
-      if (steer_effect(number, report%axle) /= '') call json%item('effect', json_string(trim(steer_effect(number, report%axle))))
+      effect = trim(steer_effect(number, report%axle%position))
+      if (effect /= '') call json%item('effect', json_string(effect))
+      meaning = meaning_of(number, report%axle, report%numbers)
+      if (meaning /= '') call json%item('meaning', json_string(meaning))
+      call assess(number, report%axle, report%numbers, assessment)
       if (number%has_target) then
          call json%open('[', 'target')
          call json%item_of_list(json_number(limit_of(number%target(1))))
          call json%item_of_list(json_number(limit_of(number%target(2))))
          call json%close(']')
-         call json%item('verdict', json_string(trim(target_verdict(number))))
+      else if (assessment%usual%is_known) then
+         call json%open('[', 'usual')
+         call json%item_of_list(json_number(assessment%usual%low))
+         call json%item_of_list(json_number(assessment%usual%high))
+         call json%close(']')
+         call json%item('source', json_string(assessment%usual%source))
       end if
+      if (number%has_target .or. assessment%usual%is_known) call json%item('verdict', json_string(trim(assessment%word)))
       call json%close('}')
    end subroutine add_number
 

@@ -3,7 +3,7 @@ module ek_summary
    use ek_key_number, only: key_number_t, has_value
    implicit none(type, external)
    private
-   public :: summary_numbers, kept_number, relation_to
+   public :: summary_numbers, kept_number, relation_to, slope_at_design
 
    integer, parameter :: most = 16, most_ratios = 3
    character(*), parameter :: ratio = '*_motion_ratio'
@@ -74,6 +74,18 @@ contains
          if (pairs(p)%repeated == repeated) label = trim(relations(pairs(p)%relation))
       end do
    end function relation_to
+
+   !> The column that is the slope at design of a fitted slope; '' if there is none.
+   pure function slope_at_design(fitted_slope) result(column)
+      character(*), intent(in) :: fitted_slope       !! name of the key number: 'lateral_force_steer'
+      character(:), allocatable :: column
+      integer :: p
+
+      column = ''
+      do p = 1, size(pairs)
+         if (pairs(p)%kept == fitted_slope .and. pairs(p)%relation == at_design) column = trim(pairs(p)%repeated)
+      end do
+   end function slope_at_design
 
    !> The index of the key number that is shown instead of key number k; 0 if key number k is not replaced. It is replaced if
    !> it has no target, and an equivalent key number has a value.

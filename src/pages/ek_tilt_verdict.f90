@@ -7,6 +7,7 @@ module ek_tilt_verdict
    use ek_table, only: column_index
    use ek_test_result, only: test_result_t, converged_rows
    use ek_page, only: page_number
+   use ek_usual_range, only: word_length, inside, outside
    implicit none(type, external)
    private
    public :: judge_tilts
@@ -19,7 +20,7 @@ contains
       type(tilt_t), intent(in) :: tilts(:)
       type(test_result_t), intent(in) :: tests(:)
       character(:), allocatable, intent(out) :: words
-      character(7), intent(out) :: verdict        !! 'inside', 'outside' of the rating, or ''
+      character(word_length), intent(out) :: verdict   !! 'inside', 'outside' of the rating, or ''
       real(wp) :: largest(size(tilts)), share
       integer :: k, t, row, at(2, size(tilts)), over
 
@@ -43,7 +44,7 @@ contains
          str(tilts(k)%rating/degree, 6)//' deg: in test '//tests(at(1, k))%name//' at '//state_words(tests(at(1, k)), at(2, k))
       over = count(largest > 1.0_wp)
       if (over > 0) words = words//'; '//str(over)//' of '//str(size(tilts))//' over the rating'
-      verdict = merge('outside', 'inside ', over > 0)
+      verdict = merge(outside, inside, over > 0)
    end subroutine judge_tilts
 
    !> Finds the largest value of a column in the converged states of a test.

@@ -1,29 +1,34 @@
-!> The verdict of a report: one line per domain of an axle, with its main key numbers and whether they are inside their bands. A
-!> band is the target of the deck (&target_band), or else the usual range of road vehicles (ek_plausible_range). A key number
-!> without either has no verdict.
+!> The assessment of a report: one line per domain of an axle with its main key numbers, their meaning, and their place in their
+!> ranges. The range is the target of the deck (&target_band), or else the usual range of the class of the axle (ek_usual_range). A
+!> number outside or at the edge of its range has a line of its own, before the others.
 module ek_verdict
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
    use ek_text, only: str, plural
    use ek_gradient, only: is_of_springs
    use ek_key_number, only: key_number_t, has_value
-   use ek_number_words, only: steer_effect, target_verdict, short_name, is_equal, is_opposite, sides_text
-   use ek_plausible_range, only: size_t, usual_range
+   use ek_number_words, only: short_name, is_equal, is_opposite, sides_text
+   use ek_usual_range, only: word_length, inside, neutral_band
+   use ek_assessment, only: assessment_t, assess, assessment_words, meaning_of, kind_words, number_named, is_judged, rank_of
+   use ek_summary, only: slope_at_design
+   use ek_explanation, only: cause_of
    use ek_load_state, only: differ, stand_text
    use ek_table, only: column_index
    use ek_test_result, only: test_result_t, design_row
    use ek_page, only: page_number
+   use ek_json, only: json_t, json_string
+   use ek_letters, only: as_utf8
    use ek_report_content, only: report_t
    use ek_tilt_verdict, only: judge_tilts
    implicit none(type, external)
    private
-   public :: verdict_t, verdict_lines, plain
+   public :: verdict_t, verdict_lines, add_assessment, plain
 
    !> One line of the verdict.
    type :: verdict_t
       character(24) :: domain = ''
       character(:), allocatable :: text
-      character(7) :: verdict = ''          !! 'inside': all numbers with a band; 'outside': at least one; '': no band
+      character(word_length) :: verdict = ''   !! 'outside', 'at the edge' or 'inside' of a range; '': no number has a range
    end type verdict_t
 
    !> The key numbers of a domain in order. The first `most` key numbers that the report has are shown.
@@ -49,16 +54,11 @@ module ek_verdict
       real(wp) :: heights(2) = 0.0_wp, loads(2) = 0.0_wp      !! wheel travel [mm], vertical force [N]
    end type stand_t
 
-   !> Key numbers with a usual range, and the quantities of these ranges.
-   character(*), parameter :: numbers_with_range(*) = [character(36) :: 'wheel_rate', 'ride_frequency_hz', 'bump_toe', &
-      'bump_camber']
-   character(*), parameter :: range_rows(*) = [character(28) :: 'wheel rate', 'ride frequency', 'bump toe', 'bump camber']
-
 contains
 
-   !> Lists the lines: start state if the deck does not hold it, incomplete tests, load at design, heights of the tests if they
-   !> differ, one line per domain, tilt of joints, largest load. A line is omitted if the report does not have the numbers of this
-   !> line.
+   !> Lists the lines, first those outside and at the edge of their ranges: start state if the deck does not hold it, class of the
+   !> axle, incomplete tests, load at design, heights of the tests if they differ, domains, tilt of joints, largest load. A line is
+   !> omitted if the report does not have its numbers.
    subroutine verdict_lines(report, lines)
       type(report_t), intent(in) :: report
       type(verdict_t), allocatable, intent(out) :: lines(:)
@@ -66,34 +66,63 @@ contains
       integer :: d
 
       allocate (lines(0))
-      if (allocated(report%start)) then
-         line%domain = 'start state'
-         line%text = report%start
-         if (line%text /= '') call append(lines, line)
-      end if
-      line%domain = 'tests'
-      line%text = str(report%incomplete)//' of '//str(size(report%tests))//' incomplete'
-      call append(lines, line)
-      line%domain = 'load state'
-      line%text = load_state(report%numbers)
-      if (line%text /= '') call append(lines, line)
-      line%domain = 'heights'
-      line%text = heights_text(report%tests)
-      if (line%text /= '') call append(lines, line)
+      if (allocated(report%start)) call add_fact('start state', report%start)
+      if (size(report%numbers) > 0) call add_fact('axle', kind_words(report%axle))
+      call add_fact('tests', tests_words(report%incomplete, size(report%tests)))
+      call add_fact('load state', load_state(report%numbers))
+      call add_fact('heights', heights_text(report%tests))
       do d = 1, size(domains)
-         call judge(report, domains(d), line)
-         if (line%text /= '') call append(lines, line)
+         call judge(report, domains(d), lines)
       end do
       if (allocated(report%tilts)) then
          line%domain = 'tilt of joints'
          call judge_tilts(report%tilts, report%tests, line%text, line%verdict)
          if (line%text /= '') call append(lines, line)
       end if
-      line%domain = 'loads'
-      line%verdict = ''
-      line%text = largest_load(report)
-      if (line%text /= '') call append(lines, line)
+      call add_fact('loads', largest_load(report))
+      call sort_lines(lines)
+
+   contains
+
+      !> Adds a line without a verdict, unless it is empty.
+      subroutine add_fact(domain, text)
+         character(*), intent(in) :: domain, text
+         type(verdict_t) :: fact
+
+         fact%domain = domain
+         fact%text = text
+         if (text /= '') call append(lines, fact)
+      end subroutine add_fact
+
    end subroutine verdict_lines
+
+   !> The tests as a phrase: 'all 13 complete', or '2 of 13 incomplete'.
+   pure function tests_words(incomplete, tests) result(words)
+      integer, intent(in) :: incomplete, tests
+      character(:), allocatable :: words
+
+      words = str(tests)//' complete'
+      if (tests > 1) words = 'all '//words
+      if (incomplete > 0) words = str(incomplete)//' of '//str(tests)//' incomplete'
+   end function tests_words
+
+   !> Moves the lines outside and at the edge of their ranges to the front; lines of equal rank keep their order.
+   subroutine sort_lines(lines)
+      type(verdict_t), allocatable, intent(inout) :: lines(:)
+      type(verdict_t), allocatable :: sorted(:)
+      integer :: rank, k, used
+
+      allocate (sorted(size(lines)))
+      used = 0
+      do rank = 1, rank_of(inside)
+         do k = 1, size(lines)
+            if (min(rank_of(lines(k)%verdict), rank_of(inside)) /= rank) cycle
+            used = used + 1
+            sorted(used) = lines(k)
+         end do
+      end do
+      call move_alloc(sorted, lines)
+   end subroutine sort_lines
 
    subroutine append(lines, line)
       type(verdict_t), allocatable, intent(inout) :: lines(:)
@@ -145,6 +174,7 @@ contains
       text = ''
       used = 0
       do t = 1, size(tests)
+         if (.not. allocated(tests(t)%prefixes)) cycle
          row = design_row(tests(t)%table)
          wheels = size(tests(t)%prefixes)
          if (row == 0 .or. wheels < 1 .or. wheels > 2) cycle
@@ -178,44 +208,59 @@ contains
       text = text//' per wheel: numbers of '//str(used)//' load states'
    end function heights_text
 
-   !> Creates the line of a domain. The string of the line is '' if the report has no key number of this domain.
-   subroutine judge(report, domain, line)
+   !> Adds the lines of a domain: one for each number that is outside or at the edge of its range, and one for the other numbers.
+   subroutine judge(report, domain, lines)
       type(report_t), intent(in) :: report
       type(domain_t), intent(in) :: domain
-      type(verdict_t), intent(out) :: line
-      character(:), allocatable :: words
-      character(7) :: verdict
-      integer :: n, k, used
-      logical :: is_spoken
+      type(verdict_t), allocatable, intent(inout) :: lines(:)
+      type(verdict_t) :: line, one
+      integer :: n, used
 
       line%domain = domain%name
       line%text = ''
+      one%domain = domain%name
       used = 0
       do n = 1, size(domain%numbers)
          if (domain%numbers(n) == '' .or. used == domain%most) exit
-         is_spoken = .false.
-         do k = 1, size(report%numbers)
-            if (report%numbers(k)%name /= domain%numbers(n)) cycle
-            call speak(report%numbers(k), report%axle, report%vehicle, words, verdict)
-            is_spoken = words /= ''
-            exit
-         end do
-         if (.not. is_spoken .and. allocated(report%missing)) then
-            do k = 1, size(report%missing)
-               if (report%missing(k)%name /= domain%numbers(n)) cycle
-               call speak(report%missing(k), report%axle, report%vehicle, words, verdict)
-               is_spoken = words /= ''
-               exit
-            end do
-         end if
-         if (.not. is_spoken) cycle
-         if (used > 0) line%text = line%text//'; '
-         line%text = line%text//words
-         call join_reasons(line%text)
-         if (verdict == 'outside' .or. line%verdict == '') line%verdict = verdict
+         if (.not. is_judged(domain%numbers(n), report%axle)) cycle
+         call speak_of(report, domain%numbers(n), one%text, one%verdict)
+         if (one%text == '') cycle
          used = used + 1
+         if (rank_of(one%verdict) < rank_of(inside)) then
+            call append(lines, one)
+            cycle
+         end if
+         if (line%text /= '') line%text = line%text//'; '
+         line%text = line%text//one%text
+         call join_reasons(line%text)
+         if (one%verdict /= '') line%verdict = one%verdict
       end do
+      if (line%text /= '') call append(lines, line)
    end subroutine judge
+
+   !> Creates the string of a key number by its name: its value, or the reason of a missing value; '' if the report has neither.
+   subroutine speak_of(report, name, words, verdict)
+      type(report_t), intent(in) :: report
+      character(*), intent(in) :: name
+      character(:), allocatable, intent(out) :: words
+      character(word_length), intent(out) :: verdict
+      integer :: k
+
+      words = ''
+      verdict = ''
+      do k = 1, size(report%numbers)
+         if (report%numbers(k)%name /= name) cycle
+         call speak(report%numbers(k), report, words, verdict)
+         if (words /= '') return
+         exit
+      end do
+      if (.not. allocated(report%missing)) return
+      do k = 1, size(report%missing)
+         if (report%missing(k)%name /= name) cycle
+         words = reason_of(report%missing(k))
+         return
+      end do
+   end subroutine speak_of
 
    !> Joins two numbers at the end of a string that have no value for the same reason: 'no value of a, b (reason)'.
    pure subroutine join_reasons(text)
@@ -233,85 +278,105 @@ contains
       text = text(:reason(1) - 1)//', '//text(second + 2 + len(lost):)
    end subroutine join_reasons
 
-   !> Creates the string of a key number, '' for a number without a value and without a reason: 'bump camber −13.83 deg/m (inside the target −30 … −20)', or 'lateral force steer 0.108
-   !> deg/kN: understeer'.
-   subroutine speak(number, axle, vehicle, words, verdict)
+   !> The reason of a missing value: 'no value of ride frequency (…)'; '' if nobody expects the number, or without a reason.
+   function reason_of(number) result(words)
       type(key_number_t), intent(in) :: number
-      integer, intent(in) :: axle
-      type(size_t), intent(in) :: vehicle
+      character(:), allocatable :: words
+
+      words = ''
+      if (.not. allocated(number%reason)) return
+      if (is_of_springs(number%reason)) return
+      words = 'no value of '//without_capital(short_name(number))//' ('//number%reason//')'
+   end function reason_of
+
+   !> Creates the string of a key number: 'bump toe −2.470 deg/m: toe-out in bump, roll understeer 1.5 %, usual for the front axle of a
+   !> car (−10 … −2)'. Its reason is the element that contributes more than half. A response to braking that is mostly wheel travel
+   !> has the number at held wheel height first.
+   subroutine speak(number, report, words, verdict)
+      type(key_number_t), intent(in) :: number
+      type(report_t), intent(in) :: report
       character(:), allocatable, intent(out) :: words
-      character(7), intent(out) :: verdict
-      character(:), allocatable :: band, unit
-      character(48) :: effect
-
-      verdict = ''
-      if (.not. has_value(number)) then
-         words = ''
-         if (allocated(number%reason)) then
-            if (is_of_springs(number%reason)) return         ! nobody expects this number
-            words = 'no value of '//without_capital(short_name(number))//' ('//number%reason//')'
-         end if
-         return
-      end if
-      words = without_capital(short_name(number))
-      unit = ''
-      if (number%unit /= '–') unit = ' '//number%unit
-      if (number%is_of_axle .or. is_equal(number) .or. .not. ieee_is_finite(number%right)) then
-         words = words//' '//page_number(number%left)//unit
-      else if (is_opposite(number)) then
-         words = words//' '//page_number(number%left)//unit//' ('//sides_text(number)//')'
-      else
-         words = words//' left '//page_number(number%left)//', right '//page_number(number%right)//unit
-      end if
-      effect = steer_effect(number, axle)
-      if (effect /= '') words = words//': '//trim(effect)
-      if (is_equal(number) .and. effect == '' .and. index(sides_text(number), 'both wheels to') == 1) &
-         words = words//' ('//sides_text(number)//')'
-      call find_band(number, vehicle, verdict, band)
-      if (verdict /= '') words = words//' ('//trim(verdict)//' '//band//')'
-   end subroutine speak
-
-   !> Finds the band of a key number, and the verdict 'inside' or 'outside'. The verdict is '' without a band or a value.
-   subroutine find_band(number, vehicle, verdict, band)
-      type(key_number_t), intent(in) :: number
-      type(size_t), intent(in) :: vehicle
-      character(7), intent(out) :: verdict
-      character(:), allocatable, intent(out) :: band
-      type(key_number_t) :: judged
-      logical :: is_known
+      character(word_length), intent(out) :: verdict
+      type(assessment_t) :: assessment
+      character(:), allocatable :: parts
+      logical :: is_explained
       integer :: k
 
-      judged = number
-      band = 'the target '
       verdict = ''
-      if (.not. number%has_target) then
-         band = 'the usual range '
-         do k = size(numbers_with_range), 1, -1
-            if (numbers_with_range(k) == number%name) exit
-         end do
-         if (k == 0) return
-         call usual_range(trim(range_rows(k)), vehicle, judged%target(1), judged%target(2), is_known)
-         if (.not. is_known) return
-         judged%has_target = .true.
+      words = ''
+      if (.not. has_value(number)) then
+         words = reason_of(number)
+         return
       end if
-      verdict = target_verdict(judged)
-      if (judged%target(1) <= -huge(1.0_wp)) then
-         band = band//'≤ '//short(judged%target(2))
-      else if (judged%target(2) >= huge(1.0_wp)) then
-         band = band//'≥ '//short(judged%target(1))
+      k = 0
+      if (.not. number%has_target) k = held_number(number, report%numbers)
+      if (k > 0) then
+         words = without_capital(short_name(number))//' '//value_words(report%numbers(k))//' at held wheel height'
+         parts = meaning_of(report%numbers(k), report%axle, report%numbers)
+         if (parts /= '') words = words//': '//parts
+         words = words//' ('//value_words(number)//' at held vertical force, which includes the travel of the wheel)'
+         return
+      end if
+      call assess(number, report%axle, report%numbers, assessment)
+      verdict = assessment%word
+      parts = meaning_of(number, report%axle, report%numbers)
+      is_explained = allocated(report%explanations) .and. parts /= 'neutral'
+      call add_part(assessment_words(number, report%axle, assessment))
+      if (is_explained) call add_part(cause_of(report%explanations, slope_at_design(number%name)))
+      words = without_capital(short_name(number))//' '//value_words(number)
+      if (parts /= '') words = words//': '//parts
+
+   contains
+
+      !> Adds a phrase after a comma; adds nothing if it is empty.
+      subroutine add_part(part)
+         character(*), intent(in) :: part
+
+         if (parts /= '' .and. part /= '') parts = parts//', '
+         parts = parts//part
+      end subroutine add_part
+
+   end subroutine speak
+
+   !> The value of a key number with its unit; 'left 3.1, right 3.3 N/mm' if the wheels differ.
+   function value_words(number) result(words)
+      type(key_number_t), intent(in) :: number
+      character(:), allocatable :: words
+
+      if (number%is_of_axle .or. is_equal(number) .or. .not. ieee_is_finite(number%right)) then
+         words = page_number(number%left)
+      else if (is_opposite(number)) then
+         words = page_number(number%left)
+         if (index(sides_text(number), 'left; ') == 1) words = 'left '//words//', right '//page_number(number%right)
       else
-         band = band//short(judged%target(1))//' … '//short(judged%target(2))
+         words = 'left '//page_number(number%left)//', right '//page_number(number%right)
       end if
-   end subroutine find_band
+      if (number%unit /= '–') words = words//' '//number%unit
+   end function value_words
 
-   !> A limit without trailing zeros, with the minus sign of the page.
-   pure function short(limit) result(text)
-      real(wp), intent(in) :: limit
-      character(:), allocatable :: text
+   !> The index of the response at held wheel height, if a response to braking at held vertical force consists mostly of wheel travel:
+   !> the two differ by more than half. 0 otherwise.
+   pure integer function held_number(number, numbers) result(k)
+      type(key_number_t), intent(in) :: number, numbers(:)
+      real(wp) :: values(2)          ! at held vertical force, at held height; of the left wheel if it has both
 
-      text = str(abs(limit), 4)
-      if (limit < 0.0_wp) text = '−'//text
-   end function short
+      select case (number%name)
+      case ('braking_deflection')
+         k = number_named(numbers, 'braking_height_held_deflection_mm_per_kn')
+      case ('braking_steer')
+         k = number_named(numbers, 'braking_height_held_steer_deg_per_kn')
+      case default
+         k = 0
+      end select
+      if (k == 0) return
+      values = [number%left, numbers(k)%left]
+      if (.not. all(ieee_is_finite(values))) values = [number%right, numbers(k)%right]
+      if (.not. all(ieee_is_finite(values))) then
+         k = 0
+      else if (abs(values(1) - values(2)) <= max(0.5_wp*abs(values(1)), neutral_band(number%unit))) then
+         k = 0
+      end if
+   end function held_number
 
    !> Phrase about the largest force on a member if the loads of the members are requested; otherwise about the largest force
    !> on the rack. '' if this force is not known.
@@ -326,7 +391,7 @@ contains
       if (.not. allocated(report%loads)) then
          do k = 1, size(report%numbers)
             if (report%numbers(k)%name /= 'largest_rack_force_n' .or. .not. has_value(report%numbers(k))) cycle
-            text = 'largest rack force '//page_number(report%numbers(k)%left)//' N; --loads adds the members'
+            text = 'largest rack force '//page_number(report%numbers(k)%left)//' N'
          end do
          return
       end if
@@ -337,6 +402,25 @@ contains
          trim(report%loads%ends(e)%member)//' at '//trim(report%loads%ends(e)%point)//', '// &
          trim(report%loads%cases(report%loads%case(resultant, e)))
    end function largest_load
+
+   !> Adds the lines as the JSON list 'assessment': domain, text and verdict of each.
+   subroutine add_assessment(json, report)
+      type(json_t), intent(inout) :: json
+      type(report_t), intent(in) :: report
+      type(verdict_t), allocatable :: lines(:)
+      integer :: k
+
+      call verdict_lines(report, lines)
+      call json%open('[', 'assessment')
+      do k = 1, size(lines)
+         call json%open('{')
+         call json%item('domain', json_string(trim(lines(k)%domain)))
+         call json%item('text', json_string(as_utf8(lines(k)%text)))
+         call json%item('verdict', json_string(trim(lines(k)%verdict)))
+         call json%close('}')
+      end do
+      call json%close(']')
+   end subroutine add_assessment
 
    !> A line of the verdict for a terminal, with hyphens as minus signs.
    pure function plain(text) result(ascii)

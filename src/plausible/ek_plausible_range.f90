@@ -11,7 +11,7 @@ module ek_plausible_range
    use ek_text, only: str
    implicit none(type, external)
    private
-   public :: doubts_t, size_t, size_of, length, rate, rotation_rate, force, is_usual, usual_range
+   public :: doubts_t, size_t, size_of, length, rate, rotation_rate, force, is_usual
 
    ! dimensions
    integer, parameter :: length = 1, rate = 2, rotation_rate = 3, force = 4, moment = 5, angle = 6, mass = 7, share = 8, &
@@ -116,7 +116,7 @@ module ek_plausible_range
       'spring, levers and wheel load do not fit together'), &
       range_t('motion ratio', share, 0.2_wp, 2.0_wp, .true., &
       'is a rocker or lever near its dead centre, or an arm of it wrong?'), &
-      range_t('bump toe', slope, -100.0_wp, 100.0_wp, .true., 'check both ends of the tie rod or toe link'), &
+      range_t('bump toe', slope, -50.0_wp, 50.0_wp, .true., 'check both ends of the tie rod or toe link'), &
       range_t('bump camber', slope, -200.0_wp, 200.0_wp, .true., 'check the ball joints and the inner points of the arms'), &
       range_t('size √(kr/kt)', derived, 1.0_wp, 300.0_wp, .true., 'kr and kt do not fit together')]
 
@@ -125,8 +125,9 @@ module ek_plausible_range
    ! Springs & Dampers, part 1; Milliken & Milliken, Race Car Vehicle Dynamics, chapter 16), widened by a factor of two. Motion
    ! ratio: 0.5 to 1 (from these sources), widened by two. Wheel rate: from the spring rates above with these motion ratios. Bump
    ! camber: the inverse of the length of the front-view swing arm, no shorter than 0.3 m, three quarters of the narrowest half
-   ! track of the table. Bump toe: 30 mm of travel, about the least that a Formula Student car must have, would change toe
-   ! by 3 deg. Compliances have no range: no source covers both trucks and race cars.
+   ! track of the table. Bump toe: five times the largest of production cars (10 deg/m, suspensiondesigner.com, KPI - Bump/Roll
+   ! Steer). Both are per radius of a car's wheel: a smaller wheel travels less. Compliances have no range: no source covers both
+   ! trucks and race cars.
 
    integer, parameter :: any_size = 0, light = 1, car = 2, heavy = 3
 
@@ -134,7 +135,8 @@ module ek_plausible_range
    type :: size_t
       private
       integer :: class = any_size
-      real(wp) :: scale = 1.0_wp       !! lengths as a share of those of a car
+      real(wp) :: scale = 1.0_wp       !! lengths of a model car as a share of those of a car
+      real(wp) :: wheel = 1.0_wp       !! radius of the wheel as a share of that of a car
    end type size_t
 
    !> The range of a quantity for one class.
@@ -144,13 +146,13 @@ module ek_plausible_range
       real(wp) :: low, high            !! as in `ranges`
    end type class_range_t
 
-   ! Light: Formula Student and cars with wheels up to 13 inch. Heavy: trucks and buses. Bump toe: 3 deg in 30, 40 and 46 mm of travel.
-   ! The other limits are those of existing vehicles, widened.
+   ! Light: Formula Student and cars with wheels up to 13 inch. Heavy: trucks and buses; a drag link
+   ! steers a beam axle in bump. The limits are those of existing vehicles, widened.
    type(class_range_t), parameter :: class_ranges(*) = [ &
       class_range_t(light, 'half track', 400.0_wp, 900.0_wp), class_range_t(car, 'half track', 450.0_wp, 1200.0_wp), &
       class_range_t(heavy, 'half track', 600.0_wp, 1400.0_wp), class_range_t(light, 'wheel rate', 2.0_wp, 500.0_wp), &
       class_range_t(car, 'wheel rate', 3.0_wp, 1500.0_wp), class_range_t(heavy, 'wheel rate', 10.0_wp, 3000.0_wp), &
-      class_range_t(car, 'bump toe', -75.0_wp, 75.0_wp), class_range_t(heavy, 'bump toe', -65.0_wp, 65.0_wp)]
+      class_range_t(heavy, 'bump toe', -100.0_wp, 100.0_wp)]
 
    !> The remarks without repetition. Both sides of a mirrored deck have the same line and give one remark.
    type :: doubts_t
@@ -285,28 +287,9 @@ contains
       if (is_usual) is_usual = is_within(ranges(k), value)
    end function is_usual
 
-   !> Returns the usual range of a quantity in the unit of the table (N/mm, Hz, deg/m, …). The range applies to the magnitude if
-   !> `low` is not negative.
-   pure subroutine usual_range(quantity, size_of_car, low, high, is_known)
-      character(*), intent(in) :: quantity     !! quantity of a row of `ranges`
-      type(size_t), intent(in) :: size_of_car
-      real(wp), intent(out) :: low, high
-      logical, intent(out) :: is_known         !! `ranges` has such a row
-      type(range_t) :: row
-      integer :: k
-
-      k = findloc(ranges%quantity, quantity, dim=1)
-      is_known = k > 0
-      low = -huge(1.0_wp)
-      high = huge(1.0_wp)
-      if (.not. is_known) return
-      row = row_of(k, size_of_car)
-      low = row%low
-      high = row%high
-   end subroutine usual_range
-
    !> Row k of the table for a size of vehicle: the narrower range of its class, or the range of a model car of this scale. Forces of
-   !> a model are proportional to its volume, so that its rates are to its area.
+   !> a model are proportional to its volume, so that its rates are to its area. Angles per travel are to the inverse of the radius of
+   !> the wheel.
    pure type(range_t) function row_of(k, size_of_car) result(row)
       integer, intent(in) :: k
       type(size_t), intent(in) :: size_of_car
@@ -331,7 +314,7 @@ contains
       case (frequency)
          factor = 1.0_wp/sqrt(size_of_car%scale)
       case (slope)
-         factor = 1.0_wp/size_of_car%scale
+         factor = 1.0_wp/size_of_car%wheel
       case default
          return
       end select
@@ -346,8 +329,10 @@ contains
       real(wp), intent(in) :: wheelbase        !! m; 0: not known
       real(wp), intent(in) :: largest_load     !! largest constant load on a wheel [N]; 0: none
       real(wp), intent(in) :: least_rate       !! smallest rate of a spring [N/m]; 0: none
-      real(wp), parameter :: usual_radius = 0.31_wp, largest_model = 0.12_wp, smallest_model = 0.008_wp
+      real(wp), parameter :: usual_radius = 0.31_wp, largest_model = 0.12_wp, smallest_model = 0.008_wp, &
+         largest_wheel = 0.75_wp
 
+      if (radius > smallest_model) size_of_car%wheel = min(radius, largest_wheel)/usual_radius
       if (radius >= 0.18_wp .and. radius <= 0.275_wp .and. wheelbase < 1.75_wp) then
          size_of_car%class = light
       else if (radius >= 0.4_wp .and. radius <= 0.75_wp) then

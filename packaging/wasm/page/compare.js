@@ -2,9 +2,12 @@
 // that have changed, and the page of `elastokin compare`.
 const comparison = { isRunning: false };
 
-// The lines of the assessment that a report prints: name -> text
-const assessmentOf = ({ messages }) => new Map([...messages.matchAll(/^([a-z][a-z -]*): (.*)$/gm)]
-  .filter(([, name]) => !/^(error|warning|note|remark|failure|balance)$/.test(name)).map(([, name, text]) => [name, text]));
+// The lines of the assessment in key_numbers.json: domain -> texts
+const assessmentOf = ({ written }) => {
+  const lines = new Map(), file = written.find(([path]) => path.endsWith("key_numbers.json"));
+  for (const { domain, text } of file ? JSON.parse(textOf(file[1])).assessment : []) lines.set(domain, [...lines.get(domain) ?? [], text]);
+  return new Map([...lines].map(([domain, texts]) => [domain, texts.join("; ")]));
+};
 
 // Why a report is missing, or null
 const lackOf = (result) => result === null ? "Stopped." : result.written.length === 0 || result.trap ? firstLine(result) : null;
