@@ -342,7 +342,7 @@ module ek_group
       about='value of the steering driver; 0 if not given'), &
       key_t(case_group, 'load', word, 1, max_loads, .false., role=load_group, about='loads that the case scales'), &
       key_t(case_group, 'drive', word, 1, 1, .false., role=joint_group, &
-      about='wheel_travel, or the driver joint whose value changes'), &
+      about='wheel_travel, the driver joint whose value changes, or the rod adjuster.<name>'), &
       key_t(case_group, 'wheel', word, 1, 1, .false., role=wheel_group, about='wheel whose travel is driven'), &
       key_t(case_group, 'test', word, 1, 1, .false., about='test of the rig'), &
       key_t(case_group, 'vertical', word, 1, 1, .false., about='how a test holds the wheels'), &

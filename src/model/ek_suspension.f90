@@ -17,7 +17,9 @@ module ek_suspension
    private
    public :: suspension_t, body_t, point_t, load_t, wheel_t, wheel_place_t, wheel_place_list_t, readout_t, axle_t, steering_t
    public :: allocate_lists, copy_numbers, copy_load, body_name, design_poses, driver_row, driver_unit, load_number, &
-      has_symmetric_loads
+      has_symmetric_loads, of_adjuster
+
+   character(*), parameter :: of_adjuster = 'adjuster.'     !! in the key `drive` of a case: the rod of an adjuster
 
    !> The numbers of a body. What copies the numbers of a part copies this parent of its type, and does not name them.
    type :: body_numbers_t
@@ -302,7 +304,7 @@ contains
       if (body > 0) name = self%bodies(body)%name
    end function body_name
 
-   !> Index of the row of the driver with this joint name; 0 if there is no such driver.
+   !> Index of the row of the driver with this joint name, or of the rod (distance joint) of 'adjuster.<name>'; 0 if there is none.
    pure integer function driver_row(self, name)
       type(suspension_t), intent(in) :: self
       character(*), intent(in) :: name
@@ -311,6 +313,10 @@ contains
       driver_row = 0
       do k = 1, size(self%joints)
          if (self%joints(k)%kind == 'driver' .and. self%joints(k)%name == name) driver_row = self%joints(k)%first_row
+      end do
+      if (index(name, of_adjuster) /= 1) return
+      do k = 1, size(self%adjusters)
+         if (self%adjusters(k)%name == name(len(of_adjuster) + 1:)) driver_row = self%adjusters(k)%row
       end do
    end function driver_row
 
