@@ -25,7 +25,7 @@ module ek_fit_command
    use ek_workspace, only: workspace_t
    use ek_deck_fragment, only: records_with
    use ek_study, only: is_given, by_value
-   use ek_study_parts, only: expand_part
+   use ek_part_factor, only: expand_part
    implicit none(type, external)
    private
    public :: run_fit

@@ -8,7 +8,7 @@ module ek_opened_study
    use ek_sampler_kind, only: sampler_kinds
    use ek_study, only: study_t, step_size_kind, kind_names
    use ek_study_reader, only: read_study
-   use ek_study_parts, only: expand_part
+   use ek_part_factor, only: expand_part
    use ek_study_each, only: expand_factors, expand_columns
    use ek_designer, only: designer_t, new_designer
    use ek_study_plan, only: study_plan_t, new_plan

@@ -25,7 +25,7 @@ module ek_study
    integer, parameter :: by_value = 1       !! the factor replaces the number of the deck
    integer, parameter :: by_delta = 2       !! the factor is added to the number of the deck
    integer, parameter :: by_scale = 3       !! the factor multiplies the number of the deck
-   integer, parameter :: by_part = 4        !! the factor is a deviation of single parts; ek_study_parts makes it one by value
+   integer, parameter :: by_part = 4        !! the factor is a deviation of single parts; ek_part_factor makes it one by value
    character(*), parameter :: change_names(4) = [character(8) :: 'absolute', 'delta', 'scale', 'part']
 
    ! the kinds: those of the samplers, and two names of this module

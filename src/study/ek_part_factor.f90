@@ -3,7 +3,7 @@
 !> change = 'part' with path = 'point.<point>.x' and bodies = 'a', 'b' is short for the paths part.a.<point>.x and part.b.<point>.x,
 !> whose numbers the factor replaces: 0 is as drawn. The static toe and camber of a wheel in its carrier belong to one part, so that
 !> a deviation of the part is a change of the number.
-module ek_study_parts
+module ek_part_factor
    use ek_error, only: error_t, fail, exit_deck
    use ek_text, only: quoted
    use ek_group, only: point_group, wheel_group, note_length
@@ -69,4 +69,4 @@ contains
       end do
    end subroutine expand_part
 
-end module ek_study_parts
+end module ek_part_factor
