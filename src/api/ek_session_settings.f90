@@ -149,7 +149,8 @@ contains
          call set_value(trial, path, '1', error)           ! its message says what is wrong with the path
          if (allocated(error)) call replace(error%message, '=1: ', ': ')
          call without_option(error)
-         if (.not. allocated(error)) call fail(error, exit_usage, quoted(path)//' leads to no number that can be read')
+         if (.not. allocated(error) .and. index(path, 'part.') /= 1) &      ! a part that was never set is as drawn: 0
+            call fail(error, exit_usage, quoted(path)//' leads to no number that can be read')
       end if
       do j = 1, size(found)
          this = found(j)%sign*session%numbers%value(found(j)%number)

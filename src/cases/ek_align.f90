@@ -34,16 +34,18 @@ contains
 
    !> Sets all adjusters of a suspension: those of &align so that the static angles of the wheels are met. Without a solution, the
    !> adjusters keep the values of the deck, and `failure` has the reason.
-   subroutine find_alignment(suspension, space, failure)
+   subroutine find_alignment(suspension, space, failure, iterations)
       type(suspension_t), intent(inout) :: suspension      !! with trimmed preloads, adjusters not set; on no rig
       type(align_space_t), intent(inout) :: space
       type(balance_failure_t), intent(inout) :: failure
+      integer, intent(out), optional :: iterations         !! number of corrections of the values
       real(wp), allocatable :: values(:), target(:), angles(:), moved(:), jacobian(:, :), change(:)
       integer, allocatable :: adjusters(:), pivots(:)
       real(wp) :: worst, before
       integer :: iteration, k, info
       logical :: is_found
 
+      if (present(iterations)) iterations = 0
       call list_unknowns(suspension, adjusters, target)
       if (allocated(space%drawn%bodies)) then
          call copy_numbers(suspension, space%drawn)
@@ -76,6 +78,7 @@ contains
          failure%adjuster = 0
          if (info /= 0 .or. .not. maxval(abs(change)) < 1.0_wp) exit      ! the adjusters do not move the angles independently
          failure%needed = 0.0_wp
+         if (present(iterations)) iterations = iteration
          do k = 1, size(values)
             values(k) = values(k) + change(k)
             associate (this => suspension%adjusters(adjusters(k)))

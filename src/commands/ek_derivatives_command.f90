@@ -45,9 +45,14 @@ contains
       type(error_t), allocatable :: unreached
       character(name_length), allocatable :: columns(:)
       integer, allocatable :: states(:)
+      type(message_list_t) :: given
       integer :: k
 
       call read_deck_settings(line, settings)
+      given = line%values('--with')
+      do k = 1, given%count()
+         call split(given%line(k), settings%paths)
+      end do
       call load_session(settings, session, error)
       if (allocated(error)) return
       associate (workspace => session%workspace)

@@ -25,6 +25,7 @@ module ek_fit_command
    use ek_workspace, only: workspace_t
    use ek_deck_fragment, only: records_with
    use ek_study, only: is_given, by_value
+   use ek_part_factor, only: expand_part
    implicit none(type, external)
    private
    public :: run_fit
@@ -48,6 +49,7 @@ contains
       type(fit_statistics_t) :: statistics
       type(buffer_t) :: text
       character(:), allocatable :: home, out
+      integer :: k, j
 
       allocate (session)
       home = folder_name(line%files%line(1))
@@ -58,6 +60,13 @@ contains
       end if
       call read_fit(line%files%line(1), fit, error)
       if (.not. allocated(error)) call read_changed(join_path(home, fit%deck), settings_of(line), deck, error)
+      if (.not. allocated(error)) then
+         do k = 1, size(fit%factors)
+            call expand_part(fit%factors(k), deck, error)
+            if (size(fit%factors(k)%weights) /= size(fit%factors(k)%paths)) &
+               fit%factors(k)%weights = [(1.0_wp, j=1, size(fit%factors(k)%paths))]
+         end do
+      end if
       if (.not. allocated(error)) call open_deck(deck, session, error)
       if (.not. allocated(error)) call make_problem(fit, join_path(home, ''), deck, session%workspace, problem, error)
       if (.not. allocated(error)) call make_folder(out, error)

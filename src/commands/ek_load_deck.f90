@@ -2,7 +2,7 @@
 module ek_load_deck
    use ek_error, only: error_t, message_list_t, fail, exit_usage, exit_deck, exit_model
    use ek_text, only: str, quoted, suggestion
-   use ek_deck, only: deck_t, read_deck, set_value, deck_checksum
+   use ek_deck, only: deck_t, read_deck, set_value, declare_path, deck_checksum
    use ek_reader, only: definition_t
    use ek_setting, only: split_setting
    use ek_set_file, only: set_file_t, read_set_file, apply_set_file, show_set_file, setting_count, get_setting
@@ -33,6 +33,7 @@ module ek_load_deck
       integer :: increments = 0                  !! increments of the cases; 0: as in the deck
       logical :: is_quiet = .false.
       type(message_list_t) :: changes            !! settings of --set: path=value
+      type(message_list_t) :: paths              !! paths of numbers that the command will vary
       type(message_list_t) :: set_files          !! files of --set-file: settings applied before the settings of --set
    end type deck_settings_t
 
@@ -121,6 +122,9 @@ contains
          if (.not. allocated(error)) call read_set_file(settings%set_files%line(k), files(k), error)
       end do
       if (.not. allocated(error)) call read_changed(settings%file, settings%changes, deck, error, files)
+      do k = 1, settings%paths%count()
+         if (.not. allocated(error)) call declare_path(deck, settings%paths%line(k), settings%file, error)
+      end do
       if (.not. allocated(error)) return
       if (size(files) > 0 .and. error%code == exit_deck .and. deck%deck_errors%count() == 0) call move_alloc(error, unset)
    end subroutine read_set_deck

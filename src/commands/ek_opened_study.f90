@@ -8,6 +8,7 @@ module ek_opened_study
    use ek_sampler_kind, only: sampler_kinds
    use ek_study, only: study_t, step_size_kind, kind_names
    use ek_study_reader, only: read_study
+   use ek_part_factor, only: expand_part
    use ek_study_each, only: expand_factors, expand_columns
    use ek_designer, only: designer_t, new_designer
    use ek_study_plan, only: study_plan_t, new_plan
@@ -42,6 +43,7 @@ contains
       type(command_line_t), intent(in) :: line
       class(opened_study_t), allocatable, intent(out) :: this
       type(error_t), allocatable, intent(out) :: error
+      integer :: k
 
       allocate (this)
       this%build = ''
@@ -54,6 +56,11 @@ contains
       if (allocated(error) .and. allocated(this%study%where)) then         ! a file that cannot be read: where it is named
          if (error%code == exit_file .and. index(error%message, line%files%line(1)) == 0) &
             error%message = this%study%where//': deck: '//error%message
+      end if
+      if (.not. allocated(error)) then
+         do k = 1, size(this%study%factors)
+            call expand_part(this%study%factors(k), this%deck, error)
+         end do
       end if
       if (.not. allocated(error) .and. this%study%kind /= step_size_kind) call expand_factors(this%study, this%deck, error)
       if (.not. allocated(error) .and. this%study%kind /= step_size_kind) call expand_columns(this%study, this%deck, error)

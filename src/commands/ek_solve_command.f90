@@ -54,6 +54,9 @@ contains
       type(message_list_t) :: origins
       type(compromise_t) :: compromise
       type(error_t), allocatable :: fault
+      type(message_list_t) :: given
+      character(:), allocatable :: path
+      integer :: k
 
       call read_deck_settings(line, settings)
       if (settings%out == '-') then
@@ -62,6 +65,11 @@ contains
          call fail(error, exit_usage, 'solve needs --vary path=low:high, and --for quantity=value')
       end if
       if (allocated(error)) return
+      given = line%values('--vary')
+      do k = 1, given%count()
+         path = given%line(k)
+         if (index(path, '=') > 1) call settings%paths%add(path(:index(path, '=') - 1))
+      end do
       call load_session(settings, session, error)
       if (.not. allocated(error)) call spare_results('compromise', session%workspace%deck_cases, error)
       if (allocated(error)) return

@@ -22,11 +22,13 @@ module ek_deck
    use ek_hardpoint_records, only: attach_hardpoints
    use ek_property_records, only: attach_properties
    use ek_manoeuvre_records, only: attach_manoeuvres
+   use ek_part_records, only: name_parts, add_part
    use ek_attachment, only: text_of, path_of
    use ek_setting, only: apply_setting, split_setting
    implicit none(type, external)
    private
-   public :: deck_t, read_deck, parse_deck, move_deck, set_value, finish_deck, split_setting, deck_checksum, include_records
+   public :: deck_t, read_deck, parse_deck, move_deck, set_value, declare_path, finish_deck, split_setting, deck_checksum, &
+      include_records
 
    !> A setting `path=text` of a record that a property file or &mirror will create.
    type :: setting_t
@@ -109,6 +111,7 @@ contains
          call keep_named(deck)
       end if
       call name_tests(deck)
+      call name_parts(deck%records, deck%used)
       if (deck%used == 0 .and. deck%deck_errors%count() == 0) &
          call fail(error, exit_deck, deck%file//': the deck is empty')
    end subroutine parse_deck
@@ -162,6 +165,11 @@ contains
       type(setting_t) :: late
       logical :: is_found
 
+      call add_part(deck%records, deck%used, path, '--set '//trim(adjustl(path)), message)
+      if (message /= '') then
+         call fail(error, exit_usage, visible('--set '//trim(adjustl(path))//'='//trim(adjustl(text))//': '//message))
+         return
+      end if
       call apply_setting(deck%records, deck%used, path, text, message, is_found)
       if (message == '') return
       if (.not. is_found) then
@@ -179,6 +187,18 @@ contains
       if (deck%deck_errors%count() > 0) message = deck%deck_errors%text()//new_line('a')//message
       call fail(error, exit_usage, visible(message))
    end subroutine set_value
+
+   !> Prepares the deck for a path that will be varied: a path of a part that the deck does not give becomes a record, as drawn.
+   subroutine declare_path(deck, path, where, error)
+      type(deck_t), intent(inout) :: deck
+      character(*), intent(in) :: path
+      character(*), intent(in) :: where        !! location of the path, for messages
+      type(error_t), allocatable, intent(inout) :: error      !! exit_usage
+      character(:), allocatable :: message
+
+      call add_part(deck%records, deck%used, path, where, message)
+      if (message /= '') call fail(error, exit_usage, visible(where//': '//trim(adjustl(path))//': '//message))
+   end subroutine declare_path
 
    !> Copies the deck and finishes the copy: reads property files, creates the records of both sides (&mirror), and applies the
    !> settings of records that these steps have created. Errors are added to the errors of the copy.

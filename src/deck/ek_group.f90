@@ -12,7 +12,7 @@ module ek_group
    implicit none(type, external)
    private
    public :: group_names, group_summaries, group_number, is_deck_group, has_results, names_of_groups, occurs_once, is_single
-   public :: is_element, can_be_doubled
+   public :: is_element, can_be_doubled, part_name
    public :: key_t, keys, find_key, record_head, unknown_key, spring_groups
 
    integer, parameter, public :: model_group = 1, point_group = 2, body_group = 3, measure_group = 4, joint_group = 5, &
@@ -20,11 +20,11 @@ module ek_group
       study_group = 11, factor_group = 12, response_group = 13, include_group = 14, mirror_group = 15, &
       curve_group = 16, damper_group = 17, stop_group = 18, torsion_group = 19, axle_group = 20, steering_group = 21, &
       mass_group = 22, correlation_group = 23, hardpoints_group = 24, target_group = 25, fit_group = 26, fit_target_group = 27, &
-      manoeuvre_group = 28, load_state_group = 29, adjuster_group = 30, align_group = 31, channel_group = 32
+      manoeuvre_group = 28, load_state_group = 29, adjuster_group = 30, align_group = 31, part_group = 32, channel_group = 33
    character(*), parameter :: group_names(*) = [character(11) :: 'model', 'point', 'body', 'measure', 'joint', &
       'bushing', 'spring', 'wheel', 'load', 'case', 'study', 'factor', 'response', 'include', 'mirror', 'curve', 'damper', &
       'stop', 'torsion', 'axle', 'steering', 'mass', 'correlation', 'hardpoints', 'target_band', &
-      'fit', 'target', 'manoeuvre', 'load_state', 'adjuster', 'align', 'channel']
+      'fit', 'target', 'manoeuvre', 'load_state', 'adjuster', 'align', 'part', 'channel']
 
    !> What a record of each group describes, for `elastokin schema`; '' for groups of a study, a fit or a map.
    character(*), parameter :: group_summaries(*) = [character(90) :: 'the model: name, units, frame and preload trim', &
@@ -36,7 +36,7 @@ module ek_group
       'the axle and the car around it', 'the steering wheel and the rack', 'an additional mass on a body', '', &
       'points from a file', 'a range in which a key number should lie', '', '', 'load factor and accelerations of the car', &
       'a state from which all tests can start', 'a rod, shim, slot or seat by which the axle is set up', &
-      'static angles of a wheel that adjusters give', '']
+      'static angles of a wheel that adjusters give', 'a part whose end deviates from the drawing', '']
 
    integer, parameter :: every_group = 0      !! group, in the table of keys, of a key that every group has
    integer, parameter :: spring_groups(*) = [spring_group, damper_group, stop_group, torsion_group]   ! elements of one measure
@@ -87,7 +87,7 @@ module ek_group
 
    integer, parameter :: named(*) = [model_group, point_group, body_group, mass_group, measure_group, joint_group, &
       bushing_group, spring_group, curve_group, damper_group, stop_group, torsion_group, wheel_group, load_group, case_group, &
-      study_group, factor_group, response_group, fit_group, fit_target_group, load_state_group, adjuster_group]
+      study_group, factor_group, response_group, fit_group, fit_target_group, load_state_group, adjuster_group, part_group]
    integer :: j     ! implied-do index of the table, not used elsewhere
 
    type(key_t), parameter :: keys_of_names(*) = [(key_t(named(j), 'name', word, 1, 1, .true., about='name of the item'), &
@@ -319,6 +319,11 @@ module ek_group
       key_t(align_group, 'toe', number, 1, 1, .false., acute, ' deg', dimension=angle, about='static toe'), &
       key_t(align_group, 'camber', number, 1, 1, .false., acute, ' deg', dimension=angle, about='static camber'), &
       key_t(align_group, 'with', word, 1, 2, .true., role=adjuster_group, about='one adjuster for each angle'), &
+      key_t(part_group, 'body', word, 1, 1, .false., role=body_group, about='body that deviates, or chassis'), &
+      key_t(part_group, 'joint', word, 1, 1, .false., role=joint_group, about='rod that deviates: a distance joint'), &
+      key_t(part_group, 'at', word, 1, 1, .false., role=point_group, about='point of this part that deviates'), &
+      key_t(part_group, 'deviation', number, 3, 3, .false., role=polar, has_zeros=.true., dimension=length, default='0', &
+      about='deviation of the point in this part; 0 as drawn'), &
       key_t(manoeuvre_group, 'name', word, 1, 1, .false., about='name of the manoeuvre in the results'), &
       key_t(manoeuvre_group, 'set', word, 1, 1, .false., about='set of manoeuvres; no other key is then allowed'), &
       key_t(manoeuvre_group, 'vertical', number, 1, 1, .false., not_negative, default='1', &
@@ -338,7 +343,7 @@ module ek_group
       about='value of the steering driver; 0 if not given'), &
       key_t(case_group, 'load', word, 1, max_loads, .false., role=load_group, about='loads that the case scales'), &
       key_t(case_group, 'drive', word, 1, 1, .false., role=joint_group, &
-      about='wheel_travel, or the driver joint whose value changes'), &
+      about='wheel_travel, the driver joint whose value changes, or the rod adjuster.<name>'), &
       key_t(case_group, 'wheel', word, 1, 1, .false., role=wheel_group, about='wheel whose travel is driven'), &
       key_t(case_group, 'test', word, 1, 1, .false., about='test of the rig'), &
       key_t(case_group, 'vertical', word, 1, 1, .false., about='how a test holds the wheels'), &
@@ -386,6 +391,7 @@ module ek_group
       key_t(study_group, 'chunk', whole, 1, 1, .false.), &
       key_t(study_group, 'format', word, 1, 1, .false.), &
       key_t(factor_group, 'path', prose, 1, max_paths, .true.), &
+      key_t(factor_group, 'bodies', word, 1, max_values, .false.), &
       key_t(factor_group, 'each', switch, 1, 1, .false.), &
       key_t(factor_group, 'change', word, 1, 1, .false.), &
       key_t(factor_group, 'lower', number, 1, 1, .false.), &
@@ -483,7 +489,8 @@ contains
    !> Whether records of a group are duplicated by &mirror together with the records to which they refer.
    pure logical function is_element(group)
       integer, intent(in) :: group
-      is_element = has_results(group) .or. any([wheel_group, load_group, mass_group, adjuster_group, align_group] == group)
+      is_element = has_results(group) .or. any([wheel_group, load_group, mass_group, adjuster_group, align_group, part_group] == &
+         group)
    end function is_element
 
    !> Whether &mirror may duplicate records of a group.
@@ -527,6 +534,33 @@ contains
          return
       end do
    end subroutine find_key
+
+   !> The name of a &part, '<body or rod>.<point>', with the prefix of a side once: 'left_lca.lower_ball_joint', also for
+   !> 'left_lca.left_lower_ball_joint' and 'lca.left_lower_ball_joint'.
+   pure function part_name(given) result(name)
+      character(*), intent(in) :: given
+      character(:), allocatable :: name
+      character(*), parameter :: sides(2) = [character(6) :: 'left_', 'right_']
+      character(:), allocatable :: part, point
+      logical :: has_part, has_point
+      integer :: dot, k
+
+      name = trim(given)
+      dot = index(name, '.')
+      if (dot == 0) return
+      part = name(:dot - 1)
+      point = name(dot + 1:)
+      do k = 1, size(sides)
+         has_part = index(part, trim(sides(k))) == 1
+         has_point = index(point, trim(sides(k))) == 1
+         if (.not. (has_part .or. has_point)) cycle
+         if (index(part, trim(sides(3 - k))) == 1 .or. index(point, trim(sides(3 - k))) == 1) return
+         if (has_part) part = part(len_trim(sides(k)) + 1:)
+         if (has_point) point = point(len_trim(sides(k)) + 1:)
+         name = trim(sides(k))//part//'.'//point
+         return
+      end do
+   end function part_name
 
    !> The beginning of a message on a record: "bushing 'top_mount': ".
    pure function record_head(group, name) result(head)

@@ -14,8 +14,8 @@ module ek_mirror
    use ek_record, only: deck_errors_t, has_side, left_side, right_side, side_prefix, record_t, entry_t, add_record, &
       add_value, element, entry_index, place_of, line_text, role_of, sign_of_image, turns
    use ek_group, only: group_names, group_number, point_group, word_length, record_head, is_element, can_be_doubled, &
-      number, point_group, body_group, measure_group, adjuster_group, align_group, wheel_group, load_group, &
-      polar, axial, curves, wheel_side
+      number, point_group, body_group, measure_group, adjuster_group, align_group, part_group, wheel_group, &
+      load_group, polar, axial, curves, wheel_side
    use ek_namelist, only: value_fault
    use ek_attachment, only: units_in_deck
    implicit none(type, external)
@@ -131,7 +131,7 @@ contains
       pass_of = 3
       if (group == wheel_group) pass_of = 1
       if (group == measure_group) pass_of = 2
-      if (group == adjuster_group) pass_of = 4
+      if (any(group == [adjuster_group, part_group])) pass_of = 4
       if (group == align_group) pass_of = 5
    end function pass_of
 

@@ -8,8 +8,7 @@ module ek_parameter
    use ek_text, only: str, lower, quoted, is_like, did_you_mean
    use ek_record, only: record_t, left_side, right_side, element, own_name, sign_of_image
    use ek_group, only: group_names, group_number, is_deck_group, names_of_groups, is_single, include_group, hardpoints_group, &
-      point_group, adjuster_group, &
-      key_t, find_key
+      point_group, adjuster_group, part_group, part_name, key_t, find_key
    use ek_number_range, only: is_inside
    implicit none(type, external)
    private
@@ -119,11 +118,13 @@ contains
          end if
          path%key = path%key(:mark - 1)
       end if
-      if (path%group == point_group .and. len(path%key) == 1 .and. index('xyz', path%key) > 0) then
+      if (path%group == part_group) path%name = part_name(path%name)
+      if (any(path%group == [point_group, part_group]) .and. len(path%key) == 1 .and. index('xyz', path%key) > 0) then
          path%first = index('xyz', path%key)
          path%last = path%first
          path%has_subscript = .true.
-         path%key = 'at'
+         path%key = merge('at       ', 'deviation', path%group == point_group)
+         path%key = trim(path%key)
       end if
       call find_key(path%group, path%key, path%row, path%is_known)
    end subroutine split_path
@@ -329,7 +330,8 @@ contains
          return
       end if
       if (name /= '' .and. .not. is_single(group_number(record%group))) path = path//name//'.'
-      if (record%group == group_names(point_group) .and. key == 'at' .and. at <= len(axes)) then
+      if (((record%group == group_names(point_group) .and. key == 'at') .or. &
+         (record%group == group_names(part_group) .and. key == 'deviation')) .and. at <= len(axes)) then
          path = path//axes(at:at)
          return
       end if

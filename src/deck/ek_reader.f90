@@ -10,7 +10,7 @@ module ek_reader
    use ek_group, only: group_names, group_number, is_deck_group, names_of_groups, model_group, point_group, body_group, &
       measure_group, joint_group, bushing_group, spring_groups, case_group, curve_group, mass_group, wheel_group, axle_group, &
       steering_group, load_group, manoeuvre_group, target_group, word_length, record_head, has_results, &
-      load_state_group, adjuster_group, align_group
+      load_state_group, adjuster_group, align_group, part_group
    use ek_namelist, only: check_record, name_fault
    use ek_deck, only: deck_t, finish_deck
    use ek_attachment, only: units_in_deck
@@ -21,6 +21,7 @@ module ek_reader
    use ek_reader_joints, only: read_measure, read_joint
    use ek_reader_manoeuvres, only: read_manoeuvre
    use ek_reader_adjusters, only: read_adjuster, read_align
+   use ek_reader_parts, only: read_part, parts_at
    use ek_manoeuvre, only: has_manoeuvres, axle_fault, manoeuvre_fault
    use ek_reader_elements, only: read_curve, read_element
    use ek_target_band, only: target_band_t, read_target_band
@@ -34,13 +35,13 @@ module ek_reader
    use ek_case, only: case_t, manoeuvre_t
    implicit none(type, external)
    private
-   public :: definition_t, read_design, build_design, build_model
+   public :: definition_t, read_design, build_design, build_model, find_parts_at
 
    !> The order of reading: groups to which others refer come first. Wheels come early if a contact point is computed, otherwise
    !> late.
    integer, parameter :: reading_order(*) = [model_group, load_state_group, point_group, curve_group, body_group, mass_group, &
       wheel_group, measure_group, joint_group, bushing_group, spring_groups, wheel_group, axle_group, steering_group, load_group, &
-      manoeuvre_group, adjuster_group, align_group]
+      manoeuvre_group, adjuster_group, align_group, part_group]
 
    !> A deck as a design space: realise(plan, x) is a suspension.
    type :: definition_t
@@ -147,6 +148,33 @@ contains
       call move_alloc(reading%records, design%records)
       if (present(is_whole)) is_whole = is_complete
    end subroutine read_design
+
+   !> Finds the names of the parts at a point of a deck, each after a blank and in quotes. `names` is '' if there is no such point.
+   subroutine find_parts_at(deck, point, names)
+      type(deck_t), intent(in) :: deck
+      character(*), intent(in) :: point
+      character(:), allocatable, intent(out) :: names
+      type(deck_t) :: finished
+      type(deck_reading_t) :: reading
+      type(case_t), allocatable :: cases(:)
+      type(error_t), allocatable :: error
+      logical :: is_whole
+      integer :: k
+
+      names = ''
+      call finish_deck(deck, finished)
+      call hand_over(finished%records, finished%used, reading%records)
+      reading%file = deck%file
+      allocate (cases(0))
+      call read_records(reading, cases, is_whole, error)
+      if (.not. allocated(reading%cards)) return
+      do k = 1, size(reading%records)
+         if (reading%cards(k)%group /= point_group .or. reading%cards(k)%index == 0) cycle
+         if (reading%cards(k)%name /= point .and. own_name(reading%records(k)) /= point) cycle
+         names = parts_at(reading, reading%cards(k)%index)
+         return
+      end do
+   end subroutine find_parts_at
 
    !> Reads all records except &target_band, group by group.
    subroutine read_records(reading, cases, is_whole, error)
@@ -276,6 +304,8 @@ contains
          call read_adjuster(reading)
       case (align_group)
          call read_align(reading)
+      case (part_group)
+         call read_part(reading)
       case default
          call read_element(reading)
       end select
@@ -306,7 +336,7 @@ contains
    end subroutine complete_prototype
 
    !> Selects the start state of the tests (ek_start), and adds the loads that it needs. A preload trim holds the design position,
-   !> so that only adjusters, and a height or a load of the deck, give another state.
+   !> so that only adjusters, deviations of parts, and a height or a load of the deck, give another state.
    subroutine choose_start(reading)
       type(deck_reading_t), intent(inout) :: reading
       logical :: has_loads
@@ -324,7 +354,7 @@ contains
             model%start = 'wheel_load'
          else if (plan%start(1) > 0) then
             model%start = 'height'
-         else if (model%balance /= 'none' .and. size(model%adjusters) == 0) then
+         else if (model%balance /= 'none' .and. size(model%adjusters) == 0 .and. size(plan%parts) == 0) then
             model%start = ''
          else if (model%start == '') then
             model%start = merge('loads ', 'height', has_loads)
@@ -367,6 +397,10 @@ contains
          name = own_name(record)
          if (name == '') name = trim(card%name)
       end associate
+      if (group == part_group) then         ! '<body or rod>.<point>', checked by its reader
+         call check_new(reading)
+         return
+      end if
       name = name_fault(name, has_results(group))
       if (name /= '') call complain(reading, 'name', name)
       if (group /= model_group) call check_new(reading)

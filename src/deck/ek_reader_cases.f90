@@ -2,16 +2,17 @@
 module ek_reader_cases
    use ek_kinds, only: wp, millimetre
    use ek_text, only: str, lower, quoted
-   use ek_dimension, only: pure_number, length, force, angle
+   use ek_dimension, only: pure_number, length, force, angle, unit_name
    use ek_rig_test, only: rig_test_t, rig_tests, needs_both, of_one_wheel, lifts, rig_test, rolls, steers, loads_wheels, &
       takes_table, covers_grid, drives_car
    use ek_case, only: case_t, max_increments
-   use ek_record, only: value_t, right_side, element, is_given, own_name
+   use ek_record, only: value_t, left_side, right_side, element, is_given, own_name
+   use ek_suspension, only: of_adjuster
    use ek_namelist, only: value_fault
    use ek_realise, only: steepest_roll
    use ek_blueprint, only: case_plan_t
-   use ek_group, only: wheel_group, spring_group, case_group, load_group, steering_group, manoeuvre_group, number, max_loads, &
-      word_length
+   use ek_group, only: wheel_group, spring_group, case_group, load_group, steering_group, manoeuvre_group, adjuster_group, number, &
+      max_loads, word_length
    use ek_deck_reading, only: deck_reading_t, complain, where_of, line_of, has_key, choice, text_of, texts_of, number_of, &
       whole_of, refuse, slot, unit_of
    use ek_attachment, only: path_of
@@ -234,6 +235,9 @@ contains
          swept = length
          if (.not. any(reading%cards%group == wheel_group)) &
             call complain(reading, 'drive', "drive is 'wheel_travel', but there is no &wheel")
+      else if (index(this%drive, of_adjuster) == 1) then
+         swept = length
+         call check_rod(reading, this%drive(len(of_adjuster) + 1:))
       else if (this%drive /= '') then
          call find_driver(reading, this%drive, [character(12) :: 'wheel_travel'], swept)
       end if
@@ -258,6 +262,42 @@ contains
       end subroutine find_load
 
    end subroutine read_drive
+
+   !> Checks the adjuster that a case drives: a rod that is a distance joint, whose length the row of a joint prescribes as that of a
+   !> driver. Its range must contain its value with the range of the case added.
+   subroutine check_rod(reading, name)
+      type(deck_reading_t), intent(inout) :: reading
+      character(*), intent(in) :: name
+      real(wp) :: ends(2)
+      integer :: found, k
+
+      found = 0
+      do k = 1, size(reading%cards)
+         if (reading%cards(k)%group == adjuster_group .and. own_name(reading%records(k)) == name .and. &
+            reading%records(k)%side == left_side) found = k
+      end do
+      if (found > 0) then
+         call complain(reading, 'drive', 'drive: &mirror duplicates the adjuster '//quoted(name)// &
+            "; drive 'adjuster.left_"//name//"' or 'adjuster.right_"//name//"'")
+         return
+      end if
+      call look_up(reading, 'drive', adjuster_group, name, found)
+      if (found == 0) return
+      if (.not. reading%cards(found)%is_good) reading%cards(reading%k)%is_good = .false.
+      if (.not. reading%cards(reading%k)%is_good) return
+      associate (adjuster => reading%plan%prototype%adjusters(reading%cards(found)%index))
+         if (adjuster%row == 0) then
+            call complain(reading, 'drive', 'drive: the adjuster '//quoted(name)//' moves points of a part; a case drives only '// &
+               "a rod that is a distance joint. A study of kind 'sweep' with path = 'adjuster."//name//"' solves a case at values")
+            return
+         end if
+         ends = adjuster%value + [number_of(reading, 'from', 0.0_wp), number_of(reading, 'to', 0.0_wp)]*reading%units%length
+         if (minval(ends) < adjuster%low .or. maxval(ends) > adjuster%high) call complain(reading, 'drive', &
+            'drive: the values from '//str(minval(ends)/reading%units%length)//' to '//str(maxval(ends)/reading%units%length)// &
+            ' leave the range of the adjuster, '//str(adjuster%low/reading%units%length)//' to '// &
+            str(adjuster%high/reading%units%length)//' '//unit_name(length, reading%units))
+      end associate
+   end subroutine check_rod
 
    !> Reads the test of a case. A missing key, and a key that the test does not allow, are reported as errors.
    subroutine read_test(reading, from, to, this)

@@ -1,4 +1,5 @@
-!> Sets the adjusters of a suspension (ek_adjuster): moves the arms of the parts that they carry.
+!> Sets the adjusters of a suspension (ek_adjuster): moves the arms of the parts that they carry. The parts are those as made
+!> (ek_made_parts).
 !>
 !> The design position, the design values of springs and measures and the preloads stay those of the drawn axle. The rows of Φ are
 !> therefore not satisfied at design if an adjuster has a value; the solution finds the position that satisfies them.
@@ -7,6 +8,7 @@ module ek_adjust
    use ek_adjuster, only: adjuster_t, place_t, moved_point, turned_direction, rod_of_joint, seat, of_term, of_element, &
       of_joint, of_readout, of_load, of_centre, of_contact, of_axis
    use ek_measure, only: measure_t, global_gap
+   use ek_made_parts, only: put_made
    use ek_suspension, only: suspension_t
    implicit none(type, external)
    private
@@ -14,19 +16,20 @@ module ek_adjust
 
 contains
 
-   !> Whether an adjuster has a value: the bodies then leave the design position.
+   !> Whether an adjuster has a value, or a part a deviation: the bodies then leave the design position.
    pure logical function is_adjusted(suspension)
       type(suspension_t), intent(in) :: suspension
-      is_adjusted = any(abs(suspension%adjusters%value) > 0.0_wp)
+      is_adjusted = suspension%made%has_deviations .or. any(abs(suspension%adjusters%value) > 0.0_wp)
    end function is_adjusted
 
-   !> Sets all adjusters of a suspension, unless they are set already.
+   !> Makes all parts as they are, and sets all adjusters of a suspension, unless this is done already.
    pure subroutine adjust(suspension)
       type(suspension_t), intent(inout) :: suspension
       integer :: k
 
       if (suspension%has_set_adjusters) return
       suspension%has_set_adjusters = .true.
+      if (suspension%made%has_deviations) call put_made(suspension)
       do k = 1, size(suspension%adjusters)
          associate (this => suspension%adjusters(k))
             if (this%kind == rod_of_joint) then

@@ -13,7 +13,7 @@ module ek_blueprint
    implicit none(type, external)
    private
    public :: blueprint_t, vector_t, body_plan_t, mass_plan_t, readout_plan_t, joint_plan_t, element_plan_t, bushing_plan_t
-   public :: wheel_plan_t, load_plan_t, curve_plan_t, case_plan_t, manoeuvre_plan_t, adjuster_plan_t, align_plan_t
+   public :: wheel_plan_t, load_plan_t, curve_plan_t, case_plan_t, manoeuvre_plan_t, adjuster_plan_t, align_plan_t, part_plan_t
    public :: hardpoint, along, given, fixed, chosen, chosen_right, across, lowest
    public :: new_blueprint, add_vector, mark_own_elements, inward, number_at, triple_at
 
@@ -124,6 +124,14 @@ module ek_blueprint
       integer :: toe = 0, camber = 0               !! indices of parameters
    end type align_plan_t
 
+   !> A part that is made with a deviation of one of its points.
+   type :: part_plan_t
+      integer :: body = 0                          !! index of the body; 0: the chassis
+      integer :: row = 0                           !! of a rod: row of Φ of the distance joint; 0: a body
+      integer :: point = 0                         !! index of the vector
+      integer :: by = 0                            !! index of the first of three parameters
+   end type part_plan_t
+
    type :: blueprint_t
       type(suspension_t) :: prototype       !! names, connections, and the numbers of the deck
       logical :: is_iso = .false.           !! the axes of the deck are ISO 8855
@@ -144,6 +152,7 @@ module ek_blueprint
       type(manoeuvre_plan_t), allocatable :: manoeuvres(:)
       type(adjuster_plan_t), allocatable :: adjusters(:)
       type(align_plan_t), allocatable :: aligns(:)
+      type(part_plan_t), allocatable :: parts(:)
       integer, allocatable :: tilt_axes(:)  !! index of the vector of the axis of each tilt; 0: the default axis
       ! &axle: wheelbase, cg_height, mass, brake_share, drive_share, front_overhang, front_width, axle_load, roll_share;
       ! &steering: ratio, travel
@@ -160,7 +169,7 @@ contains
       call allocate_lists(self%prototype)
       allocate (self%points(0), self%vectors(0), self%bodies(0), self%masses(0), self%readouts(0), self%joints(0))
       allocate (self%elements(0), self%bushings(0), self%wheels(0), self%loads(0), self%curves(0), self%cases(0))
-      allocate (self%manoeuvres(0), self%adjusters(0), self%aligns(0), self%tilt_axes(0))
+      allocate (self%manoeuvres(0), self%adjusters(0), self%aligns(0), self%parts(0), self%tilt_axes(0))
       call add_vector(self, vector_t(value=[0.0_wp, 0.0_wp, 1.0_wp]), number)
    end subroutine new_blueprint
 
@@ -226,6 +235,9 @@ contains
             any(self%masses%kg == number) .or. any(self%joints%stiffness == number) .or. self%gravity == number .or. &
             any(self%start == number) .or. any(self%axle == number) .or. any(self%steering == number) .or. &
             any(self%adjusters%value == number) .or. any(self%aligns%toe == number) .or. any(self%aligns%camber == number)
+         do j = 1, size(self%parts)
+            is_used_elsewhere = is_used_elsewhere .or. is_of_triple(self%parts(j)%by)
+         end do
          do j = 1, size(self%joints)
             if (.not. allocated(self%joints(j)%ratios)) cycle
             is_used_elsewhere = is_used_elsewhere .or. any(self%joints(j)%ratios == number)

@@ -18,15 +18,19 @@ contains
 
    !> Computes all points [m] and directions; vector 0 must be zero. is_good is .false. if a vector has no direction, or if a
    !> hardpoint has left its side of the plane of &mirror, or this plane.
-   pure subroutine find_vectors(plan, x, vectors, is_good, only)
+   pure subroutine find_vectors(plan, x, vectors, is_good, only, is_part)
       type(blueprint_t), intent(in) :: plan
       real(wp), intent(in) :: x(:)
       real(wp), intent(inout) :: vectors(3, 0:*)
       logical, intent(out) :: is_good
       integer, intent(in), optional :: only      !! this vector alone
+      logical, intent(in), optional :: is_part   !! of one part, whose points may leave the plane; default .false.
+      logical :: may_leave
       integer :: k, first, last
 
       is_good = .true.
+      may_leave = .false.
+      if (present(is_part)) may_leave = is_part
       first = 1
       last = size(plan%vectors)
       if (present(only)) then
@@ -40,6 +44,7 @@ contains
                vectors(:, k) = this%value
             case (hardpoint)
                vectors(:, k) = inward(plan, x(this%first:this%first + 2))
+               if (may_leave) cycle
                if (this%stays == in_plane) is_good = is_good .and. abs(vectors(2, k)) < plane
                if (this%stays == off_left) is_good = is_good .and. vectors(2, k) <= -plane
                if (this%stays == off_right) is_good = is_good .and. vectors(2, k) >= plane

@@ -16,6 +16,7 @@ module ek_realise
    use ek_joint, only: term_t, joint_geometry_t, joint_terms, joint_table, axes_fit, max_terms
    use ek_element, only: element_kinds, element_numbers, set_numbers
    use ek_adjuster, only: is_reachable
+   use ek_made_parts, only: begin_made, make_part
    use ek_suspension, only: suspension_t
    use ek_wheel_contact, only: measure_at_contact, set_rim
    use ek_case, only: case_t
@@ -48,8 +49,55 @@ contains
       real(wp), intent(in) :: x(:)                        !! SI, axes of the deck
       type(suspension_t), intent(inout) :: suspension
       logical, intent(out) :: is_good
+      logical, intent(in), optional :: keeps_origins      !! as in realise_drawn
+
+      call realise_drawn(plan, x, suspension, is_good, keeps_origins)
+      suspension%made%has_deviations = .false.
+      if (is_good .and. size(plan%parts) > 0) call realise_parts(plan, x, suspension, is_good)
+   end subroutine realise
+
+   !> Computes the parts that are made with deviations: each is that of an axle whose points are moved.
+   subroutine realise_parts(plan, x, suspension, is_good)
+      type(blueprint_t), intent(in) :: plan
+      real(wp), intent(in) :: x(:)
+      type(suspension_t), intent(inout) :: suspension     !! as drawn
+      logical, intent(inout) :: is_good
+      type(suspension_t) :: moved
+      real(wp) :: there(size(x))
+      logical :: is_same(size(plan%parts))
+      integer :: k, j
+
+      do k = 1, size(plan%parts)
+         is_same = plan%parts%body == plan%parts(k)%body .and. plan%parts%row == plan%parts(k)%row
+         if (any(is_same(:k - 1))) cycle
+         there = x
+         do j = k, size(plan%parts)
+            if (.not. is_same(j)) cycle
+            associate (first => plan%vectors(plan%parts(j)%point)%first, by => plan%parts(j)%by)
+               there(first:first + 2) = there(first:first + 2) + x(by:by + 2)
+            end associate
+         end do
+         if (.not. any(abs(there - x) > 0.0_wp)) cycle
+         if (.not. suspension%made%has_deviations) then
+            call begin_made(suspension)
+            moved = suspension
+            suspension%made%has_deviations = .true.
+         end if
+         call realise_drawn(plan, there, moved, is_good, is_part=.true.)
+         if (.not. is_good) return
+         call make_part(moved, plan%parts(k)%body, plan%parts(k)%row, suspension)
+      end do
+   end subroutine realise_parts
+
+   !> Computes all numbers of the suspension as drawn.
+   subroutine realise_drawn(plan, x, suspension, is_good, keeps_origins, is_part)
+      type(blueprint_t), intent(in) :: plan
+      real(wp), intent(in) :: x(:)                        !! SI, axes of the deck
+      type(suspension_t), intent(inout) :: suspension
+      logical, intent(out) :: is_good
       logical, intent(in), optional :: keeps_origins      !! whether the reference points of the bodies stay where they are, also of
                                                           !! bodies for which the deck names a point; default .false.
+      logical, intent(in), optional :: is_part            !! see find_vectors
       logical :: is_kept
       integer :: k
 
@@ -59,7 +107,7 @@ contains
             .and. size(suspension%elements) == size(plan%elements) + size(plan%bushings), &
             'realise: the suspension is of another blueprint')
       end if
-      call find_vectors(plan, x, suspension%vectors, is_good)
+      call find_vectors(plan, x, suspension%vectors, is_good, is_part=is_part)
       do k = 1, size(plan%points)
          suspension%points(k)%at = suspension%vectors(:, plan%points(k))
       end do
@@ -102,7 +150,7 @@ contains
       end associate
       call place_adjusters(plan, x, suspension, is_good)
       if (is_good) call settle_design(suspension)
-   end subroutine realise
+   end subroutine realise_drawn
 
    !> Computes values, directions and points of the adjusters. ek_adjust moves the parts.
    subroutine place_adjusters(plan, x, suspension, is_good)

@@ -6,7 +6,7 @@
 module ek_suspension
    use ek_kinds, only: wp, units_t
    use ek_relative_rotation, only: pose_t
-   use ek_measure, only: measure_t, rotation, axis_axis
+   use ek_measure, only: measure_t, measure_numbers_t, rotation, axis_axis
    use ek_joint, only: joint_t, row_t, term_t
    use ek_element, only: element_t, copy_element
    use ek_load, only: load_t, has_potential
@@ -17,7 +17,9 @@ module ek_suspension
    private
    public :: suspension_t, body_t, point_t, load_t, wheel_t, wheel_place_t, wheel_place_list_t, readout_t, axle_t, steering_t
    public :: allocate_lists, copy_numbers, copy_load, body_name, design_poses, driver_row, driver_unit, load_number, &
-      has_symmetric_loads
+      has_symmetric_loads, of_adjuster
+
+   character(*), parameter :: of_adjuster = 'adjuster.'     !! in the key `drive` of a case: the rod of an adjuster
 
    !> The numbers of a body. What copies the numbers of a part copies this parent of its type, and does not name them.
    type :: body_numbers_t
@@ -122,6 +124,18 @@ module ek_suspension
       character(:), allocatable :: driver !! name of the driver joint (driver_row gives the row)
    end type steering_t
 
+   !> The numbers of all parts if some are made with deviations (&part): what ek_adjust puts in place of the drawn ones.
+   type :: made_parts_t
+      logical :: has_deviations = .false.      !! the other components are in use
+      type(measure_numbers_t), allocatable :: terms(:), readouts(:), elements(:)
+      real(wp), allocatable :: markers(:, :, :)                !! axes of the bushings, the elements after `scalars`
+      type(wheel_place_t), allocatable :: wheels(:)
+      real(wp), allocatable :: longer(:)                       !! of the rows: change of the length of a rod [m]
+      real(wp), allocatable :: centres(:, :)                   !! of the bodies
+      real(wp), allocatable :: loads(:, :), joints(:, :)       !! arms
+      real(wp), allocatable :: axes(:, :, :)                   !! of the joints
+   end type made_parts_t
+
    !> The numbers of a suspension that belong to no part.
    type :: model_numbers_t
       real(wp) :: gravity = 0.0_wp        !! m/s²
@@ -157,7 +171,9 @@ module ek_suspension
       type(adjuster_t), allocatable :: adjusters(:)
       type(place_t), allocatable :: places(:)  !! all arms that adjusters move
       type(align_t), allocatable :: aligns(:)  !! static angles that adjusters give
-      logical :: has_set_adjusters = .false.   !! the arms are those of the set adjusters (ek_adjust), not of the drawn axle
+      type(made_parts_t) :: made               !! the parts as made, see ek_made_parts
+      logical :: has_set_adjusters = .false.   !! the arms are those of the parts as made and of the set adjusters (ek_adjust), not
+                                               !! of the drawn axle
       type(axle_t) :: axle = axle_t()
       type(steering_t) :: steering = steering_t()
       real(wp), allocatable :: vectors(:, :)   !! (3, 0:n) design points [m] and directions of the blueprint, see ek_realise
@@ -226,6 +242,8 @@ contains
          to%tilts(k)%axis = from%tilts(k)%axis
       end do
       to%has_set_adjusters = from%has_set_adjusters
+      to%made%has_deviations = from%made%has_deviations
+      if (from%made%has_deviations) to%made = from%made
       do k = 1, size(from%aligns)
          to%aligns(k)%toe = from%aligns(k)%toe
          to%aligns(k)%camber = from%aligns(k)%camber
@@ -287,7 +305,7 @@ contains
       if (body > 0) name = self%bodies(body)%name
    end function body_name
 
-   !> Index of the row of the driver with this joint name; 0 if there is no such driver.
+   !> Index of the row of the driver with this joint name, or of the rod (distance joint) of 'adjuster.<name>'; 0 if there is none.
    pure integer function driver_row(self, name)
       type(suspension_t), intent(in) :: self
       character(*), intent(in) :: name
@@ -296,6 +314,10 @@ contains
       driver_row = 0
       do k = 1, size(self%joints)
          if (self%joints(k)%kind == 'driver' .and. self%joints(k)%name == name) driver_row = self%joints(k)%first_row
+      end do
+      if (index(name, of_adjuster) /= 1) return
+      do k = 1, size(self%adjusters)
+         if (self%adjusters(k)%name == name(len(of_adjuster) + 1:)) driver_row = self%adjusters(k)%row
       end do
    end function driver_row
 

@@ -6,8 +6,9 @@ module ek_report_pictures
    use ek_text, only: str
    use ek_file, only: write_whole, join_path, remove_file
    use ek_suspension, only: suspension_t
+   use ek_adjust, only: is_adjusted
    use ek_state, only: state_t, design_state
-   use ek_moving_states, only: moving_test, state_of_path, travel_kinds, steer_kinds
+   use ek_moving_states, only: moving_test, state_of_path, standing_state, travel_kinds, steer_kinds
    use ek_chart, only: charts_script, remove_drawn, pictures_of
    use ek_drawing, only: run_gnuplot
    use ek_scene, only: scene_t, line_bump, line_rebound
@@ -143,7 +144,7 @@ contains
       integer :: test
 
       camera = view_of(suspension)
-      state = design_state(suspension)
+      call standing_state(report%tests, report%paths, suspension, state)
       call add_solid(scenes(1), suspension, state, is_plain=.false.)
       call add_ground(scenes(1), suspension, state, is_plain=.false.)
       call add_names(scenes(1), suspension, state)
@@ -161,7 +162,8 @@ contains
       end if
       call fit_camera(camera, scenes, 3.0_wp, 2.0_wp, footer=0.11_wp)
       call write_whole(join_path(report%folder, 'figures/picture.gp'), scene_script(scenes(1), camera, 'picture', &
-         suspension%name//': design, and the ends of its travel'), error, can_be_redrawn=.true.)
+         suspension%name//trim(merge(': as set up', ': design   ', is_adjusted(suspension)))// &
+         ', and the ends of its travel'), error, can_be_redrawn=.true.)
    end subroutine write_picture
 
    !> Writes the script of the animation: through the travel and back, then through the steering and back. Writes nothing if

@@ -1,12 +1,13 @@
 !> The states in which pictures show a suspension moving: states of its travel and of its steering.
 module ek_moving_states
+   use ek_adjust, only: is_adjusted
    use ek_suspension, only: suspension_t
    use ek_state, only: state_t, design_state, unpack_state
    use ek_path, only: path_t
    use ek_test_result, only: test_result_t
    implicit none(type, external)
    private
-   public :: moving_test, state_of_path, travel_kinds, steer_kinds
+   public :: moving_test, state_of_path, standing_state, travel_kinds, steer_kinds
 
    character(16), parameter :: travel_kinds(3) = [character(16) :: 'parallel_travel', 'vertical_force', 'single_travel']
    character(16), parameter :: steer_kinds(1) = [character(16) :: 'steering']
@@ -40,5 +41,21 @@ contains
       state = design_state(suspension)
       call unpack_state(path%packed(:7*size(suspension%bodies) + suspension%constraints(), k), state)
    end subroutine state_of_path
+
+   !> The state of the axle as it stands: the design position, or, if adjusters have values or parts deviate, the state of the travel
+   !> at 0. Without such a test, it is the design position.
+   subroutine standing_state(tests, paths, suspension, state)
+      type(test_result_t), intent(in) :: tests(:)
+      type(path_t), intent(in) :: paths(:)          !! paths of the tests
+      type(suspension_t), intent(in) :: suspension
+      type(state_t), intent(out) :: state
+      integer :: test
+
+      state = design_state(suspension)
+      if (.not. is_adjusted(suspension)) return
+      test = moving_test(tests, paths, travel_kinds(:1))
+      if (test > 0) call state_of_path(paths(test), minloc(abs(paths(test)%value), dim=1, mask=paths(test)%is_reached), &
+         suspension, state)
+   end subroutine standing_state
 
 end module ek_moving_states

@@ -245,6 +245,8 @@ contains
          call replace(text, '--set ', '')
          call replace(text, '=1: ', ': ')
          call replace(text, 'group.name.key=value', 'group.name.key')
+      else if (index(path, 'part.') == 1) then
+         text = quoted(path)//': the part is as drawn, and the model does not contain it yet; set it to 0 first'
       else
          text = quoted(path)//' has no derivative: it is an integer, a name or a switch, or the deck does not give it; '// &
             'only numbers that vary continuously have one'

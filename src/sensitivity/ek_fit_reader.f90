@@ -10,7 +10,8 @@ module ek_fit_reader
    use ek_deck, only: deck_t, read_deck
    use ek_deck_reading, only: deck_reading_t, complain, complain_of_all, refuse, choice_among, has_key, where_of, line_of, &
       is_second, text_of, number_of, numbers_of, whole_of, switch_of, value_count, raw
-   use ek_study, only: max_factors, change_names, by_value, not_given, is_given
+   use ek_study, only: max_factors, change_names, by_value, by_part, not_given, is_given
+   use ek_study_reader, only: take_bodies
    use ek_fit, only: fit_t, fit_factor_t, fit_target_t
    implicit none(type, external)
    private
@@ -122,6 +123,7 @@ contains
       end do
       this%is_each = switch_of(reading, 'each', .false.)
       call choice_among(reading, 'change', change_names, this%change, default=by_value)
+      call take_bodies(reading, this)
       this%lower = number_of(reading, 'lower', not_given())
       this%upper = number_of(reading, 'upper', not_given())
       this%nominal = number_of(reading, 'nominal', not_given())
@@ -133,7 +135,7 @@ contains
          if (value_count(reading, 'weights') /= size(this%paths)) then
             call complain(reading, 'weights', 'weights needs one number per path, '//str(size(this%paths))//', found '// &
                str(value_count(reading, 'weights')))
-         else if (this%change == by_value) then
+         else if (any(this%change == [by_value, by_part])) then
             call complain(reading, 'weights', 'weights need change = ''delta'' or ''scale''')
          else
             this%weights = numbers_of(reading, 'weights', size(this%paths))

@@ -13,7 +13,7 @@ module ek_study
    use ek_sampler_settings, only: factor_t, sampler_settings_t
    implicit none(type, external)
    private
-   public :: study_t, study_factor_t, response_t, step_size_kind, kind_names, change_names, by_value, by_delta, by_scale
+   public :: study_t, study_factor_t, response_t, step_size_kind, kind_names, change_names, by_value, by_delta, by_scale, by_part
    public :: define_factor, is_given, not_given, surplus_factors
 
    ! The paths of each factor are compared with all numbers and factors: 5000 factors take some 20 s before the first design
@@ -25,7 +25,8 @@ module ek_study
    integer, parameter :: by_value = 1       !! the factor replaces the number of the deck
    integer, parameter :: by_delta = 2       !! the factor is added to the number of the deck
    integer, parameter :: by_scale = 3       !! the factor multiplies the number of the deck
-   character(*), parameter :: change_names(3) = [character(8) :: 'absolute', 'delta', 'scale']
+   integer, parameter :: by_part = 4        !! the factor is a deviation of single parts; ek_part_factor makes it one by value
+   character(*), parameter :: change_names(4) = [character(8) :: 'absolute', 'delta', 'scale', 'part']
 
    ! the kinds: those of the samplers, and two names of this module
    integer, parameter :: step_size_kind = size(sampler_kinds) + 1       !! a study of this kind varies the solution, not the deck
@@ -38,6 +39,7 @@ module ek_study
       logical :: is_each = .false.                         !! every number of the paths becomes a separate factor, see ek_study_each
       logical :: is_of_pattern = .false.                   !! the factor is one of several numbers of a path with *
       integer :: change = by_value
+      character(word_length), allocatable :: bodies(:)     !! by_part: the parts that deviate; of size 0 if not given
       integer :: distribution = uniform_kind
       real(wp) :: lower, upper, nominal, tolerance, deviation    !! NaN if not given
       real(wp), allocatable :: values(:)                   !! if allocated, the only values of the factor

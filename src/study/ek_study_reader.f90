@@ -16,11 +16,11 @@ module ek_study_reader
       text_of, texts_of, number_of, whole_of, long_of, switch_of, value_count, raw, numbers_of
    use ek_sampler_kind, only: sampler_kinds, grid_kind, list_kind
    use ek_study, only: study_t, study_factor_t, response_t, surplus_factors, of_names, step_size_kind, kind_names, change_names, &
-      by_value, not_given, is_given
+      by_value, by_part, not_given, is_given
    use ek_distribution, only: distribution_kinds, uniform_kind, normal_kind, log_normal_kind
    implicit none(type, external)
    private
-   public :: read_study
+   public :: read_study, take_bodies
 
    character(*), parameter :: format_names(2) = [character(6) :: 'netcdf', 'csv']
 
@@ -338,6 +338,7 @@ contains
       end do
       this%is_each = switch_of(reading, 'each', .false.)
       call choice_among(reading, 'change', change_names, this%change, default=by_value)
+      call take_bodies(reading, this)
       call choice_among(reading, 'distribution', distribution_kinds, this%distribution, default=uniform_kind)
       this%lower = number_of(reading, 'lower', not_given())
       this%upper = number_of(reading, 'upper', not_given())
@@ -358,6 +359,19 @@ contains
       if (allocated(this%values)) call refuse(reading, [range_keys(:2), range_keys(4:)], &
          'a factor has values, or a range of its own, not both')
    end subroutine take_factor
+
+   !> Reads the parts of a factor with change = 'part'.
+   subroutine take_bodies(reading, this)
+      type(deck_reading_t), intent(inout) :: reading
+      class(study_factor_t), intent(inout) :: this
+      integer :: k
+
+      allocate (this%bodies(value_count(reading, 'bodies')))
+      do k = 1, size(this%bodies)
+         this%bodies(k) = raw(reading, 'bodies', k)
+      end do
+      if (this%change /= by_part) call refuse(reading, ['bodies'], "only a factor with change = 'part' names parts")
+   end subroutine take_bodies
 
    !> Reads from, to, count and spacing, which define values in equal steps, or in equal ratios (spacing = 'log'). One value is `from`.
    subroutine take_steps(reading, this)

@@ -1,0 +1,197 @@
+!> &part: deviations of single parts from the drawing.
+module ek_reader_parts
+   use ek_text, only: quoted
+   use ek_record, only: element, own_name, single
+   use ek_group, only: joint_group, body_group, part_name, word_length
+   use ek_blueprint, only: part_plan_t
+   use ek_deck_reading, only: deck_reading_t, complain, text_of, has_key, slot
+   use ek_reference, only: look_up, find_body, find_point
+   implicit none(type, external)
+   private
+   public :: read_part, parts_at
+
+contains
+
+   !> Reads &part. All parts of the suspension were read before.
+   subroutine read_part(reading)
+      type(deck_reading_t), intent(inout) :: reading
+      type(part_plan_t) :: plan
+      character(:), allocatable :: name
+      logical :: is_found
+      integer :: found, k
+
+      found = 0
+      is_found = .true.
+      if ((has_key(reading, 'body') .eqv. has_key(reading, 'joint')) .or. .not. has_key(reading, 'at')) then
+         if (reading%cards(reading%k)%is_good) call complain(reading, '', "give 'body' or 'joint', the part that deviates, and "// &
+            "'at', or the name '<body or rod>.<point>' of a part and a point of the deck")
+         return
+      end if
+      name = text_of(reading, 'body')//text_of(reading, 'joint')
+      if (text_of(reading, 'body') /= '') call find_body(reading, 'body', name, plan%body, is_found)
+      if (has_key(reading, 'joint')) call find_rod(reading, name, plan%row, is_found)
+      call find_point(reading, 'at', text_of(reading, 'at'), plan%point, is_found)
+      if (.not. reading%cards(reading%k)%is_good .or. plan%point == 0) return
+      if (reading%cards(reading%k)%name /= part_name(name//'.'//text_of(reading, 'at'))) then
+         call complain(reading, 'name', 'the name of this part is '//quoted(part_name(name//'.'//text_of(reading, 'at')))// &
+            '; omit name')
+         return
+      end if
+      if (.not. is_there(reading, plan%body, plan%row, plan%point)) then
+         call complain(reading, 'at', 'at: no joint, spring, bushing, mass, load or wheel of '//quoted(name)//' is at '// &
+            quoted(text_of(reading, 'at'))//'; the parts at this point are'//parts_at(reading, plan%point))
+         return
+      end if
+      call slot(reading, 'deviation', plan%by)
+      do k = plan%by, plan%by + 2
+         reading%parameters%list(k)%is_given = .true.      ! 0 as drawn: listed, and found by paths with *
+      end do
+      reading%plan%parts = [reading%plan%parts, plan]
+   end subroutine read_part
+
+   !> Finds the row of the distance joint that is a rod.
+   subroutine find_rod(reading, name, row, is_found)
+      type(deck_reading_t), intent(inout) :: reading
+      character(*), intent(in) :: name
+      integer, intent(inout) :: row
+      logical, intent(out) :: is_found
+      integer :: found, k
+
+      call look_up(reading, 'joint', joint_group, name, found)
+      is_found = found > 0
+      if (.not. is_found) return
+      if (.not. reading%cards(found)%is_good) reading%cards(reading%k)%is_good = .false.
+      if (.not. reading%cards(reading%k)%is_good) return
+      associate (joints => reading%plan%prototype%joints)
+         do k = 1, size(joints)
+            if (joints(k)%name == name) exit
+         end do
+         if (joints(k)%kind == 'distance') then
+            row = joints(k)%first_row
+         else
+            call complain(reading, 'joint', 'joint: '//quoted(name)//' is a '//joints(k)%kind// &
+               " joint; a rod is a joint of type 'distance'; at other joints, give the body that deviates")
+         end if
+      end associate
+   end subroutine find_rod
+
+   !> The names of the parts at a point, each after a blank and in quotes, without the side if &mirror created them; ' none' if there
+   !> is none.
+   function parts_at(reading, point) result(names)
+      type(deck_reading_t), intent(in) :: reading
+      integer, intent(in) :: point                   !! index of the vector
+      character(:), allocatable :: names
+      integer :: k
+
+      names = ''
+      do k = 1, size(reading%cards)
+         if (reading%cards(k)%group /= body_group .or. reading%cards(k)%index == 0) cycle
+         if (is_there(reading, reading%cards(k)%index, 0, point)) call add(k)
+      end do
+      do k = 1, size(reading%cards)
+         if (reading%cards(k)%group /= joint_group .or. element(reading%records(k), 'type', 1) /= 'distance') cycle
+         if (is_there(reading, -1, row_of(k), point)) call add(k)
+      end do
+      if (is_there(reading, 0, 0, point)) names = names//' '//quoted('chassis')
+      if (names == '') names = ' none'
+
+   contains
+
+      subroutine add(k)
+         integer, intent(in) :: k
+         character(:), allocatable :: name
+
+         name = trim(reading%cards(k)%name)
+         if (reading%records(k)%side /= single) name = own_name(reading%records(k))
+         names = names//' '//quoted(name)
+      end subroutine add
+
+      !> The row of the joint of a record; 0 if the joint was rejected.
+      pure integer function row_of(k)
+         integer, intent(in) :: k
+         integer :: j
+
+         row_of = 0
+         do j = 1, size(reading%plan%prototype%joints)
+            if (reading%plan%prototype%joints(j)%name == reading%cards(k)%name) &
+               row_of = reading%plan%prototype%joints(j)%first_row
+         end do
+      end function row_of
+
+   end function parts_at
+
+   !> Whether something of a body, or an end of a rod, is at a point, or has a direction from or to this point.
+   pure logical function is_there(reading, body, row, point)
+      type(deck_reading_t), intent(in) :: reading
+      integer, intent(in) :: body                    !! 0: the chassis
+      integer, intent(in) :: row                     !! row of the rod; 0: of the body
+      integer, intent(in) :: point                   !! index of the vector
+      integer :: k
+
+      is_there = .false.
+      associate (plan => reading%plan, model => reading%plan%prototype)
+         do k = 1, size(plan%joints)
+            if (allocated(plan%joints(k)%readouts)) cycle
+            if (row > 0) then
+               if (model%joints(k)%first_row == row) is_there = any(plan%joints(k)%ends == point)
+            else
+               call see([model%joints(k)%body_i, model%joints(k)%body_j], plan%joints(k)%ends, plan%joints(k)%axes)
+            end if
+         end do
+         if (row > 0) return
+         do k = 1, size(plan%readouts)
+            call see([model%readouts(k)%measure%body_i, model%readouts(k)%measure%body_j], plan%readouts(k)%ends, &
+               [plan%readouts(k)%u, plan%readouts(k)%v])
+         end do
+         do k = 1, size(plan%elements)
+            call see([model%elements(k)%measure%body_i, model%elements(k)%measure%body_j], plan%elements(k)%ends, &
+               [plan%elements(k)%axis, 0])
+         end do
+         do k = 1, size(plan%bushings)
+            associate (of => model%elements(model%scalars + k)%measure, this => plan%bushings(k))
+               call see([of%body_i, of%body_j], this%ends, [this%z, 0])
+               call see([of%body_i, of%body_j], this%ends, [this%x, 0])
+            end associate
+         end do
+         do k = 1, size(plan%loads)
+            call see([model%loads(k)%body, -1], [plan%loads(k)%at, 0], [0, 0])
+         end do
+         do k = 1, size(plan%wheels)
+            associate (this => plan%wheels(k), of => model%wheels(k)%body)
+               call see([of, of], [this%centre, this%contact], [this%spin, 0])
+               call see([of, of], this%steer_axis, [0, 0])
+            end associate
+         end do
+         do k = 1, size(plan%masses)
+            call see([plan%masses(k)%body, -1], [plan%masses(k)%at, 0], [0, 0])
+         end do
+         if (body > 0) is_there = is_there .or. plan%bodies(body)%centre == point
+      end associate
+
+   contains
+
+      !> Looks at the two ends of a part, each on its body.
+      pure subroutine see(bodies, ends, directions)
+         integer, intent(in) :: bodies(2), ends(2), directions(2)
+         integer :: side
+
+         do side = 1, 2
+            if (bodies(side) == body) is_there = is_there .or. depends(ends(side)) .or. depends(directions(side))
+         end do
+      end subroutine see
+
+      !> Whether a vector is the point, or follows from it.
+      pure recursive logical function depends(vector) result(follows)
+         integer, intent(in) :: vector
+
+         follows = vector == point
+         if (follows .or. vector == 0) return
+         associate (this => reading%plan%vectors(vector))
+            if (this%a > 0) follows = depends(this%a)
+            if (this%b > 0 .and. .not. follows) follows = depends(this%b)
+         end associate
+      end function depends
+
+   end function is_there
+
+end module ek_reader_parts
