@@ -3,6 +3,7 @@
 !> programs that read JSON for vehicles accept them.
 module ek_json_tree
    use ek_kinds, only: wp
+   use ek_error, only: message_list_t
    use ek_text, only: str
    use ek_decimal, only: get_decimal
    use ek_flaws, only: flaws_t, shown
@@ -10,7 +11,7 @@ module ek_json_tree
    private
    public :: json_tree_t, json_leaf_t, parse_json, find_leaf, has_branch
 
-   integer, parameter :: deepest = 20, most_leaves = 20000, longest_path = 120
+   integer, parameter :: deepest = 20, most_leaves = 20000, most_keys = 2000, longest_path = 120
 
    !> A number, a string, or true, false and null as words.
    type :: json_leaf_t
@@ -110,6 +111,7 @@ contains
       type(json_tree_t), intent(inout) :: tree
       type(flaws_t), intent(inout) :: flaws
       character(:), allocatable :: key, below
+      type(message_list_t) :: keys
       integer :: count, begin
 
       begin = reader%line
@@ -135,6 +137,15 @@ contains
                return
             end if
             reader%at = reader%at + 1
+            if (is_known(keys, key)) then
+               call flaws%add(reader%line, shown(below//key)//' is given twice')
+               return
+            end if
+            if (keys%count() == most_keys) then
+               call flaws%add(reader%line, 'expected at most '//str(most_keys)//' names in an object, found more')
+               return
+            end if
+            call keys%add(key)
          end if
          if (len(below) + len(key) > longest_path) then
             call flaws%add(reader%line, 'expected a shorter name, found '//shown(key))
@@ -152,6 +163,19 @@ contains
       end do
       reader%at = reader%at + 1
    end subroutine read_items
+
+   !> Whether a list has a key.
+   pure logical function is_known(keys, key)
+      type(message_list_t), intent(in) :: keys
+      character(*), intent(in) :: key
+      integer :: k
+
+      is_known = .true.
+      do k = 1, keys%count()
+         if (keys%line(k) == key) return
+      end do
+      is_known = .false.
+   end function is_known
 
    !> Reads a string in double quotes.
    subroutine read_string(reader, text, flaws)
@@ -190,7 +214,7 @@ contains
       reader%at = reader%at + length
    end subroutine read_word
 
-   !> Adds a leaf. A path given twice is an error, and so is a word that is no number.
+   !> Adds a leaf. A word that is no number is an error.
    subroutine add_leaf(reader, path, text, is_word, tree, flaws)
       type(reader_t), intent(in) :: reader
       character(*), intent(in) :: path, text
@@ -213,12 +237,6 @@ contains
       if (tree%used == most_leaves) then
          call flaws%add(reader%line, 'expected at most '//str(most_leaves)//' values, found more')
          return
-      end if
-      if (tree%used < 2000) then              ! lists of curves are long, and have no names
-         if (find_leaf(tree, path) > 0) then
-            call flaws%add(reader%line, shown(path)//' is given twice')
-            return
-         end if
       end if
       if (tree%used == size(tree%leaves)) tree%leaves = [tree%leaves, tree%leaves]      ! twice the size
       tree%used = tree%used + 1

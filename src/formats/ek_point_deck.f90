@@ -70,9 +70,9 @@ contains
       if (kind > 0) then
          call put_axle(points, frame, kind, facts, table, writing)
       else
-         call put_part(points, frame, table, writing)
+         call put_part(points, frame, table, writing, flaws)
       end if
-      text = writing%deck%text()
+      if (flaws%count() == 0) text = writing%deck%text()
    end subroutine put_points
 
    !> The unit of the deck: that of the table, if decks have it.
@@ -117,7 +117,7 @@ contains
       call writing%deck%begin('mirror')
       if (is_steered) call writing%deck%word('shared', 'rack')
       call writing%deck%end()
-      call put_all_points(half, frame, is_steered, writing)
+      call put_all_points(half, frame, facts, is_steered, writing)
       call put_links(half, kind, rod, is_steered, writing)
       if (is_steered) call put_rack(half, writing)
       call put_wheel(half, kind, facts, writing)
@@ -270,9 +270,10 @@ contains
    end subroutine put_model
 
    !> Writes the points, each with the line of its source.
-   subroutine put_all_points(half, frame, is_steered, writing)
+   subroutine put_all_points(half, frame, facts, is_steered, writing)
       type(half_t), intent(inout) :: half
       type(frame_t), intent(in) :: frame
+      type(axle_facts_t), intent(in) :: facts
       logical, intent(in) :: is_steered
       type(writing_t), intent(inout) :: writing
       real(wp) :: at(3)
@@ -283,10 +284,8 @@ contains
          if (.not. writing%is_written(k) .or. k == rack_centre) cycle
          call put_point(trim(point_names(k)), half%at(:, k), writing%file//':'//str(half%line(k)), writing)
          if (k == wheel_centre .and. .not. half%has(contact_patch)) then
-            at = half%at(:, wheel_centre)
-            at(3) = frame%road*writing%factor
-            half%at(:, contact_patch) = at
-            call put_point('contact_patch', at, 'below the wheel centre, by --datum', writing)
+            half%at(:, contact_patch) = contact_point(half%at(:, wheel_centre), frame%road*writing%factor, facts, writing%is_rear)
+            call put_point('contact_patch', half%at(:, contact_patch), 'below the wheel centre, by --datum', writing)
          end if
       end do
       if (.not. is_steered) return
@@ -298,6 +297,20 @@ contains
          call put_point('rack_centre', at, 'between the inner ends of the tie rods', writing)
       end if
    end subroutine put_all_points
+
+   !> The lowest point of a wheel with static toe and camber, on the road: a point of the plane of the wheel, whose axis is
+   !> (sin t cos c, cos t cos c, -sin c) forward, outboard and up.
+   pure function contact_point(centre, road, facts, is_rear) result(at)
+      real(wp), intent(in) :: centre(3), road
+      type(axle_facts_t), intent(in) :: facts
+      logical, intent(in) :: is_rear
+      real(wp) :: at(3), drop
+
+      drop = (centre(3) - road)*tan(facts%camber*degree)
+      at = [-drop*sin(facts%toe*degree), -drop*cos(facts%toe*degree), 0.0_wp]
+      if (is_rear) at = -at
+      at = [centre(1) + at(1), centre(2) + at(2), road]
+   end function contact_point
 
    subroutine put_point(name, at, note, writing)
       character(*), intent(in) :: name, note
@@ -518,19 +531,22 @@ contains
    end function range_of
 
    !> Writes the points alone, as a part of a deck, if they are not those of a known kind of suspension.
-   subroutine put_part(points, frame, table, writing)
+   subroutine put_part(points, frame, table, writing, flaws)
       type(point_set_t), intent(in) :: points
       type(frame_t), intent(in) :: frame
       type(point_table_t), intent(in) :: table
       type(writing_t), intent(inout) :: writing
+      type(flaws_t), intent(inout) :: flaws
+      character(63) :: names(2*table%used)
       real(wp) :: at(3)
-      integer :: k, c, from(3)
+      integer :: k, c, from(3), used
 
       call writing%deck%comment('Made by elastokin import; a part of a deck: bodies, joints and elements are missing.')
       call writing%deck%comment('The points are not those of a known kind of suspension. Decided:')
       call put_lines(frame%how, writing)
       call put_model('Points of '//writing%file, writing)
       call writing%deck%blank()
+      used = 0
       from = [frame%forward, merge(-frame%outboard, frame%outboard, frame%is_image), frame%up]
       if (writing%is_rear) from(:2) = -from(:2)
       do k = 1, table%used
@@ -550,9 +566,14 @@ contains
 
       subroutine put_one(prefix)
          character(*), intent(in) :: prefix
+         character(:), allocatable :: name
 
-         call put_point(prefix//legal_name(plain_name(table%points(k)%name, prefix)), at, writing%file//':'// &
-            str(table%points(k)%line), writing)
+         name = prefix//legal_name(plain_name(table%points(k)%name, prefix))
+         if (any(names(:used) == lower(name))) call flaws%add(table%points(k)%line, 'expected each hardpoint once, found '// &
+            name//' again')
+         used = used + 1
+         names(used) = lower(name)
+         call put_point(name, at, writing%file//':'//str(table%points(k)%line), writing)
       end subroutine put_one
 
    end subroutine put_part

@@ -1,7 +1,6 @@
 !> Files of other programs that are known and not read: what they are, and what to export instead.
 module ek_unread_format
    use ek_text, only: lower
-   use ek_letters, only: is_wide
    implicit none(type, external)
    private
    public :: advice_on
@@ -55,8 +54,6 @@ contains
          advice = 'this is '//trim(formats(k)%advice)
          return
       end do
-      if (is_wide(content) .or. scan(content(:min(len(content), 2000)), achar(0)) == 0) return
-      advice = 'this is a binary file; '//as_table
    end function advice_on
 
 end module ek_unread_format
