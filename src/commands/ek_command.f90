@@ -89,7 +89,8 @@ module ek_command
       command_t('import', 'import FILE … [options]', 'import FILE', 'convert tables of points or foreign files to a deck', &
       'Converts files of other programs to a deck:'//nl// &
       '  .kin files of IPGKinematics to a complete axle (with the .gum bushings in the same folder);'//nl// &
-      '  a CSV table of hardpoints to a deck of points and links, if the points are those of a known kind;'//nl// &
+      '  a CSV table of hardpoints, or a Chrono suspension (.json), to a deck of points and links, if the points are'//nl// &
+      '  those of a double wishbone, McPherson, five-link or trailing arm axle;'//nl// &
       '  .sub and .asy hardpoints to points;'//nl// &
       '  .bus, .spr, .bum, .reb and .gum property files to curves;'//nl// &
       '  .lcf load cases to a load table.'//nl// &
@@ -300,7 +301,7 @@ module ek_command
       option_t('export', '--quiet', quiet_help), &
       option_t('import', '--out FILE', 'write this file (default: -, standard output)'), &
       option_t('import', '--axes WORD', &
-      'directions of the columns x, y, z of a table: iso | x-rear | sae, or in words, as rear,right,up;'//indent// &
+      'directions of the columns x, y, z of a table: iso | x-rear | sae, or spelled out, as rear,right,up;'//indent// &
       'default: decided by the points, or refused'), &
       option_t('import', '--length WORD', 'unit of length of a table: mm | cm | m | in | ft'), &
       option_t('import', '--datum WORD', &

@@ -1,5 +1,5 @@
 !> Suspensions of Project Chrono (JSON of Chrono::Vehicle): the hardpoints of an axle. The format defines the frame: x forward,
-!> y left, z up, in m, for the left half. It does not tell the axle, the tyre and the road.
+!> y left, z up, in m, for the left half. It does not give the axle, the tyre and the road.
 !>
 !> Read are the templates of `templates`, by the names of their points. Masses, springs, dampers and bushings are not read; the
 !> deck lists them.
@@ -16,7 +16,7 @@ module ek_chrono
    use ek_point_deck, only: axle_facts_t
    implicit none(type, external)
    private
-   public :: is_json, parse_chrono
+   public :: is_json, is_chrono, parse_chrono
 
    !> A point of a template: its path in the file.
    type :: place_t
@@ -64,6 +64,12 @@ contains
       if (at > 0) is_json = text(at:at) == '{'
    end function is_json
 
+   !> Whether a text in JSON may be a file of Chrono: it has the name "Type" or "Template".
+   pure logical function is_chrono(text)
+      character(*), intent(in) :: text
+      is_chrono = index(text, '"Type"') > 0 .or. index(text, '"Template"') > 0
+   end function is_chrono
+
    !> Reads the points of a suspension.
    subroutine parse_chrono(text, table, facts, flaws)
       character(*), intent(in) :: text
@@ -95,7 +101,7 @@ contains
       call take_angle(tree, 'Toe Angle (deg)', facts%toe, facts%has_toe, flaws)
    end subroutine parse_chrono
 
-   !> The template of a suspension. The reduced double wishbone has the points of the double wishbone.
+   !> Finds the template of a suspension. The reduced double wishbone has the points of the double wishbone.
    subroutine find_template(tree, template, flaws)
       type(json_tree_t), intent(in) :: tree
       character(:), allocatable, intent(out) :: template

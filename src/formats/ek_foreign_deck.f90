@@ -14,7 +14,8 @@ module ek_foreign_deck
    use ek_frame_votes, only: wish_t
    use ek_point_table, only: point_table_t, parse_points
    use ek_point_deck, only: put_points, axle_facts_t
-   use ek_chrono, only: is_json, parse_chrono
+   use ek_chrono, only: is_json, is_chrono, parse_chrono
+   use ek_point_list, only: is_toml, as_json, parse_point_list
    use ek_unread_format, only: advice_on
    use ek_teimorbit, only: is_teimorbit
    use ek_kin, only: kin_t
@@ -89,6 +90,7 @@ contains
          return
       end if
       kind = kind_of_text(with_line_ends(content))
+      if (is_toml(path)) kind = table_kind
       select case (kind)
       case (axle_kind)
          call import_axle(content, path, text, flaws)
@@ -99,6 +101,8 @@ contains
             kind = table_kind
             call import_table(content, path, text, flaws, wish)
          end if
+      case (table_kind)
+         call import_table(content, path, text, flaws, wish)
       case (law_kind)
          call import_law(content, path, text, flaws)
       case (loads_kind)
@@ -126,8 +130,8 @@ contains
       text = deck%text()
    end function put_model
 
-   !> Writes the deck of a table of hardpoints: frame and unit are those of the options, or decided by votes. JSON is read as a
-   !> suspension of Chrono, whose format defines frame and unit.
+   !> Writes the deck of a table of hardpoints: frame and unit are those of the options, or decided by votes. JSON and TOML are
+   !> lists of points, or a suspension of Chrono, whose format defines frame and unit.
    subroutine import_table(content, path, text, flaws, wish)
       character(*), intent(in) :: content, path
       character(:), allocatable, intent(inout) :: text
@@ -137,11 +141,17 @@ contains
       type(lines_t) :: lines
       type(wish_t) :: given
       type(axle_facts_t) :: facts
+      character(:), allocatable :: json
 
       if (present(wish)) given = wish
       call split_lines(content, lines, flaws)          ! reports a workbook and an empty file
       if (flaws%count() > 0) return
-      if (is_json(lines%text)) then
+      if (is_toml(path)) then
+         call as_json(lines, json, flaws)
+         if (flaws%count() == 0) call parse_point_list(json, table, flaws)
+      else if (is_json(lines%text) .and. .not. is_chrono(lines%text)) then
+         call parse_point_list(lines%text, table, flaws)
+      else if (is_json(lines%text)) then
          if (given%axes /= '' .or. given%length /= '') call flaws%add(0, 'the format defines axes and unit (x forward, y left, '// &
             'z up, m): leave out --axes and --length')
          given%axes = 'iso'

@@ -4,7 +4,8 @@
 !> A vote is something that holds for every suspension of a car: the lower ball joint is below the upper one, the wheel is
 !> outboard of the pivots, the point called front is ahead of the one called rear, half the track is between 0.45 and 1.14 m.
 !> A direction is a column of the table with a sign: 3 is the third column upwards, −1 the first column backwards. A vote whose
-!> vector does not lie clearly along a column says nothing. The table of mirrored axles needs no side: all votes are on one half.
+!> vector does not lie clearly along a column is not counted. All votes are on one half, so that the table of a
+!> symmetric axle needs no sides.
 module ek_frame_votes
    use ek_kinds, only: wp, degree
    use ek_text, only: str, lower, plural
@@ -117,8 +118,8 @@ contains
       if (any(given == 0) .or. rest /= '') frame%problem = '--axes must be '//axes_form//'; found '''//trim(text)//''''
    end subroutine take_axes
 
-   !> If both sides are given and both are to be used, each right point must be the image of the left point: one column has the
-   !> other sign, and the others are equal.
+   !> Checks that, if both sides are given and both are to be used, each right point is the image of the left point: one column
+   !> changes its sign, and the others are equal.
    subroutine check_images(points, wish, frame)
       type(point_set_t), intent(in) :: points
       type(wish_t), intent(in) :: wish
@@ -205,7 +206,7 @@ contains
       end associate
    end subroutine vote_on_outboard
 
-   !> Votes on the forward direction; the upward and outboard directions are decided.
+   !> Adds the votes on the forward direction; the upward and outboard directions are decided.
    subroutine vote_on_forward(points, frame)
       type(point_set_t), intent(in) :: points
       type(frame_t), intent(inout) :: frame
@@ -239,7 +240,7 @@ contains
       end associate
    end subroutine vote_on_forward
 
-   !> Votes by the mechanical trail: the steering axis meets the road ahead of the contact point.
+   !> Adds the vote of the mechanical trail: the steering axis meets the road ahead of the contact point.
    subroutine vote_on_trail(half, axis, column, frame)
       type(half_t), intent(in) :: half
       real(wp), intent(in) :: axis(3)
@@ -255,7 +256,7 @@ contains
          'positive mechanical trail of a front axle')
    end subroutine vote_on_trail
 
-   !> Votes by the kingpin inclination of a front axle: the steering axis leans inboard.
+   !> Adds the vote of the kingpin inclination of a front axle: the steering axis leans inboard.
    subroutine vote_on_inclination(axis, frame)
       real(wp), intent(in) :: axis(3)
       type(frame_t), intent(inout) :: frame
@@ -344,7 +345,7 @@ contains
       end if
    end subroutine decide_direction
 
-   !> The three directions must be three columns.
+   !> Checks that the three directions are three columns.
    subroutine check_columns(frame)
       type(frame_t), intent(inout) :: frame
 
@@ -393,8 +394,8 @@ contains
       end if
    end subroutine decide_length
 
-   !> Votes on the unit by the sizes of cars, from a Formula Student car to a truck. The ranges are narrower than a factor of 2.54,
-   !> or fit two units at most.
+   !> Adds the votes on the unit by the sizes of cars, from a Formula Student car to a truck. The ranges are narrower
+   !> than a factor of 2.54, or fit two units at most.
    subroutine vote_on_length(points, frame, fits, sizes)
       type(point_set_t), intent(in) :: points
       type(frame_t), intent(inout) :: frame
@@ -490,7 +491,7 @@ contains
       call explain(frame, 'road: --datum '//trim(wish%datum))
    end subroutine decide_road
 
-   !> A vote for the direction from one point to another.
+   !> Adds a vote for the direction from one point to another.
    subroutine vote_along(frame, question, half, from, to, reason)
       type(frame_t), intent(inout) :: frame
       integer, intent(in) :: question, from, to
@@ -500,7 +501,7 @@ contains
       if (half%has(from) .and. half%has(to)) call vote_vector(frame, question, half%at(:, to) - half%at(:, from), reason)
    end subroutine vote_along
 
-   !> A vote for the column of a vector, if one is clearly the largest.
+   !> Adds a vote for the column of a vector, if one is clearly the largest.
    subroutine vote_vector(frame, question, vector, reason)
       type(frame_t), intent(inout) :: frame
       integer, intent(in) :: question
@@ -513,7 +514,7 @@ contains
       call add_vote(frame%ballot, question, merge(column, -column, vector(column) > 0.0_wp), reason)
    end subroutine vote_vector
 
-   !> A vote for the forward direction from one point to another.
+   !> Adds a vote for the forward direction from one point to another.
    subroutine vote_column(frame, column, half, from, to, reason)
       type(frame_t), intent(inout) :: frame
       integer, intent(in) :: column, from, to
@@ -526,7 +527,7 @@ contains
       if (abs(vector(column)) > 0.3_wp*norm2(vector)) call vote_sign(frame, column, vector(column), reason)
    end subroutine vote_column
 
-   !> A vote for the forward direction by a sign.
+   !> Adds a vote for the forward direction by a sign.
    subroutine vote_sign(frame, column, value, reason)
       type(frame_t), intent(inout) :: frame
       integer, intent(in) :: column
@@ -536,7 +537,7 @@ contains
       if (abs(value) > 0.0_wp) call add_vote(frame%ballot, of_forward, merge(column, -column, value > 0.0_wp), reason)
    end subroutine vote_sign
 
-   !> Refuses to decide, with a table of at most seven votes.
+   !> Reports that a question is not decided, with at most seven votes.
    subroutine refuse(frame, question, cause)
       type(frame_t), intent(inout) :: frame
       integer, intent(in) :: question

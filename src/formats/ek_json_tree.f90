@@ -9,11 +9,11 @@ module ek_json_tree
    use ek_flaws, only: flaws_t, shown
    implicit none(type, external)
    private
-   public :: json_tree_t, json_leaf_t, parse_json, find_leaf, has_branch
+   public :: json_tree_t, json_leaf_t, parse_json, find_leaf, has_branch, triple_at
 
    integer, parameter :: deepest = 20, most_leaves = 20000, most_keys = 2000, longest_path = 120
 
-   !> A number, a string, or true, false and null as words.
+   !> A number, a string, or true, false and null as text.
    type :: json_leaf_t
       character(longest_path) :: path = ''
       character(:), allocatable :: text        !! the string, or the number as written
@@ -70,6 +70,29 @@ contains
 
       has_branch = any([(index(tree%leaves(k)%path, path//'/') == 1, k=1, tree%used)])
    end function has_branch
+
+   !> Finds whether leaves k, k + 1, k + 2 are the three numbers of a list, 'name/1' to 'name/3'. `path` is then the name.
+   pure subroutine triple_at(tree, k, path, at, is_triple)
+      type(json_tree_t), intent(in) :: tree
+      integer, intent(in) :: k
+      character(:), allocatable, intent(out) :: path
+      real(wp), intent(out) :: at(3)
+      logical, intent(out) :: is_triple
+      integer :: j
+
+      path = trim(tree%leaves(k)%path)
+      at = 0.0_wp
+      is_triple = .false.
+      if (k + 2 > tree%used .or. len(path) < 3) return
+      if (path(len(path) - 1:) /= '/1') return
+      path = path(:len(path) - 2)
+      do j = 1, 3
+         if (tree%leaves(k + j - 1)%path /= path//'/'//str(j) .or. .not. tree%leaves(k + j - 1)%is_number) return
+         at(j) = tree%leaves(k + j - 1)%value
+      end do
+      is_triple = .true.
+      if (k + 3 <= tree%used) is_triple = tree%leaves(k + 3)%path /= path//'/4'
+   end subroutine triple_at
 
    recursive subroutine read_value(reader, path, depth, tree, flaws)
       type(reader_t), intent(inout) :: reader
@@ -214,7 +237,7 @@ contains
       reader%at = reader%at + length
    end subroutine read_word
 
-   !> Adds a leaf. A word that is no number is an error.
+   !> Adds a leaf. Text that is no number is an error.
    subroutine add_leaf(reader, path, text, is_word, tree, flaws)
       type(reader_t), intent(in) :: reader
       character(*), intent(in) :: path, text

@@ -12,7 +12,7 @@ module ek_point_deck
       push_low, push_top, rocker_pivot, rocker_axis, arm_inner, arm_outer, upper_front_in, upper_front_out, upper_rear_in, &
       upper_rear_out, lower_in, lower_out, trailing_front, trailing_rear, rack_centre, damper_inner, damper_outer
    use ek_point_kind, only: kinds, double_wishbone, mcpherson, five_link, trailing_arm, find_kind, incomplete, check_rod, nearest
-   use ek_point_table, only: point_table_t
+   use ek_point_table, only: point_table_t, not_a_point
    use ek_point_set, only: choose_points
    use ek_frame_votes, only: point_set_t, half_t, wish_t, frame_t, find_frame
    use ek_vote, only: column_name, length_names
@@ -20,7 +20,7 @@ module ek_point_deck
    private
    public :: put_points, axle_facts_t
 
-   !> What a file knows of an axle besides its points; nan-free: `has_` tells what is given.
+   !> Numbers of an axle besides its points; `has_` marks those that are given.
    type :: axle_facts_t
       character(60) :: title = ''
       logical :: has_toe = .false., has_camber = .false.
@@ -75,7 +75,7 @@ contains
       if (flaws%count() == 0) text = writing%deck%text()
    end subroutine put_points
 
-   !> The unit of the deck: that of the table, if decks have it.
+   !> Chooses the unit of the deck: that of the table, if decks have it.
    subroutine choose_unit(length, writing)
       integer, intent(in) :: length
       type(writing_t), intent(inout) :: writing
@@ -225,8 +225,10 @@ contains
             if (this%point > 0) then
                if (writing%is_written(this%point)) cycle
             end if
-            if (this%side == merge(left_point, right_point, frame%half == 2)) cycle       ! its image is told
-            if (this%point == -1) then
+            if (this%side == merge(left_point, right_point, frame%half == 2)) cycle       ! its image is listed
+            if (this%point == not_a_point) then
+               call writing%deck%comment('  line '//str(this%line)//': '//trim(this%name)//' is not a point')
+            else if (this%point == -1) then
                call writing%deck%comment('  line '//str(this%line)//': '//trim(this%name)//': name not recognised'// &
                   nearest(trim(this%name)))
             else
@@ -427,7 +429,7 @@ contains
       call writing%deck%end()
    end subroutine put_strut
 
-   !> Writes push rod and rocker, and the length of the damper as a measure. The push rod is on the arm whose ball joint is nearer.
+   !> Writes push rod and rocker, and the length of the damper as a measure. The rod is on the arm whose ball joint is nearer.
    subroutine put_rocker(half, writing)
       type(half_t), intent(in) :: half
       type(writing_t), intent(inout) :: writing
@@ -551,6 +553,7 @@ contains
       if (writing%is_rear) from(:2) = -from(:2)
       do k = 1, table%used
          associate (this => table%points(k))
+            if (this%point == not_a_point) cycle
             do c = 1, 3
                at(c) = sign(1, from(c))*this%at(abs(from(c)))*writing%factor + 0.0_wp
             end do

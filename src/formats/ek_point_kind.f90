@@ -88,7 +88,7 @@ contains
       text = 'the points of a '//trim(kinds(kind)%name)//' axle are not complete; missing: '//text(3:)
       told = 0
       do k = 1, table%used
-         if (table%points(k)%point >= 0) cycle
+         if (table%points(k)%point /= -1) cycle
          told = told + 1
          if (told <= 6) text = text//new_line('a')//'  line '//str(table%points(k)%line)//': '// &
             shown(trim(table%points(k)%name))//' is not recognised'//nearest(trim(table%points(k)%name))
@@ -105,7 +105,7 @@ contains
       if (words /= '') words = '; nearest known name: '//words
    end function nearest
 
-   !> A tie rod ends on a rack of a front axle, and on the chassis of a rear axle: the axle must be known.
+   !> Checks that the axle is known, if it has tie rods: they end on a rack of a front axle, and on the chassis of a rear axle.
    subroutine check_rod(points, kind, flaws)
       type(point_set_t), intent(in) :: points
       integer, intent(in) :: kind
@@ -113,7 +113,7 @@ contains
 
       if (.not. kinds(kind)%has_rod .or. points%axle > 0) return
       if (.not. any(points%half(1)%has(tie_inner) .or. points%half(2)%has([tie_inner]))) return
-      call flaws%add(0, 'the file does not tell the axle; give --axle front (the tie rods end on a rack) or --axle rear (they '// &
+      call flaws%add(0, 'the file does not name the axle; give --axle front (the tie rods end on a rack) or --axle rear (they '// &
          'end on the chassis)')
    end subroutine check_rod
 

@@ -1,12 +1,14 @@
-!> Names of hardpoints in other words: the point of a suspension that a name stands for, with its axle and its side.
+!> Names of hardpoints as other programs and people write them: the point of a suspension that a name stands for, with its axle
+!> and its side.
 !>
-!> A name is divided into known words, each of which stands for some letters: 'lower wishbone front pivot' has L, A, F and V. A
+!> A name is divided into known terms, each of which stands for some letters: 'lower wishbone front pivot' has L, A, F and V. A
 !> point of `points` is meant if all letters that it needs are there, and no letter beyond those that it may have. A name with a
-!> word that is not in the list stands for no point: nothing is guessed.
+!> term that is not in the list stands for no point: nothing is guessed.
 !>
 !> Letters: L lower, U upper, F front, R rear, I inner or chassis, O outer or wheel carrier, A arm, B ball joint, T tie rod,
 !> E toe link, K rack, W wheel, C centre, P contact point, S strut, D damper, G spring, H push or pull rod, X rocker, Z axis,
-!> V pivot or bushing, Q trailing, N link, J rod, Y anti-roll bar, 1 first, 2 second.
+!> V pivot or bushing, Q trailing, N link, J rod, Y anti-roll bar, M attachment,
+!> 1 first, 2 second.
 module ek_point_name
    use ek_text, only: lower, nearest_name
    implicit none(type, external)
@@ -53,12 +55,12 @@ module ek_point_name
       rule_t(toe_inner, 'EI', 'NBVJ'), rule_t(toe_outer, 'EO', 'NBVJ'), &
       rule_t(strut_top, 'SU', 'IV'), rule_t(strut_top, 'SI', 'V'), &
       rule_t(strut_low, 'SL', 'OV'), rule_t(strut_low, 'SO', 'V'), &
-      rule_t(push_low, 'HO', 'LB'), rule_t(push_low, 'HL', ''), rule_t(push_low, 'HA', 'LOU'), &
+      rule_t(push_low, 'HO', 'LBM'), rule_t(push_low, 'HL', ''), rule_t(push_low, 'HA', 'LOU'), &
       rule_t(push_top, 'HX', 'IUJ'), rule_t(push_top, 'HI', ''), rule_t(push_top, 'HU', ''), rule_t(push_top, 'XJ', ''), &
       rule_t(rocker_pivot, 'XV', 'IC'), rule_t(rocker_pivot, 'XZ1', 'IV'), &
       rule_t(rocker_axis, 'XZ', 'I'), rule_t(rocker_axis, 'XZ2', 'IV'), &
-      rule_t(damper_inner, 'DI', ''), rule_t(damper_outer, 'DX', ''), rule_t(damper_outer, 'DO', ''), &
-      rule_t(damper_outer, 'GX', ''), &
+      rule_t(damper_inner, 'DI', ''), rule_t(damper_inner, 'IM', ''), rule_t(damper_outer, 'DX', ''), &
+      rule_t(damper_outer, 'DO', ''), rule_t(damper_outer, 'GX', ''), &
       rule_t(damper_top, 'DU', 'I'), rule_t(damper_low, 'DL', 'OA'), rule_t(damper_low, 'DA', ''), &
       rule_t(spring_top, 'GU', 'I'), rule_t(spring_top, 'GI', ''), rule_t(spring_low, 'GL', 'OA'), rule_t(spring_low, 'GA', ''), &
       rule_t(spring_low, 'GO', ''), &
@@ -69,7 +71,7 @@ module ek_point_name
       rule_t(trailing_front, 'QF', 'NA'), rule_t(trailing_rear, 'QR', 'NA'), &
       rule_t(rack_centre, 'KC', '')]
 
-   !> A word and its letters; a word without letters says nothing.
+   !> A term and its letters; a term without letters is ignored.
    type :: word_t
       character(12) :: word
       character(3) :: letters
@@ -106,15 +108,15 @@ module ek_point_name
       word_t('axis', 'Z'), word_t('axi', 'Z'), word_t('pivot', 'V'), word_t('piv', 'V'), word_t('bushing', 'V'), &
       word_t('bush', 'V'), word_t('mount', 'V'), word_t('mounting', 'V'), &
       word_t('trailing', 'Q'), word_t('semi', ''), word_t('link', 'N'), word_t('rod', 'J'), &
-      word_t('arb', 'Y'), word_t('stabilizer', 'Y'), word_t('stabiliser', 'Y'), word_t('sway', 'Y'), word_t('antiroll', 'Y'), &
+      word_t('arb', 'Y'), word_t('stabilizer', 'Y'), word_t('stabiliser', 'Y'), word_t('antiroll', 'Y'), &
       word_t('drop', 'Y'), word_t('droplink', 'Y'), word_t('bar', 'Y'), &
       word_t('first', '1'), word_t('1st', '1'), word_t('second', '2'), word_t('2nd', '2'), &
-      word_t('point', ''), word_t('pnt', ''), word_t('pt', ''), word_t('pp', ''), word_t('att', ''), word_t('joint', ''), &
+      word_t('point', ''), word_t('pnt', ''), word_t('pt', ''), word_t('pp', ''), word_t('att', 'M'), word_t('joint', ''), &
       word_t('hardpoint', ''), word_t('hp', ''), word_t('hps', ''), word_t('end', ''), word_t('seat', ''), word_t('side', ''), &
       word_t('the', ''), &
       word_t('of', ''), word_t('to', ''), word_t('on', ''), word_t('at', ''), word_t('and', ''), word_t('axle', '')]
 
-   !> Words for a side or a corner: axle (0, 1 front, 2 rear) and side (0, 1 left, 2 right).
+   !> Terms for a side or a corner: axle (0, 1 front, 2 rear) and side (0, 1 left, 2 right).
    type :: place_t
       character(10) :: word
       integer :: axle, side
@@ -139,7 +141,7 @@ module ek_point_name
 
 contains
 
-   !> Looks for the single letters l and f among the words of a name.
+   !> Looks for the single letters l and f among the terms of a name.
    pure subroutine hints_in(name, hints)
       character(*), intent(in) :: name
       type(hints_t), intent(inout) :: hints
@@ -204,7 +206,7 @@ contains
       end do
    end subroutine take_place
 
-   !> Finds the point of the letters. Of two words for front and rear the first gives the axle; a single one gives it if the letters
+   !> Finds the point of the letters. Of two terms for front and rear the first gives the axle; a single one gives it if the letters
    !> stand for a point without it.
    pure subroutine find_point(letters, ends, found)
       character(*), intent(in) :: letters, ends
@@ -253,7 +255,7 @@ contains
       letter = merge('J', ' ', scan(needs, 'THE') > 0)
    end function ignored_letter
 
-   !> Adds the letters of a word, which may consist of several words without blanks ('lcafront').
+   !> Adds the letters of a term, which may consist of several terms without blanks ('lcafront').
    pure recursive subroutine add_letters(word, letters, ends, is_known)
       character(*), intent(in) :: word
       character(:), allocatable, intent(inout) :: letters, ends
@@ -288,7 +290,7 @@ contains
       is_known = .false.
    end subroutine add_letters
 
-   !> The next run of letters and digits of a name, in lower case; '' at its end.
+   !> Finds the next run of letters and digits of a name, in lower case; '' at its end.
    pure subroutine next_word(name, at, word)
       character(*), intent(in) :: name
       integer, intent(inout) :: at

@@ -41,7 +41,7 @@ contains
       end do
    end subroutine choose_points
 
-   !> The axle of the option or of the table. A table with both axles requires the option.
+   !> Takes the axle of the option or of the table. A table with both axles requires the option.
    subroutine choose_axle(table, wish, axle, flaws)
       type(point_table_t), intent(in) :: table
       type(wish_t), intent(in) :: wish
@@ -65,7 +65,7 @@ contains
       end if
    end subroutine choose_axle
 
-   !> Takes the wheel centre of the other axle, which tells the wheelbase.
+   !> Takes the wheel centre of the other axle, which gives the wheelbase.
    subroutine take_other_centre(table, kept, points)
       type(point_table_t), intent(in) :: table
       integer, intent(in) :: kept
@@ -80,7 +80,7 @@ contains
       end do
    end subroutine take_other_centre
 
-   !> Of a five-link axle, 'upper front inner' is the end of a link, not the pivot of an arm.
+   !> Renames the points of a five-link axle: 'upper front inner' is the end of a link, not the pivot of an arm.
    subroutine name_five_links(list)
       type(table_point_t), intent(inout) :: list(:)
       integer, parameter :: arm(3) = [uca_front, uca_rear, lower_ball], link(3) = [upper_front_in, upper_rear_in, lower_out]

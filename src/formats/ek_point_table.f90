@@ -17,10 +17,11 @@ module ek_point_table
    use ek_vote, only: length_names, length_values
    implicit none(type, external)
    private
-   public :: table_point_t, point_table_t, parse_points, has_block_line, split_head
+   public :: table_point_t, point_table_t, not_a_point, parse_points, split_place, take_length, recognise, add_point
 
    integer, parameter :: most_blocks = 12        !! most groups of columns x, y, z
    integer, parameter :: most_points = 5000
+   integer, parameter :: not_a_point = -2        !! a number of the file that is not read
    real(wp), parameter :: most = 1.0e25_wp       !! larger numbers are errors; smaller numbers are legal in a deck in any unit
 
    !> A point of the table.
@@ -166,7 +167,7 @@ contains
       has = x >= 2 .and. places >= 2
    end function has_block_line
 
-   !> Cuts the first cell of a line, without quotes and blanks at its ends.
+   !> Takes the first cell from a line, without quotes and blanks at its ends.
    subroutine cut_cell(line, separator, cell)
       character(:), allocatable, intent(inout) :: line
       character, intent(in) :: separator
@@ -481,6 +482,15 @@ contains
       point%axle = block%axle
       point%side = block%side
       call take_places(sheet, cells, layout, point, flaws)
+      call add_point(point, table, flaws)
+   end subroutine take_block
+
+   !> Adds a point. More than 5000 points are an error.
+   subroutine add_point(point, table, flaws)
+      type(table_point_t), intent(in) :: point
+      type(point_table_t), intent(inout) :: table
+      type(flaws_t), intent(inout) :: flaws
+
       if (table%used == most_points) then
          call flaws%add(point%line, 'expected at most '//str(most_points)//' hardpoints, found more')
          return
@@ -488,7 +498,7 @@ contains
       if (table%used == size(table%points)) table%points = [table%points, table%points]      ! twice the size
       table%used = table%used + 1
       table%points(table%used) = point
-   end subroutine take_block
+   end subroutine add_point
 
    !> Takes corner, axle and side of a row. Two that differ are an error.
    subroutine take_places(sheet, cells, layout, point, flaws)
@@ -520,7 +530,7 @@ contains
       if (side > 0) call unite(side, point%side, 'side', point, flaws)
    end subroutine take_places
 
-   !> Unites two indications of an axle or a side.
+   !> Sets an axle or a side. A second, different one is an error.
    subroutine unite(new, old, what, point, flaws)
       integer, intent(in) :: new
       integer, intent(inout) :: old
@@ -534,7 +544,7 @@ contains
       old = new
    end subroutine unite
 
-   !> Recognises the names. Axle and side may be part of a name.
+   !> Finds the points that the names stand for. Axle and side may be part of a name.
    subroutine recognise(table, flaws)
       type(point_table_t), intent(inout) :: table
       type(flaws_t), intent(inout) :: flaws
@@ -543,10 +553,12 @@ contains
       integer :: k
 
       do k = 1, table%used
+         if (table%points(k)%point == not_a_point) cycle
          call hints_in(trim(table%points(k)%name), hints)
       end do
       do k = 1, table%used
          associate (this => table%points(k))
+            if (this%point == not_a_point) cycle
             meaning = meaning_of(trim(this%name), hints)
             this%point = meaning%point
             if (meaning%point <= 0) cycle

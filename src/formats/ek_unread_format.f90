@@ -5,10 +5,10 @@ module ek_unread_format
    private
    public :: advice_on
 
-   !> A format: an extension, or words at the beginning of the file. The advice names the program and the remedy.
+   !> A format: an extension, or text at the beginning of the file. The advice names the program and the remedy.
    type :: format_t
       character(8) :: extension
-      character(28) :: words            !! lower case, in the first 2000 characters; '' if only the extension tells
+      character(28) :: words            !! lower case, in the first 2000 characters; '' if only the extension counts
       character(132) :: advice
    end type format_t
 
@@ -34,8 +34,8 @@ module ek_unread_format
 
 contains
 
-   !> What a file is and what to export instead; '' if it is none of the known files. The words at the beginning count also for
-   !> another extension; an extension without words counts alone.
+   !> What a file is and what to export instead; '' for another file. The text at the beginning counts also for
+   !> another extension; an extension without such text counts alone.
    pure function advice_on(path, content) result(advice)
       character(*), intent(in) :: path, content
       character(:), allocatable :: advice
