@@ -86,10 +86,12 @@ module ek_command
       'Reads the tables of a finished study in DIR and solves nothing. Writes DIR/<study>.html (one self-contained'//nl// &
       'page with statistics, figures, best and worst designs) and DIR/figures: every figure as PNG, SVG and gnuplot script.'//nl// &
       'The kind, the columns and the responses of the study determine the figures.', ''), &
-      command_t('import', 'import FILE … [options]', 'import FILE', 'convert Adams/Car or IPGKinematics files to a deck', &
+      command_t('import', 'import FILE … [options]', 'import FILE', 'convert tables of points or foreign files to a deck', &
       'Converts files of other programs to a deck:'//nl// &
       '  .kin files of IPGKinematics to a complete axle (with the .gum bushings in the same folder);'//nl// &
-      '  .sub, .asy and CSV hardpoints to points;'//nl// &
+      '  a CSV table of hardpoints, or a Chrono suspension (.json), to a deck of points and links, if the points are'//nl// &
+      '  those of a double wishbone, McPherson, five-link or trailing arm axle;'//nl// &
+      '  .sub and .asy hardpoints to points;'//nl// &
       '  .bus, .spr, .bum, .reb and .gum property files to curves;'//nl// &
       '  .lcf load cases to a load table.'//nl// &
       'Every error in the files is reported with file and line.', '', 0), &
@@ -301,6 +303,14 @@ module ek_command
       option_t('export', '--height H', 'as for run'), option_t('export', '--state NAME', 'as for run'), &
       option_t('export', '--quiet', quiet_help), &
       option_t('import', '--out FILE', 'write this file (default: -, standard output)'), &
+      option_t('import', '--axes WORD', &
+      'directions of the columns x, y, z of a table: iso | x-rear | sae, or spelled out, as rear,right,up;'//indent// &
+      'default: decided by the points, or refused'), &
+      option_t('import', '--length WORD', 'unit of length of a table: mm | cm | m | in | ft'), &
+      option_t('import', '--datum WORD', &
+      'road, if a table has no contact point: ground (height 0), a height, or radius:R (loaded radius)'), &
+      option_t('import', '--axle WORD', 'axle of a table: front | rear'), &
+      option_t('import', '--side WORD', 'mirror this side, if the sides of a table differ: left | right'), &
       option_t('import', '--quiet', quiet_help), &
       option_t('derivatives', '--case NAME', 'case or standard test (default: the first case of the deck)'), &
       option_t('derivatives', '--of a,b,c', 'write only these columns of the case or of the compliance matrix (names as in'// &

@@ -4,7 +4,8 @@ module ek_import
    use ek_text, only: quoted
    use ek_file, only: write_whole, base_name
    use ek_console, only: print_text, print_note
-   use ek_foreign_deck, only: import_file, put_model, axle_kind, loads_kind
+   use ek_foreign_deck, only: import_file, put_model, axle_kind, loads_kind, table_kind
+   use ek_frame_votes, only: wish_t
    use ek_command_line, only: command_line_t
    implicit none(type, external)
    private
@@ -19,18 +20,21 @@ contains
       type(error_t), allocatable :: fault
       character(:), allocatable :: deck, text, out
       type(message_list_t) :: faults
+      type(wish_t) :: wish
       integer :: k, kind, code
 
       deck = ''
       code = 0
+      wish = wish_t(axes=line%value('--axes'), length=line%value('--length'), datum=line%value('--datum'), &
+         axle=line%value('--axle'), side=line%value('--side'))
       do k = 1, line%files%count()
-         call import_file(line%files%line(k), text, kind, fault)
+         call import_file(line%files%line(k), text, kind, fault, wish)
          if (allocated(fault)) then
             call faults%add(fault%message)
             code = max(code, fault%code)
             cycle
          end if
-         if (any(kind == [axle_kind, loads_kind])) then
+         if (any(kind == [axle_kind, loads_kind, table_kind])) then
             if (line%files%count() > 1) call faults%add(quoted(line%files%line(k))//' gives a separate file: import it alone')
          else if (deck == '') then
             deck = put_model(base_name(line%files%line(k)))

@@ -7,10 +7,16 @@ module ek_foreign_deck
    use ek_letters, only: with_line_ends
    use ek_file, only: read_whole, most_of_input, join_path, folder_name, base_name, file_exists
    use ek_flaws, only: flaws_t, new_flaws, shown
-   use ek_fields, only: legal_name
+   use ek_fields, only: legal_name, lines_t, split_lines
    use ek_law_points, only: add_point
    use ek_property, only: property_t, parse_property, bushing_file, spring_file, rebound_file
    use ek_hardpoint_sheet, only: hardpoints_t, parse_hardpoints, single_point, left_point, right_point, point_pair
+   use ek_frame_votes, only: wish_t
+   use ek_point_table, only: point_table_t, parse_points
+   use ek_point_deck, only: put_points, axle_facts_t
+   use ek_chrono, only: is_json, is_chrono, parse_chrono
+   use ek_point_list, only: is_toml, as_json, parse_point_list
+   use ek_unread_format, only: advice_on
    use ek_teimorbit, only: is_teimorbit
    use ek_kin, only: kin_t
    use ek_kin_reader, only: parse_kin, is_kin
@@ -21,9 +27,10 @@ module ek_foreign_deck
    use ek_law_text, only: put_curve, put_curves, put_bushing_law
    implicit none(type, external)
    private
-   public :: axle_kind, points_kind, law_kind, loads_kind, kind_of_text, import_text, import_file, put_model
+   public :: axle_kind, points_kind, law_kind, loads_kind, table_kind, kind_of_text, import_text, import_file, put_model
 
    integer, parameter :: axle_kind = 1, points_kind = 2, law_kind = 3, loads_kind = 4
+   integer, parameter :: table_kind = 5      !! points with their frame: a deck of its own
 
 contains
 
@@ -50,11 +57,12 @@ contains
    end function kind_of_text
 
    !> Reads a file and converts it to a part of a deck, or for loads_kind to a table of loads.
-   subroutine import_file(path, text, kind, error)
+   subroutine import_file(path, text, kind, error, wish)
       character(*), intent(in) :: path
       character(:), allocatable, intent(out) :: text
       integer, intent(out) :: kind
       type(error_t), allocatable, intent(out) :: error      !! exit_file: the file cannot be read; exit_deck: it has errors
+      type(wish_t), intent(in), optional :: wish            !! see import_text
       character(:), allocatable :: content
       type(flaws_t) :: flaws
 
@@ -62,25 +70,39 @@ contains
       call read_whole(path, content, error, may_stream=.true., most=most_of_input)
       if (allocated(error)) return
       flaws = new_flaws(path)
-      call import_text(content, path, text, kind, flaws)
+      call import_text(content, path, text, kind, flaws, wish)
       if (flaws%count() > 0) call fail(error, exit_deck, flaws%text())
    end subroutine import_file
 
    !> Converts the content of a file as import_file converts a file. Errors are in `flaws`; `text` is '' if there are errors.
-   subroutine import_text(content, path, text, kind, flaws)
+   subroutine import_text(content, path, text, kind, flaws, wish)
       character(*), intent(in) :: content, path
       character(:), allocatable, intent(out) :: text
       integer, intent(out) :: kind
       type(flaws_t), intent(inout) :: flaws
+      type(wish_t), intent(in), optional :: wish            !! frame, axle and side of a table; default: none given
       type(lcf_t) :: lcf
 
       text = ''
+      kind = points_kind
+      if (advice_on(path, content) /= '') then
+         call flaws%add(0, advice_on(path, content))
+         return
+      end if
       kind = kind_of_text(with_line_ends(content))
+      if (is_toml(path)) kind = table_kind
       select case (kind)
       case (axle_kind)
          call import_axle(content, path, text, flaws)
       case (points_kind)
-         call import_points(content, path, text, flaws)
+         if (is_teimorbit(with_line_ends(content))) then
+            call import_points(content, path, text, flaws)
+         else
+            kind = table_kind
+            call import_table(content, path, text, flaws, wish)
+         end if
+      case (table_kind)
+         call import_table(content, path, text, flaws, wish)
       case (law_kind)
          call import_law(content, path, text, flaws)
       case (loads_kind)
@@ -107,6 +129,40 @@ contains
       call deck%end()
       text = deck%text()
    end function put_model
+
+   !> Writes the deck of a table of hardpoints: frame and unit are those of the options, or decided by votes. JSON and TOML are
+   !> lists of points, or a suspension of Chrono, whose format defines frame and unit.
+   subroutine import_table(content, path, text, flaws, wish)
+      character(*), intent(in) :: content, path
+      character(:), allocatable, intent(inout) :: text
+      type(flaws_t), intent(inout) :: flaws
+      type(wish_t), intent(in), optional :: wish
+      type(point_table_t) :: table
+      type(lines_t) :: lines
+      type(wish_t) :: given
+      type(axle_facts_t) :: facts
+      character(:), allocatable :: json
+
+      if (present(wish)) given = wish
+      call split_lines(content, lines, flaws)          ! reports a workbook and an empty file
+      if (flaws%count() > 0) return
+      if (is_toml(path)) then
+         call as_json(lines, json, flaws)
+         if (flaws%count() == 0) call parse_point_list(json, table, flaws)
+      else if (is_json(lines%text) .and. .not. is_chrono(lines%text)) then
+         call parse_point_list(lines%text, table, flaws)
+      else if (is_json(lines%text)) then
+         if (given%axes /= '' .or. given%length /= '') call flaws%add(0, 'the format defines axes and unit (x forward, y left, '// &
+            'z up, m): leave out --axes and --length')
+         given%axes = 'iso'
+         given%length = 'm'
+         given%source = 'by the format of Chrono'
+         call parse_chrono(lines%text, table, facts, flaws)
+      else
+         call parse_points(content, table, flaws)
+      end if
+      if (flaws%count() == 0) call put_points(table, given, facts, path, text, flaws)
+   end subroutine import_table
 
    !> Writes &point for each hardpoint; for a pair, the left and the right point.
    subroutine import_points(content, path, text, flaws)

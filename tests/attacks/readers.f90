@@ -12,7 +12,8 @@ program readers
    use ek_text, only: lower
    use ek_file, only: read_whole
    use ek_flaws, only: flaws_t, new_flaws
-   use ek_foreign_deck, only: import_text, kind_of_text
+   use ek_foreign_deck, only: import_text, kind_of_text, table_kind, loads_kind
+   use ek_frame_votes, only: wish_t
    use ek_property, only: property_t, parse_property
    use ek_hardpoint_sheet, only: hardpoints_t, parse_hardpoints
    use ek_kin, only: kin_t
@@ -147,22 +148,24 @@ contains
       type(hardpoints_t) :: sheet
       type(kin_t) :: kin
       type(lcf_t) :: lcf
-      type(deck_t) :: deck
-      type(error_t), allocatable :: error
       integer :: kind, j, n
 
       flaws = new_flaws('mutation')
       call import_text(text, '/tmp/elastokin_no_such_folder/mutation', deck_text, kind, flaws)
-      if (flaws%count() > 0) then
-         refused = refused + 1
-         if (len(flaws%text()) == 0) call give_up('a refusal without words')
-      else
-         accepted = accepted + 1
-         if (kind < 4) then
-            call parse_deck(deck_text, 'mutation', deck, error)
-            if (deck%deck_errors%count() > 0) call give_up('the deck has mistakes: '//deck%deck_errors%text())
-         end if
-         if (has_no_number(deck_text)) call give_up('the deck has a number that is none')
+      call judge(flaws, kind, deck_text)
+      if (index(text, ' = [') > 0) then         ! TOML, by its extension
+         flaws = new_flaws('mutation')
+         call import_text(text, 'mutation.toml', deck_text, kind, flaws, wish_t(axle='front'))
+         call judge(flaws, kind, deck_text)
+      end if
+      if (kind == table_kind) then              ! with the options that a table asks for, too
+         flaws = new_flaws('mutation')
+         call import_text(text, 'mutation', deck_text, kind, flaws, wish_t(datum='radius:0.3', axle='front'))
+         call judge(flaws, kind, deck_text)
+         flaws = new_flaws('mutation')
+         call import_text(text, 'mutation', deck_text, kind, flaws, wish_t(axes='rear,right,up', length='mm', axle='rear', &
+            side='left'))
+         call judge(flaws, kind, deck_text)
       end if
 
       flaws = new_flaws('mutation')
@@ -198,6 +201,27 @@ contains
          if (.not. all(ieee_is_finite(lcf%values(:, :lcf%rows)))) call give_up('a load is not finite')
       end if
    end subroutine read_all
+
+   !> What the import of a text gave: words of refusal, or a deck that is read.
+   subroutine judge(flaws, kind, deck_text)
+      type(flaws_t), intent(in) :: flaws
+      integer, intent(in) :: kind
+      character(*), intent(in) :: deck_text
+      type(deck_t) :: deck
+      type(error_t), allocatable :: error
+
+      if (flaws%count() > 0) then
+         refused = refused + 1
+         if (len(flaws%text()) == 0) call give_up('a refusal without words')
+         return
+      end if
+      accepted = accepted + 1
+      if (kind /= loads_kind) then
+         call parse_deck(deck_text, 'mutation', deck, error)
+         if (deck%deck_errors%count() > 0) call give_up('the deck has mistakes: '//deck%deck_errors%text())
+      end if
+      if (has_no_number(deck_text)) call give_up('the deck has a number that is none')
+   end subroutine judge
 
    !> Whether a deck has NaN or infinite where a number should be.
    logical function has_no_number(text)

@@ -1,0 +1,574 @@
+!> The frame of a table of hardpoints: its axes, its unit of length and the height of the road. Each is given by an option or
+!> decided by votes, at least two and none against; otherwise it is refused, with the votes. Nothing is guessed.
+!>
+!> A vote is something that holds for every suspension of a car: the lower ball joint is below the upper one, the wheel is
+!> outboard of the pivots, the point called front is ahead of the one called rear, half the track is between 0.45 and 1.14 m.
+!> A direction is a column of the table with a sign: 3 is the third column upwards, −1 the first column backwards. A vote whose
+!> vector does not lie clearly along a column is not counted. All votes are on one half, so that the table of a
+!> symmetric axle needs no sides.
+module ek_frame_votes
+   use ek_kinds, only: wp, degree
+   use ek_text, only: str, lower, plural
+   use ek_decimal, only: get_decimal
+   use ek_vote, only: ballot_t, add_vote, leader, for, against, reasons, vote_lines, questions, side_name, column_name, &
+      length_names, length_values, of_up, of_outboard, of_forward, of_length
+   use ek_point_name, only: point_count, point_names, wheel_centre, contact_patch, lca_front, lca_rear, lower_ball, uca_front, &
+      uca_rear, upper_ball, tie_inner, tie_outer, toe_inner, toe_outer, strut_top, strut_low, arm_inner, arm_outer, &
+      upper_front_in, upper_front_out, upper_rear_in, upper_rear_out, lower_in, lower_out, trailing_front, trailing_rear, &
+      damper_top, spring_top
+   implicit none(type, external)
+   private
+   public :: half_t, point_set_t, wish_t, frame_t, find_frame, axes_form
+
+   !> The points of one side, in the columns and the unit of the table.
+   type :: half_t
+      logical :: has(point_count) = .false.
+      real(wp) :: at(3, point_count) = 0.0_wp
+      integer :: line(point_count) = 0
+   end type half_t
+
+   !> The points of an axle.
+   type :: point_set_t
+      type(half_t) :: half(2)                !! left and right; without sides, all points are in the first
+      logical :: is_sided = .false.          !! the table names the sides
+      integer :: axle = 0                    !! 0 not known, 1 front, 2 rear
+      logical :: has_other = .false.         !! the wheel centre of the other axle, of the same side, is known
+      real(wp) :: other_centre(3) = 0.0_wp
+      integer :: length = 0                  !! unit that the table names, index in length_names; 0: none
+   end type point_set_t
+
+   !> The options of `elastokin import`; '' if not given.
+   type :: wish_t
+      character(60) :: axes = '', length = '', datum = '', axle = '', side = ''
+      character(40) :: source = ''              !! format that defines axes and length; '': the options
+   end type wish_t
+
+   character(*), parameter :: axes_form = 'iso, x-rear, sae, or the directions of x, y and z, as rear,right,up'
+
+   real(wp), parameter :: clear = 1.5_wp     !! a vector lies along a column if the others are smaller by this factor
+
+   type :: frame_t
+      integer :: up = 0, outboard = 0, forward = 0      !! directions; outboard of the half that is used
+      integer :: half = 1                               !! the half that is used
+      integer :: length = 0                             !! unit, index in length_names
+      real(wp) :: road = 0.0_wp                         !! height of the road along `up`, in the unit of the table
+      logical :: has_road = .false.
+      logical :: is_image = .false.                     !! the half is the right one, whose image is written
+      character(:), allocatable :: how                  !! lines on the decisions
+      character(:), allocatable :: source               !! what gives the axes
+      character(:), allocatable :: problem              !! what is not certain, with the votes; '' if all is decided
+      type(ballot_t), private :: ballot
+   end type frame_t
+
+contains
+
+   !> Decides the frame of the points of an axle.
+   subroutine find_frame(points, wish, frame)
+      type(point_set_t), intent(in) :: points
+      type(wish_t), intent(in) :: wish
+      type(frame_t), intent(out) :: frame
+      integer :: given(3)
+
+      frame%how = ''
+      frame%problem = ''
+      frame%source = '--axes'
+      if (wish%source /= '') frame%source = trim(wish%source)
+      if (.not. any(points%half(1)%has)) frame%half = 2
+      if (lower(wish%side) == 'right') frame%half = 2
+      call take_axes(wish%axes, given, frame)
+      if (frame%problem /= '') return
+      call check_images(points, wish, frame)
+      if (frame%problem /= '') return
+      call vote_on_up(points%half(frame%half), frame)
+      call vote_on_outboard(points, frame)
+      call decide_direction(frame, of_up, given(3), frame%up)
+      call decide_outboard(points, frame, given(2))
+      if (frame%problem == '') call vote_on_forward(points, frame)
+      call decide_direction(frame, of_forward, given(1), frame%forward)
+      if (frame%problem == '') call check_columns(frame)
+      call decide_length(points, wish, frame)
+      call decide_road(points%half(frame%half), wish, frame)
+   end subroutine find_frame
+
+   !> Reads the option --axes: the columns of forward, left and up; 0 if it is not given.
+   subroutine take_axes(text, given, frame)
+      character(*), intent(in) :: text
+      integer, intent(out) :: given(3)
+      type(frame_t), intent(inout) :: frame
+      character(*), parameter :: names(8) = [character(8) :: 'forward', 'left', 'up', 'rearward', 'right', 'down', 'rear', 'front']
+      integer, parameter :: axis(8) = [1, 2, 3, 1, 2, 3, 1, 1], sign(8) = [1, 1, 1, -1, -1, -1, -1, 1]
+      character(:), allocatable :: rest, word
+      integer :: k, column, comma
+
+      given = 0
+      if (text == '') return
+      rest = lower(trim(text))
+      if (rest == 'iso') rest = 'forward,left,up'
+      if (rest == 'x-rear') rest = 'rear,right,up'
+      if (rest == 'sae') rest = 'forward,right,down'
+      do column = 1, 3
+         comma = index(rest//',', ',')
+         word = trim(adjustl(rest(:comma - 1)))
+         rest = rest(min(comma + 1, len(rest) + 1):)
+         k = findloc(names == word, .true., dim=1)
+         if (k == 0) exit
+         if (given(axis(k)) /= 0) exit
+         given(axis(k)) = sign(k)*column
+      end do
+      if (any(given == 0) .or. rest /= '') frame%problem = '--axes must be '//axes_form//'; found '''//trim(text)//''''
+   end subroutine take_axes
+
+   !> Checks that, if both sides are given and both are to be used, each right point is the image of the left point: one column
+   !> changes its sign, and the others are equal.
+   subroutine check_images(points, wish, frame)
+      type(point_set_t), intent(in) :: points
+      type(wish_t), intent(in) :: wish
+      type(frame_t), intent(inout) :: frame
+      real(wp) :: sum(3), difference(3), near
+      character(:), allocatable :: list
+      integer :: k, column, bad
+
+      if (wish%side /= '') return
+      if (.not. any(points%half(1)%has .and. points%half(2)%has)) return
+      near = 2.0e-5_wp*max(maxval(abs(points%half(1)%at)), maxval(abs(points%half(2)%at)))      ! 0.02 mm of a car
+      column = mirror_column(points)
+      list = ''
+      bad = 0
+      do k = 1, point_count
+         if (.not. (points%half(1)%has(k) .and. points%half(2)%has(k))) cycle
+         difference = abs(points%half(1)%at(:, k) - points%half(2)%at(:, k))
+         sum = abs(points%half(1)%at(:, k) + points%half(2)%at(:, k))
+         difference(column) = sum(column)
+         if (all(difference <= near)) cycle
+         bad = bad + 1
+         if (bad <= 3) list = list//new_line('a')//'  '//trim(point_names(k))//' of lines '// &
+            str(points%half(1)%line(k))//' and '//str(points%half(2)%line(k))
+      end do
+      if (bad > 0) frame%problem = 'the right side is not the mirror image of the left side: '// &
+         plural(bad, 'point differs', 'points differ')//'; correct them, or give --side left or --side right to mirror one side'// &
+         list
+   end subroutine check_images
+
+   !> The column in which left and right differ most.
+   pure integer function mirror_column(points) result(column)
+      type(point_set_t), intent(in) :: points
+      real(wp) :: difference(3)
+      integer :: k
+
+      difference = 0.0_wp
+      do k = 1, point_count
+         if (points%half(1)%has(k) .and. points%half(2)%has(k)) difference = difference + &
+            abs(points%half(1)%at(:, k) - points%half(2)%at(:, k))
+      end do
+      column = maxloc(difference, dim=1)
+   end function mirror_column
+
+   subroutine vote_on_up(half, frame)
+      type(half_t), intent(in) :: half
+      type(frame_t), intent(inout) :: frame
+
+      call vote_along(frame, of_up, half, contact_patch, wheel_centre, 'wheel centre above the contact point')
+      call vote_along(frame, of_up, half, lower_ball, upper_ball, 'upper ball joint above the lower one')
+      call vote_along(frame, of_up, half, lower_ball, strut_top, 'strut top above the lower ball joint')
+      call vote_along(frame, of_up, half, strut_low, strut_top, 'strut top above its lower end')
+      call vote_along(frame, of_up, half, lower_ball, damper_top, 'damper top above the lower ball joint')
+      call vote_along(frame, of_up, half, lower_ball, spring_top, 'spring top above the lower ball joint')
+      if (all(half%has([lca_front, lca_rear, uca_front, uca_rear]))) call vote_vector(frame, of_up, &
+         half%at(:, uca_front) + half%at(:, uca_rear) - half%at(:, lca_front) - half%at(:, lca_rear), &
+         'pivots of the upper arm above those of the lower one')
+      call vote_along(frame, of_up, half, lower_out, upper_front_out, 'upper link above the lower link, at the carrier')
+      call vote_along(frame, of_up, half, lower_in, upper_front_in, 'upper link above the lower link, at the chassis')
+   end subroutine vote_on_up
+
+   subroutine vote_on_outboard(points, frame)
+      type(point_set_t), intent(in) :: points
+      type(frame_t), intent(inout) :: frame
+      integer :: k
+
+      associate (half => points%half(frame%half), other => points%half(3 - frame%half))
+         if (all(half%has([lca_front, lca_rear, lower_ball]))) call vote_vector(frame, of_outboard, &
+            2*half%at(:, lower_ball) - half%at(:, lca_front) - half%at(:, lca_rear), 'lower ball joint outboard of the pivots')
+         if (all(half%has([uca_front, uca_rear, upper_ball]))) call vote_vector(frame, of_outboard, &
+            2*half%at(:, upper_ball) - half%at(:, uca_front) - half%at(:, uca_rear), 'upper ball joint outboard of the pivots')
+         call vote_along(frame, of_outboard, half, tie_inner, tie_outer, 'outer end of the tie rod outboard of the inner end')
+         call vote_along(frame, of_outboard, half, toe_inner, toe_outer, 'outer end of the toe link outboard of the inner end')
+         call vote_along(frame, of_outboard, half, arm_inner, arm_outer, 'outer pivot of the arm outboard of the inner pivot')
+         call vote_along(frame, of_outboard, half, lower_in, lower_out, 'outer end of the lower link outboard of the inner end')
+         call vote_along(frame, of_outboard, half, upper_front_in, upper_front_out, &
+            'outer end of the upper front link outboard of the inner end')
+         call vote_along(frame, of_outboard, half, upper_rear_in, upper_rear_out, &
+            'outer end of the upper rear link outboard of the inner end')
+         do k = 1, point_count
+            if (.not. (half%has(k) .and. other%has(k))) cycle
+            call vote_vector(frame, of_outboard, half%at(:, k) - other%at(:, k), 'the other side is the mirror image')
+            exit
+         end do
+      end associate
+   end subroutine vote_on_outboard
+
+   !> Adds the votes on the forward direction; the upward and outboard directions are decided.
+   subroutine vote_on_forward(points, frame)
+      type(point_set_t), intent(in) :: points
+      type(frame_t), intent(inout) :: frame
+      real(wp) :: top(3), middle(3)
+      integer :: column
+
+      column = 6 - abs(frame%up) - abs(frame%outboard)
+      if (column < 1 .or. column > 3 .or. abs(frame%up) == abs(frame%outboard)) return
+      associate (half => points%half(frame%half))
+         call vote_column(frame, column, half, lca_rear, lca_front, 'front pivot of the lower arm ahead of the rear one')
+         call vote_column(frame, column, half, uca_rear, uca_front, 'front pivot of the upper arm ahead of the rear one')
+         call vote_column(frame, column, half, trailing_rear, trailing_front, &
+            'front end of the trailing link ahead of the rear one')
+         call vote_column(frame, column, half, upper_rear_in, upper_front_in, 'upper front link ahead of the rear one')
+         if (all(half%has([arm_inner, arm_outer, wheel_centre]))) then
+            middle = 0.5_wp*(half%at(:, arm_inner) + half%at(:, arm_outer)) - half%at(:, wheel_centre)
+            call vote_sign(frame, column, middle(column), 'pivots of a trailing arm ahead of the wheel')
+         end if
+         if (points%has_other .and. half%has(wheel_centre) .and. points%axle > 0) call vote_sign(frame, column, &
+            merge(1, -1, points%axle == 1)*(half%at(column, wheel_centre) - points%other_centre(column)), &
+            'front wheels ahead of the rear wheels')
+         if (points%is_sided) call add_vote(frame%ballot, of_forward, handed(frame), &
+            'a right-handed frame, with the '//trim(merge('left ', 'right', frame%half == 1))//' side where the table has it')
+         if (points%axle == 1 .and. half%has(lower_ball) .and. any(half%has([upper_ball, strut_top]))) then
+            top = half%at(:, merge(upper_ball, strut_top, half%has(upper_ball))) - half%at(:, lower_ball)
+            if (abs(top(column)) > tan(degree)*abs(top(abs(frame%up)))) call vote_sign(frame, column, -top(column), &
+               'positive caster of a front axle')
+            call vote_on_trail(half, top, column, frame)
+            call vote_on_inclination(top, frame)
+         end if
+      end associate
+   end subroutine vote_on_forward
+
+   !> Adds the vote of the mechanical trail: the steering axis meets the road ahead of the contact point.
+   subroutine vote_on_trail(half, axis, column, frame)
+      type(half_t), intent(in) :: half
+      real(wp), intent(in) :: axis(3)
+      integer, intent(in) :: column
+      type(frame_t), intent(inout) :: frame
+      real(wp) :: trail, height
+
+      if (.not. all(half%has([contact_patch, wheel_centre]))) return
+      if (.not. abs(axis(abs(frame%up))) > 0.0_wp) return
+      height = half%at(abs(frame%up), contact_patch) - half%at(abs(frame%up), lower_ball)
+      trail = half%at(column, lower_ball) + height/axis(abs(frame%up))*axis(column) - half%at(column, contact_patch)
+      if (abs(trail) > 0.01_wp*norm2(half%at(:, contact_patch) - half%at(:, wheel_centre))) call vote_sign(frame, column, trail, &
+         'positive mechanical trail of a front axle')
+   end subroutine vote_on_trail
+
+   !> Adds the vote of the kingpin inclination of a front axle: the steering axis leans inboard.
+   subroutine vote_on_inclination(axis, frame)
+      real(wp), intent(in) :: axis(3)
+      type(frame_t), intent(inout) :: frame
+      real(wp) :: lean
+
+      lean = sign(1, frame%outboard)*axis(abs(frame%outboard))
+      if (abs(lean) < tan(degree)*abs(axis(abs(frame%up)))) return
+      call add_vote(frame%ballot, of_outboard, merge(frame%outboard, -frame%outboard, lean < 0.0_wp), &
+         'steering axis of a front axle leans inboard')
+      if (lean > 0.0_wp) call refuse(frame, of_outboard)
+   end subroutine vote_on_inclination
+
+   !> The forward direction of a right-handed frame with the decided upward direction and the side that the table names.
+   pure integer function handed(frame) result(direction)
+      type(frame_t), intent(in) :: frame
+      integer :: left, sign_of(3)
+
+      left = merge(frame%outboard, -frame%outboard, frame%half == 1)
+      sign_of = 0
+      direction = 6 - abs(left) - abs(frame%up)
+      ! forward × left = up, so that forward = left × up
+      if (mod(abs(frame%up) - abs(left) + 3, 3) == 2) direction = -direction
+      direction = direction*sign(1, left)*sign(1, frame%up)
+   end function handed
+
+   !> Decides the outboard direction. The column of option --axes has no sign for a table without sides.
+   subroutine decide_outboard(points, frame, left)
+      type(point_set_t), intent(in) :: points
+      type(frame_t), intent(inout) :: frame
+      integer, intent(in) :: left               !! column of --axes that points to the left; 0 if not given
+      real(wp) :: middle
+      integer :: column, given
+
+      if (frame%problem /= '') return
+      column = abs(left)
+      if (column == 0) column = abs(leader(frame%ballot, of_outboard))
+      associate (half => points%half(frame%half))
+         if (column > 0 .and. half%has(wheel_centre)) then
+            call add_vote(frame%ballot, of_outboard, merge(column, -column, half%at(column, wheel_centre) > 0.0_wp), &
+               'wheel centre outboard of the middle of the car')
+         else if (column > 0) then
+            middle = sum(half%at(column, :))          ! 0 without points
+            if (abs(middle) > 0.0_wp) call add_vote(frame%ballot, of_outboard, merge(column, -column, middle > 0.0_wp), &
+               'points outboard of the middle of the car')
+         end if
+      end associate
+      given = 0
+      if (left /= 0) then
+         given = left
+         if (.not. points%is_sided .and. leader(frame%ballot, of_outboard) /= 0) &
+            given = sign(left, leader(frame%ballot, of_outboard))
+         if (points%is_sided .and. frame%half == 2) given = -left
+      end if
+      call decide_direction(frame, of_outboard, given, frame%outboard)
+      if (left /= 0) frame%is_image = frame%outboard /= left
+      if (left == 0) frame%is_image = points%is_sided .and. frame%half == 2
+   end subroutine decide_outboard
+
+   !> Decides a direction by the option, or by at least two votes and none against. An option is refused if at least two votes are
+   !> against it and none is for it, or if the wheel would be inboard or below the road.
+   subroutine decide_direction(frame, question, given, direction)
+      type(frame_t), intent(inout) :: frame
+      integer, intent(in) :: question, given
+      integer, intent(out) :: direction
+      integer :: best
+
+      direction = given
+      if (frame%problem /= '') return
+      best = leader(frame%ballot, question)
+      if (given /= 0) then
+         if (against(frame%ballot, question, given) >= merge(2, 1, question == of_forward) .and. &
+            for(frame%ballot, question, given) == 0) then
+            call refuse(frame, question, 'by '//frame%source//', '//side_name(question)//' is '//column_name(given)// &
+               ', which the points contradict')
+         end if
+         if (question /= of_outboard) call explain(frame, side_name(question)//' '//column_name(given)//': '//frame%source)
+         return
+      end if
+      if (best == 0) then
+         call refuse(frame, question)
+      else if (for(frame%ballot, question, best) < 2 .or. against(frame%ballot, question, best) > 0) then
+         call refuse(frame, question)
+      else
+         direction = best
+         call explain(frame, side_name(question)//' '//column_name(best)//': '//reasons(frame%ballot, question, best))
+      end if
+   end subroutine decide_direction
+
+   !> Checks that the three directions are three columns.
+   subroutine check_columns(frame)
+      type(frame_t), intent(inout) :: frame
+
+      if (abs(frame%up) /= abs(frame%outboard) .and. abs(frame%up) /= abs(frame%forward) .and. &
+         abs(frame%outboard) /= abs(frame%forward)) return
+      frame%problem = 'up, outboard and forward must be three columns, found '//column_name(frame%up)//', '// &
+         column_name(frame%outboard)//' and '//column_name(frame%forward)//'; give --axes ('//axes_form//')'
+   end subroutine check_columns
+
+   !> Decides the unit of length: that of the option or of the table, if no size is against it, or that of two sizes.
+   subroutine decide_length(points, wish, frame)
+      type(point_set_t), intent(in) :: points
+      type(wish_t), intent(in) :: wish
+      type(frame_t), intent(inout) :: frame
+      logical :: fits(size(length_names))
+      character(:), allocatable :: words
+      integer :: sizes, given
+
+      if (frame%problem /= '') return
+      fits = .true.
+      sizes = 0
+      call vote_on_length(points, frame, fits, sizes)
+      given = points%length
+      if (wish%length /= '') then
+         frame%length = findloc(length_names == lower(wish%length), .true., dim=1)
+         if (frame%length == 0) then
+            frame%problem = '--length must be mm, cm, m, in or ft, found '''//trim(wish%length)//''''
+         else if (given > 0 .and. given /= frame%length) then
+            frame%problem = 'the table is in '//trim(length_names(given))//', but --length is '//trim(wish%length)
+         else
+            words = '--length'
+            if (wish%source /= '') words = trim(wish%source)
+            call explain(frame, 'unit of length '//trim(length_names(frame%length))//': '//words)
+         end if
+      else if (given > 0) then
+         frame%length = given
+         if (.not. fits(given)) call refuse(frame, of_length, 'the table names the unit '//trim(length_names(given))// &
+            ', which the sizes contradict')
+         call explain(frame, 'unit of length '//trim(length_names(given))//': named in the table')
+      else if (sizes < 2 .or. count(fits) /= 1) then
+         call refuse(frame, of_length)
+      else
+         frame%length = findloc(fits, .true., dim=1)
+         call explain(frame, 'unit of length '//trim(length_names(frame%length))//': '// &
+            reasons(frame%ballot, of_length, frame%length))
+      end if
+   end subroutine decide_length
+
+   !> Adds the votes on the unit by the sizes of cars, from a Formula Student car to a truck. The ranges are narrower
+   !> than a factor of 2.54, or fit two units at most.
+   subroutine vote_on_length(points, frame, fits, sizes)
+      type(point_set_t), intent(in) :: points
+      type(frame_t), intent(inout) :: frame
+      logical, intent(inout) :: fits(:)
+      integer, intent(inout) :: sizes
+
+      associate (half => points%half(frame%half))
+         if (half%has(wheel_centre)) then
+            call vote_on_size(abs(half%at(abs(frame%outboard), wheel_centre)), 0.45_wp, 1.14_wp, 'half the track')
+            if (points%has_other) call vote_on_size(abs(half%at(abs(frame%forward), wheel_centre) - &
+               points%other_centre(abs(frame%forward))), 1.4_wp, 5.5_wp, 'wheelbase')
+         end if
+         if (all(half%has([wheel_centre, contact_patch]))) call vote_on_size(norm2(half%at(:, wheel_centre) - &
+            half%at(:, contact_patch)), 0.17_wp, 0.6_wp, 'loaded radius')
+         if (all(half%has([lower_ball, upper_ball]))) call vote_on_size(norm2(half%at(:, lower_ball) - half%at(:, upper_ball)), &
+            0.1_wp, 0.6_wp, 'distance of the ball joints')
+         if (all(half%has([lower_ball, strut_top]))) call vote_on_size(norm2(half%at(:, lower_ball) - half%at(:, strut_top)), &
+            0.35_wp, 0.85_wp, 'length of the steering axis')
+         if (all(half%has([tie_inner, tie_outer]))) call vote_on_size(norm2(half%at(:, tie_inner) - half%at(:, tie_outer)), &
+            0.15_wp, 0.75_wp, 'length of the tie rod')
+         if (all(half%has([toe_inner, toe_outer]))) call vote_on_size(norm2(half%at(:, toe_inner) - half%at(:, toe_outer)), &
+            0.15_wp, 0.75_wp, 'length of the toe link')
+      end associate
+
+   contains
+
+      subroutine vote_on_size(value, least, most, what)
+         real(wp), intent(in) :: value, least, most
+         character(*), intent(in) :: what
+         integer :: k
+
+         sizes = sizes + 1
+         do k = 1, size(length_names)
+            if (value*length_values(k) >= least .and. value*length_values(k) <= most) then
+               call add_vote(frame%ballot, of_length, k, what//' '//shown_number(value)//', in cars '//str(least)//' to '// &
+                  str(most)//' m')
+            else
+               fits(k) = .false.
+            end if
+         end do
+      end subroutine vote_on_size
+
+   end subroutine vote_on_length
+
+   !> Decides the height of the road: at the contact point of the table, or that of --datum. A contact point must be the lowest
+   !> point.
+   subroutine decide_road(half, wish, frame)
+      type(half_t), intent(in) :: half
+      type(wish_t), intent(in) :: wish
+      type(frame_t), intent(inout) :: frame
+      real(wp) :: height(point_count), value, near
+      logical :: is_good
+      integer :: k
+
+      if (frame%problem /= '') return
+      height = sign(1, frame%up)*half%at(abs(frame%up), :)
+      near = 1.0e-3_wp/length_values(frame%length)
+      if (half%has(contact_patch)) then
+         frame%road = height(contact_patch)
+         frame%has_road = .true.
+         do k = 1, point_count
+            if (half%has(k) .and. height(k) < frame%road - near) frame%problem = 'the point '//trim(point_names(k))//' (line '// &
+               str(half%line(k))//') is below the contact point (line '//str(half%line(contact_patch))//')'
+         end do
+      end if
+      if (wish%datum == '') then
+         if (half%has(wheel_centre) .and. .not. frame%has_road) frame%problem = 'the file has no contact point, and the '// &
+            'height of the road is not certain; give --datum ground (the height is 0 on the road), --datum HEIGHT (height of '// &
+            'the road in the file), or --datum radius:R (loaded radius below the wheel centre)'
+         if (frame%has_road) call explain(frame, 'road: at the contact point of the table')
+         return
+      end if
+      value = 0.0_wp
+      is_good = .true.
+      if (lower(wish%datum) /= 'ground') call get_decimal(trim(wish%datum(index(wish%datum, ':') + 1:)), value, is_good)
+      if (index(lower(wish%datum), 'radius:') == 1) then
+         value = height(wheel_centre) - value
+         is_good = is_good .and. half%has(wheel_centre)
+      else if (index(wish%datum, ':') > 0) then
+         is_good = .false.
+      end if
+      if (.not. is_good) then
+         frame%problem = '--datum must be ground, a height or radius:R (of a table with a wheel centre), found '''// &
+            trim(wish%datum)//''''
+      else if (frame%has_road .and. abs(frame%road - value) > near) then
+         frame%problem = 'by --datum, the height of the road is '//str(value)//', but the contact point (line '// &
+            str(half%line(contact_patch))//') is at '//str(frame%road)
+      else if (half%has(wheel_centre) .and. height(wheel_centre) - value <= near) then
+         frame%problem = 'by --datum, the wheel centre is not above the road'
+      end if
+      frame%has_road = .true.
+      frame%road = value
+      call explain(frame, 'road: --datum '//trim(wish%datum))
+   end subroutine decide_road
+
+   !> Adds a vote for the direction from one point to another.
+   subroutine vote_along(frame, question, half, from, to, reason)
+      type(frame_t), intent(inout) :: frame
+      integer, intent(in) :: question, from, to
+      type(half_t), intent(in) :: half
+      character(*), intent(in) :: reason
+
+      if (half%has(from) .and. half%has(to)) call vote_vector(frame, question, half%at(:, to) - half%at(:, from), reason)
+   end subroutine vote_along
+
+   !> Adds a vote for the column of a vector, if one is clearly the largest.
+   subroutine vote_vector(frame, question, vector, reason)
+      type(frame_t), intent(inout) :: frame
+      integer, intent(in) :: question
+      real(wp), intent(in) :: vector(3)
+      character(*), intent(in) :: reason
+      integer :: column
+
+      column = maxloc(abs(vector), dim=1)
+      if (count(clear*abs(vector) > abs(vector(column))) /= 1) return
+      call add_vote(frame%ballot, question, merge(column, -column, vector(column) > 0.0_wp), reason)
+   end subroutine vote_vector
+
+   !> Adds a vote for the forward direction from one point to another.
+   subroutine vote_column(frame, column, half, from, to, reason)
+      type(frame_t), intent(inout) :: frame
+      integer, intent(in) :: column, from, to
+      type(half_t), intent(in) :: half
+      character(*), intent(in) :: reason
+      real(wp) :: vector(3)
+
+      if (.not. (half%has(from) .and. half%has(to))) return
+      vector = half%at(:, to) - half%at(:, from)
+      if (abs(vector(column)) > 0.3_wp*norm2(vector)) call vote_sign(frame, column, vector(column), reason)
+   end subroutine vote_column
+
+   !> Adds a vote for the forward direction by a sign.
+   subroutine vote_sign(frame, column, value, reason)
+      type(frame_t), intent(inout) :: frame
+      integer, intent(in) :: column
+      real(wp), intent(in) :: value
+      character(*), intent(in) :: reason
+
+      if (abs(value) > 0.0_wp) call add_vote(frame%ballot, of_forward, merge(column, -column, value > 0.0_wp), reason)
+   end subroutine vote_sign
+
+   !> Reports that a question is not decided, with at most seven votes.
+   subroutine refuse(frame, question, cause)
+      type(frame_t), intent(inout) :: frame
+      integer, intent(in) :: question
+      character(*), intent(in), optional :: cause
+      character(:), allocatable :: text
+
+      if (frame%problem /= '') return
+      text = 'cannot decide '//trim(questions(question))//' (at least 2 votes and none against are needed)'
+      if (present(cause)) text = cause
+      if (question == of_length) then
+         text = text//'; give --length mm, cm, m, in or ft'
+      else
+         text = text//'; give --axes ('//axes_form//')'
+      end if
+      text = text//vote_lines(frame%ballot, question)
+      frame%problem = text
+   end subroutine refuse
+
+   subroutine explain(frame, line)
+      type(frame_t), intent(inout) :: frame
+      character(*), intent(in) :: line
+
+      if (frame%how /= '') frame%how = frame%how//new_line('a')
+      frame%how = frame%how//line
+   end subroutine explain
+
+   !> A size for a message, with few digits.
+   pure function shown_number(value) result(words)
+      real(wp), intent(in) :: value
+      character(:), allocatable :: words
+      words = str(real(nint(min(value, 1.0e6_wp)*1000), wp)/1000)
+   end function shown_number
+
+end module ek_frame_votes

@@ -1,0 +1,126 @@
+!> The points of one axle, chosen from a table or another file: the axle, the sides, and the points that the names stand for.
+module ek_point_set
+   use ek_kinds, only: wp
+   use ek_text, only: str, lower
+   use ek_flaws, only: flaws_t, shown
+   use ek_hardpoint, only: right_point
+   use ek_point_name, only: point_names, wheel_centre, uca_front, uca_rear, lower_ball, upper_front_in, upper_front_out, &
+      upper_rear_in, upper_rear_out, lower_out
+   use ek_point_table, only: table_point_t, point_table_t
+   use ek_frame_votes, only: point_set_t, wish_t
+   implicit none(type, external)
+   private
+   public :: choose_points
+
+contains
+
+   !> Chooses the points of an axle. Of a table with both axles the option --axle gives the axle.
+   subroutine choose_points(table, wish, points, flaws)
+      type(point_table_t), intent(inout) :: table         !! points of the other axle are removed
+      type(wish_t), intent(in) :: wish
+      type(point_set_t), intent(out) :: points
+      type(flaws_t), intent(inout) :: flaws
+      integer :: k, kept
+
+      call choose_axle(table, wish, points%axle, flaws)
+      if (flaws%count() > 0) return
+      points%length = table%length
+      points%is_sided = any(table%points(:table%used)%side > 0 .and. (table%points(:table%used)%axle == 0 .or. &
+         table%points(:table%used)%axle == points%axle))
+      kept = 0
+      do k = 1, table%used
+         if (points%axle > 0 .and. table%points(k)%axle > 0 .and. table%points(k)%axle /= points%axle) cycle
+         kept = kept + 1
+         if (kept /= k) call swap(table%points(kept), table%points(k))
+      end do
+      call take_other_centre(table, kept, points)
+      table%used = kept
+      call name_five_links(table%points(:kept))
+      do k = 1, kept
+         if (table%points(k)%point > 0) call take_point(table%points(k), points, flaws)
+      end do
+   end subroutine choose_points
+
+   !> Takes the axle of the option or of the table. A table with both axles requires the option.
+   subroutine choose_axle(table, wish, axle, flaws)
+      type(point_table_t), intent(in) :: table
+      type(wish_t), intent(in) :: wish
+      integer, intent(out) :: axle
+      type(flaws_t), intent(inout) :: flaws
+      logical :: has(2)
+
+      axle = 0
+      has = [any(table%points(:table%used)%axle == 1), any(table%points(:table%used)%axle == 2)]
+      if (wish%axle /= '') then
+         axle = findloc(['front', 'rear '] == lower(wish%axle), .true., dim=1)
+         if (axle == 0) then
+            call flaws%add(0, '--axle must be front or rear, found '//shown(trim(wish%axle)))
+         else if (any(has) .and. .not. has(axle)) then
+            call flaws%add(0, 'the table has no '//trim(wish%axle)//' axle')
+         end if
+      else if (all(has)) then
+         call flaws%add(0, 'the table has both axles; give --axle front or --axle rear')
+      else
+         axle = findloc(has, .true., dim=1)
+      end if
+   end subroutine choose_axle
+
+   !> Takes the wheel centre of the other axle, which gives the wheelbase.
+   subroutine take_other_centre(table, kept, points)
+      type(point_table_t), intent(in) :: table
+      integer, intent(in) :: kept
+      type(point_set_t), intent(inout) :: points
+      integer :: k
+
+      do k = kept + 1, table%used
+         if (table%points(k)%point /= wheel_centre) cycle
+         if (points%has_other .and. table%points(k)%side == right_point) cycle
+         points%has_other = .true.
+         points%other_centre = table%points(k)%at
+      end do
+   end subroutine take_other_centre
+
+   !> Renames the points of a five-link axle: 'upper front inner' is the end of a link, not the pivot of an arm.
+   subroutine name_five_links(list)
+      type(table_point_t), intent(inout) :: list(:)
+      integer, parameter :: arm(3) = [uca_front, uca_rear, lower_ball], link(3) = [upper_front_in, upper_rear_in, lower_out]
+      integer :: k, j
+
+      if (.not. any(list%point == upper_front_out .or. list%point == upper_rear_out)) return
+      do k = 1, size(list)
+         do j = 1, size(arm)
+            if (list(k)%point == arm(j)) list(k)%point = link(j)
+         end do
+      end do
+   end subroutine name_five_links
+
+   !> Puts a point on its side. The same point twice is an error.
+   subroutine take_point(point, points, flaws)
+      type(table_point_t), intent(in) :: point
+      type(point_set_t), intent(inout) :: points
+      type(flaws_t), intent(inout) :: flaws
+      integer :: half
+
+      half = merge(2, 1, point%side == right_point)
+      associate (this => points%half(half))
+         if (this%has(point%point)) then
+            call flaws%add(point%line, 'expected '//trim(point_names(point%point))//' once, found '//shown(trim(point%name))// &
+               ' again (first in line '//str(this%line(point%point))//')')
+            return
+         end if
+         this%has(point%point) = .true.
+         this%at(:, point%point) = point%at
+         this%line(point%point) = point%line
+      end associate
+   end subroutine take_point
+
+   subroutine swap(one, other)
+      type(table_point_t), intent(inout) :: one, other
+      type(table_point_t) :: kept
+
+      kept = one
+      one = other
+      other = kept
+   end subroutine swap
+
+end module ek_point_set
