@@ -8,6 +8,7 @@ module ek_adjust
       of_joint, of_readout, of_load, of_centre, of_contact, of_axis
    use ek_measure, only: measure_t, global_gap
    use ek_suspension, only: suspension_t
+   use ek_wheel_contact, only: put_at_contact
    implicit none(type, external)
    private
    public :: adjust, is_adjusted
@@ -23,7 +24,7 @@ contains
    !> Sets all adjusters of a suspension, unless they are set already.
    pure subroutine adjust(suspension)
       type(suspension_t), intent(inout) :: suspension
-      integer :: k
+      integer :: k, w
 
       if (suspension%has_set_adjusters) return
       suspension%has_set_adjusters = .true.
@@ -43,6 +44,10 @@ contains
             if (.not. abs(suspension%adjusters(place%adjuster)%value) > 0.0_wp) cycle
             call move(suspension%adjusters(place%adjuster), place, suspension)
          end associate
+      end do
+      do k = 1, size(suspension%loads)
+         w = max(suspension%loads(k)%wheel, suspension%loads(k)%start_of)
+         if (w > 0) call put_at_contact(suspension%wheels, w, suspension%loads(k))
       end do
    end subroutine adjust
 
