@@ -17,8 +17,8 @@
 !>
 !> `error` has the message and the exit status of the program for the same error; check `error` after every call. Nothing is
 !> printed, and nothing is stored outside the session: different threads may use different sessions at the same time. gfortran
-!> stores the length of a string that a function returns in one location for all threads. All code that creates strings is therefore
-!> in the critical section `ek_words`. Solutions after the first of a case create no strings and run at the same time.
+!> stores the length of a string that a function returns in one location for all threads. Therefore, only one thread at a time
+!> creates strings (ek_words). Solutions after the first of a case create no strings and run at the same time.
 module ek_api
    use ek_kinds, only: wp
    use ek_error, only: error_t

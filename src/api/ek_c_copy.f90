@@ -6,6 +6,7 @@ module ek_c_copy
    use ek_session, only: copy_session, open_files, used_deck
    use ek_c_handle, only: handle_t, open_handle, take_handle, finish, refuse, say, from_c, is_position, ek_ok
    use ek_c_model, only: new_handle
+   use ek_words, only: begin_words, end_words
    implicit none(type, external)
    private
    public :: ek_copy, ek_file_count, ek_file_path, ek_file_text, ek_open_files, ek_deck_as_used
@@ -63,13 +64,13 @@ contains
       address = c_null_ptr
       if (.not. associated(handle)) return
       if (.not. is_position(handle, k, handle%session%original%kept%count())) return
-      !$omp critical (ek_words)
+      call begin_words()
       if (is_path) then
          address = say(handle, handle%session%original%kept%path(k + 1))
       else
          address = say(handle, handle%session%original%kept%text(k + 1))
       end if
-      !$omp end critical (ek_words)
+      call end_words()
    end function text_of_file
 
    !> Exit code after reading a deck from given file contents into a new handle (elastokin.h).

@@ -6,6 +6,7 @@ module ek_c_handle
    use ek_table, only: name_length
    use ek_session, only: session_t
    use ek_model_remark, only: model_remarks_t
+   use ek_words, only: begin_words, end_words
    implicit none(type, external)
    private
    public :: handle_t, handle_of, open_handle, take_handle, take_array, take_names, take_text, finish, refuse, say, &
@@ -127,9 +128,9 @@ contains
          if (.not. c_associated(addresses(k))) then
             code = refuse(handle, 'a name in a list must not be NULL')
          else if (len(text) > name_length) then
-            !$omp critical (ek_words)
+            call begin_words()
             code = refuse(handle, quoted(text)//' is longer than '//str(name_length)//' characters')
-            !$omp end critical (ek_words)
+            call end_words()
          end if
          if (code /= ek_ok) return
       end do
@@ -182,9 +183,9 @@ contains
       is_position = k >= 0 .and. k < count
       if (is_position) return
       if (present(code)) code = int(exit_usage, c_int)
-      !$omp critical (ek_words)
+      call begin_words()
       handle%message = 'position '//str(int(k))//' lies outside the list, which has '//str(count)//' entries'//c_null_char
-      !$omp end critical (ek_words)
+      call end_words()
    end function is_position
 
    !> Copies a C string; '' for NULL.

@@ -6,6 +6,7 @@ module ek_c_model
    use ek_threads, only: use_one_thread
    use ek_session, only: open_file, open_text, checksum_of
    use ek_c_handle, only: handle_t, handle_of, open_handle, finish, say, from_c, is_position, ek_ok
+   use ek_words, only: begin_words, end_words
    implicit none(type, external)
    private
    public :: ek_version_text, ek_use_one_thread, ek_open_file, ek_open_text, ek_close, ek_message, ek_name, ek_checksum, &
@@ -24,9 +25,9 @@ contains
    integer(c_int) function ek_use_one_thread() bind(c) result(code)
       type(error_t), allocatable :: error
 
-      !$omp critical (ek_words)
+      call begin_words()
       call use_one_thread(error)
-      !$omp end critical (ek_words)
+      call end_words()
       code = ek_ok
       if (allocated(error)) code = int(error%code, c_int)
    end function ek_use_one_thread

@@ -8,6 +8,7 @@ module ek_c_numbers
    use ek_number_names, only: list_numbers
    use ek_session_solution, only: read_key_numbers
    use ek_c_handle, only: handle_t, open_handle, take_handle, take_names, finish, refuse, say, is_position, ek_ok
+   use ek_words, only: begin_words, end_words
    implicit none(type, external)
    private
    public :: ek_numbers, ek_number_count, ek_number_name, ek_number_unit, ek_number_definition
@@ -74,10 +75,10 @@ contains
       type(handle_t), intent(inout) :: handle
       type(case_t), allocatable :: cases(:)
 
-      !$omp critical (ek_words)
+      call begin_words()
       call report_cases(handle%session%workspace, cases)
       call list_numbers(handle%session%workspace%raw, cases, handle%number_names, handle%number_units, handle%number_definitions)
-      !$omp end critical (ek_words)
+      call end_words()
    end subroutine list
 
    !> Name, unit or definition of a key number in the list of key numbers. The list is created if it is empty.
@@ -90,7 +91,7 @@ contains
       if (.not. associated(handle)) return
       if (handle%number_names%count() == 0) call list(handle)
       if (.not. is_position(handle, k, handle%number_names%count())) return
-      !$omp critical (ek_words)
+      call begin_words()
       select case (what)
       case ('name')
          address = say(handle, handle%number_names%line(k + 1))
@@ -99,7 +100,7 @@ contains
       case default
          address = say(handle, handle%number_definitions%line(k + 1))
       end select
-      !$omp end critical (ek_words)
+      call end_words()
    end function text_of_number
 
 end module ek_c_numbers

@@ -8,6 +8,7 @@ module ek_c_parameters
    use ek_session_settings, only: set_number, set_text, get_number, set_all, reset
    use ek_c_handle, only: handle_t, open_handle, take_handle, take_array, take_text, finish, refuse, say, &
       is_position, ek_ok
+   use ek_words, only: begin_words, end_words
    implicit none(type, external)
    private
    public :: ek_parameter_count, ek_parameter_path, ek_parameter_unit, ek_parameter_is_given, ek_parameter_twin, ek_get_at, &
@@ -52,9 +53,9 @@ contains
       address = c_null_ptr
       if (.not. associated(handle)) return
       associate (design => handle%session%workspace%definition)
-         !$omp critical (ek_words)
+         call begin_words()
          address = say(handle, parameter_path(design%parameters%list(k + 1), design%records))
-         !$omp end critical (ek_words)
+         call end_words()
       end associate
    end function ek_parameter_path
 
@@ -67,9 +68,9 @@ contains
       handle => handle_at(model, k)
       address = c_null_ptr
       if (.not. associated(handle)) return
-      !$omp critical (ek_words)
+      call begin_words()
       address = say(handle, parameter_unit(handle%session%workspace%definition, k + 1))
-      !$omp end critical (ek_words)
+      call end_words()
    end function ek_parameter_unit
 
    !> 1 if the deck gives parameter k, from 0; 0 if the parameter has its default.

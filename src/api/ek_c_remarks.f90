@@ -5,6 +5,7 @@ module ek_c_remarks
    use ek_model_remark, only: read_model_remark
    use ek_session, only: find_remarks
    use ek_c_handle, only: handle_t, open_handle, take_handle, finish, refuse, say, is_position, ek_ok
+   use ek_words, only: begin_words, end_words
    implicit none(type, external)
    private
    public :: ek_model_remarks_c, ek_model_remark_text, ek_model_remark_severity
@@ -51,11 +52,11 @@ contains
       address = c_null_ptr
       if (.not. associated(handle)) return
       if (.not. is_position(handle, k, handle%remarks%count())) return
-      !$omp critical (ek_words)
+      call begin_words()
       call read_model_remark(handle%remarks, k + 1, text, severity)
       if (is_severity) text = severity
       address = say(handle, text)
-      !$omp end critical (ek_words)
+      call end_words()
    end function text_of_remark
 
 end module ek_c_remarks

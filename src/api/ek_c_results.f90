@@ -10,6 +10,7 @@ module ek_c_results
    use ek_session_solution, only: solve, result_of, compliance_at, read_remark, find_slopes
    use ek_c_handle, only: handle_t, open_handle, take_handle, take_array, take_names, take_text, finish, refuse, say, &
       from_c, is_position, ek_ok
+   use ek_words, only: begin_words, end_words
    implicit none(type, external)
    private
    public :: ek_solve, ek_row_count, ek_column_count, ek_column_name, ek_column_unit, ek_column_title, ek_column_sign, ek_values, &
@@ -133,7 +134,7 @@ contains
       last => described_solution(handle)
       if (.not. associated(last)) return
       if (.not. is_position(handle, k, size(last%table%columns))) return
-      !$omp critical (ek_words)
+      call begin_words()
       name = trim(last%table%columns(k + 1))
       text = name
       select case (what)
@@ -149,7 +150,7 @@ contains
          if (quantity%title == name) text = ''
       end select
       address = say(handle, text)
-      !$omp end critical (ek_words)
+      call end_words()
    end function text_of_column
 
    !> Exit code after copying the table of the last solution, row after row.
@@ -187,9 +188,9 @@ contains
       if (code /= ek_ok) return
       k = column_index(last%table, head)
       if (k == 0) then
-         !$omp critical (ek_words)
+         call begin_words()
          code = refuse(handle, no_column(head, last%table%columns))
-         !$omp end critical (ek_words)
+         call end_words()
          return
       end if
       call take_array(handle, values, n, size(last%table%values, 2), &
@@ -230,11 +231,11 @@ contains
       last => described_solution(handle)
       if (.not. associated(last)) return
       if (.not. is_position(handle, k, last%remarks%count())) return
-      !$omp critical (ek_words)
+      call begin_words()
       call read_remark(last%remarks, k + 1, text, severity)
       if (is_severity) text = severity
       address = say(handle, text)
-      !$omp end critical (ek_words)
+      call end_words()
    end function text_of_remark
 
    integer(c_int) function ek_compliance(model, row, n, values) bind(c) result(code)

@@ -20,6 +20,7 @@ module ek_session
    use ek_deck_writer, only: deck_as_used
    use ek_case, only: case_t
    use ek_model_remark, only: model_remarks_t, find_model_remarks
+   use ek_words, only: begin_words, end_words
    implicit none(type, external)
    private
    public :: session_t, prepared_t, derived_t, open_file, open_text, open_deck, take_deck, take_new_numbers, changed_deck, reread, &
@@ -77,10 +78,10 @@ contains
       type(error_t), allocatable, intent(out) :: error     !! exit_file, exit_deck: every error of the deck
 
       call empty_session(session)
-      !$omp critical (ek_words)
+      call begin_words()
       call read_deck(path, session%original, error)
       if (.not. allocated(error)) call begin_opened(session, error)
-      !$omp end critical (ek_words)
+      call end_words()
    end subroutine open_file
 
    !> Opens a deck that is given as a string.
@@ -91,10 +92,10 @@ contains
       type(error_t), allocatable, intent(out) :: error     !! exit_deck: every error of the deck
 
       call empty_session(session)
-      !$omp critical (ek_words)
+      call begin_words()
       call parse_deck(text, name, session%original, error)
       if (.not. allocated(error)) call begin_opened(session, error)
-      !$omp end critical (ek_words)
+      call end_words()
    end subroutine open_text
 
    !> Opens a deck that has already been read.
@@ -104,9 +105,9 @@ contains
       type(error_t), allocatable, intent(out) :: error     !! exit_deck: every error of the deck
       type(deck_t) :: copy
 
-      !$omp critical (ek_words)
+      call begin_words()
       copy = deck
-      !$omp end critical (ek_words)
+      call end_words()
       call take_deck(copy, session, error)
    end subroutine open_deck
 
@@ -117,10 +118,10 @@ contains
       type(error_t), allocatable, intent(out) :: error     !! exit_deck: every error of the deck
 
       call empty_session(session)
-      !$omp critical (ek_words)
+      call begin_words()
       call move_deck(deck, session%original)
       call begin_opened(session, error)
-      !$omp end critical (ek_words)
+      call end_words()
    end subroutine take_deck
 
    !> Opens the workspace of the deck as opened, and copies this deck to the current deck.
@@ -217,10 +218,10 @@ contains
       type(error_t), allocatable, intent(out) :: error
       type(deck_t) :: changed
 
-      !$omp critical (ek_words)
+      call begin_words()
       call changed_deck(session, changed, error)
       digits = deck_checksum(changed)
-      !$omp end critical (ek_words)
+      call end_words()
    end subroutine checksum_of
 
    !> Creates a second session of the same deck with the same changes, without a solution.
@@ -230,7 +231,7 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       call empty_session(to)
-      !$omp critical (ek_words)
+      call begin_words()
       to%original = from%original
       to%deck = from%deck
       allocate (to%workspace, to%definition)
@@ -241,7 +242,7 @@ contains
          to%numbers%is_new = .true.
          to%is_text_changed = from%is_text_changed
       end if
-      !$omp end critical (ek_words)
+      call end_words()
    end subroutine copy_session
 
    !> The deck as opened, then every file named in the deck: included files, hardpoints, property files, load tables.
@@ -262,10 +263,10 @@ contains
          call fail(error, exit_usage, 'expected the files of a deck, found none')
          return
       end if
-      !$omp critical (ek_words)
+      call begin_words()
       call parse_deck(files%text(1), files%path(1), session%original, error, kept=files)
       if (.not. allocated(error)) call begin_opened(session, error)
-      !$omp end critical (ek_words)
+      call end_words()
    end subroutine open_files
 
    !> Writes the deck with its present numbers as one string. The string contains the included files, hardpoints, property files,
@@ -276,11 +277,11 @@ contains
       type(error_t), allocatable, intent(out) :: error     !! exit_deck: the present numbers define no valid model
       type(deck_t) :: changed
 
-      !$omp critical (ek_words)
+      call begin_words()
       call changed_deck(session, changed, error)
       if (.not. allocated(error)) call deck_as_used(changed, text, error)
       call without_option(error)
-      !$omp end critical (ek_words)
+      call end_words()
       if (.not. allocated(text)) text = ''
    end subroutine used_deck
 
@@ -296,14 +297,14 @@ contains
       logical :: is_done
 
       call take_new_numbers(session)
-      !$omp critical (ek_words)
+      call begin_words()
       call find_of(session%workspace, remarks, is_done)
       if (.not. is_done) then
          allocate (other)
          call reread(session%deck, session%numbers, session%workspace%definition, definition, other, error)
          if (.not. allocated(error)) call find_of(other, remarks, is_done)
       end if
-      !$omp end critical (ek_words)
+      call end_words()
    end subroutine find_remarks
 
    !> Finds the messages at the numbers of a workspace. is_done is .false. if the design must be read from the deck's strings.

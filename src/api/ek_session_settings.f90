@@ -13,6 +13,7 @@ module ek_session_settings
    use ek_factor_paths, only: shortest
    use ek_design_numbers, only: reset_numbers, place_number, add_path, put_path, put_at, is_legal_path, is_legal_at
    use ek_session, only: session_t, begin_again, changed_deck, without_option
+   use ek_words, only: begin_words, end_words
    implicit none(type, external)
    private
    public :: set_number, set_text, get_number, set_all, reset
@@ -30,17 +31,17 @@ contains
 
       setting = place_number(session%numbers, path)
       if (setting == 0 .or. .not. ieee_is_finite(value)) then
-         !$omp critical (ek_words)
+         call begin_words()
          call first_number(session, trim(adjustl(path)), value, setting, error)
-         !$omp end critical (ek_words)
+         call end_words()
       end if
       if (allocated(error) .or. setting == 0) return
       if (is_legal_path(session%numbers, setting, value, session%workspace%definition%parameters)) then
          call put_path(session%numbers, setting, value)
       else
-         !$omp critical (ek_words)
+         call begin_words()
          call fail(error, exit_deck, range_message(session, trim(adjustl(path)), value))
-         !$omp end critical (ek_words)
+         call end_words()
       end if
    end subroutine set_number
 
@@ -110,9 +111,9 @@ contains
       character(*), intent(in) :: path, text
       type(error_t), allocatable, intent(out) :: error     !! exit_usage, exit_deck: nothing was changed
 
-      !$omp critical (ek_words)
+      call begin_words()
       call take_text(session, path, text, error)
-      !$omp end critical (ek_words)
+      call end_words()
    end subroutine set_text
 
    subroutine take_text(session, path, text, error)
@@ -142,7 +143,7 @@ contains
 
       value = 0.0_wp
       is_one = .true.
-      !$omp critical (ek_words)
+      call begin_words()
       call find_parameters(session%workspace%definition%parameters, session%workspace%definition%records, path, found)
       if (size(found) == 0) then
          trial = session%deck
@@ -157,7 +158,7 @@ contains
          if (j == 1) value = this
          if (abs(this - value) > 0.0_wp) is_one = .false.
       end do
-      !$omp end critical (ek_words)
+      call end_words()
       if (.not. is_one) value = ieee_value(value, ieee_quiet_nan)
    end subroutine get_number
 
@@ -193,9 +194,9 @@ contains
             call put_at(session%numbers, before + k, values(k))
          end do
       else
-         !$omp critical (ek_words)
+         call begin_words()
          call refuse_all(session, values, before, error)
-         !$omp end critical (ek_words)
+         call end_words()
       end if
    end subroutine set_all
 
@@ -223,9 +224,9 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       if (session%is_text_changed) then
-         !$omp critical (ek_words)
+         call begin_words()
          call begin_again(session%original, session, error)
-         !$omp end critical (ek_words)
+         call end_words()
          session%is_text_changed = .false.
       else
          call reset_numbers(session%numbers)

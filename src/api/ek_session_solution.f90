@@ -22,6 +22,7 @@ module ek_session_solution
    use ek_derivatives, only: derivatives_t, begin_derivatives, find_derivatives, refuse_case
    use ek_case, only: case_t
    use ek_named_numbers, only: named_numbers_t, prepare_numbers, read_numbers, needed_tests, explain_missing
+   use ek_words, only: begin_words, end_words
    implicit none(type, external)
    private
    public :: solve, result_of, read_remark, compliance_at, find_row, find_slopes, read_key_numbers
@@ -55,10 +56,10 @@ contains
             if (outcome == succeeded) session%solved = k
          end if
       end if
-      !$omp critical (ek_words)
+      call begin_words()
       if (outcome /= succeeded) call solve_with_words(session, name, asked, error)
       if (session%solved > 0) call end_solution(session, error)
-      !$omp end critical (ek_words)
+      call end_words()
    end subroutine solve
 
    !> Whether a case was solved before with these columns.
@@ -293,9 +294,9 @@ contains
       if (allocated(error)) return
       is_ready = is_prepared(session, columns, paths)
       if (.not. is_ready) then
-         !$omp critical (ek_words)
+         call begin_words()
          call prepare_derivatives(session, columns, paths, error)
-         !$omp end critical (ek_words)
+         call end_words()
          if (allocated(error)) return
       end if
       if (allocated(session%other)) then
@@ -449,13 +450,13 @@ contains
          call read_numbers(session%named, session%workspace%suspension, cases, values, is_whole)
          if (is_whole) return
       end if
-      !$omp critical (ek_words)
+      call begin_words()
       if (is_done) then
          call explain_missing(session%named, names, values, none, error)
       else
          call read_with_words(session, names, values, error)
       end if
-      !$omp end critical (ek_words)
+      call end_words()
    end subroutine read_key_numbers
 
    !> Reads key numbers that were not requested before, or key numbers of a design that may have a defect. Creates strings.

@@ -15,7 +15,7 @@ module ek_command
    use ek_solve_command, only: solve_for
    use ek_fit_command, only: run_fit
    use ek_import, only: import
-   use ek_export, only: export
+   use ek_export, only: export, target_words, target_help
    use ek_explain, only: explain
    use ek_schema, only: print_schema
    use ek_list, only: list_names
@@ -98,10 +98,7 @@ module ek_command
       command_t('export', 'export DECK --to TARGET [options]', 'export DECK', &
       'write kinematics and compliance for other simulators', &
       'Writes the axle of a deck in the format of a simulator into DIR:'//nl// &
-      '  carmaker: <model>.skc, with kinematics over travel and steer (or travel of the other wheel), and compliance;'//nl// &
-      '  carsim: <model>_carsim.par, with tables over jounce, and compliance coefficients;'//nl// &
-      '  matlab-kc: <model>_kandc.m and .json, with parameters of "Independent Suspension - K and C";'//nl// &
-      '  csv: <model>_kinematics.csv, _loads.csv, _compliance.csv, and _tables.json with all three tables.'//nl// &
+      target_help//nl// &
       'docs/EXPORT.md describes frame, signs and units of each file. If a number cannot be computed, no file is written.', ''), &
       command_t('derivatives', 'derivatives DECK [options]', 'derivatives DECK', &
       'differentiate columns with respect to numbers of a deck', &
@@ -276,7 +273,7 @@ module ek_command
       option_t('plot', '--set path=value', 'change a value of the deck, as in the run of the study'), &
       option_t('plot', '--height H', 'as for run'), option_t('plot', '--state NAME', 'as for run'), &
       option_t('plot', '--quiet', quiet_help), &
-      option_t('export', '--to TARGET', 'carmaker | carsim | matlab-kc | csv'), &
+      option_t('export', '--to TARGET', target_words), &
       option_t('export', '--out DIR', 'output folder (default: out)'), &
       option_t('export', '--travel from:to:n', &
       'wheel travel in mm with n points (default: range of test parallel_travel, 33 points)'), &

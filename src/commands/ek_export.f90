@@ -1,4 +1,6 @@
 !> elastokin export: computes kinematics and compliance of a deck as tables, and writes them as files that another simulator reads.
+!>
+!> A new format needs its own file in src/export and, here, its name and its line in the help, and its case in `export`.
 module ek_export
    use ek_kinds, only: wp
    use ek_error, only: error_t
@@ -28,9 +30,19 @@ module ek_export
    use ek_export_panels, only: carmaker_panels, carsim_panels, mathworks_panels, csv_panels
    implicit none(type, external)
    private
+   public :: export, target_words, target_help
 
+   character, parameter :: nl = new_line('a')
    character(10), parameter :: names(3) = [character(10) :: 'kinematics', 'loads', 'compliance']      !! tables of --to csv
-   public :: export
+
+   ! The formats, for --to and for the help
+   character(*), parameter :: targets(*) = [character(9) :: 'carmaker', 'carsim', 'matlab-kc', 'csv']
+   character(*), parameter :: target_words = 'carmaker | carsim | matlab-kc | csv'
+   character(*), parameter :: target_help = &
+      '  carmaker: <model>.skc, with kinematics over travel and steer (or travel of the other wheel), and compliance;'//nl// &
+      '  carsim: <model>_carsim.par, with tables over jounce, and compliance coefficients;'//nl// &
+      '  matlab-kc: <model>_kandc.m and .json, with parameters of "Independent Suspension - K and C";'//nl// &
+      '  csv: <model>_kinematics.csv, _loads.csv, _compliance.csv, and _tables.json with all three tables.'
 
    !> The model of a deck, the requested map, the solved map, the checksum of the deck, and whether the axle is the front axle.
    type :: axle_map_t
@@ -55,7 +67,7 @@ contains
       character(:), allocatable :: reason, name
       character(1) :: separator
 
-      call read_export_settings(line, settings, error)
+      call read_export_settings(line, targets, settings, error)
       if (.not. allocated(error)) call solve_axle(settings, axle, error)
       if (.not. allocated(error) .and. settings%has_plots) call solve_sources(axle%suspension, axle%request, axle%map, &
          settings%target /= 'carmaker', sources, error)

@@ -30,13 +30,12 @@ module ek_export_settings
       logical :: has_plots = .false.
    end type export_settings_t
 
-   character(*), parameter :: targets(4) = [character(9) :: 'carmaker', 'carsim', 'matlab-kc', 'csv']
-
 contains
 
    !> Reads the settings of export from the command line and checks them.
-   subroutine read_export_settings(line, settings, error)
+   subroutine read_export_settings(line, targets, settings, error)
       type(command_line_t), intent(in) :: line
+      character(*), intent(in) :: targets(:)                  !! names of the formats
       type(export_settings_t), intent(out) :: settings
       type(error_t), allocatable, intent(out) :: error        !! exit_usage: every error
       type(message_list_t) :: mistakes

@@ -113,6 +113,8 @@ module ek_group
       key_t(load_state_group, 'height', number, 1, 1, .false., dimension=length, about='height of the wheels above design'), &
       key_t(load_state_group, 'wheel_load', number, 1, 1, .false., positive, dimension=force, &
       about='vertical force of the road on each wheel'), &
+      key_t(load_state_group, 'added_mass', number, 1, 1, .false., dimension=mass, &
+      about='mass on each wheel in addition to the loads of the deck'), &
       key_t(model_group, 'gravity', number, 1, 1, .false., not_negative, ' (m/s², downward)', dimension=acceleration, &
       about='gravity, downward; 0 if not given'), &
       key_t(model_group, 'plausible', switch, 1, 1, .false., default='.true.', about='whether implausible numbers are reported'), &

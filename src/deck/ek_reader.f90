@@ -350,7 +350,9 @@ contains
             has_loads = has_loads .or. abs(reading%parameters%x(plan%loads(k)%force + 2)) > 0.0_wp
          end do
          model%must_start = model%start /= '' .or. any(plan%start > 0)
-         if (plan%start(2) > 0) then
+         if (plan%start(3) > 0) then
+            model%start = 'added_mass'
+         else if (plan%start(2) > 0) then
             model%start = 'wheel_load'
          else if (plan%start(1) > 0) then
             model%start = 'height'
@@ -361,7 +363,7 @@ contains
             model%start = trim(model%start)
          end if
          if (size(model%wheels) == 0) model%start = ''
-         if (model%start == 'height' .or. model%start == 'wheel_load') call add_start_loads(model)
+         if (model%start /= '' .and. model%start /= 'loads') call add_start_loads(model)
       end associate
    end subroutine choose_start
 
@@ -539,16 +541,18 @@ contains
       call complain(reading, 'state', 'there is no &load_state '//quoted(state)//did_you_mean(state, names))
    end subroutine check_state
 
-   !> Reads &load_state: its height or its wheel load, which are the numbers of the start state if &model names this load state.
+   !> Reads &load_state: its height, wheel load or added mass, the number of the start state if &model names this load state.
    subroutine read_load_state(reading)
       type(deck_reading_t), intent(inout) :: reading
-      integer :: height, load
+      character(*), parameter :: keys(*) = [character(10) :: 'height', 'wheel_load', 'added_mass']
+      integer :: start(size(keys)), k
 
-      if (has_key(reading, 'height') .eqv. has_key(reading, 'wheel_load')) &
-         call complain(reading, '', "give either 'height' or 'wheel_load'")
-      call slot(reading, 'height', height)
-      call slot(reading, 'wheel_load', load)
-      if (lower(text_of(reading, 'name')) == lower(reading%plan%prototype%state)) reading%plan%start = [height, load]
+      if (count([(has_key(reading, trim(keys(k))), k=1, size(keys))]) /= 1) &
+         call complain(reading, '', "give one of 'height', 'wheel_load' and 'added_mass'")
+      do k = 1, size(keys)
+         call slot(reading, trim(keys(k)), start(k))
+      end do
+      if (lower(text_of(reading, 'name')) == lower(reading%plan%prototype%state)) reading%plan%start = start
    end subroutine read_load_state
 
 end module ek_reader

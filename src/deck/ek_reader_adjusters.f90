@@ -270,8 +270,9 @@ contains
       end associate
    end subroutine find_seat
 
-   !> Adds all arms at a point of the body of an adjuster. A point without an arm is reported.
-   subroutine add_places(reading, adjuster, key, point, share, places)
+   !> Adds all arms at a point of the body of an adjuster. A point without an arm is reported. With the centre of a wheel with a
+   !> crown, its contact point moves, and with it the loads and measures there.
+   recursive subroutine add_places(reading, adjuster, key, point, share, places)
       type(deck_reading_t), intent(inout) :: reading
       type(adjuster_t), intent(in) :: adjuster
       character(*), intent(in) :: key
@@ -329,8 +330,11 @@ contains
                   'the suspension on this body turn instead')
                return
             end if
-            if (plan%wheels(k)%centre == point) call add(of_centre, k, 1)
             if (plan%wheels(k)%contact == point) call add(of_contact, k, 1)
+            if (plan%wheels(k)%centre == point) then
+               call add(of_centre, k, 1)
+               if (model%wheels(k)%has_crown) call add_places(reading, adjuster, key, plan%wheels(k)%contact, share, places)
+            end if
             do t = 1, 2
                if (plan%wheels(k)%steer_axis(t) == point) call add(of_axis, k, t)
             end do

@@ -141,6 +141,9 @@ contains
       case ('wheel_load')
          text = ' under start_load = '//str(suspension%start_load, 6)//' N: the wheels find no equilibrium '// &
             'under this load; give a load that the springs carry'
+      case ('added_mass')
+         text = ' with added_mass = '//str(suspension%start_mass, 6)//' kg: the wheels find no equilibrium '// &
+            'under this mass; give a mass that the springs carry'
       case default
          text = ' under the constant loads (start = ''loads''): the wheels find no equilibrium; give start = ''height'', '// &
             'or loads that the springs carry'

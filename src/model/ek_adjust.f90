@@ -10,6 +10,7 @@ module ek_adjust
    use ek_measure, only: measure_t, global_gap
    use ek_made_parts, only: put_made
    use ek_suspension, only: suspension_t
+   use ek_wheel_contact, only: put_at_contact
    implicit none(type, external)
    private
    public :: adjust, is_adjusted
@@ -25,7 +26,7 @@ contains
    !> Makes all parts as they are, and sets all adjusters of a suspension, unless this is done already.
    pure subroutine adjust(suspension)
       type(suspension_t), intent(inout) :: suspension
-      integer :: k
+      integer :: k, w
 
       if (suspension%has_set_adjusters) return
       suspension%has_set_adjusters = .true.
@@ -46,6 +47,10 @@ contains
             if (.not. abs(suspension%adjusters(place%adjuster)%value) > 0.0_wp) cycle
             call move(suspension%adjusters(place%adjuster), place, suspension)
          end associate
+      end do
+      do k = 1, size(suspension%loads)
+         w = max(suspension%loads(k)%wheel, suspension%loads(k)%start_of)
+         if (w > 0) call put_at_contact(suspension%wheels, w, suspension%loads(k))
       end do
    end subroutine adjust
 

@@ -136,7 +136,7 @@ module ek_blueprint
       type(suspension_t) :: prototype       !! names, connections, and the numbers of the deck
       logical :: is_iso = .false.           !! the axes of the deck are ISO 8855
       integer :: gravity = 0                !! index of the parameter
-      integer :: start(2) = 0               !! indices of the parameters start_height and start_load of &model
+      integer :: start(3) = 0               !! indices of the parameters height, wheel load and added mass of the start state
       integer, allocatable :: points(:)     !! index of the vector of each point of the prototype
       type(vector_t), allocatable :: vectors(:)
       type(body_plan_t), allocatable :: bodies(:)

@@ -22,7 +22,7 @@ module ek_manoeuvre
    use ek_wheel_side, only: left_and_right, design_track, share_on_wheel
    implicit none(type, external)
    private
-   public :: has_manoeuvres, wheel_forces, set_manoeuvre_values, standing_load, axle_fault, manoeuvre_fault, can_drive
+   public :: has_manoeuvres, wheel_forces, set_manoeuvre_values, standing_load, gravity_of, axle_fault, manoeuvre_fault, can_drive
    public :: vertical_column, lateral_column, brake_column, drive_column, obstacle_column, columns_of_side, inertia_column, &
       steer_column, has_sides
 

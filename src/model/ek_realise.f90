@@ -355,6 +355,7 @@ contains
       suspension%gravity = number_at(x, plan%gravity)
       suspension%start_height = number_at(x, plan%start(1))
       suspension%start_load = number_at(x, plan%start(2))
+      suspension%start_mass = number_at(x, plan%start(3))
       used = size(plan%loads)
       do k = 1, used
          associate (load => suspension%loads(k), this => plan%loads(k))

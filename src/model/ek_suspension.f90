@@ -141,6 +141,7 @@ module ek_suspension
       real(wp) :: gravity = 0.0_wp        !! m/s²
       real(wp) :: start_height = 0.0_wp      !! start 'height': rise of the wheel centres from design [m]
       real(wp) :: start_load = 0.0_wp        !! start 'wheel_load': vertical force of the road on each wheel [N]
+      real(wp) :: start_mass = 0.0_wp        !! start 'added_mass': mass on each wheel in addition to the loads [kg]
    end type model_numbers_t
 
    type, extends(model_numbers_t) :: suspension_t
@@ -149,8 +150,8 @@ module ek_suspension
       logical :: is_plausible_wanted = .true.   !! report implausible numbers
       logical :: is_iso = .false.         !! the deck uses ISO 8855 axes: vectors are written in that frame
       character(:), allocatable :: balance   !! 'none', 'spring' or 'all'
-      character(:), allocatable :: start     !! start state of the tests: '' (as trimmed), 'height', 'loads' or 'wheel_load', see
-                                             !! ek_start
+      character(:), allocatable :: start     !! start state of the tests: '' (as trimmed), 'height', 'loads', 'wheel_load' or
+                                             !! 'added_mass', see ek_start
       character(:), allocatable :: state     !! name of the &load_state that gives the start state; '': none
       logical :: must_start = .false.        !! the deck asks for this start state: an error if there is no such state
       type(body_t), allocatable :: bodies(:)

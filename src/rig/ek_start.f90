@@ -8,6 +8,8 @@
 !> | height     | design height plus `start_height`    | loads of the deck, and the force that is needed |
 !> | loads      | static equilibrium under the loads   | loads of the deck                               |
 !> | wheel_load | static equilibrium under `start_load`| `start_load` on each wheel                      |
+!> | added_mass | static equilibrium under the loads   | loads of the deck, or without loads the force   |
+!> |            | and the weight of `added_mass`       | at design height, and the weight                |
 !>
 !> `find_start` stores the state as numbers of the model. The needed force F is a constant vertical load at the contact point of
 !> each wheel, as if the deck contained it. The heights are start_rise of the wheels: the rig holds and moves the wheels from there
@@ -25,7 +27,7 @@ module ek_start
    use ek_newton, only: outcome_t, find_equilibrium
    use ek_reach, only: settle, failure_t
    use ek_wheel_contact, only: contact_arm
-   use ek_manoeuvre, only: standing_load
+   use ek_manoeuvre, only: standing_load, gravity_of
    use ek_case, only: case_t
    use ek_rig, only: mounted_case_t, mount_again
    implicit none(type, external)
@@ -66,6 +68,8 @@ contains
             end associate
          end do
          call find_heights(suspension, tolerance, space, is_found)
+      case ('added_mass')
+         call add_mass(suspension, tolerance, space, is_found)
       case ('loads')
          call find_heights(suspension, tolerance, space, is_found)
       end select
@@ -178,6 +182,27 @@ contains
       is_found = failure%state == 0 .and. size(space%mounted%suspension%rows) - size(suspension%rows) == size(suspension%wheels)
    end subroutine hold
 
+   !> Adds the weight of the added mass to the loads of the deck, and finds static equilibrium. A deck without loads on its wheels
+   !> stands at design height without the mass.
+   subroutine add_mass(suspension, tolerance, space, is_found)
+      type(suspension_t), intent(inout) :: suspension
+      real(wp), intent(in) :: tolerance
+      type(start_space_t), intent(inout) :: space
+      logical, intent(out) :: is_found
+      integer :: k
+
+      is_found = .true.
+      if (.not. any([(abs(standing_load(suspension, k)) > 0.0_wp, k=1, size(suspension%wheels))])) &
+         call find_force(suspension, tolerance, space, is_found)
+      if (.not. is_found) return
+      do k = 1, size(suspension%loads)
+         associate (load => suspension%loads(k))
+            if (load%start_of > 0) load%force(3) = load%force(3) + suspension%start_mass*gravity_of(suspension)
+         end associate
+      end do
+      call find_heights(suspension, tolerance, space, is_found)
+   end subroutine add_mass
+
    !> Finds static equilibrium under the constant loads, and stores the heights of the wheels.
    subroutine find_heights(suspension, tolerance, space, is_found)
       type(suspension_t), intent(inout) :: suspension
@@ -211,7 +236,7 @@ contains
       character(*), intent(in) :: test
       real(wp), intent(in) :: tolerance                    !! m
 
-      case%name = 'start'
+      case%name = test                     ! mount_again tells by the name whether the model stands on this rig
       case%where = ''
       case%test = test
       case%load = ''

@@ -24,6 +24,7 @@ module ek_study_run
    use ek_ranks, only: ranks_t, count_up, share, agree, help_others, ticket_counter, done_counter, failed_counter, stopped_counter
    use ek_study_plan, only: study_plan_t, begin_chunk, first_of, designs_in
    use ek_chunk, only: chunk_t, write_chunk, read_chunk, chunk_name, remove_foreign
+   use ek_words, only: begin_words, end_words
    implicit none(type, external)
    private
    public :: run_options_t, run_state_t, report_procedure, open_parts, run_chunks, parts_folder, count_parts, &
@@ -299,13 +300,13 @@ contains
       integer :: number, k
       logical :: is_whole
 
-      !$omp critical (ek_words)
+      call begin_words()
       allocate (mine, source=designer)
-      !$omp end critical (ek_words)
+      call end_words()
       do
-         !$omp critical (ek_words)
+         call begin_words()
          call take_chunk(options, ranks, shared, number)
-         !$omp end critical (ek_words)
+         call end_words()
          if (number == 0) exit
          begun = seconds()
          call begin_chunk(plan, number, chunk)
@@ -315,11 +316,11 @@ contains
             is_whole = .not. (is_stop_asked() .or. allocated(chunk%error))
             if (.not. is_whole) exit
             if (ranks%count == 1) cycle
-            !$omp critical (ek_words)
+            call begin_words()
             call help_others(ranks)
-            !$omp end critical (ek_words)
+            call end_words()
          end do
-         !$omp critical (ek_words)
+         call begin_words()
          do k = 1, merge(causes%used, 0, is_whole)
             call complete_design(study, deck, mine, causes%list(k), chunk)
             is_whole = .not. (is_stop_asked() .or. allocated(chunk%error))
@@ -327,7 +328,7 @@ contains
             if (ranks%count > 1) call help_others(ranks)
          end do
          call put_chunk(plan, number, chunk, is_whole, seconds() - begun, ranks, shared, report)
-         !$omp end critical (ek_words)
+         call end_words()
       end do
    end subroutine work
 

@@ -26,7 +26,7 @@ module ek_rewritten_deck
       row_t('F/L', ' bushing.kt stop.rate damper.gas_rate wheel.tyre_rate '), &
       row_t('FL/A', ' bushing.kr torsion.rate '), &
       row_t('A', ' wheel.toe wheel.camber '), &
-      row_t('M', ' body.mass wheel.sprung_mass axle.mass ')]
+      row_t('M', ' body.mass wheel.sprung_mass axle.mass load_state.added_mass ')]
 
 contains
 

@@ -7,16 +7,18 @@
 !>   point that does; they follow here from toe, camber and the steering axis. Trail, scrub radius and hub offsets are measured in the direction of the wheel.
 !> - Its tyre deflects as if the contact point were at 0.6 of the radius below the wheel centre, while the force acts at the whole radius: this
 !>   follows from its heights and loads (0.600 within 0.002 for all axles and states). Here the tyre has one contact point, at the whole radius. So the heights of
-!>   the road in the decks are those of the source plus 0.4 of the rise of the contact point above the wheel centre (check_roads).
+!>   the road in the decks are those of the source plus 0.4 of the rise of the contact point above the wheel centre (check_roads). The point at
+!>   0.6 of the radius is fixed in the carrier: the lowest point of a torus or of a disc rises otherwise (tyre_heights).
 !> - Not compared, because the definition is not published and differs: rc, anti_brake, anti_drive, Ackermann percentage, rack force.
 module ek_published_ipg
    use ek_kinds, only: wp, degree
    use ek_table, only: table_t, row_count
    use ek_text, only: str
+   use ek_lowest_point, only: lowest_point
    use ek_comparison, only: comparisons_t, add, solve, read_numbers, read_loads, pick
    implicit none(type, external)
    private
-   public :: compare_ipg
+   public :: axles, compare_ipg, tyre_heights
 
    character(*), parameter :: axles(7) = [character(11) :: 'fse04_front', 'fse04_rear', 'fse06_front', 'fse06_rear', &
       'fse08_front', 'fse08_rear', 'pltka_rear'], sides(2) = [character(5) :: 'left', 'right'], &
@@ -87,6 +89,43 @@ contains
          end do
       end do
    end subroutine check_roads
+
+   !> How far the lower end of the tyre rises above the wheel centre [mm], in each published state: by the source, whose tyre
+   !> deflects by load/rate, and for four contact points: 0.6 of the radius and the whole radius below the centre, fixed in the
+   !> carrier; the lowest point of a torus with a crown of 0.4 of the radius, and of a disc.
+   subroutine tyre_heights(list, axle, published, points)
+      type(comparisons_t), intent(inout) :: list
+      integer, intent(in) :: axle                         !! index in `axles`
+      real(wp), allocatable, intent(out) :: published(:), points(:, :)
+      real(wp), parameter :: rates(*) = [110.0_wp, 110.0_wp, 110.0_wp, 110.0_wp, 960.0_wp, 96.0_wp, 140.0_wp]   ! tyre, N/mm
+      type(table_t) :: states
+      type(wheel_t) :: wheel
+      real(wp) :: turn(3), arm(3), spin(3), radius, design
+      integer :: k, c, first
+
+      call read_numbers(list, trim(axles(axle))//'_states', states)
+      wheel = wheel_of(trim(axles(axle)))
+      allocate (published(row_count(states)), points(row_count(states), 4))
+      first = state_at(states, 0.0_wp)
+      do k = 1, row_count(states)
+         published(k) = pick(states, 'road', k) - (pick(states, 'load', k) - pick(states, 'load', first))/rates(axle) - &
+            pick(states, 'z', k)
+         turn = [(pick(states, trim(poses(c)), k), c=4, 6)]
+         arm = turned_z(turned_x(turned_y(in_wheel(wheel%arm, wheel), turn(2)), turn(1)), turn(3))
+         points(k, 1) = 0.6_wp*(arm(3) - wheel%arm(3))
+         points(k, 2) = arm(3) - wheel%arm(3)
+         spin = turned_z(turned_x([0.0_wp, 1.0_wp, 0.0_wp], turn(1)), turn(3))
+         do c = 3, 4
+            associate (core => merge(0.6_wp, 1.0_wp, c == 3))
+               radius = -wheel%arm(3)/(core*cos(degree*wheel%camber) + 1 - core)
+               arm = lowest_point(core*radius*spin)
+               points(k, c) = arm(3) - (1 - core)*radius - wheel%arm(3)
+            end associate
+         end do
+      end do
+      design = published(first)
+      published = published - design
+   end subroutine tyre_heights
 
    !> The states over the height of the road.
    !>
@@ -330,6 +369,15 @@ contains
       s = sin(degree*angle)
       w = [v(1), c*v(2) - s*v(3), s*v(2) + c*v(3)]
    end function turned_x
+
+   !> A vector turned about y by an angle [deg].
+   pure function turned_y(v, angle) result(w)
+      real(wp), intent(in) :: v(3), angle
+      real(wp) :: w(3), c, s
+      c = cos(degree*angle)
+      s = sin(degree*angle)
+      w = [c*v(1) + s*v(3), v(2), -s*v(1) + c*v(3)]
+   end function turned_y
 
    !> A vector turned about z by an angle [deg].
    pure function turned_z(v, angle) result(w)
