@@ -16,7 +16,7 @@ module ek_decimal
    use ek_kinds, only: wp, i8
    implicit none(type, external)
    private
-   public :: decimal, put_decimal, get_decimal, get_bounded, size_hint, checked_number, longest_decimal, number_limit
+   public :: decimal, rounded, put_decimal, get_decimal, get_bounded, size_hint, checked_number, longest_decimal, number_limit
 
    integer, parameter :: longest_decimal = 24       !! most characters of one number
    integer, parameter :: i16 = selected_int_kind(38)
@@ -370,5 +370,20 @@ contains
          at = at + 1
       end do
    end subroutine take_digits
+
+   !> A number rounded to significant digits; 0 for a magnitude below 1e-12. A magnitude above 1e12 is not rounded.
+   elemental real(wp) function rounded(value, digits)
+      real(wp), intent(in) :: value
+      integer, intent(in) :: digits
+      real(wp) :: scale
+
+      rounded = value
+      if (.not. ieee_is_finite(value)) return
+      if (abs(value) > 1.0e12_wp) return
+      rounded = 0.0_wp
+      if (abs(value) < 1.0e-12_wp) return
+      scale = 10.0_wp**(digits - 1 - floor(log10(abs(value))))
+      rounded = anint(value*scale)/scale
+   end function rounded
 
 end module ek_decimal

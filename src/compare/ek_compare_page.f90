@@ -6,9 +6,8 @@ module ek_compare_page
    use ek_text, only: str, plural
    use ek_version, only: version
    use ek_test_result, only: design_row
-   use ek_html, only: escape_html
    use ek_page, only: page_t, begin_page, begin_section, add_warnings, add_facts, begin_table, add_cell, end_table, add_text, &
-      add_legend, add_markup, begin_charts, end_charts, set_data, page_text, page_number
+      add_legend, add_charts, begin_fold, end_fold, end_text, set_data, page_text, page_number
    use ek_change, only: change_of, verdict_of, has_changed, letter_of, relative_change
    use ek_compare_sentence, only: sentences_of
    use ek_compare_targets, only: add_targets
@@ -40,7 +39,8 @@ contains
       end do
       call names%add('Program')
       call values%add('elastokin '//version)
-      call begin_page(page, 'Comparison', 'What was changed, and what it did; every result against A')
+      call begin_page(page, 'Comparison', 'What was changed, and what it did; every result against A', &
+         this%is_static)
       call add_facts(page, names, values)
       if (len(why_none) > 0) then
          call warnings%add('The page has no pictures: '//why_none)
@@ -67,7 +67,7 @@ contains
       type(comparison_t), intent(in) :: this
       integer :: r
 
-      call begin_section(page, 'changed', 'What was changed')
+      call begin_section(page, 'changed', 'What was changed', has_text=size(this%deck) <= few_changes)
       if (size(this%facts) + size(this%deck) == 0 .and. all(this%results%deck%is_known)) then
          call add_text(page, 'p', 'Nothing: the decks have the same values and were run with the same settings.')
          return
@@ -111,13 +111,13 @@ contains
          if (k == most_rows + 1) call fold_rows(page, heads, size(list) - most_rows, 'more differences')
          call add_cell(page, trim(list(k)%path//' '//bracketed(list(k)%sides)))
          do r = 1, size(this%results)
-            if (list(k)%texts%line(r) == '') call add_cell(page, 'not given', 's')
+            if (list(k)%texts%line(r) == '') call add_cell(page, 'not given', is_small=.true.)
             if (list(k)%texts%line(r) /= '') call add_cell(page, list(k)%texts%line(r))
          end do
-         if (has_step) call add_cell(page, with_minus(step_text(list(k)%texts%line(1), list(k)%texts%line(2))), 'n')
+         if (has_step) call add_cell(page, with_minus(step_text(list(k)%texts%line(1), list(k)%texts%line(2))))
       end do
       call end_table(page)
-      if (size(list) > most_rows) call add_markup(page, '</details>')
+      if (size(list) > most_rows) call end_fold(page)
    end subroutine add_values
 
    !> A note in parentheses, such as '(both sides)'; '' for an empty note.
@@ -152,7 +152,7 @@ contains
       integer, intent(in) :: rows
 
       call end_table(page)
-      call add_markup(page, '<details class="more"><summary>'//str(rows)//' '//what//'</summary>')
+      call begin_fold(page, str(rows)//' '//what)
       call begin_rows(page, heads)
    end subroutine fold_rows
 
@@ -198,21 +198,22 @@ contains
       integer, allocatable :: order(:)
       integer :: k, shown
 
-      call begin_section(page, 'results', 'What it did')
+      call begin_section(page, 'results', 'What it did', has_text=.true.)
       call verdicts(this, lines)
       do k = 1, lines%count()
-         call add_markup(page, '<p class="verdict"><b>'//escape_html(lines%line(k))//'</b></p>')
+         call add_text(page, 'b', lines%line(k))
       end do
       call add_text(page, 'p', 'A change of a number is that of its magnitude in percent of A. Whether it counts, and '// &
          'the order, follow from its share of A, or of the least span of a chart where A is smaller: noise is no change.')
       call add_targets(page, this%targets, [(letter_of(k), k=1, size(this%results))])
+      call end_text(page)
       if (size(this%targets) > 0) call add_text(page, 'h3', 'Key numbers and gradients')
       if (size(this%shown) > 0) call add_numbers(page, this)
       order = descending(merge(abs(this%changes%change), -1.0_wp, this%changes%is_known))
       shown = min(most_rows/2, count(this%changes%is_changed))
       if (shown == 0) return
       call add_text(page, 'h3', trim(merge('Charts that changed most', 'The chart that changed  ', shown > 1)))
-      call begin_rows(page, [character(20) :: 'Quantity', 'Test', '>largest difference', '>at', '>change %', 'Unit, sign'])
+      call begin_rows(page, [character(20) :: 'Quantity', 'Test', '>largest difference', '>at', '>change %', '~Unit, sign'])
       do k = 1, shown
          associate (chart => this%charts(order(k)), change => this%changes(order(k)))
             if (this%is_static .or. chart%is_level) then
@@ -221,10 +222,10 @@ contains
                call add_cell(page, chart%title, link=chart%name)
             end if
             call add_cell(page, this%results(1)%tests(chart%test)%title)
-            call add_cell(page, page_number(change%largest), 'n')
-            call add_cell(page, page_number(change%at), 'n')
-            call add_cell(page, page_number(100*change%change), 'n')
-            call add_cell(page, chart%y_label, 's')
+            call add_cell(page, page_number(change%largest))
+            call add_cell(page, page_number(change%at))
+            call add_cell(page, page_number(100*change%change))
+            call add_cell(page, chart%y_label)
          end associate
       end do
       call end_table(page)
@@ -247,7 +248,7 @@ contains
          heads(3*r - 1) = '>change %'
       end do
       heads(size(heads) - 1) = 'Unit'
-      heads(size(heads)) = 'Where'
+      heads(size(heads)) = '~Where'
       many = 0
       do k = 1, size(this%shown)
          if (has_changed(largest_change(this%shown(k)), this%threshold)) many = many + 1
@@ -265,16 +266,15 @@ contains
          call add_number(page, this, this%shown(k))
       end do
       if (many > 0) call end_table(page)
-      if (is_folded) call add_markup(page, '</details>')
+      if (is_folded) call end_fold(page)
       if (many == size(this%shown)) return
-      call add_markup(page, '<details class="more"><summary>'//str(size(this%shown) - many)// &
-         ' without a change, or not to be compared</summary>')
+      call begin_fold(page, str(size(this%shown) - many)//' without a change, or not to be compared')
       call begin_rows(page, heads)
       do k = many + 1, size(this%shown)
          call add_number(page, this, this%shown(k))
       end do
       call end_table(page)
-      call add_markup(page, '</details>')
+      call end_fold(page)
    end subroutine add_numbers
 
    subroutine add_number(page, this, row)
@@ -286,20 +286,20 @@ contains
       integer :: r
 
       call add_cell(page, trim(row%quantity//' '//row%side))
-      call add_cell(page, page_number(row%values(1)), 'n')
+      call add_cell(page, page_number(row%values(1)))
       do r = 2, size(row%values)
          change = change_of(row%values(1), row%values(r), row%least, row%unit)
          verdict = trim(verdict_of(change, this%threshold, row%is_there(1), row%is_there(r), r))
-         call add_cell(page, page_number(row%values(r)), 'n')
-         call add_cell(page, page_number(difference(row%values(1), row%values(r))), 'n')
+         call add_cell(page, page_number(row%values(r)))
+         call add_cell(page, page_number(difference(row%values(1), row%values(r))))
          if (verdict == 'changed' .or. verdict == 'same') then
             call relative_change(row%values(1), row%values(r), row%unit, percent, verdict)
             if (ieee_is_finite(percent)) verdict = page_number(percent)
          end if
-         call add_cell(page, verdict, 'n')
+         call add_cell(page, verdict)
       end do
       call add_cell(page, row%unit)
-      call add_cell(page, row%test//', '//row%window, 's')
+      call add_cell(page, row%test//', '//row%window)
    end subroutine add_number
 
    !> Adds the charts of a test. Changed charts are sorted by the size of the change, and the first six are open. The others
@@ -320,34 +320,30 @@ contains
          call add_text(page, 'p', counted(many, count(is_own), 'charts', this%threshold))
          if (design_row(own%table) > 0) call add_legend(page, [character(1) ::], .true., .false.)
          order = descending(merge(abs(this%changes%change), -1.0_wp, is_changed))
-         call add_charts(page, this, order(:min(many, principal)))
+         call add_own_charts(page, this, order(:min(many, principal)))
          if (many > principal) then
             call begin_fold(page, plural(many - principal, 'more chart', 'more charts')//' with a change')
-            call add_charts(page, this, order(principal + 1:many))
-            call add_markup(page, '</details>')
+            call add_own_charts(page, this, order(principal + 1:many))
+            call end_fold(page)
          end if
          order = pack([(k, k=1, size(is_own))], is_own .and. .not. is_changed)
          if (size(order) > 0) then
             call begin_fold(page, plural(size(order), 'chart', 'charts')//' without a change')
-            call add_charts(page, this, order)
-            call add_markup(page, '</details>')
+            call add_own_charts(page, this, order)
+            call end_fold(page)
          end if
          call add_constants(page, this%charts, test)
       end associate
    end subroutine add_test
 
-   subroutine begin_fold(page, summary)
-      type(page_t), intent(inout) :: page
-      character(*), intent(in) :: summary
-      call add_markup(page, '<details class="more"><summary>'//escape_html(summary)//'</summary>')
-   end subroutine begin_fold
-
-   !> Adds charts side by side: areas that the script of the page fills or, on a static page, the pictures drawn by gnuplot.
+   !> Adds charts side by side, each with its largest difference and the magnitude in percent of the scale. The script draws them;
+   !> a static page has the pictures drawn by gnuplot.
    !> Without pictures, a static page has no charts.
-   subroutine add_charts(page, this, numbers)
+   subroutine add_own_charts(page, this, numbers)
       type(page_t), intent(inout) :: page
       type(comparison_t), intent(in) :: this
       integer, intent(in) :: numbers(:)
+      type(message_list_t) :: names, notes
       integer :: k
 
       if (size(numbers) == 0) return
@@ -355,28 +351,15 @@ contains
          if (this%has_pictures) call add_pictures(page, this%charts, numbers, this%folder)
          return
       end if
-      call begin_charts(page, is_short=.true.)
       do k = 1, size(numbers)
          associate (chart => this%charts(numbers(k)), change => this%changes(numbers(k)))
-            call add_markup(page, '<figure class="live" id="'//escape_html(chart%name)//'"><figcaption><b>'// &
-               escape_html(chart%title)//'</b>'//escape_html(chart%y_label)// &
-               step_of(change%is_known, change%largest, change%change)// &
-               '</figcaption></figure>')
+            call names%add(chart%name)
+            if (change%is_known) call notes%add('largest difference '//page_number(change%largest)//' ('// &
+               page_number(100*abs(change%change))//' %)')
+            if (.not. change%is_known) call notes%add('')
          end associate
       end do
-      call end_charts(page)
-   end subroutine add_charts
-
-   !> HTML of the largest difference of a chart, and of its magnitude in percent of the scale: ' <span…>largest difference
-   !> −0.31 (4.2 %)</span>'. '' if the chart cannot be compared.
-   function step_of(is_known, largest, change) result(html)
-      logical, intent(in) :: is_known
-      real(wp), intent(in) :: largest, change
-      character(:), allocatable :: html
-
-      html = ''
-      if (is_known) html = ' <span class="effect">largest difference '//page_number(largest)//' ('//page_number(100*abs(change))// &
-         ' %)</span>'
-   end function step_of
+      call add_charts(page, names, notes)
+   end subroutine add_own_charts
 
 end module ek_compare_page

@@ -6,7 +6,7 @@ module ek_compare_targets
    use ek_error, only: message_list_t
    use ek_decimal, only: get_decimal
    use ek_deck_file, only: deck_record_t
-   use ek_number_words, only: is_in_band
+   use ek_number_words, only: is_in_band, limits_text
    use ek_report_files, only: results_t
    use ek_page, only: page_t, add_text, begin_table, add_cell, end_table, page_number
    implicit none(type, external)
@@ -94,7 +94,7 @@ contains
       if (value == '') value = '–'
       call this%values%add(value)
       call this%verdicts%add(verdict)
-      call this%bands%add(band_text(limits, is_given))
+      call this%bands%add(limits_text(limits)//trim(merge('no band', '       ', .not. any(is_given))))
    end subroutine judge
 
    !> Reads the band of a key number from the values of a deck.
@@ -127,22 +127,6 @@ contains
          if (.not. is_given) limit = default
       end do
    end subroutine read_limit
-
-   !> The limits of a band: '−30 … −20', '≥ −30', '≤ −20', or 'no band'.
-   pure function band_text(limits, is_given) result(text)
-      real(wp), intent(in) :: limits(2)
-      logical, intent(in) :: is_given(2)
-      character(:), allocatable :: text
-
-      text = 'no band'
-      if (all(is_given)) then
-         text = page_number(limits(1))//' … '//page_number(limits(2))
-      else if (is_given(1)) then
-         text = '≥ '//page_number(limits(1))
-      else if (is_given(2)) then
-         text = '≤ '//page_number(limits(2))
-      end if
-   end function band_text
 
    !> Adds the table of targets; adds nothing if there are no targets.
    subroutine add_targets(page, targets, letters)

@@ -8,7 +8,8 @@ module ek_comparison
    use ek_noise, only: is_noise, solved
    use ek_gradient, only: gradient_t
    use ek_report_files, only: results_t
-   use ek_chart, only: chart_t, both_sides, rounded
+   use ek_chart, only: chart_t, both_sides
+   use ek_decimal, only: rounded
    use ek_page, only: page_number
    use ek_change, only: least_of, change_of, has_changed, relative_change
    use ek_compare_charts, only: chart_change_t, curve_difference_t

@@ -9,7 +9,7 @@ module ek_chart
    use ek_file, only: join_path, remove_file
    use ek_text, only: str
    use ek_buffer, only: buffer_t
-   use ek_decimal, only: put_decimal, longest_decimal
+   use ek_decimal, only: put_decimal, rounded, longest_decimal
    use ek_gnuplot, only: begin_charts_file, heading_style, ink, text_ink, fill, series_rgb, on_title, on_label, on_soft, on_contact
    use ek_gnuplot_text, only: gnuplot_text, file_letters
    use ek_chart_data, only: chart_t, trace_t, new_chart, add_trace, append_chart
@@ -17,7 +17,7 @@ module ek_chart
    implicit none(type, external)
    private
    public :: chart_t, trace_t, new_chart, add_trace, append_chart, charts_script, add_coordinate, picture_file
-   public :: pictures_of, remove_drawn, range_of, view_of, set_level, rounded, cut_of, both_sides
+   public :: pictures_of, remove_drawn, range_of, view_of, set_level, cut_of, both_sides
 
    character(*), parameter :: both_sides = 'left = right'     !! title of a curve that is the same for both wheels of an axle
    character(*), parameter :: nl = new_line('a')
@@ -177,21 +177,6 @@ contains
       call put_decimal(rounded(value, digits), number, used)
       call script%add(number(:used))
    end subroutine add_coordinate
-
-   !> A number rounded to significant digits; 0 for a magnitude below 1e-12. A magnitude above 1e12 is not rounded.
-   elemental real(wp) function rounded(value, digits)
-      real(wp), intent(in) :: value
-      integer, intent(in) :: digits
-      real(wp) :: scale
-
-      rounded = value
-      if (.not. ieee_is_finite(value)) return
-      if (abs(value) > 1.0e12_wp) return
-      rounded = 0.0_wp
-      if (abs(value) < 1.0e-12_wp) return
-      scale = 10.0_wp**(digits - 1 - floor(log10(abs(value))))
-      rounded = anint(value*scale)/scale
-   end function rounded
 
    !> Adds the picture files of charts to a list, every name once. Charts without curves and constant charts (is_level) are
    !> omitted.

@@ -44,6 +44,7 @@ module ek_figure
       character(:), allocatable :: label
       logical :: has_range = .false.
       real(wp) :: range(2) = 0.0_wp                   !! from left to right or upward, if has_range
+      character(:), allocatable :: free_range         !! range of gnuplot with a least span; not allocated: all values
       logical :: is_log = .false.
       character(:), allocatable :: tics               !! distance or list of tics for gnuplot; not allocated: chosen by it
       type(message_list_t) :: names                   !! names at 1, 2, … in place of numbers
@@ -86,6 +87,8 @@ module ek_figure
       integer :: height = 420                         !! height of a row of panels [pixels]
       integer :: left = 110, right = 30, bottom = 80, top = 34      !! margins of a panel [pixels]
       integer :: letters = 15                         !! size of the font
+      integer :: key_width = 0                        !! width of a legend at the right of the panels [pixels]; 0: above them
+      logical :: has_heads = .false.                  !! files of the sources have column headings
       character(1) :: separator = ' '                 !! of the columns of data, as in the files of its sources
       character(:), allocatable :: scale_label        !! label of one scale for the colours of all panels; not allocated: none
    end type figure_t

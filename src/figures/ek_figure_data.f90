@@ -4,10 +4,8 @@ module ek_figure_data
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
    use ek_text, only: str
-   use ek_buffer, only: buffer_t
    use ek_letters, only: as_utf8
    use ek_json, only: json_t, json_string, json_strings, json_number, json_numbers, without_tags
-   use ek_chart, only: rounded
    use ek_gnuplot, only: role_name
    use ek_figure, only: figure_t, panel_t, axis_t, series_t, kinds, as_labels, centred, gap_row, drawn_range
    implicit none(type, external)
@@ -94,7 +92,7 @@ contains
 
       call json%open('{', name)
       call json%item('label', json_string(as_utf8(axis%label)))
-      if (axis%has_range) call json%item('range', json_numbers(rounded(drawn_range(axis), digits)))
+      if (axis%has_range) call json%item('range', json_numbers(drawn_range(axis), digits))
       if (axis%is_log) call json%item('log', 'true')
       if (axis%names%count() > 0) call json%item('names', json_strings(axis%names))
       if (.not. axis%has_tics) call json%item('bare', 'true')
@@ -124,12 +122,12 @@ contains
          if (series%is_small) call json%item('small', 'true')
       end if
       call json%open('[', 'values')
-      call json%item_of_list(short_numbers(series%values(1, :period_of(series%values))))
+      call json%item_of_list(json_numbers(series%values(1, :period_of(series%values)), digits, ','))
       do column = 2, size(series%values, 1)
          if (series%is_by_value .and. column == 3) then
-            call json%item_of_list(short_numbers(pack(series%values(3, :), is_begin(series%values))))
+            call json%item_of_list(json_numbers(pack(series%values(3, :), is_begin(series%values)), digits, ','))
          else
-            call json%item_of_list(short_numbers(series%values(column, :)))
+            call json%item_of_list(json_numbers(series%values(column, :), digits, ','))
          end if
       end do
       call json%close(']')
@@ -168,21 +166,5 @@ contains
          has_pen = all(ieee_is_finite(values(:2, k)))
       end do
    end function is_begin
-
-   !> A list of numbers with few digits, without blanks.
-   pure function short_numbers(values) result(literal)
-      real(wp), intent(in) :: values(:)
-      character(:), allocatable :: literal
-      type(buffer_t) :: list
-      integer :: k
-
-      call list%add('[')
-      do k = 1, size(values)
-         if (k > 1) call list%add(',')
-         call list%add(json_number(rounded(values(k), digits)))
-      end do
-      call list%add(']')
-      literal = list%text()
-   end function short_numbers
 
 end module ek_figure_data

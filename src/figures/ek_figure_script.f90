@@ -27,6 +27,7 @@ contains
       integer :: p, s
 
       call begin_script(script, figure%name, figure%title, trim(merge('comma     ', 'whitespace', figure%separator == ',')))
+      if (figure%has_heads) call script%line('set datafile columnheaders')
       call script%line('unset key; set style fill solid 1 noborder')
       do p = 1, size(figure%panels)
          do s = 1, size(figure%panels(p)%series)
@@ -106,8 +107,11 @@ contains
          do s = 1, size(first%series)
             if (allocated(first%series(s)%title)) has_key = .true.
          end do
-         if (has_key) call script%line('set key at screen 0.97, screen '//below_top(figure, 12)//' right top samplen 1.6'// &
-            text_ink(on_label))
+         if (has_key .and. figure%key_width == 0) call script%line('set key at screen 0.97, screen '//below_top(figure, 12)// &
+            ' right top samplen 1.6'//text_ink(on_label))
+         if (has_key .and. figure%key_width > 0) call script%line('set key at screen '//str(1.0_wp - real(figure%key_width, wp)/ &
+            figure%width, 4)//', screen '//below_top(figure, title_height + figure%top)// &
+            ' left top Left reverse samplen 2.5'//text_ink(on_label))
          call script%line('unset colorbox')
          if (.not. allocated(figure%scale_label)) return
          call script%line('set cbtics '//tics_of(first%value))
@@ -176,13 +180,13 @@ contains
       type(figure_t), intent(in) :: figure
       integer, intent(in) :: p
       character(:), allocatable :: label
-      integer :: column, row
+      integer :: column, row, at
       real(wp) :: left, right, top, bottom, cell, high
 
       associate (panel => figure%panels(p))
          column = modulo(p - 1, figure%columns)
          row = (p - 1)/figure%columns
-         cell = real(figure%width, wp)/figure%columns
+         cell = real(figure%width - figure%key_width, wp)/figure%columns
          high = full_height(figure)
          left = (column*cell + figure%left)/figure%width
          right = ((column + 1)*cell - figure%right)/figure%width
@@ -201,7 +205,10 @@ contains
          label = gnuplot_text(panel%x%label)
          if (panel%folds_after > 0) label = two_lines(panel%x%label, panel%folds_after)
          call script%line('set xlabel '//label//' offset 0, 0.3'//text_ink(on_label))
-         call script%line('set ylabel '//gnuplot_text(panel%y%label)//' offset 0.6, 0'//text_ink(on_label))
+         label = gnuplot_text(panel%y%label)
+         at = index(panel%y%label, nl)
+         if (at > 0) label = gnuplot_text(panel%y%label(:at - 1))//'."\n".'//gnuplot_text(panel%y%label(at + 1:))
+         call script%line('set ylabel '//label//' offset 0.6, 0'//text_ink(on_label))
          call add_axis(script, 'x', panel%x)
          call add_axis(script, 'y', panel%y)
          if (panel%is_space) then
@@ -235,7 +242,9 @@ contains
          trim(merge(" '%g'", '     ', axis%is_log)))
       call script%line(zero_axis(merge('y', 'x', name == 'x'), axis%has_zero))
       if (axis%has_range) call script%line('set '//name//'range '//range_of(drawn_range(axis)))
-      if (.not. axis%has_range) call script%line('set '//name//'range [*:*]')
+      if (axis%has_range) return
+      if (allocated(axis%free_range)) call script%line('set '//name//'range '//axis%free_range)
+      if (.not. allocated(axis%free_range)) call script%line('set '//name//'range [*:*]')
    end subroutine add_axis
 
    !> A range for gnuplot: '[0:12.5]'.

@@ -2,12 +2,11 @@
 !> draws name.png and name.svg from the data files in this folder. This module also lists the standard figures of one run.
 module ek_run_figures
    use ek_kinds, only: wp
-   use ek_buffer, only: buffer_t
-   use ek_text, only: str
    use ek_file, only: base_name
    use ek_chart, only: chart_t, range_of
-   use ek_gnuplot, only: begin_script, begin_formats, end_formats, ink, text_ink, heading_style, subtitle_style, series_rgb, &
-      on_title
+   use ek_figure, only: sheet_t => figure_t, panel_t, new_figure, add_source, title_height
+   use ek_figure_script, only: script_of => figure_script
+   use ek_gnuplot, only: ink, series_rgb, on_title
    use ek_gnuplot_text, only: gnuplot_text, gnuplot_name
    use ek_quantity, only: quantity_named
    use ek_table, only: table_t
@@ -17,9 +16,8 @@ module ek_run_figures
    private
    public :: figure_t, figure_script, run_figures
 
-   integer, parameter :: width = 1200, height = 900   !! size of a picture [pixels]
-   integer, parameter :: curve_styles = 8    !! the styles repeat after these curves
-   integer, parameter :: legend_on_top = 3   !! most entries of a legend above the panel; a longer legend is at the right
+   integer, parameter :: full_picture = 900  !! height of a picture [pixels]
+   integer, parameter :: legend_on_top = 3   !! most curves of a legend above the panel; a longer legend is at the right
 
    character(*), parameter :: nl = new_line('a')
 
@@ -35,15 +33,12 @@ module ek_run_figures
 contains
 
    !> The gnuplot script of a figure.
-   pure function figure_script(figure) result(text)
+   function figure_script(figure) result(text)
       type(figure_t), intent(in) :: figure
       character(:), allocatable :: text
-      type(buffer_t) :: script
-      integer :: k, entries, longest
-      real(wp) :: right
-      logical :: is_single
+      type(sheet_t) :: sheet
+      integer :: k, entries, longest, rows
 
-      is_single = size(figure%panels) == 1
       entries = 0                            ! of the legend; all panels share that of the first
       longest = len('design')                ! characters
       associate (traces => figure%panels(1)%traces)
@@ -51,123 +46,74 @@ contains
             if (len(traces(k)%title) > 0) entries = entries + 1
             longest = max(longest, len(traces(k)%title))
          end do
-         if (any([(allocated(traces(k)%mark), k=1, size(traces))])) entries = entries + 1
       end associate
-      right = 0.97_wp
-      if (entries > legend_on_top) right = 1.0_wp - real(120 + 11*longest, wp)/width
-
-      call begin_script(script, figure%name, figure%title, 'comma')
-      call script%line('set datafile columnheaders')
-      do k = 1, curve_styles
-         call script%line('set style line '//str(k)//' linecolor '//series_rgb(k)//" linewidth 2.6 pointtype 7 pointsize 0.7")
+      rows = (size(figure%panels) + 1)/2
+      sheet = new_figure(figure%name, figure%title, figure%subtitle, size(figure%panels), height=(full_picture - title_height)/rows)
+      sheet%columns = merge(1, 2, size(figure%panels) == 1)
+      sheet%letters = merge(15, 12, size(figure%panels) == 1)
+      sheet%separator = ','
+      sheet%has_heads = .true.
+      if (entries >= legend_on_top) sheet%key_width = 100 + 11*longest
+      do k = 1, size(figure%panels)
+         call fill_panel(sheet%panels(k), figure, k)
       end do
-      call script%line("set style line 20"//ink(on_title)//" linewidth 2 pointtype 6 pointsize 1.8   # marks"//nl)
-      if (entries > legend_on_top) then
-         call script%line('set key at screen '//str(right + 0.015_wp)//', screen 0.88 left top vertical Left reverse samplen 2.5')
-      else if (entries > 0) then
-         call script%line('set key at screen 0.975, screen 0.965 right top horizontal Right noreverse samplen 2.5')
-      end if
-      if (is_single) then
-         call script%line('set lmargin at screen 0.115; set rmargin at screen '//str(right))
-         call script%line('set tmargin at screen 0.88; set bmargin at screen 0.115')
-         call add_axes(script, figure%panels(1), figure%is_upward, '')
-      end if
-      call begin_formats(script, figure%name, width, height, merge(15, 12, is_single))
-      call script%line('   set label 1 '//gnuplot_text(figure%title)// &
-         " at screen 0.025, screen 0.965"//heading_style(20))
-      if (len(figure%subtitle) > 0) call script%line('   set label 2 '//gnuplot_text(figure%subtitle)// &
-         " at screen 0.025, screen 0.922"//subtitle_style())
-      if (is_single) then
-         call add_plot(script, figure, 1, entries > 0)
-      else
-         call script%line('   set multiplot layout '//str((size(figure%panels) + 1)/2)//', 2 margins 0.095, '// &
-            str(right)//', 0.085, 0.85 spacing 0.115, 0.155')
-         do k = 1, size(figure%panels)
-            call script%line('')
-            call add_axes(script, figure%panels(k), figure%is_upward, '   ')
-            call add_plot(script, figure, k, k == 1 .and. entries > 0)
-            if (k == 1) call script%line('   unset label 1; unset label 2')
-         end do
-         call script%line('   unset multiplot')
-      end if
-      call end_formats(script)
-      text = script%text()
+      text = script_of(sheet)
    end function figure_script
 
-   !> Adds the title, the labels and the range of values of one panel.
-   pure subroutine add_axes(script, panel, is_upward, indent)
-      type(buffer_t), intent(inout) :: script
-      type(chart_t), intent(in) :: panel
-      logical, intent(in) :: is_upward
-      character(*), intent(in) :: indent
-      character(1) :: x, y
-
-      x = merge('y', 'x', is_upward)
-      y = merge('x', 'y', is_upward)
-      if (len(panel%title) > 0) call script%line(indent//'set title '//gnuplot_text(panel%title)// &
-         heading_style(14))
-      call script%line(indent//'set '//x//'label '//label(panel%x_label, is_upward .and. len(indent) > 0)//text_ink(on_title))
-      call script%line(indent//'set '//y//'label '//label(panel%y_label, .not. is_upward .and. len(indent) > 0)//text_ink(on_title))
-      call script%line(indent//'set '//y//'range '//range_of(panel))
-   end subroutine add_axes
-
-   !> The string of a label. If is_folded, as in a small panel, the sign convention, '(+ …)' after four blanks, is placed on a
-   !> separate line.
-   pure function label(text, is_folded) result(words)
-      character(*), intent(in) :: text
-      logical, intent(in) :: is_folded
-      character(:), allocatable :: words
-      integer :: gap
-
-      gap = index(text, '    (')
-      words = gnuplot_text(text)
-      if (is_folded .and. gap > 0) words = gnuplot_text(text(:gap - 1))//'."\n".'//gnuplot_text(text(gap + 4:))
-   end function label
-
-   !> Adds the plot command: the curves, then a ring at the design state of each curve that has a mark.
-   pure subroutine add_plot(script, figure, number, has_legend)
-      type(buffer_t), intent(inout) :: script
+   !> Fills a panel with the curves of a chart, which gnuplot reads from the table of the figure, then with a ring at the design
+   !> state of each curve that has a mark. The first panel has the legend.
+   subroutine fill_panel(panel, figure, number)
+      type(panel_t), intent(inout) :: panel
       type(figure_t), intent(in) :: figure
       integer, intent(in) :: number              !! index of the panel
-      logical, intent(in) :: has_legend
-      character(:), allocatable :: line, title
+      character(:), allocatable :: look
+      logical :: has_mark
       integer :: k
 
-      line = '   plot '
-      associate (panel => figure%panels(number))
-         do k = 1, size(panel%traces)
-            associate (trace => panel%traces(k))
-               line = line//data_of(trace%over, trace%column)//' with '//trim(merge('points', 'lines ', panel%has_points))// &
-                  ' linestyle '//str(modulo(trace%colour - 1, curve_styles) + 1)
-               if (trace%dash > 0 .and. .not. panel%has_points) line = line//' dashtype (12, 7)'
-               title = ' notitle'
-               if (has_legend .and. len(trace%title) > 0) title = ' title '//gnuplot_text(trace%title)
-               line = line//title//', \'//nl//'        '
+      associate (chart => figure%panels(number))
+         panel%title = chart%title
+         if (figure%is_upward) then
+            panel%x%label = chart%y_label
+            panel%y%label = chart%x_label
+            panel%x%free_range = range_of(chart)
+         else
+            panel%x%label = chart%x_label
+            panel%y%label = chart%y_label
+            panel%y%free_range = range_of(chart)
+         end if
+         k = index(panel%y%label, '    (')       ! in a small panel, the sign is on a separate line
+         if (size(figure%panels) > 1 .and. k > 0) panel%y%label = panel%y%label(:k - 1)//nl//panel%y%label(k + 4:)
+         do k = 1, size(chart%traces)
+            associate (trace => chart%traces(k))
+               look = ' with lines linewidth 2.6'
+               if (trace%dash > 0) look = look//' dashtype (12, 7)'
+               if (chart%has_points) look = ' with points pointtype 7 pointsize 0.7'
+               call add_curve(trace%over, trace%column, look//' linecolor '//series_rgb(trace%colour), trace%title)
             end associate
          end do
-         title = ' notitle'
-         if (has_legend) title = ' title '//gnuplot_text('design')
-         do k = 1, size(panel%traces)
-            if (.not. allocated(panel%traces(k)%mark)) cycle
-            line = line//data_of('(column("factor") == 0 ? column("'//panel%traces(k)%over//'") : NaN)', panel%traces(k)%column)// &
-               ' with points linestyle 20'//title//', \'//nl//'        '
-            title = ' notitle'
+         has_mark = .false.
+         do k = 1, size(chart%traces)
+            if (.not. allocated(chart%traces(k)%mark)) cycle
+            call add_curve('(column("factor") == 0 ? column("'//chart%traces(k)%over//'") : NaN)', chart%traces(k)%column, &
+               ' with points pointtype 6 pointsize 1.8 linewidth 2'//ink(on_title), trim(merge('      ', 'design', has_mark)))
+            has_mark = .true.
          end do
       end associate
-      call script%line(line(:index(line, ', \', back=.true.) - 1))
 
    contains
 
-      !> The gnuplot expression for the data of a curve: its columns x and y.
-      pure function data_of(over, column) result(text)
-         character(*), intent(in) :: over, column
-         character(:), allocatable :: text
+      !> Adds the columns x and y of the table of the figure.
+      subroutine add_curve(over, column, look, title)
+         character(*), intent(in) :: over, column, look, title
+         character(:), allocatable :: source
 
-         text = gnuplot_text(figure%file)//' using '//field(over)//':'//field(column)
-         if (figure%is_upward) text = gnuplot_text(figure%file)//' using '//field(column)//':'//field(over)
-      end function data_of
+         source = gnuplot_text(figure%file)//' using '//field(over)//':'//field(column)//look
+         if (figure%is_upward) source = gnuplot_text(figure%file)//' using '//field(column)//':'//field(over)//look
+         if (number == 1 .and. title /= '') call add_source(panel, source, title)
+         if (number > 1 .or. title == '') call add_source(panel, source)
+      end subroutine add_curve
 
-   end subroutine add_plot
+   end subroutine fill_panel
 
    !> The gnuplot expression for a column name; an expression in parentheses is unchanged.
    pure function field(name) result(text)

@@ -7,7 +7,8 @@ module ek_effect_table
    use ek_study_data, only: study_data_t, effects_t, has_indices
    use ek_effect_figures, only: ranked
    use ek_factor_order, only: most_open, effect_sizes, has_no_effect
-   use ek_page, only: page_t, begin_section, add_text, add_markup, begin_table, add_cell, add_group, end_table, page_number
+   use ek_page, only: page_t, begin_section, add_text, begin_fold, end_fold, begin_table, add_cell, add_numbers, &
+      add_group, end_table, page_number
    implicit none(type, external)
    private
    public :: add_effects
@@ -43,13 +44,13 @@ contains
       end do
       call end_table(page)
       if (folded > 0) then
-         call add_markup(page, '<details class="more"><summary>'//plural(folded, 'row', 'rows')//' with smaller effects</summary>')
+         call begin_fold(page, plural(folded, 'row', 'rows')//' with smaller effects')
          call begin_effects(page, study)
          do r = 1, size(study%responses)
             if (count_of(study, r) > most_open) call add_rows(page, study, r, most_open + 1, count_of(study, r))
          end do
          call end_table(page)
-         call add_markup(page, '</details>')
+         call end_fold(page)
       end if
       call add_idle(page, study)
       if (study%failed == 0) return
@@ -111,26 +112,17 @@ contains
          associate (effect => study%effects(r))
             select case (study%kind)
             case ('saltelli', 'list')
-               call add_cell(page, page_number(effect%first(f)), 'n')
-               call add_cell(page, page_number(effect%first_error(f)), 'n')
-               call add_cell(page, page_number(effect%total(f)), 'n')
-               call add_cell(page, page_number(effect%total_error(f)), 'n')
-               call add_cell(page, str(effect%used(f))//' of '//str(effect%planned), 'n')
+               call add_numbers(page, [effect%first(f), effect%first_error(f), effect%total(f), effect%total_error(f)])
+               call add_cell(page, str(effect%used(f))//' of '//str(effect%planned))
             case ('tolerance')
-               call add_cell(page, page_number(study%centers(f)), 'n')
-               call add_cell(page, page_number(study%deviations(f)), 'n')
-               call add_cell(page, page_number(effect%slope(f)), 'n')
-               call add_cell(page, page_number(effect%effect(f)), 'n')
-               call add_cell(page, percent(effect%first(f)), 'n')
-               call add_cell(page, percent(effect%total(f)), 'n')
+               call add_numbers(page, [study%centers(f), study%deviations(f), effect%slope(f), effect%effect(f)])
+               call add_cell(page, percent(effect%first(f)))
+               call add_cell(page, percent(effect%total(f)))
             case ('morris')
-               call add_cell(page, page_number(effect%mean_size(f)), 'n')
-               call add_cell(page, page_number(effect%deviation(f)), 'n')
-               call add_cell(page, str(effect%used(f))//' of '//str(effect%planned), 'n')
+               call add_numbers(page, [effect%mean_size(f), effect%deviation(f)])
+               call add_cell(page, str(effect%used(f))//' of '//str(effect%planned))
             case default
-               call add_cell(page, page_number(effect%at_low(f)), 'n')
-               call add_cell(page, page_number(effect%at_high(f)), 'n')
-               call add_cell(page, page_number(effect%highest(f) - effect%lowest(f)), 'n')
+               call add_numbers(page, [effect%at_low(f), effect%at_high(f), effect%highest(f) - effect%lowest(f)])
             end select
          end associate
       end do
@@ -159,7 +151,7 @@ contains
          all = all + count([(has_no_effect(sizes, f), f=1, size(sizes))])
       end do
       if (all == 0) return
-      call add_markup(page, '<details class="more"><summary>'//plural(all, 'row', 'rows')//' without an effect</summary>')
+      call begin_fold(page, plural(all, 'row', 'rows')//' without an effect')
       do r = 1, size(study%responses)
          sizes = effect_sizes(study, r)
          idle = 0
@@ -173,7 +165,7 @@ contains
          if (study%kind == 'tolerance') names = names//', near the centre of the factors'
          if (idle > 0) call add_text(page, 'p', study%responses(r)%label//' does not depend on '//names//'.')
       end do
-      call add_markup(page, '</details>')
+      call end_fold(page)
    end subroutine add_idle
 
    !> Number of base points or effects from which an effect was computed, if designs failed: ' (67 of 256)'; otherwise ''.

@@ -219,7 +219,7 @@ contains
          'and preload adds to it; elastokin explain lists all of them at every state. Geometric: by the force that the part '// &
          'carries, not by its rate. A rate that is 1 % higher lowers the compliance by 1 % of its contribution. '// &
          'The rates are the same sums for a given motion: the part of a spring is its rate times the square of its motion ratio.')
-      call begin_table(page, [character(13) :: 'Contribution', '>Value', '>Share, %', '- 0 +', 'Unit'])
+      call begin_table(page, [character(13) :: 'Contribution', '>Value', '>Share, %', '- 0 +', '~Unit'])
       do c = 1, size(list)
          if (list(c)%rows == 0 .and. reads_zero(list(c)%value)) cycle      ! held by a joint, or zero by symmetry
          associate (this => list(c))
@@ -242,14 +242,14 @@ contains
 
       most = max(maxval(abs(this%part)), abs(this%rest))      ! a row is shown: one of them is not zero
       call add_cell(page, name)
-      call add_cell(page, page_number(part), 'n')
+      call add_cell(page, page_number(part))
       if (reads_zero(this%value)) then
-         call add_cell(page, '–', 'n')            ! parts that cancel
+         call add_cell(page, '–')                 ! parts that cancel
       else
-         call add_cell(page, percent_text(part/this%value), 'n')
+         call add_cell(page, percent_text(part/this%value))
       end if
       call add_bar(page, part/most)
-      call add_cell(page, this%unit, 's')
+      call add_cell(page, this%unit)
    end subroutine add_row
 
    !> A share in percent, rounded to 0.1 and printed with the digits that this rounding leaves: '44.1', '−0.5', '0'. A share of

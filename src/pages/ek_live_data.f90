@@ -168,7 +168,7 @@ contains
       is_first = all(is_used) .or. is_exact
       call make_small(test, of_law, is_exact, is_used, small)
       call out%add('{"name": '//json_string(test%name)//', "of_law": ')
-      call add_list(out, real(small%of_law - 1, wp))
+      call out%add(json_numbers(real(small%of_law - 1, wp), separator=','))
       call out%add(', "is_whole": '//truth(small%is_whole)//', "has_self": '// &
          truth(small%has_self)//', "has_held": '//truth(small%has_held)//', "vectors": '//str(small%vectors)//', "columns": [')
       do c = 1, size(small%column)
@@ -184,7 +184,7 @@ contains
          if (.not. test%state(k)%is_known) then
             call out%add('null')
          else if (is_exact) then
-            call add_list(out, small%numbers(:, k))
+            call out%add(json_numbers(small%numbers(:, k), separator=','))
          else
             call out%add('"'//base64_of_numbers(small%numbers(:, k))//'"')
          end if
@@ -192,7 +192,7 @@ contains
       call out%add(']')
       if (is_first) then                  ! of a test once: how far its states would move
          call out%add(', "ends_of_law": ')
-         call add_list(out, real(of_law - 1, wp))
+         call out%add(json_numbers(real(of_law - 1, wp), separator=','))
          call out%add(', "ends": [')
          do k = 1, size(test%shown)
             if (k > 1) call out%add(', ')
@@ -217,19 +217,6 @@ contains
          list = [entries(state%self, .true.), state%deflection, reshape(state%move, [size(state%move)])]
       end if
    end function end_numbers
-
-   subroutine add_list(out, values)
-      type(buffer_t), intent(inout) :: out
-      real(wp), intent(in) :: values(:)
-      integer :: k
-
-      call out%add('[')
-      do k = 1, size(values)
-         if (k > 1) call out%add(',')
-         call out%add(json_number(values(k)))
-      end do
-      call out%add(']')
-   end subroutine add_list
 
    pure function truth(is_so) result(text)
       logical, intent(in) :: is_so

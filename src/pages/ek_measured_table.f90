@@ -28,12 +28,12 @@ contains
                call add_cell(page, measurements(k)%test)
                call add_cell(page, trim(channel%column))
                call add_cell(page, trim(channel%unit))
-               call add_cell(page, str(channel%points), 'n')
-               call add_cell(page, page_number(channel%rms), 'n')
-               call add_cell(page, page_number(channel%largest), 'n')
-               call add_cell(page, short(channel%slope), 'n')
-               call add_cell(page, short(channel%model_slope), 'n')
-               call add_cell(page, page_number(channel%loop), 'n')
+               call add_cell(page, str(channel%points))
+               call add_cell(page, page_number(channel%rms))
+               call add_cell(page, page_number(channel%largest))
+               call add_cell(page, short(channel%slope))
+               call add_cell(page, short(channel%model_slope))
+               call add_cell(page, page_number(channel%loop))
             end associate
          end do
       end do

@@ -2,6 +2,7 @@
 module ek_number_words
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
+   use ek_error, only: message_list_t
    use ek_noise, only: is_within, solved
    use ek_quantity, only: all_quantities, unit_of, unit_text
    use ek_key_number, only: key_number_t, anti_phase
@@ -9,7 +10,8 @@ module ek_number_words
    use ek_page, only: page_number
    implicit none(type, external)
    private
-   public :: steer_effect, target_verdict, is_in_band, mean_value, short_name, is_equal, is_opposite, sides_text
+   public :: steer_effect, target_verdict, is_in_band, mean_value, short_name, is_equal, is_opposite, sides_text, wheel_values, &
+      limits_text
 
    character(*), parameter :: fitted = ' (fitted)'
 
@@ -90,6 +92,32 @@ contains
       end do
       is_in_band = is_within(value, limits(1), limits(2), column, solved)
    end function is_in_band
+
+   !> The limits of a band: '−2.000 … 0.5000', '≥ −2.000', '≤ 0.5000'; '' without limits.
+   pure function limits_text(limits) result(text)
+      real(wp), intent(in) :: limits(2)             !! ∓huge if not given
+      character(:), allocatable :: text
+
+      text = ''
+      if (limits(1) > -huge(1.0_wp) .and. limits(2) < huge(1.0_wp)) then
+         text = page_number(limits(1))//' … '//page_number(limits(2))
+      else if (limits(1) > -huge(1.0_wp)) then
+         text = '≥ '//page_number(limits(1))
+      else if (limits(2) < huge(1.0_wp)) then
+         text = '≤ '//page_number(limits(2))
+      end if
+   end function limits_text
+
+   !> The values of a key number as they are printed. For the axle, or if both wheels have equal or opposite values to the printed
+   !> digits, it is one value (`left`). Otherwise it is the left and the right value, or the only value.
+   type(message_list_t) function wheel_values(number) result(values)
+      type(key_number_t), intent(in) :: number
+      logical :: is_one
+
+      is_one = number%is_of_axle .or. is_equal(number) .or. is_opposite(number) .or. .not. ieee_is_finite(number%right)
+      if (is_one .or. ieee_is_finite(number%left)) call values%add(page_number(number%left))
+      if (.not. is_one) call values%add(page_number(number%right))
+   end function wheel_values
 
    !> The quantity of a key number, with an initial capital, and without ' (fitted)', the suffix of a fitted slope.
    function short_name(number) result(name)

@@ -1,9 +1,10 @@
-!> A page of results as one self-contained HTML file: headings, tables and embedded pictures.
+!> A page of results as one self-contained HTML file. The page contains its sections as data (JSON), from which its script
+!> (page/section.js) makes headings, tables, charts and pictures.
 !>
-!> No script, font or picture is fetched: the page itself forbids fetching (Content-Security-Policy). The page is laid out for
-!> a screen, in one column for a phone (tables scroll in their own box), and for paper (A4). Input strings are escaped here,
-!> except HTML (add_markup), SVG and JSON. Style sheet and script are separate files in page/, which the build puts into
-!> ek_page_assets.
+!> The same calls write the text of a page for a browser without script: of a static page everything, of other pages the facts, the
+!> warnings and the sections with has_text. No script, font or picture is fetched: the page itself forbids fetching
+!> (Content-Security-Policy). The page is laid out for a screen, in one column for a phone (tables scroll in their own box), and for
+!> paper (A4). Style sheet and script are separate files in page/, which the build puts into ek_page_assets.
 module ek_page
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_is_nan
    use ek_kinds, only: wp
@@ -12,25 +13,30 @@ module ek_page
    use ek_base64, only: base64
    use ek_buffer, only: buffer_t
    use ek_html, only: svg_address, escape_html
+   use ek_json, only: json_t, json_string, json_strings, without_tags
+   use ek_letters, only: as_utf8
    use ek_page_assets, only: add_style, add_script, add_live_style, add_live_script, add_turntable_script, add_figure_script
    implicit none(type, external)
    private
-   public :: page_t, begin_page, begin_section, add_text, add_warnings, add_facts
-   public :: begin_table, add_cell, add_bar, add_group, end_table
-   public :: begin_charts, end_charts, add_picture, add_data_picture, add_figure, add_legend, add_markup, page_text
-   public :: page_number, set_data, verdict_html
-
-   character(*), parameter :: nl = new_line('a')
+   public :: page_t, begin_page, begin_section, add_text, add_file, add_warnings, add_facts, begin_fold, end_fold
+   public :: write_as_text, end_text
+   public :: begin_table, add_cell, add_numbers, add_bar, add_group, end_table
+   public :: add_charts, begin_pictures, end_pictures, add_picture, add_data_picture, add_figure, add_legend, add_block, page_text
+   public :: page_number, set_data
 
    type :: page_t
       private
-      type(buffer_t) :: body, contents
-      character(:), allocatable :: title
-      character(:), allocatable :: data     !! JSON from which the script draws; not allocated: a page without script
-      integer :: header = 0                 !! characters of the body before the list of contents
+      type(buffer_t) :: body, contents      !! text without script; list of its sections
+      type(json_t) :: sections              !! data of the sections
+      character(:), allocatable :: title, subtitle
+      character(:), allocatable :: data     !! JSON from which the script draws; not allocated: a page without charts
       integer :: table_columns = 0
       integer :: cells = 0                  !! cells of the last row while the row is incomplete, otherwise 0
-      logical :: has_section = .false.
+      character(:), allocatable :: kinds    !! kind of each column of the table: 'n' numbers, 's' small print, ' '
+      logical :: is_static = .false.        !! a page without script
+      logical :: has_text = .true.          !! the section is also text without script
+      logical :: has_data = .true.          !! the section is data
+      logical :: has_section = .false.      !! the text has a section
       logical :: is_live = .false.          !! the script of the page also changes rates
       logical :: has_turntable = .false.    !! the script of the page also turns the suspension
       logical :: has_figures = .false.      !! the script of the page also draws figures of panels
@@ -40,15 +46,19 @@ module ek_page
 contains
 
    !> Begins a page with its title.
-   pure subroutine begin_page(page, title, subtitle)
+   pure subroutine begin_page(page, title, subtitle, is_static)
       type(page_t), intent(out) :: page
       character(*), intent(in) :: title, subtitle
+      logical, intent(in), optional :: is_static           !! .true.: a page without script
 
       page%title = title
-      call page%body%line('<header><h1>'//escape_html(title)//'</h1>')
-      if (len(subtitle) > 0) call page%body%line('<p class="subtitle">'//escape_html(subtitle)//'</p>')
-      call page%body%line('</header>')
-      page%header = page%body%length()
+      page%subtitle = subtitle
+      if (present(is_static)) page%is_static = is_static
+      page%has_data = .not. page%is_static
+      page%sections%is_one_line = .true.
+      call page%sections%open('[')
+      call page%sections%open('{')
+      call page%sections%open('[', 'blocks')
    end subroutine begin_page
 
    !> Sets the data of a page whose charts are drawn by its script: JSON without '<'.
@@ -67,42 +77,95 @@ contains
       if (present(has_charts)) page%has_charts = has_charts
    end subroutine set_data
 
-   !> Adds a line of HTML unchanged. The caller must have escaped every string in it with escape_html.
-   pure subroutine add_markup(page, html)
+   !> A string as JSON.
+   pure function quoted(text) result(literal)
+      character(*), intent(in) :: text
+      character(:), allocatable :: literal
+      literal = json_string(as_utf8(text))
+   end function quoted
+
+   !> Adds a line of text for a browser without script.
+   pure subroutine say(page, html)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: html
-      if (len(html) > 0) call page%body%line(html)
-   end subroutine add_markup
+      if (page%has_text) call page%body%line(html)
+   end subroutine say
+
+   !> Adds a block that the script makes: its kind and its data, and optionally a second item.
+   pure subroutine add_block(page, kind, literal, key, second)
+      type(page_t), intent(inout) :: page
+      character(*), intent(in) :: kind, literal            !! name of the block in section.js; JSON
+      character(*), intent(in), optional :: key, second    !! name of the second item; JSON
+
+      if (.not. page%has_data) return
+      call page%sections%open('{')
+      call page%sections%item(kind, literal)
+      if (present(key)) call page%sections%item(key, second)
+      call page%sections%close('}')
+   end subroutine add_block
+
+   !> Writes the blocks that follow only as text, or again as data, too.
+   pure subroutine write_as_text(page, is_only)
+      type(page_t), intent(inout) :: page
+      logical, intent(in) :: is_only
+      page%has_data = .not. (page%is_static .or. is_only)
+   end subroutine write_as_text
+
+   !> Ends the text for browsers without script within a section; what follows is only data. A static page is text to its end.
+   pure subroutine end_text(page)
+      type(page_t), intent(inout) :: page
+      page%has_text = page%is_static
+   end subroutine end_text
 
    !> Begins a section and ends the previous section. `id` consists of letters, digits, _ and -.
-   pure subroutine begin_section(page, id, title, condition, is_printed)
+   pure subroutine begin_section(page, id, title, condition, is_printed, has_text)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: id, title
       character(*), intent(in), optional :: condition      !! string after the title, in a smaller font
       logical, intent(in), optional :: is_printed          !! .false.: of a live page, on the screen alone
-      character(:), allocatable :: small, look
+      logical, intent(in), optional :: has_text            !! .true.: also for browsers without script
+      character(:), allocatable :: small, name
 
-      if (page%has_section) call page%body%line('</section>')
-      page%has_section = .true.
       small = ''
-      if (present(condition)) small = ' <small>'//escape_html(condition)//'</small>'
-      look = ''
-      if (present(is_printed)) look = trim(merge('                    ', ' class="not-printed"', is_printed))
-      call page%body%line('<section id="'//escape_html(id)//'"'//look//'><h2>'//escape_html(title)//small//'</h2>')
-      call page%contents%line('<li><a href="#'//escape_html(id)//'">'//escape_html(title)//'</a></li>')
+      if (present(condition)) small = condition
+      call page%sections%close(']')
+      call page%sections%close('}')
+      call page%sections%open('{')
+      call page%sections%item('id', quoted(id))
+      call page%sections%item('title', quoted(title))
+      if (small /= '') call page%sections%item('condition', quoted(small))
+      if (present(is_printed)) call page%sections%item('printed', trim(merge('true ', 'false', is_printed)))
+      call page%sections%open('[', 'blocks')
+      page%has_text = page%is_static
+      if (present(has_text)) page%has_text = page%is_static .or. has_text
+      if (.not. page%has_text) return
+      if (page%has_section) call say(page, '</section>')
+      page%has_section = .true.
+      if (small /= '') small = ' <small>'//escape_html(small)//'</small>'
+      name = ''
+      if (page%is_static) name = ' id="'//escape_html(id)//'"'        ! otherwise the script gives it
+      call say(page, '<section'//name//'><h2>'//escape_html(title)//small//'</h2>')
+      if (page%is_static) call page%contents%line('<li><a href="#'//escape_html(id)//'">'//escape_html(title)//'</a></li>')
    end subroutine begin_section
 
-   !> Adds a plain string as a paragraph 'p', as a heading 'h3' within a section, or as preformatted lines 'pre'. HTML markup
-   !> in the string is escaped.
+   !> Adds a plain string as a paragraph 'p', as a heading 'h3' within a section, as preformatted lines 'pre', or as a verdict 'b'.
    pure subroutine add_text(page, tag, text)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: tag, text
-      character(:), allocatable :: open
 
-      open = tag
-      if (tag == 'pre') open = tag//' tabindex="0"'      ! it scrolls
-      call page%body%line('<'//open//'>'//escape_html(text)//'</'//tag//'>')
+      call add_block(page, tag, quoted(text))
+      if (tag == 'b') call say(page, '<p class="verdict"><b>'//escape_html(text)//'</b></p>')
+      if (tag /= 'b') call say(page, '<'//tag//'>'//escape_html(text)//'</'//tag//'>')
    end subroutine add_text
+
+   !> Adds a paragraph with a link to a file at its end.
+   pure subroutine add_file(page, text, file)
+      type(page_t), intent(inout) :: page
+      character(*), intent(in) :: text, file     !! file: relative to the page
+
+      call add_block(page, 'p', quoted(text), 'file', quoted(file))
+      call say(page, '<p>'//escape_html(text)//'<a href="'//escape_html(file)//'">'//escape_html(file)//'</a></p>')
+   end subroutine add_file
 
    !> Adds a box of warnings; adds nothing for an empty list.
    pure subroutine add_warnings(page, title, list)
@@ -112,96 +175,163 @@ contains
       integer :: k
 
       if (list%count() == 0) return
-      call page%body%line('<div class="warning" role="note"><strong>'//escape_html(title)//'</strong><ul>')
+      call add_block(page, 'warnings', json_strings(list), 'title', quoted(title))
+      call say(page, '<div class="warning" role="note"><strong>'//escape_html(title)//'</strong><ul>')
       do k = 1, list%count()
-         call page%body%line('<li>'//lines_html(list%line(k))//'</li>')
+         call say(page, '<li>'//escape_html(list%line(k))//'</li>')
       end do
-      call page%body%line('</ul></div>')
+      call say(page, '</ul></div>')
    end subroutine add_warnings
 
-   !> A message as HTML, with a line break for each line break of the message.
-   pure function lines_html(text) result(html)
-      character(*), intent(in) :: text
-      character(:), allocatable :: html
-      integer :: first, length
-
-      html = ''
-      first = 1
-      do
-         length = index(text(first:)//new_line('a'), new_line('a')) - 1
-         html = html//escape_html(text(first:first + length - 1))
-         first = first + length + 1
-         if (first > len(text)) exit
-         html = html//'<br>'
-      end do
-   end function lines_html
-
-   !> Adds a list of facts, given as names and values; both lists have the same length.
-   pure subroutine add_facts(page, names, values)
+   !> Adds a list of facts, given as names and values; all lists have the same length.
+   pure subroutine add_facts(page, names, values, marks)
       type(page_t), intent(inout) :: page
       type(message_list_t), intent(in) :: names, values
+      type(message_list_t), intent(in), optional :: marks  !! the facts are verdicts: 'inside', 'outside' or '' for each
+      character(:), allocatable :: mark, rows
       integer :: k
 
-      call page%body%line('<dl>')
+      rows = ''
+      call say(page, '<dl'//trim(merge(' class="verdicts">', '>                 ', present(marks))))
       do k = 1, names%count()
-         call page%body%line('<div><dt>'//escape_html(names%line(k))//'</dt><dd>'//escape_html(values%line(k))//'</dd></div>')
+         mark = ''
+         if (present(marks)) mark = marks%line(k)
+         if (k > 1) rows = rows//', '
+         rows = rows//'['//quoted(names%line(k))//', '//quoted(values%line(k))
+         if (mark /= '') rows = rows//', '//quoted(mark)
+         rows = rows//']'
+         call say(page, '<div><dt>'//escape_html(names%line(k))//'</dt><dd>'//escape_html(values%line(k))//mark_html(mark)// &
+            '</dd></div>')
       end do
-      call page%body%line('</dl>')
+      call say(page, '</dl>')
+      call add_block(page, trim(merge('verdicts', 'facts   ', present(marks))), '['//rows//']')
    end subroutine add_facts
 
-   !> Begins a table with its column headings; a heading that begins with '>' marks a column of numbers, aligned right.
+   !> Begins a block that a click on its summary opens. Its blocks follow until end_fold.
+   pure subroutine begin_fold(page, summary)
+      type(page_t), intent(inout) :: page
+      character(*), intent(in) :: summary
+
+      call say(page, '<details class="more"><summary>'//escape_html(summary)//'</summary>')
+      if (.not. page%has_data) return
+      call page%sections%open('{')
+      call page%sections%item('fold', quoted(summary))
+      call page%sections%open('[', 'blocks')
+   end subroutine begin_fold
+
+   !> Ends a block that a click opens.
+   pure subroutine end_fold(page)
+      type(page_t), intent(inout) :: page
+
+      call say(page, '</details>')
+      if (.not. page%has_data) return
+      call page%sections%close(']')
+      call page%sections%close('}')
+   end subroutine end_fold
+
+   !> Begins a table with its column headings. A heading that begins with '>' marks a column of numbers, aligned right, and one that
+   !> begins with '~' a column of small print.
    pure subroutine begin_table(page, heads, class)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: heads(:)
       character(*), intent(in), optional :: class     !! 'numbers': the filter of a live page hides rows
       character(:), allocatable :: look
-      integer :: k, first
+      type(message_list_t) :: list
+      integer :: k
 
       page%table_columns = size(heads)
+      page%kinds = repeat(' ', size(heads))
       look = ''
-      if (present(class)) look = ' class="'//escape_html(class)//'"'
-      call page%body%add('<div class="scroll" tabindex="0"><table'//look//'><thead><tr>')
+      if (present(class)) look = ' class="'//class//'"'
+      look = '<div class="scroll" tabindex="0"><table'//look//'><thead><tr>'
       do k = 1, size(heads)
-         first = merge(2, 1, index(heads(k), '>') == 1)
-         call page%body%add('<th scope="col"'//trim(merge(' class="n">', '>          ', first == 2))// &
-            escape_html(trim(heads(k) (first:)))//'</th>')
+         if (heads(k) (1:1) == '>') page%kinds(k:k) = 'n'
+         if (heads(k) (1:1) == '~') page%kinds(k:k) = 's'
+         call list%add(trim(heads(k)))
+         look = look//'<th scope="col"'//trim(merge(' class="n">', '>          ', page%kinds(k:k) == 'n'))// &
+            escape_html(trim(heads(k) (merge(1, 2, page%kinds(k:k) == ' '):)))//'</th>'
       end do
-      call page%body%line('</tr></thead><tbody>')
+      call say(page, look//'</tr></thead><tbody>')
+      if (.not. page%has_data) return
+      call page%sections%open('{')
+      if (present(class)) call page%sections%item('look', quoted(class))
+      call page%sections%item('heads', json_strings(list))
+      call page%sections%open('[', 'table')
    end subroutine begin_table
 
    !> Adds a heading across the table for the rows below it.
    pure subroutine add_group(page, title)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: title
-      call page%body%line('<tr class="group"><th colspan="'//str(page%table_columns)//'" scope="colgroup">'// &
+
+      if (page%has_data) call page%sections%item_of_list(quoted(title))
+      call say(page, '<tr class="group"><th colspan="'//str(page%table_columns)//'" scope="colgroup">'// &
          escape_html(title)//'</th></tr>')
    end subroutine add_group
 
-   !> Adds the next cell: a string, a number (kind 'n'), or a small string ('s'). A row must have as many cells as the table has
-   !> headings.
-   pure subroutine add_cell(page, text, kind, link, verdict)
+   !> Adds the next cell. A row must have as many cells as the table has headings.
+   pure subroutine add_cell(page, text, link, verdict, is_small)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: text
-      character(1), intent(in), optional :: kind
       character(*), intent(in), optional :: link       !! id of the target of the link on the page
-      character(*), intent(in), optional :: verdict    !! after a string without link: 'inside' is green, others are red
+      character(*), intent(in), optional :: verdict    !! after the string: 'inside' is green, others are red
+      logical, intent(in), optional :: is_small        !! small print in a column of another kind
+      character(:), allocatable :: more, mark
 
-      if (page%cells == 0) call page%body%add('<tr>')
-      call page%body%add('<td')
-      if (present(kind)) call page%body%add(' class="'//kind//'"')
-      if (present(link)) then
-         call page%body%add('><a href="#'//escape_html(link)//'">'//escape_html(text)//'</a></td>')
-      else
-         call page%body%add('>'//escape_html(text))
-         if (present(verdict)) call page%body%add(verdict_html(verdict))
-         call page%body%add('</td>')
-      end if
-      page%cells = modulo(page%cells + 1, page%table_columns)
-      if (page%cells == 0) call page%body%line('</tr>')
+      more = ''
+      mark = ''
+      if (present(link)) more = ', "to": '//quoted(link)
+      if (present(verdict)) mark = verdict
+      if (mark /= '') more = more//', "mark": '//quoted(mark)
+      if (present(is_small)) more = more//', "small": true'
+      if (more == '') call put_cell(page, quoted(text), escape_html(text))
+      if (more /= '') call put_cell(page, '{"text": '//quoted(text)//more//'}', escape_html(text)//mark_html(mark), is_small)
    end subroutine add_cell
 
+   !> Adds the next cells: numbers.
+   pure subroutine add_numbers(page, values)
+      type(page_t), intent(inout) :: page
+      real(wp), intent(in) :: values(:)
+      integer :: k
+
+      do k = 1, size(values)
+         call add_cell(page, page_number(values(k)))
+      end do
+   end subroutine add_numbers
+
+   !> Adds the next cell with a bar, which begins in the middle and extends to the right; for a negative share, to the left.
+   pure subroutine add_bar(page, share)
+      type(page_t), intent(inout) :: page
+      real(wp), intent(in) :: share              !! length as a share of the longest bar, -1 to 1
+
+      call put_cell(page, '{"bar": '//str(nint(100.0_wp*max(-1.0_wp, min(1.0_wp, share))))//'}', '')
+   end subroutine add_bar
+
+   !> Adds the next cell as data and as text, and ends a row that is complete.
+   pure subroutine put_cell(page, literal, html, is_small)
+      type(page_t), intent(inout) :: page
+      character(*), intent(in) :: literal, html
+      logical, intent(in), optional :: is_small
+      character(:), allocatable :: look
+
+      if (page%cells == 0) then
+         if (page%has_data) call page%sections%open('[')
+         if (page%has_text) call page%body%add('<tr>')
+      end if
+      page%cells = page%cells + 1
+      look = ''
+      if (page%kinds(page%cells:page%cells) /= ' ') look = ' class="'//page%kinds(page%cells:page%cells)//'"'
+      if (present(is_small)) look = ' class="s"'
+      if (page%has_data) call page%sections%item_of_list(literal)
+      if (page%has_text) call page%body%add('<td'//look//'>'//html//'</td>')
+      if (page%cells < page%table_columns) return
+      page%cells = 0
+      if (page%has_data) call page%sections%close(']')
+      call say(page, '</tr>')
+   end subroutine put_cell
+
    !> A verdict as HTML, by word and colour; '' without a verdict.
-   pure function verdict_html(verdict) result(html)
+   pure function mark_html(verdict) result(html)
       character(*), intent(in) :: verdict
       character(:), allocatable :: html, class
 
@@ -211,68 +341,49 @@ contains
       if (verdict == 'inside') class = 'inside'
       if (verdict == 'at the edge') class = 'edge'
       html = ' <span class="target '//class//'">'//escape_html(verdict)//'</span>'
-   end function verdict_html
-
-   !> Adds the next cell with a bar. The bar begins in the middle and extends to the right; for a negative share, to the left.
-   pure subroutine add_bar(page, share)
-      type(page_t), intent(inout) :: page
-      real(wp), intent(in) :: share              !! length as a share of the longest bar, -1 to 1
-      integer :: length
-
-      length = nint(100.0_wp*max(-1.0_wp, min(1.0_wp, share)))
-      if (page%cells == 0) call page%body%add('<tr>')
-      call page%body%add('<td><svg viewBox="0 0 200 10" style="width:200px;height:10px" aria-hidden="true"><rect x="'// &
-         str(100 + min(length, 0))//'" width="'//str(abs(length))//'" height="10" style="fill:var(--c'// &
-         trim(merge('2', '1', length < 0))//')"/></svg></td>')
-      page%cells = modulo(page%cells + 1, page%table_columns)
-      if (page%cells == 0) call page%body%line('</tr>')
-   end subroutine add_bar
+   end function mark_html
 
    !> Ends a table.
    pure subroutine end_table(page)
       type(page_t), intent(inout) :: page
-      call page%body%line('</tbody></table></div>')
+
+      call say(page, '</tbody></table></div>')
+      if (.not. page%has_data) return
+      call page%sections%close(']')
+      call page%sections%close('}')
    end subroutine end_table
 
-   !> Begins a block of charts. As many charts as fit are side by side.
-   pure subroutine begin_charts(page, is_short)
+   !> Adds charts of the data of the page, which the script draws side by side.
+   pure subroutine add_charts(page, names, notes)
       type(page_t), intent(inout) :: page
-      logical, intent(in), optional :: is_short     !! .true.: of a live page only the first three are printed
-      logical :: is_few
+      type(message_list_t), intent(in) :: names                !! ids of the charts
+      type(message_list_t), intent(in), optional :: notes      !! a note on each chart; on paper the page has only the first three
 
-      is_few = .false.
-      if (present(is_short)) is_few = is_short
-      call page%body%line('<div class="charts'//trim(merge(' few">', '">    ', is_few)))
-   end subroutine begin_charts
+      if (present(notes)) call add_block(page, 'charts', json_strings(names), 'notes', json_strings(notes))
+      if (.not. present(notes)) call add_block(page, 'charts', json_strings(names))
+   end subroutine add_charts
 
-   !> Ends a block of charts.
-   pure subroutine end_charts(page)
+   !> Begins pictures of gnuplot on a static page. As many as fit are side by side.
+   pure subroutine begin_pictures(page)
       type(page_t), intent(inout) :: page
-      call page%body%line('</div>')
-   end subroutine end_charts
+      call say(page, '<div class="charts">')
+   end subroutine begin_pictures
 
-   !> Adds an SVG picture drawn by gnuplot: at full width if `caption` is present, otherwise as one chart of a block.
+   !> Ends pictures of gnuplot on a static page.
+   pure subroutine end_pictures(page)
+      type(page_t), intent(inout) :: page
+      call say(page, '</div>')
+   end subroutine end_pictures
+
+   !> Adds an SVG picture drawn by gnuplot to a static page: at full width if `caption` is present, otherwise as one of several.
    pure subroutine add_picture(page, svg, title, caption)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: svg, title     !! content of the file; its description
       character(*), intent(in), optional :: caption
 
-      call page%body%add(trim(merge('<figure class="drawn wide">', '<figure class="drawn">     ', present(caption))))
-      call page%body%add('<img alt="'//escape_html(title)//'" src="')
-      call page%body%add(svg_address(svg))
-      call page%body%add('">')
-      if (present(caption)) call page%body%add('<figcaption>'//escape_html(caption)//'</figcaption>')
-      call page%body%line('</figure>')
+      if (present(caption)) call say_picture(page, svg_address(svg), title, ' wide', caption)
+      if (.not. present(caption)) call say_picture(page, svg_address(svg), title, '', '')
    end subroutine add_picture
-
-   !> Adds the place of a figure of panels, which the script of the page draws.
-   pure subroutine add_figure(page, name, caption)
-      type(page_t), intent(inout) :: page
-      character(*), intent(in) :: name, caption  !! name of the figure in the data of the page; caption below it
-
-      call page%body%line('<figure class="wide" id="figure-'//escape_html(name)//'"><noscript><p>The script of this page draws '// &
-         'this figure.</p></noscript><figcaption>'//escape_html(caption)//'</figcaption></figure>')
-   end subroutine add_figure
 
    !> Adds a raster picture (GIF, PNG) embedded in the page as base64.
    pure subroutine add_data_picture(page, bytes, kind, title, caption)
@@ -280,16 +391,35 @@ contains
       character(*), intent(in) :: bytes          !! content of the file
       character(*), intent(in) :: kind           !! 'gif' or 'png'
       character(*), intent(in) :: title, caption
+      character(:), allocatable :: address
 
-      call page%body%add('<figure class="drawn wide"><img alt="'//escape_html(title)//'" src="data:image/'//kind//';base64,')
-      call page%body%add(base64(bytes))
+      address = 'data:image/'//kind//';base64,'//base64(bytes)
+      call add_block(page, 'picture', '"'//address//'"', 'labels', '['//quoted(title)//', '//quoted(caption)//']')
+      call say_picture(page, address, title, ' wide', caption)
+   end subroutine add_data_picture
+
+   !> Adds a picture to the text.
+   pure subroutine say_picture(page, address, title, look, caption)
+      type(page_t), intent(inout) :: page
+      character(*), intent(in) :: address, title, look, caption
+
+      if (.not. page%has_text) return
+      call page%body%add('<figure class="drawn'//look//'"><img alt="'//escape_html(title)//'" src="')
+      call page%body%add(address)
       call page%body%add('">')
       if (len(caption) > 0) call page%body%add('<figcaption>'//escape_html(caption)//'</figcaption>')
       call page%body%line('</figure>')
-   end subroutine add_data_picture
+   end subroutine say_picture
 
-   !> Adds a legend for the charts that follow. The names are in the order of the palette. From the second name on, lines are dashed
-   !> (or points are rings).
+   !> Adds a figure of panels, which the script of the page draws.
+   pure subroutine add_figure(page, name, caption)
+      type(page_t), intent(inout) :: page
+      character(*), intent(in) :: name, caption  !! name of the figure in the data of the page; caption below it
+      call add_block(page, 'figure', quoted(name), 'caption', quoted(caption))
+   end subroutine add_figure
+
+   !> Adds a legend for the pictures that follow. The names are in the order of the palette. From the second name on, lines are dashed
+   !> (or points are rings). The script of a page draws the legends of its charts, so that only the mark of design remains.
    pure subroutine add_legend(page, names, has_design, has_points)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: names(:)
@@ -298,6 +428,8 @@ contains
       character(:), allocatable :: colour
       integer :: k
 
+      if (has_design) call add_block(page, 'design', 'true')
+      if (.not. page%has_text) return
       call page%body%add('<p class="legend">')
       do k = 1, size(names)
          colour = 'var(--c'//str(modulo(k - 1, 8) + 1)//')'
@@ -318,53 +450,61 @@ contains
    pure function page_text(page) result(text)
       type(page_t), intent(in) :: page
       character(:), allocatable :: text
-      type(buffer_t) :: head, tail
-      character(:), allocatable :: contents
-      integer :: before, behind
+      type(buffer_t) :: out
 
-      call head%line('<!doctype html>')
-      call head%line('<html lang="en"><head><meta charset="utf-8">')
-      call head%line('<meta name="viewport" content="width=device-width, initial-scale=1">')
-      call head%add('<meta http-equiv="Content-Security-Policy" content="default-src ''none''; img-src data:; style-src '// &
+      call out%line('<!doctype html>')
+      call out%line('<html lang="en"><head><meta charset="utf-8">')
+      call out%line('<meta name="viewport" content="width=device-width, initial-scale=1">')
+      call out%add('<meta http-equiv="Content-Security-Policy" content="default-src ''none''; img-src data:; style-src '// &
          '''unsafe-inline''')
-      if (allocated(page%data)) call head%add('; script-src ''unsafe-inline''')
-      call head%line('">')
+      if (.not. page%is_static) call out%add('; script-src ''unsafe-inline''')
+      call out%line('">')
       ! without an icon in the page a browser requests /favicon.ico
-      call head%line('<link rel="icon" href="data:,">')
-      call head%line('<title>'//escape_html(page%title)//'</title>')
-      call head%line('<style>')
-      call add_style(head)
-      if (page%is_live) call add_live_style(head)
-      call head%line('</style></head><body'// &
+      call out%line('<link rel="icon" href="data:,">')
+      call out%line('<title>'//escape_html(page%title)//'</title>')
+      call out%line('<style>')
+      call add_style(out)
+      if (page%is_live) call add_live_style(out)
+      call out%line('</style></head><body'// &
          trim(merge(' class="is-live">', '>                ', allocated(page%data) .and. page%has_charts))//'<main>')
-      contents = ''
-      if (page%contents%length() > 0) contents = '<nav aria-label="Contents"><ul>'//page%contents%text()// &
-         '<li><a href="#top">Back to top</a></li></ul></nav>'
-      if (page%has_section) call tail%line('</section>')
-      call tail%line('</main>')
-      if (allocated(page%data)) then
-         call tail%add('<script type="application/json" id="data">')
-         call tail%add(page%data)
-         call tail%line('</script>')
-         call tail%line('<script type="module">')
-         call add_script(tail)
-         if (page%has_figures) call add_figure_script(tail)
-         if (page%has_turntable) call add_turntable_script(tail)
-         if (page%is_live) call add_live_script(tail)
-         call tail%line('</script>')
-      end if
-      call tail%line('</body></html>')
-
-      ! the pictures in the body are megabytes: each piece is copied once
-      before = head%length() + page%header
-      behind = before + len(contents) + page%body%length() - page%header
-      allocate (character(behind + tail%length()) :: text)
-      call head%copy(1, text(:head%length()))
-      call page%body%copy(1, text(head%length() + 1:before))
-      text(before + 1:before + len(contents)) = contents
-      call page%body%copy(page%header + 1, text(before + len(contents) + 1:behind))
-      call tail%copy(1, text(behind + 1:))
+      call out%line('<header><h1>'//escape_html(page%title)//'</h1>')
+      if (len(page%subtitle) > 0) call out%line('<p class="subtitle">'//escape_html(page%subtitle)//'</p>')
+      call out%line('</header>')
+      if (.not. page%is_static) call out%line('<noscript><p>The script of this page makes its other tables, charts and '// &
+         'pictures.</p>')
+      if (page%contents%length() > 0) call out%add('<nav aria-label="Contents"><ul>'//page%contents%text()// &
+         '<li><a href="#top">Back to top</a></li></ul></nav>')
+      call out%add(page%body%text())
+      if (page%has_section) call out%line('</section>')
+      if (.not. page%is_static) call out%line('</noscript>')
+      call out%line('</main>')
+      if (.not. page%is_static) call add_scripts(page, out)
+      call out%line('</body></html>')
+      text = out%text()
    end function page_text
+
+   !> Adds the data of the sections, the data of the charts, and the script.
+   pure subroutine add_scripts(page, out)
+      type(page_t), intent(in) :: page
+      type(buffer_t), intent(inout) :: out
+      type(json_t) :: sections
+
+      sections = page%sections
+      call sections%close(']')
+      call sections%close('}')
+      call sections%close(']')
+      call out%line('<script type="application/json" id="sections">'//without_tags(sections%text())//'</script>')
+      call out%add('<script type="application/json" id="data">')
+      if (allocated(page%data)) call out%add(page%data)
+      if (.not. allocated(page%data)) call out%add('{}')
+      call out%line('</script>')
+      call out%line('<script type="module">')
+      call add_script(out)
+      if (page%has_figures) call add_figure_script(out)
+      if (page%has_turntable) call add_turntable_script(out)
+      if (page%is_live) call add_live_script(out)
+      call out%line('</script>')
+   end subroutine add_scripts
 
    !> A number for a table: four digits, with at most four decimals; below 1e7, all digits before the decimal point. From 1e7
    !> on, it has an exponent. '–' for NaN, and '∞' or '−∞' for an infinite number.

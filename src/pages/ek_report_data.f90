@@ -3,21 +3,25 @@
 module ek_report_data
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
+   use ek_decimal, only: rounded
    use ek_error, only: message_list_t
    use ek_text, only: str
-   use ek_buffer, only: buffer_t
    use ek_letters, only: as_utf8
-   use ek_json, only: json_t, json_string, json_number, json_numbers, without_tags
+   use ek_json, only: json_t, json_string, json_strings, json_number, json_numbers, without_tags
+   use ek_test_result, only: test_result_t, design_row, wheel_column, unfolded_rows, converged_rows
    use ek_measurement, only: measurement_t
    use ek_table, only: table_t, column_index
-   use ek_test_result, only: test_result_t, design_row
    use ek_chart_axis, only: free_range, extremes
    use ek_contact, only: contact_t, contacts_of
-   use ek_chart, only: chart_t, trace_t, view_of, rounded
-   use ek_key_number, only: key_number_t
-   use ek_number_words, only: steer_effect
+   use ek_chart, only: chart_t, trace_t, view_of
+   use ek_explanation, only: parts_of
+   use ek_key_number, only: key_number_t, key_source_t
+   use ek_key_numbers, only: without_side
    use ek_assessment, only: assessment_t, assess, meaning_of
    use ek_verdict, only: add_assessment
+   use ek_number_words, only: steer_effect, is_opposite, sides_text, wheel_values, limits_text
+   use ek_quantity, only: quantity_t, quantity_named
+   use ek_summary, only: summary_numbers, kept_number, relation_to
    use ek_report_content, only: report_t
    use ek_figure_data, only: add_figures
    use ek_live_data, only: add_live_data
@@ -36,8 +40,10 @@ contains
       type(report_t), intent(in) :: report
       character(:), allocatable :: text
       type(json_t) :: json
+      integer, allocatable :: cards(:)
       integer :: k
 
+      cards = summary_numbers(report%numbers)
       json%is_one_line = .true.
       call json%open('{')
       call json%item('format', json_string(format_name))
@@ -56,12 +62,13 @@ contains
       call add_assessment(json, report)
       call json%open('[', 'numbers')
       do k = 1, size(report%numbers)
-         call add_number(json, report, report%numbers(k))
+         call add_number(json, report, k, any(cards == k))
       end do
       call json%close(']')
       call json%open('[', 'tests')
       do k = 1, size(report%tests)
-         if (report%tests(k)%is_run) call add_test(json, report%tests(k), report%charts, k, '', report%measured)
+         if (report%tests(k)%is_run) call add_test(json, report%tests(k), report%charts, k, '', &
+            report%numbers(cards), report%measured)
       end do
       call json%close(']')
       if (allocated(report%figures)) call add_figures(json, report%figures)
@@ -91,43 +98,111 @@ contains
       text = without_tags(json%text())
    end function comparison_data
 
-   subroutine add_number(json, report, number)
+   !> Adds a key number: its values, and the strings with which a page shows them.
+   subroutine add_number(json, report, k, is_card)
       type(json_t), intent(inout) :: json
       type(report_t), intent(in) :: report
-      type(key_number_t), intent(in) :: number
+      integer, intent(in) :: k
+      logical, intent(in) :: is_card                  !! the number is one of the summary, with its curve
+      type(message_list_t) :: values
       type(assessment_t) :: assessment
-      character(:), allocatable :: meaning, effect
+      integer :: kept
 
-      call json%open('{')
-      call json%item('name', json_string(number%name))
-      call json%item('group', json_string(number%group))
-      call json%item('title', json_string(number%quantity))
-      call json%item('unit', json_string(number%unit))
-      call json%item('left', json_number(number%left))
-      if (.not. number%is_of_axle .and. ieee_is_finite(number%right)) call json%item('right', json_number(number%right))
-      call json%item('held', json_string(trim(number%held)))
-      call json%item('condition', json_string(number%condition))
-      call json%item('definition', json_string(number%definition))
-      effect = trim(steer_effect(number, report%axle%position))
-      if (effect /= '') call json%item('effect', json_string(effect))
-      meaning = meaning_of(number, report%axle, report%numbers)
-      if (meaning /= '') call json%item('meaning', json_string(meaning))
-      call assess(number, report%axle, report%numbers, assessment)
-      if (number%has_target) then
-         call json%open('[', 'target')
-         call json%item_of_list(json_number(limit_of(number%target(1))))
-         call json%item_of_list(json_number(limit_of(number%target(2))))
-         call json%close(']')
-      else if (assessment%usual%is_known) then
-         call json%open('[', 'usual')
-         call json%item_of_list(json_number(assessment%usual%low))
-         call json%item_of_list(json_number(assessment%usual%high))
-         call json%close(']')
-         call json%item('source', json_string(assessment%usual%source))
-      end if
-      if (number%has_target .or. assessment%usual%is_known) call json%item('verdict', json_string(trim(assessment%word)))
-      call json%close('}')
+      associate (number => report%numbers(k))
+         call json%open('{')
+         call json%item('name', json_string(number%name))
+         call json%item('group', json_string(number%group))
+         call json%item('title', json_string(number%quantity))
+         call json%item('unit', json_string(number%unit))
+         call json%item('left', json_number(number%left))
+         if (.not. number%is_of_axle .and. ieee_is_finite(number%right)) call json%item('right', json_number(number%right))
+         values = wheel_values(number)
+         if (values%count() == 1) call json%item('shown', json_string(values%line(1)))
+         if (values%count() > 1) call json%item('shown', json_strings(values))
+         call add_words('sides', sides_text(number))
+         if (is_opposite(number)) call json%item('is_opposite', 'true')
+         call json%item('sign', json_string(number%sign))
+         call json%item('held', json_string(trim(number%held)))
+         call json%item('condition', json_string(number%condition))
+         call json%item('definition', json_string(number%definition))
+         if (allocated(number%reason)) call add_words('reason', number%reason)
+         call add_words('effect', trim(steer_effect(number, report%axle%position)))
+         call add_words('meaning', meaning_of(number, report%axle, report%numbers))
+         call assess(number, report%axle, report%numbers, assessment)
+         if (number%has_target) then
+            call json%item('target', json_numbers([limit_of(number%target(1)), limit_of(number%target(2))]))
+         else if (assessment%usual%is_known) then
+            call json%item('usual', json_numbers([assessment%usual%low, assessment%usual%high]))
+            call json%item('source', json_string(assessment%usual%source))
+         end if
+         if (number%has_target .or. assessment%usual%is_known) call json%item('verdict', json_string(trim(assessment%word)))
+         if (number%has_target .and. assessment%word /= '') call add_words('band', limits_text(number%target))
+         if (.not. number%has_target .and. assessment%usual%is_known) call add_words('band', &
+            limits_text([assessment%usual%low, assessment%usual%high]))
+         call add_words('parts', parts_of_rate(report, number%name))
+         kept = kept_number(report%numbers, k)
+         if (kept > 0) then
+            call json%item('instead', str(kept - 1))
+            call json%item('relation', json_string(relation_to(number%name)))
+         end if
+         if (is_card .and. size(number%sources) > 0) then
+            if (report%tests(number%sources(1)%test)%is_run) &
+               call add_curve(json, report%tests(number%sources(1)%test), number%sources(1))
+         end if
+         call json%close('}')
+      end associate
+
+   contains
+
+      subroutine add_words(key, words)
+         character(*), intent(in) :: key, words
+         if (words /= '') call json%item(key, json_string(words))
+      end subroutine add_words
+
    end subroutine add_number
+
+   !> The parts of a rate in percent; '' for other key numbers, and if the parts are not known.
+   function parts_of_rate(report, name) result(words)
+      type(report_t), intent(in) :: report
+      character(*), intent(in) :: name
+      character(:), allocatable :: words
+
+      words = ''
+      if (.not. allocated(report%explanations)) return
+      if (name == 'wheel_rate') words = parts_of(report%explanations, 'left_wheel_rate_n_per_mm')
+      if (name == 'wheel_rate' .and. words == '') words = parts_of(report%explanations, 'wheel_rate_n_per_mm')
+      if (name == 'suspension_roll_rate_nm_per_deg') words = parts_of(report%explanations, name)
+   end function parts_of_rate
+
+   !> Adds the curve of a key number over its test: the columns of the left and the right wheel, the states on the branch through
+   !> design, and the least span of its axis.
+   subroutine add_curve(json, test, source)
+      type(json_t), intent(inout) :: json
+      type(test_result_t), intent(in) :: test
+      type(key_source_t), intent(in) :: source
+      type(message_list_t) :: names(2)
+      type(quantity_t) :: quantity
+      logical :: is_shown(size(test%table%values, 2))
+      integer :: wheel, column, pass
+
+      do pass = 1, 2
+         do wheel = 1, 2
+            column = column_of_card(test, source, wheel, pass)
+            if (column > 0) call names(pass)%add(trim(test%table%columns(column)))
+            if (column == 0) call names(pass)%add('')
+         end do
+      end do
+      is_shown = unfolded_rows(test%table)
+      call json%open('{', 'curve')
+      call json%item('test', json_string(test%name))
+      call json%item('x', json_strings(names(1)))
+      call json%item('y', json_strings(names(2)))
+      call json%item('first', str(findloc(is_shown, .true., dim=1) - 1))
+      call json%item('last', str(findloc(is_shown, .true., dim=1, back=.true.) - 1))
+      quantity = quantity_named(without_side(trim(source%column(merge(1, 2, source%column(1) /= '')))))
+      if (quantity%span > 0.0_wp) call json%item('span', json_number(quantity%span))
+      call json%close('}')
+   end subroutine add_curve
 
    !> A limit of a target; NaN, which is written as null, if there is no limit.
    pure real(wp) function limit_of(target)
@@ -138,12 +213,13 @@ contains
    end function limit_of
 
    !> Adds a test: its abscissae and columns, each once, and the charts, which refer to columns by name.
-   subroutine add_test(json, test, charts, number, of, measured)
+   subroutine add_test(json, test, charts, number, of, cards, measured)
       type(json_t), intent(inout) :: json
       type(test_result_t), intent(in) :: test
       type(chart_t), intent(in) :: charts(:)
       integer, intent(in) :: number                   !! index of the test
       character(*), intent(in) :: of                  !! prefix of the names of stops: the result to which they belong
+      type(key_number_t), intent(in), optional :: cards(:)      !! key numbers of the summary, whose curves are columns, too
       type(measurement_t), intent(in), optional :: measured(:)
       type(message_list_t) :: written
       integer :: k, l, pass
@@ -174,6 +250,11 @@ contains
                end associate
             end do
          end do
+         if (present(cards)) then
+            do k = 1, size(cards)
+               call add_columns_of_card(json, test, cards(k), number, pass, written)
+            end do
+         end if
          call json%close('}')
       end do
       call json%close('}')
@@ -203,8 +284,9 @@ contains
                if (place == 0) cycle
                call json%open('{')
                call json%item('y', json_string(trim(channel%column)))
-               call json%item('at', numbers_of(pack(table%values(place, max(rows, 1)), rows > 0)*test%abscissa_size))
-               call json%item('values', numbers_of(pack(channel%y, rows > 0)))
+               call json%item('at', json_numbers(test%abscissa_size* &
+                  pack(table%values(place, max(rows, 1)), rows > 0), figures, ','))
+               call json%item('values', json_numbers(pack(channel%y, rows > 0), figures, ','))
                call json%close('}')
             end associate
          end do
@@ -238,14 +320,42 @@ contains
       end do
    end function abscissa_of
 
-   !> A list of numbers with the digits of a curve.
-   function numbers_of(values) result(literal)
-      real(wp), intent(in) :: values(:)
-      character(:), allocatable :: literal
-      integer :: k
+  !> Adds the abscissae (pass 1) or the values (pass 2) of the curve of a card that no chart has, if it is a curve of the test.
+   subroutine add_columns_of_card(json, test, card, number, pass, written)
+      type(json_t), intent(inout) :: json
+      type(test_result_t), intent(in) :: test
+      type(key_number_t), intent(in) :: card
+      integer, intent(in) :: number, pass             !! index of the test; pass
+      type(message_list_t), intent(inout) :: written  !! names of abscissae or of values in the data
+      real(wp) :: values(size(test%table%values, 2))
+      integer :: wheel, column
 
-      literal = json_numbers([(rounded(values(k), figures), k=1, size(values))])
-   end function numbers_of
+      if (size(card%sources) == 0) return
+      if (card%sources(1)%test /= number) return
+      do wheel = 1, 2
+         column = column_of_card(test, card%sources(1), wheel, pass)
+         if (column == 0) cycle
+         if (.not. is_new(trim(test%table%columns(column)), written)) cycle
+         values = test%table%values(column, :)
+         if (pass == 1) then
+            where (ieee_is_finite(values)) values = values*test%abscissa_size
+         else
+            where (.not. converged_rows(test%table)) values = ieee_value(1.0_wp, ieee_quiet_nan)
+         end if
+         call json%item(trim(test%table%columns(column)), json_numbers(values, figures, ','))
+      end do
+   end subroutine add_columns_of_card
+
+   !> The column of the abscissa (pass 1) or of the values (pass 2) of a wheel in the curve of a key number; 0 if the wheel has none.
+   integer function column_of_card(test, source, wheel, pass) result(column)
+      type(test_result_t), intent(in) :: test
+      type(key_source_t), intent(in) :: source
+      integer, intent(in) :: wheel, pass
+
+      column = 0
+      if (source%column(wheel) /= '') column = column_index(test%table, source%column(wheel))
+      if (column > 0 .and. pass == 1) column = wheel_column(test, min(wheel, max(1, size(test%prefixes))), test%abscissa)
+   end function column_of_card
 
    !> Adds the ranges of states in which stops are in contact; adds nothing if there are none.
    subroutine add_contacts(json, test, of)
@@ -346,22 +456,16 @@ contains
       integer, intent(in) :: pass
       real(wp), intent(in) :: span
       character(:), allocatable :: literal
-      type(buffer_t) :: buffer
-      real(wp) :: value
+      real(wp) :: values(size(trace%x))
       integer :: k
 
-      call buffer%add('[')
-      do k = 1, size(trace%x)
-         if (k > 1) call buffer%add(',')
-         value = trace%x(k)
-         if (pass == 2) value = trace%y(k)
-         if (pass == 2 .and. ieee_is_finite(value)) then
-            if (abs(value) < 1.0e-6_wp*span) value = 0.0_wp
-         end if
-         call buffer%add(json_number(rounded(value, figures)))
+      values = trace%x
+      if (pass == 2) values = trace%y
+      do k = 1, merge(size(values), 0, pass == 2)
+         if (.not. ieee_is_finite(values(k))) cycle
+         if (abs(values(k)) < 1.0e-6_wp*span) values(k) = 0.0_wp
       end do
-      call buffer%add(']')
-      literal = buffer%text()
+      literal = json_numbers(values, figures, ',')
    end function merge_numbers
 
    !> Whether a name is not yet in a list; a new name is appended.

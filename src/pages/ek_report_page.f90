@@ -15,10 +15,9 @@ module ek_report_page
    use ek_report_content, only: report_t
    use ek_report_data, only: report_data
    use ek_number_section, only: add_summary, add_other_numbers
-   use ek_html, only: escape_html
-   use ek_page, only: page_t, begin_page, begin_section, add_text, add_markup, add_warnings, add_facts, set_data, begin_table, &
-      add_cell, add_group, end_table, begin_charts, end_charts, add_picture, add_data_picture, add_figure, add_legend, page_text, &
-      page_number
+   use ek_page, only: page_t, begin_page, begin_section, add_text, add_file, add_warnings, add_facts, set_data, begin_table, &
+      add_cell, add_numbers, end_table, begin_fold, end_fold, add_charts, begin_pictures, end_pictures, add_picture, &
+      add_data_picture, add_figure, add_legend, add_block, page_text, page_number
    use ek_member_loads, only: load_record_t
    use ek_rod_table, only: add_rod_table
    use ek_measured_table, only: add_measured_table
@@ -44,7 +43,7 @@ contains
       integer :: k
       logical :: is_live
 
-      call begin_page(page, report%title, 'Kinematics and compliance report')
+      call begin_page(page, report%title, 'Kinematics and compliance report', report%is_static)
       call add_facts(page, report%names, report%values)
       call add_warnings(page, 'Warnings', report%warnings)
       call add_summary(page, report)
@@ -74,7 +73,7 @@ contains
          'next to it accepts any number. Compliances, stiffnesses and their curves are updated without a new solution, '// &
          'exactly for each state as shown (formula of Woodbury). The text below the sliders states the difference from '// &
          'a run of the deck with these rates.')
-      call add_markup(page, '<div id="rates"><noscript><p>The script of this page creates the sliders.</p></noscript></div>')
+      call add_block(page, 'place', '"rates"')
    end subroutine add_rates
 
    !> Whether the page has figures of panels.
@@ -108,8 +107,7 @@ contains
             'Solid: design. Thin lines: ends of the travel. Bodies have no shape in the model; they are drawn as bars '// &
             'between their attachment points.')
       end if
-      if (has_turntable) call add_markup(page, '<div id="turntable"><noscript><p>The 3-D view is drawn by the script of '// &
-         'this page.</p></noscript></div>')
+      if (has_turntable) call add_block(page, 'place', '"turntable"')
       if (has_views) call add_panels(page, report, 'views', 'Hardpoints at design from the left, the front and above: '// &
          report%title, 'Hardpoints at design; of an axle its left half, names without left_.')
       if (has_gif) then
@@ -126,10 +124,10 @@ contains
       real(wp), intent(in) :: left, right
 
       call add_cell(page, quantity)
-      call add_cell(page, page_number(left), 'n')
+      call add_cell(page, page_number(left))
       if (.not. has_sides) return
-      if (is_of_axle) call add_cell(page, '', 'n')
-      if (.not. is_of_axle) call add_cell(page, page_number(right), 'n')
+      if (is_of_axle) call add_cell(page, '')
+      if (.not. is_of_axle) call add_cell(page, page_number(right))
    end subroutine add_values
 
    !> Adds the section of a test: warnings, the charts or the figures of a grid, constant quantities, and gradients.
@@ -144,9 +142,8 @@ contains
       call begin_section(page, 'test-'//test%name, test%title, trim(test%held))
       call add_warnings(page, 'Warnings: states that failed or are doubtful', test%remarks)
       if (test%is_run) then
-         call add_markup(page, '<p>'//plural(count(converged_rows(test%table)), 'state', 'states')// &
-            ' in equilibrium, '//escape_html(over_what(test))//'. All columns: <a href="'//escape_html(test%file)//'">'// &
-            escape_html(test%file)//'</a></p>')
+         call add_file(page, plural(count(converged_rows(test%table)), 'state', 'states')//' in equilibrium, '// &
+            over_what(test)//'. All columns: ', test%file)
          allocate (names(size(test%prefixes)))
          do k = 1, size(names)
             names(k) = wheel_word(test%prefixes(k))
@@ -162,8 +159,8 @@ contains
             'Positions of the wheel centre, and the spin axis outboard of it, in the frame of the deck. As numbers: '// &
             test%envelope)
       end if
-      if (report%is_static .and. report%has_pictures) call add_charts(page, report%charts, number, report%folder)
-      if (.not. report%is_static) call add_live_charts(page, report%charts, number, test%held)
+      if (report%is_static .and. report%has_pictures) call add_drawn_charts(page, report%charts, number, report%folder)
+      if (.not. report%is_static) call add_live_charts(page, report%charts, number)
       call add_constants(page, report%charts, number)
       call add_gradients(page, test%name, report%gradients)
    end subroutine add_test
@@ -198,49 +195,27 @@ contains
    end subroutine add_panels
 
    !> Adds the charts of a test that the page script draws. The first six charts are open, the others folded.
-   subroutine add_live_charts(page, charts, test, held)
+   subroutine add_live_charts(page, charts, test)
       type(page_t), intent(inout) :: page
       type(chart_t), intent(in) :: charts(:)
       integer, intent(in) :: test
-      character(*), intent(in) :: held
-      character(:), allocatable :: label
-      integer :: k, shown
+      type(message_list_t) :: open, folded
+      integer :: k
 
-      shown = 0
       do k = 1, size(charts)
          if (charts(k)%test /= test .or. charts(k)%is_level) cycle
-         call begin_more(page, charts, test, shown, principal)
-         shown = shown + 1
-         label = escape_html(charts(k)%y_label)
-         if (held /= '') label = label//', '//escape_html(trim(held))
-         call add_markup(page, '<figure class="live" id="'//escape_html(charts(k)%name)//'"><figcaption><b>'// &
-            escape_html(charts(k)%title)//'</b>'//label//'</figcaption></figure>')
+         if (open%count() < principal) then
+            call open%add(charts(k)%name)
+         else
+            call folded%add(charts(k)%name)
+         end if
       end do
-      call end_more(page, shown, principal)
+      if (open%count() > 0) call add_charts(page, open)
+      if (folded%count() == 0) return
+      call begin_fold(page, plural(folded%count(), 'more chart', 'more charts'))
+      call add_charts(page, folded)
+      call end_fold(page)
    end subroutine add_live_charts
-
-   !> Begins the block of charts before the first chart, and a folded block after the first `most` charts.
-   subroutine begin_more(page, charts, test, shown, most)
-      type(page_t), intent(inout) :: page
-      type(chart_t), intent(in) :: charts(:)
-      integer, intent(in) :: test, shown, most
-      integer :: k, all
-
-      if (shown == 0) call begin_charts(page)
-      if (shown /= most) return
-      all = count([(charts(k)%test == test .and. .not. charts(k)%is_level, k=1, size(charts))])
-      call end_charts(page)
-      call add_markup(page, '<details class="more"><summary>'//plural(all - most, 'more chart', 'more charts')//'</summary>')
-      call begin_charts(page)
-   end subroutine begin_more
-
-   subroutine end_more(page, shown, most)
-      type(page_t), intent(inout) :: page
-      integer, intent(in) :: shown, most
-
-      if (shown > 0) call end_charts(page)
-      if (shown > most) call add_markup(page, '</details>')
-   end subroutine end_more
 
    !> Adds the quantities that do not change over a test as numbers, instead of charts.
    subroutine add_constants(page, charts, test)
@@ -250,21 +225,20 @@ contains
       integer :: k, l
 
       if (.not. any([(charts(k)%test == test .and. charts(k)%is_level, k=1, size(charts))])) return
-      call add_markup(page, '<details class="more"><summary>Constant over the test: '// &
-         plural(count([(charts(k)%test == test .and. charts(k)%is_level, k=1, size(charts))]), 'quantity', 'quantities')// &
-         '</summary>')
-      call begin_table(page, [character(12) :: 'Quantity', 'Curve', '>Value', 'Unit, sign'])
+      call begin_fold(page, 'Constant over the test: '// &
+         plural(count([(charts(k)%test == test .and. charts(k)%is_level, k=1, size(charts))]), 'quantity', 'quantities'))
+      call begin_table(page, [character(12) :: 'Quantity', 'Curve', '>Value', '~Unit, sign'])
       do k = 1, size(charts)
          if (charts(k)%test /= test .or. .not. charts(k)%is_level) cycle
          do l = 1, size(charts(k)%traces)
             call add_cell(page, charts(k)%title)
             call add_cell(page, charts(k)%traces(l)%title)
-            call add_cell(page, page_number(level_of(charts(k)%traces(l)%y, charts(k)%noise)), 'n')
-            call add_cell(page, charts(k)%y_label, 's')
+            call add_cell(page, page_number(level_of(charts(k)%traces(l)%y, charts(k)%noise)))
+            call add_cell(page, charts(k)%y_label)
          end do
       end do
       call end_table(page)
-      call add_markup(page, '</details>')
+      call end_fold(page)
    end subroutine add_constants
 
    !> Mean of the smallest and the largest value of a nearly constant curve; 0 if its magnitude is below 1e-4 of the least
@@ -277,7 +251,7 @@ contains
    end function level_of
 
    !> Adds the charts of a test as drawn by gnuplot. The charts after the first six are folded.
-   subroutine add_charts(page, charts, test, folder)
+   subroutine add_drawn_charts(page, charts, test, folder)
       type(page_t), intent(inout) :: page
       type(chart_t), intent(in) :: charts(:)
       integer, intent(in) :: test
@@ -293,11 +267,10 @@ contains
       own = pack([(k, k=1, size(charts))], is_own)
       call add_pictures(page, charts, own(:min(size(own), principal)), folder)
       if (size(own) <= principal) return
-      call add_markup(page, '<details class="more"><summary>'//plural(size(own) - principal, 'more chart', 'more charts')// &
-         '</summary>')
+      call begin_fold(page, plural(size(own) - principal, 'more chart', 'more charts'))
       call add_pictures(page, charts, own(principal + 1:), folder)
-      call add_markup(page, '</details>')
-   end subroutine add_charts
+      call end_fold(page)
+   end subroutine add_drawn_charts
 
    function figure_of(chart, folder) result(path)
       type(chart_t), intent(in) :: chart
@@ -324,12 +297,12 @@ contains
             if (.not. file_exists(figure_of(chart, folder))) cycle
             call read_whole(figure_of(chart, folder), svg, error)
             if (allocated(error)) cycle
-            if (.not. is_begun) call begin_charts(page)
+            if (.not. is_begun) call begin_pictures(page)
             is_begun = .true.
             call add_picture(page, svg, chart%title//', '//chart%y_label//', over '//chart%x_label)
          end associate
       end do
-      if (is_begun) call end_charts(page)
+      if (is_begun) call end_pictures(page)
    end subroutine add_pictures
 
    !> Adds the gradients of a test, with left and right in one row, and the reasons for gradients without a value.
@@ -346,8 +319,8 @@ contains
       gradients = pack(list, [(list(k)%test == test, k=1, size(list))])
       if (size(gradients) == 0) return
       has_sides = any([(len(gradients(k)%side) > 0, k=1, size(gradients))])
-      call add_markup(page, '<details class="more"><summary>Gradients: least-squares slopes around design</summary>')
-      call begin_table(page, [character(8) :: 'Quantity', pack(values, sides .eqv. has_sides), 'Unit', 'Window', 'Sign'])
+      call begin_fold(page, 'Gradients: least-squares slopes around design')
+      call begin_table(page, [character(8) :: 'Quantity', pack(values, sides .eqv. has_sides), 'Unit', 'Window', '~Sign'])
       do k = 1, size(gradients)
          associate (g => gradients(k))
             is_noted = [(gradients(n)%side == g%side .and. gradients(n)%note == g%note, n=1, size(gradients))]
@@ -359,11 +332,11 @@ contains
             call add_values(page, g%quantity, has_sides, .not. has_twin, g%value, gradients(min(k + 1, size(gradients)))%value)
             call add_cell(page, g%unit)
             call add_cell(page, g%window)
-            call add_cell(page, g%sign, 's')
+            call add_cell(page, g%sign)
          end associate
       end do
       call end_table(page)
-      call add_markup(page, '</details>')
+      call end_fold(page)
       call add_warnings(page, 'Gradients without a value', unknown)
    end subroutine add_gradients
 
@@ -401,16 +374,13 @@ contains
          call add_cell(page, record%ends(e)%member)
          call add_cell(page, record%ends(e)%body)
          call add_cell(page, record%ends(e)%point)
-         do c = 1, size(forces)
-            call add_cell(page, page_number(record%peaks(forces(c), e)), 'n')
-         end do
-         call add_cell(page, page_number(record%peaks(moment, e)), 'n')
+         call add_numbers(page, record%peaks([forces, moment], e))
          do c = 1, size(own)
-            if (record%case(own(c), e) == 0) call add_cell(page, '–', 'n')
-            if (record%case(own(c), e) > 0) call add_cell(page, page_number(record%peaks(own(c), e)), 'n')
+            if (record%case(own(c), e) == 0) call add_cell(page, '–')
+            if (record%case(own(c), e) > 0) call add_cell(page, page_number(record%peaks(own(c), e)))
          end do
          call add_cell(page, trim(record%cases(record%case(leader, e))))
-         call add_cell(page, page_number(record%factor(leader, e)), 'n')
+         call add_cell(page, page_number(record%factor(leader, e)))
       end do
       call end_table(page)
    end subroutine add_peak_loads

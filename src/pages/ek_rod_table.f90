@@ -22,9 +22,9 @@ contains
       call begin_table(page, [character(16) :: 'Rod', '>Tension [N]', 'in', '>Compression [N]', 'in'])
       do k = 1, size(record%rods)
          call add_cell(page, record%rods(k)%name)
-         call add_cell(page, page_number(record%rods(k)%tension), 'n')
+         call add_cell(page, page_number(record%rods(k)%tension))
          call add_cell(page, record%rods(k)%tension_name)
-         call add_cell(page, page_number(record%rods(k)%compression), 'n')
+         call add_cell(page, page_number(record%rods(k)%compression))
          call add_cell(page, record%rods(k)%compression_name)
       end do
       call end_table(page)

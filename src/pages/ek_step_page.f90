@@ -64,7 +64,7 @@ contains
       character(:), allocatable :: method
       integer :: k, e
 
-      call begin_section(page, 'errors', 'Errors at the end of the range')
+      call begin_section(page, 'errors', 'Errors at the end of the range', has_text=.true.)
       call add_text(page, 'p', 'Travel, toe and camber: deviation from the equilibrium under the same load. '// &
          'Time: the shortest of five runs on this computer.')
       call begin_table(page, [character(40) :: '>increments', ('>'//labels(e), e=1, errors), '>time [ms]'])
@@ -74,11 +74,11 @@ contains
             method = cell_of(table, k, 'method')
             call add_group(page, method)
          end if
-         call add_cell(page, cell_of(table, k, 'increments'), 'n')
+         call add_cell(page, cell_of(table, k, 'increments'))
          do e = 1, errors
-            call add_cell(page, short(value_of(table, k, columns(e))), 'n')
+            call add_cell(page, short(value_of(table, k, columns(e))))
          end do
-         call add_cell(page, page_number(1000.0_wp*value_of(table, k, 'seconds')), 'n')
+         call add_cell(page, page_number(1000.0_wp*value_of(table, k, 'seconds')))
       end do
       call end_table(page)
       if (any([(.not. value_of(table, k, 'reached') > 0.5_wp, k=1, table%rows)])) call add_text(page, 'p', &

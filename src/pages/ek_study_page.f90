@@ -11,12 +11,14 @@ module ek_study_page
    use ek_figure_data, only: figures_json
    use ek_effect_table, only: add_effects
    use ek_factor_order, only: most_open, factor_order, strongest_names, effect_measure
-   use ek_html, only: escape_html
-   use ek_page, only: page_t, begin_page, begin_section, add_text, add_warnings, add_facts, begin_table, add_cell, add_group, &
-      add_markup, end_table, add_figure, set_data, page_text, page_number
+   use ek_number_words, only: limits_text
+   use ek_page, only: page_t, begin_page, begin_section, add_text, add_warnings, add_facts, begin_table, add_cell, &
+      add_numbers, add_group, begin_fold, end_fold, end_table, add_figure, set_data, page_text, page_number
    implicit none(type, external)
    private
    public :: study_page, page_name
+
+   integer, parameter :: most_as_text = 100      !! largest number of responses whose table is also text without script
 
    character(*), parameter :: method_words(3) = [character(26) :: 'derivatives, first order', 'derivatives, second order', &
       'Monte Carlo']
@@ -102,28 +104,13 @@ contains
       if (words /= '') text = ' ('//words//')'
    end function in_brackets
 
-   !> The limits of a response: '−2 … 0.5', '≥ −2', '≤ 0.5'; '' without limits.
-   pure function limits_text(axis) result(text)
-      type(study_axis_t), intent(in) :: axis
-      character(:), allocatable :: text
-
-      text = ''
-      if (axis%lower > -huge(1.0_wp) .and. axis%upper < huge(1.0_wp)) then
-         text = page_number(axis%lower)//' … '//page_number(axis%upper)
-      else if (axis%lower > -huge(1.0_wp)) then
-         text = '≥ '//page_number(axis%lower)
-      else if (axis%upper < huge(1.0_wp)) then
-         text = '≤ '//page_number(axis%upper)
-      end if
-   end function limits_text
-
-   !> The limits of a response. Limits from a band of the deck begin with 'target': 'target −30 … −20'.
+   !> The limits of a response: '−2.000 … 0.5000'; '' without limits. Limits from a band of the deck begin with 'target'.
    pure function limits_words(axis) result(text)
       type(study_axis_t), intent(in) :: axis
       character(:), allocatable :: text
 
-      text = limits_text(axis)
-      if (axis%is_target) text = 'target '//text
+      text = limits_text([axis%lower, axis%upper])
+      if (axis%is_target .and. text /= '') text = 'target '//text
    end function limits_words
 
    !> Adds a cell with the verdict on the designs, by word and colour: all inside, some outside, or all outside.
@@ -146,32 +133,26 @@ contains
       integer :: r, k
 
       if (size(study%responses) == 0) return
-      call begin_section(page, 'responses', 'Responses')
+      call begin_section(page, 'responses', 'Responses', has_text=size(study%responses) <= most_as_text)
       has_limits = any_limit(study, of_study=.false.)
       heads = [character(24) :: 'Response']
       if (has_limits) heads = [character(24) :: heads, 'Limits, share within']
       heads = [character(24) :: heads, '>designs', '>mean', '>deviation', '>smallest', &
-         ('>'//str(percents(k))//' %', k=1, size(percents)), '>largest', 'What it is']
+         ('>'//str(percents(k))//' %', k=1, size(percents)), '>largest', '~What it is']
       call begin_table(page, heads)
       do r = 1, size(study%responses)
          associate (summary => study%summaries(r), axis => study%responses(r))
             call add_cell(page, axis%label)
             if (has_limits) call add_limits(axis, summary)
-            call add_cell(page, str(summary%used), 'n')
+            call add_cell(page, str(summary%used))
             if (summary%used == 0) then
                do k = 1, 4 + size(percents)
-                  call add_cell(page, '–', 'n')
+                  call add_cell(page, '–')
                end do
             else
-               call add_cell(page, page_number(summary%mean), 'n')
-               call add_cell(page, page_number(summary%deviation), 'n')
-               call add_cell(page, page_number(summary%lowest), 'n')
-               do k = 1, size(percents)
-                  call add_cell(page, page_number(summary%percentiles(k)), 'n')
-               end do
-               call add_cell(page, page_number(summary%highest), 'n')
+               call add_numbers(page, [summary%mean, summary%deviation, summary%lowest, summary%percentiles, summary%highest])
             end if
-            call add_cell(page, axis%note, 's')
+            call add_cell(page, axis%note)
          end associate
       end do
       call end_table(page)
@@ -187,7 +168,7 @@ contains
 
          interval = yield_interval(study%kind, summary%within, study%designs)
          if (axis%is_constant) interval = ''
-         if (limits_text(axis) == '') then
+         if (limits_words(axis) == '') then
             call add_cell(page, '–')
          else if (summary%used == 0) then
             call add_cell(page, limits_words(axis))
@@ -205,6 +186,7 @@ contains
    subroutine add_moments(page, study)
       type(page_t), intent(inout) :: page
       type(study_data_t), intent(in) :: study
+      real(wp) :: half(2)              ! half widths of the intervals of mean and deviation
       integer :: m, r
 
       if (.not. allocated(study%moments)) return
@@ -216,13 +198,8 @@ contains
          do m = 1, size(methods)
             associate (row => study%moments(m, r))
                call add_cell(page, trim(method_words(m)))
-               call add_number(row%mean)
-               call add_number(merge(row%mean_half, nothing(), m == size(methods)))
-               call add_number(row%deviation)
-               call add_number(merge(row%deviation_half, nothing(), m == size(methods)))
-               call add_number(row%skewness)
-               call add_number(row%low)
-               call add_number(row%high)
+               half = merge([row%mean_half, row%deviation_half], nothing(), m == size(methods))
+               call add_numbers(page, [row%mean, half(1), row%deviation, half(2), row%skewness, row%low, row%high])
                call add_share(row%within)
                call add_interval(row%within_low, row%within_high, m == size(methods))
             end associate
@@ -232,18 +209,12 @@ contains
 
    contains
 
-      subroutine add_number(value)
-         real(wp), intent(in) :: value
-         if (ieee_is_finite(value)) call add_cell(page, page_number(value), 'n')
-         if (.not. ieee_is_finite(value)) call add_cell(page, '–', 'n')
-      end subroutine add_number
-
       subroutine add_share(value)
          real(wp), intent(in) :: value
-         if (limits_text(study%responses(r)) == '' .or. .not. ieee_is_finite(value)) then
-            call add_cell(page, '–', 'n')
+         if (limits_words(study%responses(r)) == '' .or. .not. ieee_is_finite(value)) then
+            call add_cell(page, '–')
          else
-            call add_cell(page, page_number(100.0_wp*value)//' %', 'n')
+            call add_cell(page, page_number(100.0_wp*value)//' %')
          end if
       end subroutine add_share
 
@@ -252,10 +223,10 @@ contains
          real(wp), intent(in) :: low, high
          logical, intent(in) :: is_known
 
-         if (limits_text(study%responses(r)) == '' .or. .not. is_known .or. .not. ieee_is_finite(low)) then
-            call add_cell(page, '–', 'n')
+         if (limits_words(study%responses(r)) == '' .or. .not. is_known .or. .not. ieee_is_finite(low)) then
+            call add_cell(page, '–')
          else
-            call add_cell(page, page_number(100.0_wp*low)//' … '//page_number(100.0_wp*high)//' %', 'n')
+            call add_cell(page, page_number(100.0_wp*low)//' … '//page_number(100.0_wp*high)//' %')
          end if
       end subroutine add_interval
 
@@ -288,19 +259,18 @@ contains
       do k = 1, size(order)
          if (k == most_open + 1) then
             call end_table(page)
-            call add_markup(page, '<details class="more"><summary>'//plural(size(order) - most_open, 'more factor', &
-               'more factors')//', by effect</summary>')
+            call begin_fold(page, plural(size(order) - most_open, 'more factor', 'more factors')//', by effect')
             call begin_ranges()
          end if
          call add_range(order(k))
       end do
       call end_table(page)
-      if (size(order) > most_open) call add_markup(page, '</details>')
+      if (size(order) > most_open) call end_fold(page)
 
    contains
 
       subroutine begin_ranges()
-         call begin_table(page, [character(24) :: 'Factor', 'Numbers of the deck', '>smallest', '>largest'])
+         call begin_table(page, [character(24) :: 'Factor', '~Numbers of the deck', '>smallest', '>largest'])
       end subroutine begin_ranges
 
       subroutine add_range(f)
@@ -309,9 +279,8 @@ contains
 
          range = range_of_values(study%x(f, :))
          call add_cell(page, study%factors(f)%label)
-         call add_cell(page, study%factors(f)%note, 's')
-         call add_cell(page, page_number(range(1)), 'n')
-         call add_cell(page, page_number(range(2)), 'n')
+         call add_cell(page, study%factors(f)%note)
+         call add_numbers(page, range)
       end subroutine add_range
 
       pure function or_none(words) result(text)
@@ -345,10 +314,9 @@ contains
             used = used + 1
             figures(used) = figure_of(rules(k), study, sheet)
             if (sheet == 1) call add_text(page, 'h3', trim(rules(k)%title))
-            if (sheet == 2) call add_markup(page, '<details class="more"><summary>'//escape_html(trim(rules(k)%title))//': '// &
-               others(rules(k))//'</summary>')
+            if (sheet == 2) call begin_fold(page, trim(rules(k)%title)//': '//others(rules(k)))
             call add_figure(page, figures(used)%name, 'figures/'//figures(used)%name//'.gp draws this figure.')
-            if (sheet == 2) call add_markup(page, '</details>')
+            if (sheet == 2) call end_fold(page)
          end do
       end do
       call set_data(page, figures_json(figures), has_figures=.true., has_charts=.false.)
@@ -369,13 +337,12 @@ contains
          associate (extreme => study%extremes(k))
             call add_cell(page, study%responses(extreme%response)%label)
             call add_cell(page, extreme%what)
-            call add_cell(page, page_number(extreme%value), 'n')
-            call add_cell(page, str(extreme%design), 'n')
+            call add_cell(page, page_number(extreme%value))
+            call add_cell(page, str(extreme%design))
          end associate
       end do
       call end_table(page)
-      call add_markup(page, '<details class="more"><summary>Settings of '//plural(size(study%extremes), 'design', 'designs')// &
-         ', to copy</summary>')
+      call begin_fold(page, 'Settings of '//plural(size(study%extremes), 'design', 'designs')//', to copy')
       call add_text(page, 'p', 'The options make the design on the command line; the lines of the deck replace the keys of the '// &
          'same names.')
       do k = 1, size(study%extremes)
@@ -386,7 +353,7 @@ contains
             if (extreme%fragment /= '') call add_text(page, 'pre', extreme%fragment)
          end associate
       end do
-      call add_markup(page, '</details>')
+      call end_fold(page)
    end subroutine add_extremes
 
 end module ek_study_page

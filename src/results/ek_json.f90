@@ -10,7 +10,7 @@ module ek_json
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
    use ek_buffer, only: buffer_t
-   use ek_decimal, only: decimal
+   use ek_decimal, only: decimal, rounded
    use ek_error, only: message_list_t
    use ek_letters, only: as_utf8
    use ek_version, only: version
@@ -171,24 +171,29 @@ contains
       literal = list%text()
    end function json_strings
 
-   !> A list of numbers on one line.
-   pure function json_numbers(values) result(literal)
+   !> A list of numbers on one line; null for a number that is not finite.
+   pure function json_numbers(values, digits, separator) result(literal)
       real(wp), intent(in) :: values(:)
-      character(:), allocatable :: literal
+      integer, intent(in), optional :: digits               !! significant digits to which the numbers are rounded
+      character(*), intent(in), optional :: separator       !! ', ' if not given
+      character(:), allocatable :: literal, between
       type(buffer_t) :: buffer
       integer :: k
 
+      between = ', '
+      if (present(separator)) between = separator
       call buffer%add('[')
       do k = 1, size(values)
-         if (k > 1) call buffer%add(', ')
-         call buffer%add(json_number(values(k)))
+         if (k > 1) call buffer%add(between)
+         if (present(digits)) call buffer%add(json_number(rounded(values(k), digits)))
+         if (.not. present(digits)) call buffer%add(json_number(values(k)))
       end do
       call buffer%add(']')
       literal = buffer%text()
    end function json_numbers
 
    !> JSON with every '<' escaped; otherwise '</script' would end the block of data of a page.
-   function without_tags(json) result(text)
+   pure function without_tags(json) result(text)
       character(*), intent(in) :: json
       character(:), allocatable :: text
       type(buffer_t) :: out

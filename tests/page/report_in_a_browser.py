@@ -61,6 +61,34 @@ with sync_playwright() as tool:
     expect(top < 600, f"the first number is {top:.0f} pixels from the top")
     expect(lines >= 8, f"{lines} lines of verdict")
 
+    # the curve of each card is that of the columns in the table of the test
+    sparks = 0
+    for own in (n for n in data["numbers"] if "curve" in n):
+        curve = own["curve"]
+        test = next(t for t in data["tests"] if t["name"] == curve["test"])
+        rows = [row for row in table(folder / test["file"])[curve["first"]:curve["last"] + 1] if row["converged"] == "1"]
+        sides = [(k, [float(row[y]) for row in rows]) for k, y in enumerate(curve["y"], 1) if y]
+        low, high = min(min(ys) for _, ys in sides), max(max(ys) for _, ys in sides)
+        if high - low < curve.get("span", 0.06 * max(abs(low), abs(high), 0.02)):
+            continue
+        for k, ys in sides:
+            line = page.locator(f'.cards [data-number="{own["name"]}"] polyline.c{k}').get_attribute("points")
+            drawn, wanted = [float(point.split(",")[1]) for point in line.split()], [27 - 24 * (y - low) / (high - low) for y in ys]
+            expect(len(drawn) == len(wanted) and max(abs(a - b) for a, b in zip(drawn, wanted)) < 0.03, f"the curve of {own['name']} is not that of its table")
+            sparks += 1
+    expect(sparks > 5, f"{sparks} curves of cards")
+    # without script: the lines of the assessment, and each key number with its value and its name
+    plain = browser.new_context(java_script_enabled=False).new_page()
+    plain.goto(page_file.as_uri())
+    words = plain.locator("main").inner_text()
+    for own in data["numbers"]:
+        values = [own["shown"]] if isinstance(own["shown"], str) else own["shown"]
+        expect(f"Name: {own['name']}" in words and " | ".join(values) in words, f"without script, {own['name']} {values} is missing")
+    missing = [line for line in page.locator("#summary .verdicts dd").all_inner_texts() if line not in words]
+    expect(not missing, f"without script: {missing} are missing")
+    print(f"{sparks} curves of cards; without script, {len(data['numbers'])} key numbers as text")
+    plain.close()
+
     # hover: the values of the state in the table of the test
     test, read = data["tests"][0], hover(page, chart["id"], 0.8)
     rows, label = table(folder / test["file"]), page.locator(f'[id="{chart["id"]}"] svg.chart text').last.inner_html()

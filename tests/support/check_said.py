@@ -10,7 +10,7 @@ wheels ('both wheels to the left', 'toe-in on both') agrees with the numbers.
 Status 0 and `N sentences checked` if all agree; else each difference on a line, and status 1.
 """
 import csv
-import html
+import json
 import math
 import re
 import subprocess
@@ -112,6 +112,8 @@ class Report:
         self.deck, self.folder, self.tables = deck, Path(folder), {}
         self.numbers = rows_of(self.folder / 'key_numbers.csv')
         self.by_name = {row['name']: row for row in self.numbers}
+        page = (self.folder / 'report.html').read_text(encoding='utf-8')
+        self.data = json.loads(page.split('<script type="application/json" id="data">', 1)[1].split('</script>', 1)[0])
         self.checked, self.wrong = 0, []
 
     def window(self, test):
@@ -201,13 +203,14 @@ class Report:
 
     def check_relations(self):
         """The numbers that the page names beside another number."""
-        text = (self.folder / 'report.html').read_text(encoding='utf-8')
-        for fold in re.findall(r'<details class="how"><summary>how</summary><p>(.*?)</p></details>', text, re.S):
-            kept = html.unescape(re.search(r'Name: <code>(.*?)</code>', fold)[1])
-            if 'same as' in fold:
-                self.wrong.append(f'{self.deck}: {kept}: "the same as" says no relation')
-            for text, quantity in re.findall(r'(As slope at design|Its inverse|As a fitted slope|As a steer angle), (.*?): ', fold):
-                self.check_relation(kept, text, html.unescape(quantity))
+        numbers = self.data['numbers']
+        for own in numbers:
+            if 'instead' not in own:
+                continue
+            text = own['relation'].removesuffix(',')
+            if text not in ('As slope at design', 'Its inverse', 'As a fitted slope', 'As a steer angle'):
+                self.wrong.append(f'{self.deck}: {own["name"]}: "{text}" says no relation')
+            self.check_relation(numbers[own['instead']]['name'], text, own['title'])
 
     def check_relation(self, kept, text, quantity):
         others = [row for row in self.numbers if row['quantity'] == quantity]
@@ -229,10 +232,7 @@ class Report:
 
     def check_sides(self):
         """The labels of both wheels."""
-        text = (self.folder / 'report.html').read_text(encoding='utf-8')
-        text = re.findall(r'data-number="([^"]+)">(?:(?!data-number).)*?<small>((?:both|toe-|left; right)[^<]*)</small>', text, re.S)
-        for name, said in text:
-            name = html.unescape(name)
+        for name, said in ((own['name'], own['sides']) for own in self.data['numbers'] if 'sides' in own):
             left, right = self.by_name.get(f'left_{name}'), self.by_name.get(f'right_{name}')
             if not left or not right:
                 continue

@@ -13,7 +13,7 @@ no response, and at least one response (the toe or camber of the deck, a driven 
 Single laws that fail are printed with the study. The last line is `N passed, N failed`.
 """
 import csv
-import html
+import json
 import math
 import os
 import random
@@ -91,12 +91,14 @@ def rows_of(path):
 
 
 def tables_of(page, section):
-    """The rows of a section of the page, as lists of strings."""
-    found = re.search(rf'<section id="{section}">(.*?)</section>', page, flags=re.S)
-    if not found:
-        return []
-    rows = re.findall(r"<tr[^>]*>(.*?)</tr>", found[1], flags=re.S)
-    return [[html.unescape(re.sub(r"<[^>]+>", "", cell)) for cell in re.split(r"</t[dh]>", row)[:-1]] for row in rows]
+    """The rows of a section of the page, also of folded tables, as lists of strings; the headings of groups are strings alone."""
+    sections = json.loads(page.split('<script type="application/json" id="sections">', 1)[1].split("</script>", 1)[0])
+    blocks, rows = [block for own in sections if own.get("id") == section for block in own["blocks"]], []
+    for block in blocks:
+        blocks += block["blocks"] if "fold" in block else []
+        for row in block.get("table", []):
+            rows.append([row] if isinstance(row, str) else [cell if isinstance(cell, str) else cell.get("text", "") for cell in row])
+    return rows
 
 
 def number(cell):

@@ -263,7 +263,7 @@ function button_of(text) {
   return button;
 }
 
-const room = document.getElementById("rates"), table = element("table"), outcome = element("div"), exact = element("ul"), settings = element("code");
+const room = document.getElementById("rates"), outcome = element("div"), exact = element("ul"), settings = element("code");
 const note = element("div", "warning what-if"), short = element("p", "what-if"), panel = element("div", "panel"), sliders = element("div");
 let rest = 0;
 for (const test of tests) {
@@ -274,28 +274,22 @@ unpack(live.design);
 const followers = live.tests.flatMap((own) => test_of(own).charts.filter(({ description }) =>
   description.curves.some((c) => own.columns.some(({ name }) => name === c.y))));
 sliders.append(...live.rates.map(add_slider), button_of("Reset all rates"));
-table.innerHTML = '<thead><tr><th scope="col">At design, left wheel</th><th scope="col" class="n">Deck</th><th scope="col" class="n">What if</th>' +
-  '<th scope="col" class="n">Change</th><th scope="col">Unit</th></tr></thead><tbody></tbody>';
-for (const number of live.numbers) {
-  const row = table.tBodies[0].insertRow(), deck = live.design.states[0].values, title = element("th", "", number.title);
+const scroll = element("div"), deck_values = live.design.states[0].values;
+scroll.innerHTML = table_of({ heads: ["At design, left wheel", ">Deck", ">What if", ">Change", "Unit"], table: live.numbers.map((number) =>
+  [{ html: `<th scope="row">${escaped(number.title)}</th>` }, pair(deck_values[number.left], deck_values[number.right]), "–", "–", number.unit]) });
+for (const [k, number] of live.numbers.entries()) {
+  const row = scroll.querySelectorAll("tbody tr")[k];
   const spots = [...document.querySelectorAll(`[data-number="${number.beside}"]`)].map((place) => {
     const node = element("span", "changed");
     (place.querySelector(".value") || place.firstChild).after(node);
     return node;
   });
-  title.scope = "row";
-  row.append(title);
-  for (const text of [pair(deck[number.left], deck[number.right]), "–", "–"]) row.append(element("td", "n", text));
-  row.append(element("td", "", number.unit));
   row.dataset.name = number.name;
   found.set(number, { row, spots });
 }
-const scroll = element("div", "scroll");
-scroll.append(table);
-scroll.tabIndex = 0;
-scroll.setAttribute("role", "region");
-scroll.setAttribute("aria-label", "Numbers at design, of the deck and with other rates");
-panel.append(sliders, scroll);
+scroll.firstChild.setAttribute("role", "region");
+scroll.firstChild.setAttribute("aria-label", "Numbers at design, of the deck and with other rates");
+panel.append(sliders, scroll.firstChild);
 sliders.append(outcome);
 outcome.append(exact, element("p", "", "To run the deck with these rates: "), settings);
 // The charts that follow, of the first test that has some, once more beside the sliders.

@@ -1,7 +1,5 @@
 // The page of a report: its tests with their charts, the filter, and another report's data laid over it.
 
-const data = JSON.parse(document.getElementById("data").textContent), page = document.documentElement;
-
 // What the charts of one test share.
 class Test {
   constructor(own, section) {
