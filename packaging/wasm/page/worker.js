@@ -101,11 +101,12 @@ function addTest({ files, deck, frame, test, numbers, increments, columns }, fou
   return null;
 }
 
-// [path, unit] of the numbers that the program lists. On a mirrored axle the program lists each side, with the name of the side
+// [path, unit] of the numbers that the program lists. On a mirrored axle the program lists each side, with the name of the side. The
+// value of an adjuster is listed without its key
 function unitsOf(numbers) {
   const listed = new Map(library.list("parameter", ["path", "unit"]));
   const unitOf = (path) => listed.get(path) ?? listed.get(path.replace(".", ".left_"));
-  return numbers.map(([path]) => [path, unitOf(path)]).filter(([, unit]) => unit !== undefined);
+  return numbers.map(([path]) => [path, unitOf(path.replace(/^(adjuster\..+)\.value$/, "$1"))]).filter(([, unit]) => unit !== undefined);
 }
 
 // The columns of the first table among files
