@@ -89,7 +89,7 @@ module ek_command
       command_t('import', 'import FILE … [options]', 'import FILE', 'convert tables of points or foreign files to a deck', &
       'Converts files of other programs to a deck:'//nl// &
       '  .kin files of IPGKinematics to a complete axle (with the .gum bushings in the same folder);'//nl// &
-      '  a CSV table of hardpoints, or a Chrono suspension (.json), to a deck of points and links, if the points are'//nl// &
+      '  a CSV table of hardpoints, or Chrono (.json) and Lotus Shark (.shk), to a deck of points and links, if these are'//nl// &
       '  those of a double wishbone, McPherson, five-link or trailing arm axle;'//nl// &
       '  .sub and .asy hardpoints to points;'//nl// &
       '  .bus, .spr, .bum, .reb and .gum property files to curves;'//nl// &

@@ -4,6 +4,7 @@ module ek_foreign_deck
    use ek_kinds, only: wp, millimetre
    use ek_error, only: error_t, fail, exit_deck
    use ek_text, only: lower
+   use ek_decimal, only: decimal
    use ek_letters, only: with_line_ends
    use ek_file, only: read_whole, most_of_input, join_path, folder_name, base_name, file_exists
    use ek_flaws, only: flaws_t, new_flaws, shown
@@ -16,6 +17,7 @@ module ek_foreign_deck
    use ek_point_deck, only: put_points, axle_facts_t
    use ek_chrono, only: is_json, is_chrono, parse_chrono
    use ek_point_list, only: is_toml, as_json, parse_point_list
+   use ek_shark, only: is_shark, parse_shark
    use ek_unread_format, only: advice_on
    use ek_teimorbit, only: is_teimorbit
    use ek_kin, only: kin_t
@@ -142,11 +144,15 @@ contains
       type(wish_t) :: given
       type(axle_facts_t) :: facts
       character(:), allocatable :: json
+      real(wp) :: radius(2)
 
       if (present(wish)) given = wish
       call split_lines(content, lines, flaws)          ! reports a workbook and an empty file
       if (flaws%count() > 0) return
-      if (is_toml(path)) then
+      if (is_shark(lines)) then
+         call parse_shark(lines, table, radius, flaws)
+         call choose_radius(table, radius, given)
+      else if (is_toml(path)) then
          call as_json(lines, json, flaws)
          if (flaws%count() == 0) call parse_point_list(json, table, flaws)
       else if (is_json(lines%text) .and. .not. is_chrono(lines%text)) then
@@ -163,6 +169,24 @@ contains
       end if
       if (flaws%count() == 0) call put_points(table, given, facts, path, text, flaws)
    end subroutine import_table
+
+   !> Takes the loaded radius of the chosen axle of a model of Lotus Shark as the height of the wheel centre, if --datum is not
+   !> given.
+   subroutine choose_radius(table, radius, wish)
+      type(point_table_t), intent(in) :: table
+      real(wp), intent(in) :: radius(2)              !! 0: not given
+      type(wish_t), intent(inout) :: wish
+      real(wp) :: chosen
+
+      if (wish%datum /= '') return
+      chosen = maxval(radius)
+      if (any(table%points(:table%used)%axle > 0)) then         ! both axles
+         if (wish%axle /= 'front' .and. wish%axle /= 'rear') return
+         chosen = radius(merge(1, 2, wish%axle == 'front'))
+      end if
+      if (chosen > 0.0_wp) wish%datum = 'radius:'//decimal(chosen)
+      if (chosen > 0.0_wp) wish%datum_source = 'the loaded radius of the file'
+   end subroutine choose_radius
 
    !> Writes &point for each hardpoint; for a pair, the left and the right point.
    subroutine import_points(content, path, text, flaws)

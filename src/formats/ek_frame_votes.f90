@@ -7,6 +7,7 @@
 !> vector does not lie clearly along a column is not counted. All votes are on one half, so that the table of a
 !> symmetric axle needs no sides.
 module ek_frame_votes
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp, degree
    use ek_text, only: str, lower, plural
    use ek_decimal, only: get_decimal
@@ -41,6 +42,7 @@ module ek_frame_votes
    type :: wish_t
       character(60) :: axes = '', length = '', datum = '', axle = '', side = ''
       character(40) :: source = ''              !! format that defines axes and length; '': the options
+      character(40) :: datum_source = ''        !! what gives datum; '': the option
    end type wish_t
 
    character(*), parameter :: axes_form = 'iso, x-rear, sae, or the directions of x, y and z, as rear,right,up'
@@ -440,56 +442,79 @@ contains
 
    end subroutine vote_on_length
 
-   !> Decides the height of the road: at the contact point of the table, or that of --datum. A contact point must be the lowest
-   !> point.
+   !> Decides the height of the road: at the contact point of the table, or that of --datum. No point may be below the road, and the
+   !> height of the wheel centre must be possible for a wheel.
    subroutine decide_road(half, wish, frame)
       type(half_t), intent(in) :: half
       type(wish_t), intent(in) :: wish
       type(frame_t), intent(inout) :: frame
       real(wp) :: height(point_count), value, near
       logical :: is_good
-      integer :: k
 
       if (frame%problem /= '') return
       height = sign(1, frame%up)*half%at(abs(frame%up), :)
       near = 1.0e-3_wp/length_values(frame%length)
-      if (half%has(contact_patch)) then
-         frame%road = height(contact_patch)
-         frame%has_road = .true.
-         do k = 1, point_count
-            if (half%has(k) .and. height(k) < frame%road - near) frame%problem = 'the point '//trim(point_names(k))//' (line '// &
-               str(half%line(k))//') is below the contact point (line '//str(half%line(contact_patch))//')'
-         end do
-      end if
+      frame%has_road = half%has(contact_patch)
+      if (frame%has_road) frame%road = height(contact_patch)
       if (wish%datum == '') then
          if (half%has(wheel_centre) .and. .not. frame%has_road) frame%problem = 'the file has no contact point, and the '// &
             'height of the road is not certain; give --datum ground (the height is 0 on the road), --datum HEIGHT (height of '// &
             'the road in the file), or --datum radius:R (loaded radius below the wheel centre)'
          if (frame%has_road) call explain(frame, 'road: at the contact point of the table')
-         return
+      else
+         call read_datum(trim(wish%datum), height(wheel_centre), half%has(wheel_centre), value, is_good)
+         if (.not. is_good) then
+            frame%problem = '--datum must be ground, a height or radius:R (of a table with a wheel centre), found '''// &
+               trim(wish%datum)//''''
+         else if (frame%has_road .and. abs(frame%road - value) > near) then
+            frame%problem = 'by --datum, the height of the road is '//str(value)//', but the contact point (line '// &
+               str(half%line(contact_patch))//') is at '//str(frame%road)
+         end if
+         frame%has_road = .true.
+         frame%road = value
+         if (wish%datum_source == '') call explain(frame, 'road: --datum '//trim(wish%datum))
+         if (wish%datum_source /= '') call explain(frame, 'road: '//trim(wish%datum_source)//', '//trim(wish%datum))
       end if
-      value = 0.0_wp
-      is_good = .true.
-      if (lower(wish%datum) /= 'ground') call get_decimal(trim(wish%datum(index(wish%datum, ':') + 1:)), value, is_good)
-      if (index(lower(wish%datum), 'radius:') == 1) then
-         value = height(wheel_centre) - value
-         is_good = is_good .and. half%has(wheel_centre)
-      else if (index(wish%datum, ':') > 0) then
-         is_good = .false.
-      end if
-      if (.not. is_good) then
-         frame%problem = '--datum must be ground, a height or radius:R (of a table with a wheel centre), found '''// &
-            trim(wish%datum)//''''
-      else if (frame%has_road .and. abs(frame%road - value) > near) then
-         frame%problem = 'by --datum, the height of the road is '//str(value)//', but the contact point (line '// &
-            str(half%line(contact_patch))//') is at '//str(frame%road)
-      else if (half%has(wheel_centre) .and. height(wheel_centre) - value <= near) then
-         frame%problem = 'by --datum, the wheel centre is not above the road'
-      end if
-      frame%has_road = .true.
-      frame%road = value
-      call explain(frame, 'road: --datum '//trim(wish%datum))
+      if (frame%problem == '' .and. frame%has_road) call check_road(half, height, near, frame)
    end subroutine decide_road
+
+   !> Reads the option --datum.
+   subroutine read_datum(text, centre, has_centre, road, is_good)
+      character(*), intent(in) :: text
+      real(wp), intent(in) :: centre                 !! height of the wheel centre
+      logical, intent(in) :: has_centre
+      real(wp), intent(out) :: road                  !! height of the road; 0 if the option is not good
+      logical, intent(out) :: is_good
+      logical :: is_radius
+
+      road = 0.0_wp
+      is_good = .true.
+      if (lower(text) == 'ground') return
+      is_radius = index(lower(text), 'radius:') == 1
+      call get_decimal(text(merge(len('radius:') + 1, 1, is_radius):), road, is_good)
+      if (is_good) is_good = ieee_is_finite(road) .and. (has_centre .or. .not. is_radius)
+      if (is_good) is_good = abs(road) < 1.0e9_wp
+      if (.not. is_good) road = 0.0_wp
+      if (is_good .and. is_radius) road = centre - road
+   end subroutine read_datum
+
+   !> Checks that no point is below the road, and that the height of the wheel centre is between 0.1 and 0.8 m.
+   subroutine check_road(half, height, near, frame)
+      type(half_t), intent(in) :: half
+      real(wp), intent(in) :: height(:), near        !! near: 1 mm, in the unit of the table
+      type(frame_t), intent(inout) :: frame
+      real(wp) :: radius
+      integer :: k
+
+      radius = (height(wheel_centre) - frame%road)*length_values(frame%length)
+      if (half%has(wheel_centre) .and. (radius < 0.1_wp .or. radius > 0.8_wp)) frame%problem = 'the wheel centre (line '// &
+         str(half%line(wheel_centre))//') must be 0.1 to 0.8 m above the road, found '//str(radius)//' m; check the contact '// &
+         'point, the unit or --datum'
+      do k = point_count, 1, -1
+         if (half%has(k) .and. height(k) < frame%road - near) frame%problem = 'the point '//trim(point_names(k))//' (line '// &
+            str(half%line(k))//') is below the road, which is at the height '//str(frame%road)//'; check contact point or --datum'
+      end do
+   end subroutine check_road
 
    !> Adds a vote for the direction from one point to another.
    subroutine vote_along(frame, question, half, from, to, reason)

@@ -287,7 +287,7 @@ contains
          call put_point(trim(point_names(k)), half%at(:, k), writing%file//':'//str(half%line(k)), writing)
          if (k == wheel_centre .and. .not. half%has(contact_patch)) then
             half%at(:, contact_patch) = contact_point(half%at(:, wheel_centre), frame%road*writing%factor, facts, writing%is_rear)
-            call put_point('contact_patch', half%at(:, contact_patch), 'below the wheel centre, by --datum', writing)
+            call put_point('contact_patch', half%at(:, contact_patch), 'below the wheel centre, on the road', writing)
          end if
       end do
       if (.not. is_steered) return

@@ -553,12 +553,12 @@ contains
       integer :: k
 
       do k = 1, table%used
-         if (table%points(k)%point == not_a_point) cycle
+         if (table%points(k)%point /= -1) cycle
          call hints_in(trim(table%points(k)%name), hints)
       end do
       do k = 1, table%used
          associate (this => table%points(k))
-            if (this%point == not_a_point) cycle
+            if (this%point /= -1) cycle
             meaning = meaning_of(trim(this%name), hints)
             this%point = meaning%point
             if (meaning%point <= 0) cycle

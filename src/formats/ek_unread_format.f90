@@ -21,7 +21,6 @@ module ek_unread_format
       format_t('mdl', '*topology', 'a model of MotionView; '//as_table), &
       format_t('o3d', '', 'a binary project of OptimumKinematics; '//as_table), &
       format_t('opk', '', 'a binary project of OptimumKinematics; '//as_table), &
-      format_t('shk', '', 'a model of Lotus Shark; '//as_table), &
       format_t('par', 'parsfile', 'a data set of CarSim with tables, without hardpoints; export the hardpoints of its source'), &
       format_t('skc', '#infofile1', 'tables of CarMaker, without hardpoints; export the hardpoints of its source'), &
       format_t('kex', '', 'results of IPGKinematics; import the axle (.kin)'), &

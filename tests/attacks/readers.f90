@@ -155,7 +155,7 @@ contains
       call judge(flaws, kind, deck_text)
       if (index(text, ' = [') > 0) then         ! TOML, by its extension
          flaws = new_flaws('mutation')
-         call import_text(text, 'mutation.toml', deck_text, kind, flaws, wish_t(axle='front'))
+         call import_text(text, 'mutation.toml', deck_text, kind, flaws)
          call judge(flaws, kind, deck_text)
       end if
       if (kind == table_kind) then              ! with the options that a table asks for, too
