@@ -75,8 +75,8 @@ contains
       end associate
    end subroutine find_rod
 
-   !> The names of the parts at a point, each after a blank and in quotes, without the side if &mirror created them; ' none' if there
-   !> is none.
+   !> The names of the parts at a point, each after a blank and in quotes, without the side if &mirror created them; otherwise
+   !> ' none'.
    function parts_at(reading, point) result(names)
       type(deck_reading_t), intent(in) :: reading
       integer, intent(in) :: point                   !! index of the vector
