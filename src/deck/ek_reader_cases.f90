@@ -263,8 +263,8 @@ contains
 
    end subroutine read_drive
 
-   !> Checks the adjuster that a case drives: a rod that is a distance joint, whose length the row of a joint prescribes as that of a
-   !> driver. Its range must contain its value with the range of the case added.
+   !> Checks the adjuster that a case drives: a rod that is a distance joint, whose row prescribes its length as the row of a driver
+   !> does. Its range must contain its value with the range of the case added.
    subroutine check_rod(reading, name)
       type(deck_reading_t), intent(inout) :: reading
       character(*), intent(in) :: name

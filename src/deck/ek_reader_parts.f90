@@ -2,7 +2,7 @@
 module ek_reader_parts
    use ek_text, only: quoted
    use ek_record, only: element, own_name, single
-   use ek_group, only: joint_group, body_group, part_name, word_length
+   use ek_group, only: joint_group, body_group, part_name
    use ek_blueprint, only: part_plan_t
    use ek_deck_reading, only: deck_reading_t, complain, text_of, has_key, slot
    use ek_reference, only: look_up, find_body, find_point
@@ -18,9 +18,8 @@ contains
       type(part_plan_t) :: plan
       character(:), allocatable :: name
       logical :: is_found
-      integer :: found, k
+      integer :: k
 
-      found = 0
       is_found = .true.
       if ((has_key(reading, 'body') .eqv. has_key(reading, 'joint')) .or. .not. has_key(reading, 'at')) then
          if (reading%cards(reading%k)%is_good) call complain(reading, '', "give 'body' or 'joint', the part that deviates, and "// &
@@ -75,8 +74,8 @@ contains
       end associate
    end subroutine find_rod
 
-   !> The names of the parts at a point, each after a blank and in quotes, without the side if &mirror created them; ' none' if there
-   !> is none.
+   !> The names of the parts at a point, each after a blank and in quotes, without the side if &mirror created them; otherwise
+   !> ' none'.
    function parts_at(reading, point) result(names)
       type(deck_reading_t), intent(in) :: reading
       integer, intent(in) :: point                   !! index of the vector

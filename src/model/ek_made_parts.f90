@@ -17,7 +17,7 @@ module ek_made_parts
 
 contains
 
-   !> All parts as drawn.
+   !> Copies the numbers of all parts as drawn.
    pure subroutine begin_made(self)
       type(suspension_t), intent(inout) :: self
       integer :: k

@@ -42,8 +42,8 @@ contains
       call unpack_state(path%packed(:7*size(suspension%bodies) + suspension%constraints(), k), state)
    end subroutine state_of_path
 
-   !> The state of the axle as it stands: the design position, or, if adjusters have values or parts deviate, the state of the travel
-   !> at 0. Without such a test, it is the design position.
+   !> Returns the state of the axle as it stands: the design position, or, if adjusters have values or parts deviate, the state
+   !> of the travel at 0. Without such a test, it is the design position.
    subroutine standing_state(tests, paths, suspension, state)
       type(test_result_t), intent(in) :: tests(:)
       type(path_t), intent(in) :: paths(:)          !! paths of the tests
