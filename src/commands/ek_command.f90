@@ -89,8 +89,8 @@ module ek_command
       command_t('import', 'import FILE … [options]', 'import FILE', 'convert tables of points or foreign files to a deck', &
       'Converts files of other programs to a deck:'//nl// &
       '  .kin files of IPGKinematics to a complete axle (with the .gum bushings in the same folder);'//nl// &
-      '  a CSV table of hardpoints, or Chrono (.json) and Lotus Shark (.shk), to a deck of points and links, if these are'//nl// &
-      '  those of a double wishbone, McPherson, five-link or trailing arm axle;'//nl// &
+      '  hardpoints (CSV, JSON, TOML), a Chrono suspension (.json) or a Lotus Shark model (.shk) to a deck of points and'//nl// &
+      '  links, if the points are those of a double wishbone, McPherson, five-link or trailing arm axle;'//nl// &
       '  .sub and .asy hardpoints to points;'//nl// &
       '  .bus, .spr, .bum, .reb and .gum property files to curves;'//nl// &
       '  .lcf load cases to a load table.'//nl// &
@@ -301,12 +301,12 @@ module ek_command
       option_t('export', '--quiet', quiet_help), &
       option_t('import', '--out FILE', 'write this file (default: -, standard output)'), &
       option_t('import', '--axes WORD', &
-      'directions of the columns x, y, z of a table: iso | x-rear | sae, or spelled out, as rear,right,up;'//indent// &
-      'default: decided by the points, or refused'), &
+      'directions of the columns x, y, z of a table: iso | x-rear | sae (or spelled out, as rear,right,up);'//indent// &
+      'default: decided by the points, or rejected'), &
       option_t('import', '--length WORD', 'unit of length of a table: mm | cm | m | in | ft'), &
       option_t('import', '--datum WORD', &
       'road, if a table has no contact point: ground (height 0), a height, or radius:R (loaded radius)'), &
-      option_t('import', '--axle WORD', 'axle of a table: front | rear'), &
+      option_t('import', '--axle WORD', 'axle of a table, if the table has both, or tie rods and no axle: front | rear'), &
       option_t('import', '--side WORD', 'mirror this side, if the sides of a table differ: left | right'), &
       option_t('import', '--quiet', quiet_help), &
       option_t('derivatives', '--case NAME', 'case or standard test (default: the first case of the deck)'), &

@@ -73,8 +73,28 @@ contains
       if (allocated(error)) return
       flaws = new_flaws(path)
       call import_text(content, path, text, kind, flaws, wish)
-      if (flaws%count() > 0) call fail(error, exit_deck, flaws%text())
+      if (flaws%count() == 0) return
+      if (kind == table_kind) call fail(error, exit_deck, ten_lines(flaws%text()))
+      if (kind /= table_kind) call fail(error, exit_deck, flaws%text())
    end subroutine import_file
+
+   !> A text of errors, of which at most ten lines are shown: an error in the form of a table repeats itself in every row.
+   pure function ten_lines(text) result(shown_lines)
+      character(*), intent(in) :: text
+      character(:), allocatable :: shown_lines
+      integer, parameter :: longest = 10
+      integer :: k, ends
+
+      shown_lines = text
+      ends = count([(text(k:k) == new_line('a'), k=1, len(text))])
+      if (ends < longest) return
+      ends = 0
+      do k = 1, len(text)
+         if (text(k:k) == new_line('a')) ends = ends + 1
+         if (ends == longest - 1) exit
+      end do
+      shown_lines = text(:k)//'and more errors: correct these first'
+   end function ten_lines
 
    !> Converts the content of a file as import_file converts a file. Errors are in `flaws`; `text` is '' if there are errors.
    subroutine import_text(content, path, text, kind, flaws, wish)

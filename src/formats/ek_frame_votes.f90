@@ -12,14 +12,14 @@ module ek_frame_votes
    use ek_text, only: str, lower, plural
    use ek_decimal, only: get_decimal
    use ek_vote, only: ballot_t, add_vote, leader, for, against, reasons, vote_lines, questions, side_name, column_name, &
-      length_names, length_values, of_up, of_outboard, of_forward, of_length
+      take_axes, axes_form, length_names, length_values, of_up, of_outboard, of_forward, of_length
    use ek_point_name, only: point_count, point_names, wheel_centre, contact_patch, lca_front, lca_rear, lower_ball, uca_front, &
       uca_rear, upper_ball, tie_inner, tie_outer, toe_inner, toe_outer, strut_top, strut_low, arm_inner, arm_outer, &
       upper_front_in, upper_front_out, upper_rear_in, upper_rear_out, lower_in, lower_out, trailing_front, trailing_rear, &
       damper_top, spring_top
    implicit none(type, external)
    private
-   public :: half_t, point_set_t, wish_t, frame_t, find_frame, axes_form
+   public :: half_t, point_set_t, wish_t, frame_t, find_frame
 
    !> The points of one side, in the columns and the unit of the table.
    type :: half_t
@@ -44,8 +44,6 @@ module ek_frame_votes
       character(40) :: source = ''              !! format that defines axes and length; '': the options
       character(40) :: datum_source = ''        !! what gives datum; '': the option
    end type wish_t
-
-   character(*), parameter :: axes_form = 'iso, x-rear, sae, or the directions of x, y and z, as rear,right,up'
 
    real(wp), parameter :: clear = 1.5_wp     !! a vector lies along a column if the others are smaller by this factor
 
@@ -77,7 +75,7 @@ contains
       if (wish%source /= '') frame%source = trim(wish%source)
       if (.not. any(points%half(1)%has)) frame%half = 2
       if (lower(wish%side) == 'right') frame%half = 2
-      call take_axes(wish%axes, given, frame)
+      call take_axes(wish%axes, given, frame%problem)
       if (frame%problem /= '') return
       call check_images(points, wish, frame)
       if (frame%problem /= '') return
@@ -91,34 +89,6 @@ contains
       call decide_length(points, wish, frame)
       call decide_road(points%half(frame%half), wish, frame)
    end subroutine find_frame
-
-   !> Reads the option --axes: the columns of forward, left and up; 0 if it is not given.
-   subroutine take_axes(text, given, frame)
-      character(*), intent(in) :: text
-      integer, intent(out) :: given(3)
-      type(frame_t), intent(inout) :: frame
-      character(*), parameter :: names(8) = [character(8) :: 'forward', 'left', 'up', 'rearward', 'right', 'down', 'rear', 'front']
-      integer, parameter :: axis(8) = [1, 2, 3, 1, 2, 3, 1, 1], sign(8) = [1, 1, 1, -1, -1, -1, -1, 1]
-      character(:), allocatable :: rest, word
-      integer :: k, column, comma
-
-      given = 0
-      if (text == '') return
-      rest = lower(trim(text))
-      if (rest == 'iso') rest = 'forward,left,up'
-      if (rest == 'x-rear') rest = 'rear,right,up'
-      if (rest == 'sae') rest = 'forward,right,down'
-      do column = 1, 3
-         comma = index(rest//',', ',')
-         word = trim(adjustl(rest(:comma - 1)))
-         rest = rest(min(comma + 1, len(rest) + 1):)
-         k = findloc(names == word, .true., dim=1)
-         if (k == 0) exit
-         if (given(axis(k)) /= 0) exit
-         given(axis(k)) = sign(k)*column
-      end do
-      if (any(given == 0) .or. rest /= '') frame%problem = '--axes must be '//axes_form//'; found '''//trim(text)//''''
-   end subroutine take_axes
 
    !> Checks that, if both sides are given and both are to be used, each right point is the image of the left point: one column
    !> changes its sign, and the others are equal.
@@ -170,6 +140,7 @@ contains
       type(frame_t), intent(inout) :: frame
 
       call vote_along(frame, of_up, half, contact_patch, wheel_centre, 'wheel centre above the contact point')
+      call vote_on_lowest(half, frame)
       call vote_along(frame, of_up, half, lower_ball, upper_ball, 'upper ball joint above the lower one')
       call vote_along(frame, of_up, half, lower_ball, strut_top, 'strut top above the lower ball joint')
       call vote_along(frame, of_up, half, strut_low, strut_top, 'strut top above its lower end')
@@ -181,6 +152,21 @@ contains
       call vote_along(frame, of_up, half, lower_out, upper_front_out, 'upper link above the lower link, at the carrier')
       call vote_along(frame, of_up, half, lower_in, upper_front_in, 'upper link above the lower link, at the chassis')
    end subroutine vote_on_up
+
+   !> Adds the vote of the contact point: of at least four points, it is the lowest by a tenth of the loaded radius or more.
+   subroutine vote_on_lowest(half, frame)
+      type(half_t), intent(in) :: half
+      type(frame_t), intent(inout) :: frame
+      real(wp) :: radius(3), height(point_count)
+      integer :: column
+
+      if (.not. all(half%has([contact_patch, wheel_centre])) .or. count(half%has) < 4) return
+      radius = half%at(:, wheel_centre) - half%at(:, contact_patch)
+      column = maxloc(abs(radius), dim=1)
+      height = (half%at(column, :) - half%at(column, contact_patch))*sign(1.0_wp, radius(column))
+      if (count(half%has .and. height < 0.1_wp*abs(radius(column))) /= 1) return         ! the contact point itself
+      call add_vote(frame%ballot, of_up, merge(column, -column, radius(column) > 0.0_wp), 'contact point below all other points')
+   end subroutine vote_on_lowest
 
    subroutine vote_on_outboard(points, frame)
       type(point_set_t), intent(in) :: points

@@ -114,7 +114,8 @@ module ek_point_name
       word_t('point', ''), word_t('pnt', ''), word_t('pt', ''), word_t('pp', ''), word_t('att', 'M'), word_t('joint', ''), &
       word_t('hardpoint', ''), word_t('hp', ''), word_t('hps', ''), word_t('end', ''), word_t('seat', ''), word_t('side', ''), &
       word_t('the', ''), &
-      word_t('of', ''), word_t('to', ''), word_t('on', ''), word_t('at', ''), word_t('and', ''), word_t('axle', '')]
+      word_t('of', ''), word_t('to', ''), word_t('a', ''), word_t('on', ''), &
+      word_t('at', ''), word_t('and', ''), word_t('axle', '')]
 
    !> Terms for a side or a corner: axle (0, 1 front, 2 rear) and side (0, 1 left, 2 right).
    type :: place_t

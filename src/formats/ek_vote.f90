@@ -3,17 +3,18 @@
 !> length_names.
 module ek_vote
    use ek_kinds, only: wp, inch
-   use ek_text, only: plural
+   use ek_text, only: lower, plural
    implicit none(type, external)
    private
-   public :: ballot_t, add_vote, leader, for, against, reasons, vote_lines, questions, side_name, column_name
-   public :: length_names, length_values, of_up, of_outboard, of_forward, of_length
+   public :: ballot_t, add_vote, leader, for, against, reasons, vote_lines, questions, side_name, column_name, take_axes
+   public :: length_names, length_values, of_up, of_outboard, of_forward, of_length, axes_form
 
    integer, parameter :: of_up = 1, of_outboard = 2, of_forward = 3, of_length = 4
    character(30), parameter :: questions(4) = [character(30) :: 'which column points up', 'which column points outboard', &
       'which way is forward', 'the unit of length']
    character(2), parameter :: length_names(5) = [character(2) :: 'mm', 'cm', 'm', 'in', 'ft']
    real(wp), parameter :: length_values(5) = [1.0e-3_wp, 1.0e-2_wp, 1.0_wp, inch, 12*inch]      !! [m]
+   character(*), parameter :: axes_form = 'iso, x-rear, sae, or the directions of x, y and z, as rear,right,up'
    integer, parameter :: most_votes = 80, most_lines = 7
 
    type :: vote_t
@@ -136,5 +137,33 @@ contains
       if (abs(direction) >= 1 .and. abs(direction) <= 3) words = merge('+', '-', direction > 0)// &
          'xyz'(abs(direction):abs(direction))
    end function column_name
+
+   !> Reads the option --axes: the columns of forward, left and up; 0 if it is not given.
+   subroutine take_axes(text, given, problem)
+      character(*), intent(in) :: text
+      integer, intent(out) :: given(3)
+      character(:), allocatable, intent(inout) :: problem      !! what is wrong with the option; unchanged if nothing is
+      character(*), parameter :: names(8) = [character(8) :: 'forward', 'left', 'up', 'rearward', 'right', 'down', 'rear', 'front']
+      integer, parameter :: axis(8) = [1, 2, 3, 1, 2, 3, 1, 1], sign(8) = [1, 1, 1, -1, -1, -1, -1, 1]
+      character(:), allocatable :: rest, word
+      integer :: k, column, comma
+
+      given = 0
+      if (text == '') return
+      rest = lower(trim(text))
+      if (rest == 'iso') rest = 'forward,left,up'
+      if (rest == 'x-rear') rest = 'rear,right,up'
+      if (rest == 'sae') rest = 'forward,right,down'
+      do column = 1, 3
+         comma = index(rest//',', ',')
+         word = trim(adjustl(rest(:comma - 1)))
+         rest = rest(min(comma + 1, len(rest) + 1):)
+         k = findloc(names == word, .true., dim=1)
+         if (k == 0) exit
+         if (given(axis(k)) /= 0) exit
+         given(axis(k)) = sign(k)*column
+      end do
+      if (any(given == 0) .or. rest /= '') problem = '--axes must be '//axes_form//'; found '''//trim(text)//''''
+   end subroutine take_axes
 
 end module ek_vote

@@ -160,6 +160,9 @@ contains
       end if
       if (kind == table_kind) then              ! with the options that a table asks for, too
          flaws = new_flaws('mutation')
+         call import_text(text, 'mutation', deck_text, kind, flaws, wish_t(axle='front'))
+         call judge(flaws, kind, deck_text)
+         flaws = new_flaws('mutation')
          call import_text(text, 'mutation', deck_text, kind, flaws, wish_t(datum='radius:0.3', axle='front'))
          call judge(flaws, kind, deck_text)
          flaws = new_flaws('mutation')
