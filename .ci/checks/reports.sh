@@ -107,11 +107,14 @@ page_in_a_browser() {
     [ "${PIPESTATUS[0]}" -eq 0 ] || return 1
     echo "remark: $(tail -n 1 "$logs/study_page.txt")"
   done
-  # other rates on the page against runs of the program: free of stress, and with preloads
+  # other rates on the page against runs of the program: free of stress, and with preloads; wheels whose contact point is computed, free
+  # of stress and from where they settle
   local live=("$tools/bin/python" tests/page/live_rates_in_a_browser.py build/release/bin/elastokin)
   "${live[@]}" input/mcpherson_axle/mcpherson_axle.nml "$logs/browser/live" model.balance=none 'load.static.force(3)=0' \
     damper.damper.gas_force=0 && "${live[@]}" input/mcpherson_axle/mcpherson_axle.nml "$logs/browser/live" &&
-    "${live[@]}" input/double_wishbone/double_wishbone.nml "$logs/browser/live"
+    "${live[@]}" input/double_wishbone/double_wishbone.nml "$logs/browser/live" &&
+    "${live[@]}" tests/decks/crown_axle.nml "$logs/browser/live" 'load.road.force(1)=0' 'load.road.force(2)=0' 'load.road.force(3)=0' &&
+    "${live[@]}" tests/decks/crown_axle.nml "$logs/browser/live"
 }
 
 # What the report of a whole axle costs apart from gnuplot: instructions, which do not depend on the load of the machine, and times

@@ -2,7 +2,7 @@
 !>
 !> If a function returns a string, gfortran stores the length of this string in one location that all threads share (a static
 !> variable of the calling procedure). Two threads that call such a function at the same time would read each other's length.
-!> Procedures that threads call therefore create strings, and what is made of strings (decks, messages, tables of words), only
+!> Procedures that threads call therefore create strings, and what is made of strings (decks, messages, headings), only
 !> between `begin_words` and `end_words`, with no `return` between the two calls. Solutions create no strings and run at the same
 !> time.
 !>

@@ -61,8 +61,9 @@ module ek_workspace
       real(wp), private :: tolerance = 0.0_wp           !! tolerance of the last preload trim [m]
       type(balance_failure_t), private :: failure       !! outcome of the last preload trim
       type(preload_problem_t), private :: space         !! work space of the preload trim
-      type(start_space_t), private :: start_space       !! work space of the start state
-      type(align_space_t), private :: align_space       !! work space of &align
+      ! classes, as in case_work_t; allocated when the deck needs them
+      class(start_space_t), allocatable, private :: start_space      !! work space of the start state
+      class(align_space_t), allocatable, private :: align_space      !! work space of &align
       logical, private :: has_started = .false.         !! an earlier design has a start state: a later design without
                                                         !! one fails, so that all designs begin in states of one kind
    end type workspace_t
@@ -124,9 +125,12 @@ contains
          workspace%suspension = workspace%raw
       end if
       call set_preloads(workspace%suspension, tolerance, workspace%space, workspace%failure)
-      if (workspace%failure%reason == 0 .and. size(workspace%suspension%aligns) > 0) &
+      if (workspace%failure%reason == 0 .and. size(workspace%suspension%aligns) > 0) then
+         if (.not. allocated(workspace%align_space)) allocate (workspace%align_space)
          call find_alignment(workspace%suspension, workspace%align_space, workspace%failure)
+      end if
       if (workspace%failure%reason == 0) then
+         if (.not. allocated(workspace%start_space)) allocate (workspace%start_space)
          call find_start(workspace%suspension, tolerance, workspace%start_space, is_found)
          if (.not. is_found .and. (workspace%suspension%must_start .or. workspace%has_started)) workspace%failure%reason = no_start
          workspace%has_started = workspace%has_started .or. is_found

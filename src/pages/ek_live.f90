@@ -32,7 +32,7 @@ module ek_live
    type :: live_t
       integer :: most = 0                                    !! largest number of rates
       type(live_rates_t), allocatable :: rates
-      character(:), allocatable :: balance                   !! preload trim in a run with other rates; 'height': see ek_start
+      character(:), allocatable :: balance                   !! preload trim of another run; 'height', 'loads': see ek_start
       type(live_test_t) :: design
       type(live_test_t), allocatable :: tests(:)             !! tests with columns that follow the rates
       integer :: reruns = 0, failed = 0                      !! runs that were compared with the page; runs without a result
@@ -69,6 +69,7 @@ contains
             allocate (live%rates, source=rates)
             live%balance = result%suspension%balance
             if (live%balance == 'none' .and. carries_force(result%suspension)) live%balance = 'height'
+            if (any(result%suspension%start == [character(10) :: 'loads', 'wheel_load', 'added_mass'])) live%balance = 'loads'
             call find_test(result, test, rates, of_design, [design_row(result%table)], live%design)
          end if
          allocate (columns, source=quantities_of(test%kind))

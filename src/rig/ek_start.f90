@@ -236,7 +236,7 @@ contains
       character(*), intent(in) :: test
       real(wp), intent(in) :: tolerance                    !! m
 
-      case%name = test                     ! mount_again tells by the name whether the model stands on this rig
+      case%name = test                     ! by this name, mount_again finds whether the model is on this rig
       case%where = ''
       case%test = test
       case%load = ''

@@ -173,7 +173,8 @@ function exactness() {
   const is_still = Math.max(...at_design) < 1e-6, has_bushing = live.rates.some((r, k) => factor_of[k] !== 1 && r.group === "bushing");
   if (!is_still) list.push(`Numbers of the table, at design: exact for the state of the deck. A run with these rates would find another state; ` +
     `the wheel centre would move by ${about(at_design)}, to first order` + (live.balance === "spring" ? " before the springs are balanced again." :
-      live.balance === "height" ? " before the rig holds the height again." : "."));
+      live.balance === "height" ? " before the rig holds the height again." :
+        live.balance === "loads" ? ", at the height of the deck's start state; its tests would start where the wheels settle, at another height." : "."));
   else if (live.balance === "all" && has_bushing) list.push(`Numbers of the table, at design: exact for the forces in the deck's parts. A run ` +
     "with these rates finds the same position, but balance = 'all' then distributes the preloads of the bushings in another way, " +
     `which changes their geometric stiffness. ${deviation()}`);
