@@ -110,7 +110,7 @@ contains
       end do
    end function names_of
 
-   !> Compares all measured curves with the solved tests. Points without a state of the model are told as warnings of the page.
+   !> Compares all measured curves with the solved tests. Points without a state of the model are warnings of the page.
    subroutine compare_all_measured(tests, measured, warnings, error)
       type(test_result_t), intent(in) :: tests(:)
       type(measurement_t), intent(inout) :: measured(:)

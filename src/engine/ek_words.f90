@@ -28,7 +28,7 @@ contains
       !$ call omp_set_nest_lock(lock)
    end subroutine begin_words
 
-   !> Lets the next thread create strings.
+   !> Ends the time in which only this thread creates strings.
    subroutine end_words()
       !$ call omp_unset_nest_lock(lock)
    end subroutine end_words

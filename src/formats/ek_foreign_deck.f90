@@ -179,7 +179,7 @@ contains
          call parse_point_list(lines%text, table, flaws)
       else if (is_json(lines%text)) then
          if (given%axes /= '' .or. given%length /= '') call flaws%add(0, 'the format defines axes and unit (x forward, y left, '// &
-            'z up, m): leave out --axes and --length')
+            'z up, m): omit --axes and --length')
          given%axes = 'iso'
          given%length = 'm'
          given%source = 'by the format of Chrono'

@@ -219,7 +219,7 @@ contains
       type(writing_t), intent(inout) :: writing
       integer :: k
 
-      call writing%deck%comment('Left out:')
+      call writing%deck%comment('Omitted:')
       do k = 1, table%used
          associate (this => table%points(k))
             if (this%point > 0) then

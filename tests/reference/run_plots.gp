@@ -49,7 +49,7 @@ unset multiplot
 unset label
 unset output
 }
-# Lateral movement of the contact patch
+# Lateral movement of the contact point
 #
 #     gnuplot plane_axle_centre_lateral.gp
 #
@@ -73,7 +73,7 @@ if (format eq 'png') { set terminal pngcairo size 1200, 900 font 'sans-serif,15'
 if (format eq 'svg') { set terminal svg size 1200, 900 font 'sans-serif,15' noenhanced background 'white' }
 if (format eq 'pdf') { set terminal pdfcairo size 24cm, 18cm font 'sans-serif,15' noenhanced }
 set output 'plane_axle_centre_lateral.'.format
-set label 1 'Lateral movement of the contact patch' at screen 2.00000E-02, screen 9.66670E-01 font 'sans-serif:Bold,20' textcolor rgb '#202020'
+set label 1 'Lateral movement of the contact point' at screen 2.00000E-02, screen 9.66670E-01 font 'sans-serif:Bold,20' textcolor rgb '#202020'
 set label 2 'axle of two plane four-bars, centre' at screen 2.00000E-02, screen 9.33330E-01 font 'sans-serif,14' textcolor rgb '#606060'
 set multiplot
 set palette defined (0 '#440154', 2.50000E-01 '#3B528B', 5.00000E-01 '#21918C', 7.50000E-01 '#5EC962', 1 '#E8D000')
@@ -82,7 +82,7 @@ unset colorbox
 
 set lmargin at screen 9.16670E-02; set rmargin at screen 9.75000E-01; set bmargin at screen 8.88890E-02; set tmargin at screen 8.64440E-01
 set title '' offset 0, -4.00000E-01 font 'sans-serif:Bold,15' textcolor rgb '#202020'
-set xlabel 'Half-track change, mm    (contact patch, + outward)' offset 0, 3.00000E-01 textcolor rgb '#404040'
+set xlabel 'Half-track change, mm    (contact point, + outward)' offset 0, 3.00000E-01 textcolor rgb '#404040'
 set ylabel 'wheel travel [mm]    (+ bump)' offset 6.00000E-01, 0 textcolor rgb '#404040'
 set xtics scale 6.00000E-01 autofreq; set grid xtics; unset logscale x; set format x
 set yzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
@@ -100,7 +100,7 @@ unset multiplot
 unset label
 unset output
 }
-# Longitudinal movement of the contact patch
+# Longitudinal movement of the contact point
 #
 #     gnuplot plane_axle_centre_longitudinal.gp
 #
@@ -124,7 +124,7 @@ if (format eq 'png') { set terminal pngcairo size 1200, 900 font 'sans-serif,15'
 if (format eq 'svg') { set terminal svg size 1200, 900 font 'sans-serif,15' noenhanced background 'white' }
 if (format eq 'pdf') { set terminal pdfcairo size 24cm, 18cm font 'sans-serif,15' noenhanced }
 set output 'plane_axle_centre_longitudinal.'.format
-set label 1 'Longitudinal movement of the contact patch' at screen 2.00000E-02, screen 9.66670E-01 font 'sans-serif:Bold,20' textcolor rgb '#202020'
+set label 1 'Longitudinal movement of the contact point' at screen 2.00000E-02, screen 9.66670E-01 font 'sans-serif:Bold,20' textcolor rgb '#202020'
 set label 2 'axle of two plane four-bars, centre' at screen 2.00000E-02, screen 9.33330E-01 font 'sans-serif,14' textcolor rgb '#606060'
 set multiplot
 set palette defined (0 '#440154', 2.50000E-01 '#3B528B', 5.00000E-01 '#21918C', 7.50000E-01 '#5EC962', 1 '#E8D000')
@@ -133,7 +133,7 @@ unset colorbox
 
 set lmargin at screen 9.16670E-02; set rmargin at screen 9.75000E-01; set bmargin at screen 8.88890E-02; set tmargin at screen 8.64440E-01
 set title '' offset 0, -4.00000E-01 font 'sans-serif:Bold,15' textcolor rgb '#202020'
-set xlabel 'Wheelbase change, mm    (contact patch, + rearward)' offset 0, 3.00000E-01 textcolor rgb '#404040'
+set xlabel 'Wheelbase change, mm    (contact point, + rearward)' offset 0, 3.00000E-01 textcolor rgb '#404040'
 set ylabel 'wheel travel [mm]    (+ bump)' offset 6.00000E-01, 0 textcolor rgb '#404040'
 set xtics scale 6.00000E-01 autofreq; set grid xtics; unset logscale x; set format x
 set yzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
@@ -217,7 +217,7 @@ plot 'plane_axle_centre.csv' using "left_camber_deg":"left_wheel_travel_mm" with
 
 set lmargin at screen 9.16670E-02; set rmargin at screen 4.75000E-01; set bmargin at screen 8.88890E-02; set tmargin at screen 4.13330E-01
 set title 'Half-track change' offset 0, -4.00000E-01 font 'sans-serif:Bold,12' textcolor rgb '#202020'
-set xlabel 'Half-track change, mm    (contact patch, + outward)' offset 0, 3.00000E-01 textcolor rgb '#404040'
+set xlabel 'Half-track change, mm    (contact point, + outward)' offset 0, 3.00000E-01 textcolor rgb '#404040'
 set ylabel 'wheel travel [mm]'."\n".'(+ bump)' offset 6.00000E-01, 0 textcolor rgb '#404040'
 set xtics scale 6.00000E-01 autofreq; set grid xtics; unset logscale x; set format x
 set yzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
@@ -233,7 +233,7 @@ plot 'plane_axle_centre.csv' using "left_track_change_mm":"left_wheel_travel_mm"
 
 set lmargin at screen 5.91670E-01; set rmargin at screen 9.75000E-01; set bmargin at screen 8.88890E-02; set tmargin at screen 4.13330E-01
 set title 'Wheelbase change' offset 0, -4.00000E-01 font 'sans-serif:Bold,12' textcolor rgb '#202020'
-set xlabel 'Wheelbase change, mm    (contact patch, + rearward)' offset 0, 3.00000E-01 textcolor rgb '#404040'
+set xlabel 'Wheelbase change, mm    (contact point, + rearward)' offset 0, 3.00000E-01 textcolor rgb '#404040'
 set ylabel 'wheel travel [mm]'."\n".'(+ bump)' offset 6.00000E-01, 0 textcolor rgb '#404040'
 set xtics scale 6.00000E-01 autofreq; set grid xtics; unset logscale x; set format x
 set yzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
@@ -416,7 +416,7 @@ plot 'tiny_sweep.csv' using "camber_deg":"wheel_travel_mm" with lines linewidth 
 
 set lmargin at screen 9.16670E-02; set rmargin at screen 4.75000E-01; set bmargin at screen 8.88890E-02; set tmargin at screen 4.13330E-01
 set title 'Half-track change' offset 0, -4.00000E-01 font 'sans-serif:Bold,12' textcolor rgb '#202020'
-set xlabel 'Half-track change, mm    (contact patch, + outward)' offset 0, 3.00000E-01 textcolor rgb '#404040'
+set xlabel 'Half-track change, mm    (contact point, + outward)' offset 0, 3.00000E-01 textcolor rgb '#404040'
 set ylabel 'wheel travel [mm]'."\n".'(+ bump)' offset 6.00000E-01, 0 textcolor rgb '#404040'
 set xtics scale 6.00000E-01 autofreq; set grid xtics; unset logscale x; set format x
 set yzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
@@ -430,7 +430,7 @@ plot 'tiny_sweep.csv' using "track_change_mm":"wheel_travel_mm" with lines linew
 
 set lmargin at screen 5.91670E-01; set rmargin at screen 9.75000E-01; set bmargin at screen 8.88890E-02; set tmargin at screen 4.13330E-01
 set title 'Wheelbase change' offset 0, -4.00000E-01 font 'sans-serif:Bold,12' textcolor rgb '#202020'
-set xlabel 'Wheelbase change, mm    (contact patch, + rearward)' offset 0, 3.00000E-01 textcolor rgb '#404040'
+set xlabel 'Wheelbase change, mm    (contact point, + rearward)' offset 0, 3.00000E-01 textcolor rgb '#404040'
 set ylabel 'wheel travel [mm]'."\n".'(+ bump)' offset 6.00000E-01, 0 textcolor rgb '#404040'
 set xtics scale 6.00000E-01 autofreq; set grid xtics; unset logscale x; set format x
 set yzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.20000E+00
