@@ -46,7 +46,9 @@ contains
       character(:), allocatable :: text
 
       text = page_number(slope)
-      if (abs(slope) < 1.0_wp) text = str(slope, 4)
+      if (.not. abs(slope) < 1.0_wp) return
+      text = str(abs(slope), 4)
+      if (slope < 0.0_wp) text = '−'//text
    end function short
 
 end module ek_measured_table
