@@ -91,8 +91,9 @@ contains
          if (reading%cards(k)%group /= joint_group .or. element(reading%records(k), 'type', 1) /= 'distance') cycle
          if (is_there(reading, -1, row_of(k), point)) call add(k)
       end do
-      if (is_there(reading, 0, 0, point)) names = names//' '//quoted('chassis')
-      if (names == '') names = ' none'
+      if (is_there(reading, 0, 0, point)) names = names//', '//quoted('chassis')
+      if (names == '') names = ', none'
+      names = names(2:)
 
    contains
 
@@ -102,7 +103,7 @@ contains
 
          name = trim(reading%cards(k)%name)
          if (reading%records(k)%side /= single) name = own_name(reading%records(k))
-         names = names//' '//quoted(name)
+         names = names//', '//quoted(name)
       end subroutine add
 
       !> The row of the joint of a record; 0 if the joint was rejected.

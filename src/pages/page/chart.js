@@ -1,7 +1,7 @@
 // One chart of a report: its curves as SVG, its legend, and what they are at the cursor.
 // A chart belongs to a test (see page.js), which holds what its charts share: cursor, zoom, hidden curves.
 
-const drawn_height = 236, edge = { left: 54, right: 12, top: 10, bottom: 36 };
+const drawn_height = 236, edge = { left: 54, right: 12, top: 16, bottom: 36 };
 const both = "left = right";
 
 // An SVG element with its attributes and text.
@@ -120,13 +120,14 @@ class Chart {
         svg("text", { x: edge.left - 6, y: this.to_y(y) + 4, "text-anchor": "end" }, shown(y)));
     }
     for (const x of ticks(x0, x1, width / 80)) {
-      root.append(svg("line", { class: x === 0 ? "zero" : "grid", y1: edge.top, y2: bottom, x1: this.to_x(x), x2: this.to_x(x) }),
-        svg("text", { x: this.to_x(x), y: bottom + 15, "text-anchor": "middle" }, shown(x)));
+      const at = this.to_x(x), words = shown(x), is_last = at + 3.2 * words.length > width;      // its label would be cut at the edge
+      root.append(svg("line", { class: x === 0 ? "zero" : "grid", y1: edge.top, y2: bottom, x1: at, x2: at }),
+        svg("text", { x: is_last ? width - 1 : at, y: bottom + 15, "text-anchor": is_last ? "end" : "middle" }, words));
     }
     this.x_label = svg("text", { x: (edge.left + right) / 2, y: drawn_height - 4, "text-anchor": "middle" }, this.test.data.label);
     const clip = `clip-${this.figure.id}`, clipping = svg("clipPath", { id: clip }), plot = svg("g", { "clip-path": `url(#${clip})` });
     clipping.append(svg("rect", { x: edge.left, y: edge.top, width: right - edge.left, height: bottom - edge.top }));
-    this.shade(plot, x0, x1, bottom);
+    this.shade(plot, root, x0, x1, bottom);
     for (const curve of this.curves) {
       const seen = !this.test.hidden.has(curve.name), colour = `--colour:var(--c${(curve.colour - 1) % 8 + 1})`;
       if (curve.other && seen) plot.append(this.line(curve.other, "curve other", colour));
@@ -152,19 +153,23 @@ class Chart {
     this.show_cursor();
   }
 
-  // Where a stop is in contact along the first curve: shaded, with the name of the stop; and how far the curves reach beyond the axis.
-  shade(plot, x0, x1, bottom) {
+  // Where a stop is in contact along the first curve: shaded, with the name of the stop above the curves; and how far the curves
+  // reach beyond the axis.
+  shade(plot, root, x0, x1, bottom) {
     const { contacts = [] } = this.test.data, x = this.curves[0] && this.curves[0].x;
     if (!x || this.description.points) return;
-    contacts.forEach((contact, row) => {
+    const names = [[], []];         // of the stops at the left and at the right
+    contacts.forEach((contact) => {
       const ends = [x[contact.first], x[contact.last]];
       if (ends.includes(null) || ends.includes(undefined)) return;
       const [from, to] = [Math.max(x0, Math.min(...ends)), Math.min(x1, Math.max(...ends))].map(this.to_x);
       if (to <= from) return;
       const is_right = from + to > this.width;
-      plot.append(svg("rect", { class: "contact", x: from, y: edge.top, width: Math.max(1, to - from), height: bottom - edge.top }),
-        svg("text", { x: is_right ? to - 3 : from + 3, y: bottom - 4 - 12 * row, "text-anchor": is_right ? "end" : "start" }, contact.stop));
+      plot.append(svg("rect", { class: "contact", x: from, y: edge.top, width: Math.max(1, to - from), height: bottom - edge.top }));
+      names[Number(is_right)].push(contact.stop);
     });
+    names.forEach((list, k) => root.append(svg("text", { x: k ? this.width - edge.right : edge.left, y: edge.top - 3,
+      "text-anchor": k ? "end" : "start" }, list.join(", "))));
     const { beyond } = this.description;
     if (beyond) plot.append(svg("text", { x: (edge.left + this.width - edge.right) / 2, y: edge.top + 11, "text-anchor": "middle" },
       `with stops ${shown(beyond[0])} … ${shown(beyond[1])}`));

@@ -70,7 +70,11 @@ function spark({ curve }) {
   const test = curve && data.tests.find(({ name }) => name === curve.test);
   if (!test) return "";
   const all = curve.y.map((name, k) => ({ x: test.x[curve.x[k]], y: test.y[name], look: k + 1 })).filter(({ x, y }) => x && y);
-  const is_good = (_, k) => k >= curve.first && k <= curve.last && all.every(({ x, y }) => x[k] !== null && y[k] !== null);
+  const has_value = (k) => k >= curve.first && k <= curve.last && all.every(({ x, y }) => x[k] !== null && y[k] !== null);
+  // without the states in which a stop is in contact, which would scale the curve, unless few are left
+  const is_free = (k) => has_value(k) && !(test.contacts || []).some(({ first, last }) => k >= first && k <= last);
+  const has_free = all[0] && all[0].x.filter((_, k) => is_free(k)).length > 4;
+  const is_good = (_, k) => has_free ? is_free(k) : has_value(k);
   const ends = (key) => all.flatMap((one) => one[key].filter(is_good)).reduce(([a, b], v) => [Math.min(a, v), Math.max(b, v)], [Infinity, -Infinity]);
   const [x0, x1] = ends("x");
   let [y0, y1] = ends("y");
@@ -87,7 +91,8 @@ function spark({ curve }) {
 const name_of = ({ title }) => escaped(title.replace(" (fitted)", "").replace(/^[a-z]/, (letter) => letter.toUpperCase()));
 
 function card(number) {
-  return `<li data-number="${escaped(number.name)}"><span class="name">${name_of(number)}</span><span class="value"><b>${printed(number)}</b> ` +
+  const name = number.curve ? `<a href="#test-${escaped(number.curve.test)}">${name_of(number)}</a>` : name_of(number);
+  return `<li data-number="${escaped(number.name)}"><span class="name">${name}</span><span class="value"><b>${printed(number)}</b> ` +
     `${number.unit === "–" ? "" : escaped(number.unit)}${small(number.sides)}</span>${spark(number)}${span("effect", number.effect)}${band(number)}` +
     `${span("held", number.held)}${span("held", number.parts)}${how(number)}</li>`;
 }
