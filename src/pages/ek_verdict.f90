@@ -174,7 +174,7 @@ contains
       text = ''
       used = 0
       do t = 1, size(tests)
-         if (.not. allocated(tests(t)%prefixes)) cycle
+         if (.not. (tests(t)%is_run .and. allocated(tests(t)%prefixes))) cycle
          row = design_row(tests(t)%table)
          wheels = size(tests(t)%prefixes)
          if (row == 0 .or. wheels < 1 .or. wheels > 2) cycle

@@ -120,9 +120,9 @@ class Chart {
         svg("text", { x: edge.left - 6, y: this.to_y(y) + 4, "text-anchor": "end" }, shown(y)));
     }
     for (const x of ticks(x0, x1, width / 80)) {
-      const at = this.to_x(x), words = shown(x), is_last = at + 3.2 * words.length > width;      // its label would be cut at the edge
+      const at = this.to_x(x), label = shown(x), is_last = at + 3.2 * label.length > width;      // its label would be cut at the edge
       root.append(svg("line", { class: x === 0 ? "zero" : "grid", y1: edge.top, y2: bottom, x1: at, x2: at }),
-        svg("text", { x: is_last ? width - 1 : at, y: bottom + 15, "text-anchor": is_last ? "end" : "middle" }, words));
+        svg("text", { x: is_last ? width - 1 : at, y: bottom + 15, "text-anchor": is_last ? "end" : "middle" }, label));
     }
     this.x_label = svg("text", { x: (edge.left + right) / 2, y: drawn_height - 4, "text-anchor": "middle" }, this.test.data.label);
     const clip = `clip-${this.figure.id}`, clipping = svg("clipPath", { id: clip }), plot = svg("g", { "clip-path": `url(#${clip})` });
