@@ -121,7 +121,7 @@ contains
    end function parts_at
 
    !> Whether something of a body, or an end of a rod, is at a point, or has a direction from or to this point.
-   pure logical function is_there(reading, body, row, point)
+   logical function is_there(reading, body, row, point)
       type(deck_reading_t), intent(in) :: reading
       integer, intent(in) :: body                    !! 0: the chassis
       integer, intent(in) :: row                     !! row of the rod; 0: of the body
@@ -171,7 +171,7 @@ contains
    contains
 
       !> Looks at the two ends of a part, each on its body.
-      pure subroutine see(bodies, ends, directions)
+      subroutine see(bodies, ends, directions)
          integer, intent(in) :: bodies(2), ends(2), directions(2)
          integer :: side
 
