@@ -2,7 +2,7 @@
 """run_commands.py PAGE.md...: every `elastokin` or `elastokin-bench` command in the blocks of these pages ends with status 0, with `elastokin` from the PATH.
 
 The commands run in a temporary folder, where `input` and `tests` are those of the repository. DECK, axle.nml and front.nml are the deck of
-the McPherson front axle, params.in has one setting. Commands with files that a user writes (STUDY.nml, FIT.nml) or with another
+the McPherson front axle, params.in has one setting, and points.csv is a table of hardpoints. Commands with files that a user writes (STUDY.nml, FIT.nml) or with another
 placeholder in capitals are left out and counted.
 """
 import os
@@ -37,6 +37,7 @@ def main():
         deck = os.path.join(top, "input/mcpherson_axle/mcpherson_axle.nml")
         for name in ("DECK", "axle.nml", "front.nml"):
             shutil.copy(deck, os.path.join(folder, name))
+        shutil.copy(os.path.join(top, "tests/formats/files/corners.csv"), os.path.join(folder, "points.csv"))
         with open(os.path.join(folder, "params.in"), "w", encoding="utf-8") as file:
             file.write("spring.coil.rate = 31\n")
         for page in sys.argv[1:]:
