@@ -61,12 +61,15 @@ with sync_playwright() as tool:
     expect(top < 600, f"the first number is {top:.0f} pixels from the top")
     expect(lines >= 8, f"{lines} lines of verdict")
 
-    # the curve of each card is that of the columns in the table of the test
+    # the curve of each card is that of the columns in the table of the test, without the states in which a stop is in contact
     sparks = 0
     for own in (n for n in data["numbers"] if "curve" in n):
         curve = own["curve"]
         test = next(t for t in data["tests"] if t["name"] == curve["test"])
-        rows = [row for row in table(folder / test["file"])[curve["first"]:curve["last"] + 1] if row["converged"] == "1"]
+        states = list(enumerate(table(folder / test["file"])))[curve["first"]:curve["last"] + 1]
+        good = [(k, row) for k, row in states if row["converged"] == "1"]
+        free = [row for k, row in good if not any(c["first"] <= k <= c["last"] for c in test.get("contacts", []))]
+        rows = free if len(free) > 4 else [row for _, row in good]
         sides = [(k, [float(row[y]) for row in rows]) for k, y in enumerate(curve["y"], 1) if y]
         low, high = min(min(ys) for _, ys in sides), max(max(ys) for _, ys in sides)
         if high - low < curve.get("span", 0.06 * max(abs(low), abs(high), 0.02)):
