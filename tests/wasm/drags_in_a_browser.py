@@ -96,6 +96,23 @@ for k in range(30):
 print(f"30 drags of 10 points: {solved} solved, largest difference {max(worst):.1e}")
 require(solved >= 20, f"only {solved} of 30 drags gave an axle")
 
+# an axle on round tyres: the contact point, which is computed, follows every drag
+round_tyres = {"crown_axle.nml": (top / "tests/decks/crown_axle.nml").read_text()}
+bench.drop(round_tyres)
+bench.said("check: done")
+page.click("[data-tab=points]")
+page.select_option("#test", "parallel_travel")
+agrees("an axle on round tyres", round_tyres, "crown_axle.nml", "parallel_travel")
+names = page.evaluate("bench.points.map(({ name }) => name)")
+for k, name in enumerate(chance.sample(names, 6)):
+    dot = dot_of(name, "Oblique")
+    dot.focus()
+    keys.press(chance.choice(["ArrowUp", "ArrowLeft", "ArrowRight"]))
+    require(agrees(f"{name} of an axle on round tyres", round_tyres, "crown_axle.nml", "parallel_travel"), f"{name} of an axle on round tyres is not solved")
+print(f"an axle on round tyres, 6 points moved: largest difference {max(worst[-7:]):.1e}")
+bench.deck("mcpherson_axle")
+page.click("[data-tab=points]")
+
 # the oblique view is turned without a change of the document
 before, place = page.evaluate("elastokin.text()"), dot_of("lca_rear", "Oblique").get_attribute("cx")
 page.locator("#views svg").nth(3).focus()
