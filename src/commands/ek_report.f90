@@ -407,7 +407,8 @@ contains
       call box%write(windows_folder//'/'//test%file, csv_text(table))
    end subroutine write_windows
 
-   !> Prints the lines of the assessment to standard error, aligned and coloured, and last the address of the page.
+   !> Prints the lines of the assessment to standard error, aligned and coloured, and last the address of the page. Without a path of
+   !> the working folder there is no address: a program for WebAssembly sees only its own root.
    subroutine print_verdicts(is_quiet, page)
       logical, intent(in) :: is_quiet
       type(report_t), intent(in) :: page
@@ -421,7 +422,10 @@ contains
          call print_marked(is_quiet, lines(k)%domain(:width)//'  '//plain(lines(k)%text), trim(lines(k)%verdict))
       end do
       path = join_path(page%folder, page_file)
-      if (index(path, '/') /= 1) path = join_path(working_folder(), path)
+      if (index(path, '/') /= 1) then
+         if (any(working_folder() == [character(1) :: '.', '/'])) return
+         path = join_path(working_folder(), path)
+      end if
       call print_note(is_quiet, 'file://'//path)
    end subroutine print_verdicts
 
