@@ -107,7 +107,7 @@ async function showTolerance() {
 async function showParts() {
   const column = element("asked").value, result = await consult(["explain", ...ofTest()]);
   if (!result) {
-    if (/linear in the compliance matrix/.test(element("answer").textContent)) {
+    if (/is not a compliance column/.test(element("answer").textContent)) {
       element("answer").append(" Such columns are responses to loads, for example lateral_in_load_held_steer_deg_per_kn: add its chart.");
     }
     return;
