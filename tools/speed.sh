@@ -56,25 +56,25 @@ echo "| what | measured |"
 echo "|---|---|"
 row "state of a sweep of 601 states, in units of dsysv, by LAPACK: McPherson corner / axle / five-link axle" \
   "$(figure "$(value corner lapack_units)" 2) / $(figure "$(value axle lapack_units)" 2) / $(figure "$(value five lapack_units)" 2)"
-row "the same by plan" \
+row "the same by sparse" \
   "$(figure "$(value corner plan_units)" 2) / $(figure "$(value axle plan_units)" 2) / $(figure "$(value five plan_units)" 2)"
-row "McPherson corner, 61 states: states per second and core, by LAPACK / by plan / in packs" \
+row "McPherson corner, 61 states: states per second and core, by LAPACK / by sparse / in packs" \
   "$(per_second "$(value short_corner states_per_s)") / $(per_second "$(value short_corner plan_states_per_s)") / $(per_second "$(value short_corner pack_states_per_s)")"
 row "McPherson axle through both stops, 101 states: the same" \
   "$(per_second "$(value short_axle states_per_s)") / $(per_second "$(value short_axle plan_states_per_s)") / $(per_second "$(value short_axle pack_states_per_s)")"
 row "study of the McPherson corner, 61 states and 5 responses per design, $(nproc) threads: time of a million designs (from $samples)" \
   "$(figure "$(awk -v t="$study" -v n="$samples" 'BEGIN {print t*1e6/n}')" 0) s"
-row "compliance matrix of a state, by plan: McPherson corner / axle" \
+row "compliance matrix of a state, by sparse: McPherson corner / axle" \
   "$(figure "$(value corner kandc_row_us)" 1) / $(figure "$(value axle kandc_row_us)" 1) µs"
 row "the same with all K&C quantities" "$(figure "$(value corner kandc_all_us)" 1) / $(figure "$(value axle kandc_all_us)" 1) µs"
-row "12 manoeuvres of the McPherson axle with the loads on all parts, by plan" "$(figure "$(value manoeuvres loads_ms)" 1) ms"
+row "12 manoeuvres of the McPherson axle with the loads on all parts, by sparse" "$(figure "$(value manoeuvres loads_ms)" 1) ms"
 row "increment of a chain with n = 397 / 1999, by LAPACK" \
   "$(figure "$(awk -v t="$(value growth lapack_us 397)" 'BEGIN {print t/1e3}')" 2) / $(figure "$(awk -v t="$(value growth lapack_us 1999)" 'BEGIN {print t/1e3}')" 0) ms"
-row "the same by plan" \
+row "the same by sparse" \
   "$(figure "$(awk -v t="$(value growth plan_us 397)" 'BEGIN {print t/1e3}')" 3) / $(figure "$(awk -v t="$(value growth plan_us 1999)" 'BEGIN {print t/1e3}')" 2) ms"
-row "peak memory of the process with these chains, by plan / then by LAPACK" \
+row "peak memory of the process with these chains, by sparse / then by LAPACK" \
   "$(figure "$(value growth plan_peak_mb 397)" 0), $(figure "$(value growth plan_peak_mb 1999)" 0) / $(figure "$(value growth lapack_peak_mb 1999)" 0) MB"
 row "report of the McPherson axle with all tests, without gnuplot" "$(figure "$report" 2) s"
 echo
 processor=$(sed -n 's/^model name[^:]*: *//p' /proc/cpuinfo 2>/dev/null | head -n 1)
-echo "$(nproc) processors, ${processor:-unknown}, load $load at the beginning; $("$elastokin" --version | sed -n '1p; s/^packs  */; packs: /p' | tr -d '\n')"
+echo "$(nproc) processors, ${processor:-unknown}, load $load at the beginning; $("$elastokin" --version | sed -n '1p; s/^SIMD batch  */; SIMD batch: /p' | tr -d '\n')"

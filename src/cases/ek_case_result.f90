@@ -272,7 +272,7 @@ contains
       call name_rows(case, table)
       call table%header%add('model '//suspension%name//', case '//case%name//', method '//case%method// &
          trim(merge(', follow arc', '            ', case%follows_arc))// &
-         trim(merge(', solver plan', '             ', case%uses_plan))//', tolerance '//str(case%tolerance/millimetre)//' mm')
+         trim(merge(', solver sparse', '               ', case%uses_plan))//', tolerance '//str(case%tolerance/millimetre)//' mm')
       if (len(case%test) > 0) then
          call table%header%add('factor: '//case%place_name//' ['//case%unit_name//'], test '//case%test)
       else if (len(case%load) > 0) then

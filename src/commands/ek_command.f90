@@ -149,7 +149,7 @@ module ek_command
       option_t('run', '--out DIR', 'output folder (default: out); --out - writes the CSV to standard output'), &
       option_t('run', '--case NAME', 'run only this case or standard test'), &
       option_t('run', '--method M', 'recursive | corrected | equilibrium; overrides the deck'), &
-      option_t('run', '--solver S', 'lapack | plan (sparse elimination, faster); overrides the deck'), &
+      option_t('run', '--solver S', 'lapack | sparse (faster; alias: plan); overrides the deck'), &
       option_t('run', '--increments N', 'number of increments over the range; overrides the deck'), &
       option_t('run', '--set path=value', &
       'change a value of the deck; the new value is checked as in the deck; may be repeated:'//indent// &

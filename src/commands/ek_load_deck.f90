@@ -239,7 +239,7 @@ contains
       else if (settings%method /= '' .and. .not. any(method_names == settings%method)) then
          call fail(error, exit_usage, '--method: expected recursive, corrected or equilibrium, found '//quoted(settings%method))
       else if (settings%solver /= '' .and. .not. any(solver_names == settings%solver)) then
-         call fail(error, exit_usage, '--solver: expected lapack or plan, found '//quoted(settings%solver))
+         call fail(error, exit_usage, '--solver: expected lapack or sparse, found '//quoted(settings%solver))
       else if (settings%increments > max_increments) then
          call fail(error, exit_usage, '--increments: expected 1 to '//str(max_increments)//', found '//str(settings%increments))
       end if
@@ -253,7 +253,7 @@ contains
          if (settings%method /= '') chosen(k)%method = settings%method
          if (.not. chosen(k)%says_solver) chosen(k)%uses_plan = .false.      ! also where a session prefers the plan
          if (settings%solver /= '') then
-            chosen(k)%uses_plan = settings%solver == 'plan'
+            chosen(k)%uses_plan = settings%solver /= 'lapack'
             chosen(k)%says_solver = .true.
          end if
          if (settings%increments > 0) chosen(k)%increments = settings%increments

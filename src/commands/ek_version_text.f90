@@ -63,13 +63,13 @@ contains
       else
          call lines%line('OpenMP     no')
       end if
-      call lines%line('packs      '//pack_text())
+      call lines%line('SIMD batch '//pack_text())
       call lines%line('MPI        '//beside('elastokin-mpi'))
       call lines%line('NetCDF     '//beside('elastokin-netcdf'))
       text = lines%text()
    end function version_text
 
-   !> The instruction set of packs, from the copy of the kernels in use: 'x86-64-v3 (AVX2), 4 designs at a time'. A phrase that
+   !> The instruction set of SIMD batches, from the copy of the kernels in use: 'x86-64-v3 (AVX2), 4 designs at a time'. A phrase that
    !> begins with 'no' if the compiler does not vectorise packs.
    function pack_text() result(text)
       character(:), allocatable :: text

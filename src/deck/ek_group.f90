@@ -369,7 +369,7 @@ module ek_group
       about='grid: number of increments of the steering driver; 12 if not given'), &
       key_t(case_group, 'method', word, 1, 1, .false., default='equilibrium', about='method of solution'), &
       key_t(case_group, 'solver', word, 1, 1, .false., &
-      about='solver of linear systems; lapack if not given, in studies and programs plan'), &
+      about='solver of linear systems; lapack if not given, in studies and programs sparse'), &
       key_t(case_group, 'follow', word, 1, 1, .false., default='factor', &
       about='equal steps of the factor, or along the path over limit points'), &
       key_t(case_group, 'tolerance', number, 1, 1, .false., positive, dimension=length, &

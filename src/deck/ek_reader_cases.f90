@@ -69,7 +69,7 @@ contains
       call choice(reading, 'method', c)
       this%says_solver = has_key(reading, 'solver')
       call choice(reading, 'solver', c)
-      this%uses_plan = c == 2
+      this%uses_plan = c >= 2
       tolerance = number_of(reading, 'tolerance', this%tolerance/unit_of(reading, 'tolerance'))*unit_of(reading, 'tolerance')
       if (has_key(reading, 'tolerance')) this%tolerance = tolerance
       if (tolerance < min_tolerance .or. tolerance > max_tolerance) call complain(reading, 'tolerance', 'tolerance must be '// &

@@ -13,7 +13,7 @@ module ek_case
 
    character(*), parameter :: method_names(3) = [character(11) :: 'recursive', 'corrected', 'equilibrium']
    character(*), parameter :: follow_names(2) = [character(6) :: 'factor', 'arc']
-   character(*), parameter :: solver_names(2) = [character(6) :: 'lapack', 'plan']      !! names of the solvers, see ek_kkt
+   character(*), parameter :: solver_names(3) = [character(6) :: 'lapack', 'sparse', 'plan']    !! see ek_kkt; 'plan' is an alias
    integer, parameter :: max_increments = 1000000   !! largest number of increments; a state needs about 3 kB
    integer, parameter :: max_driven = 24   !! largest number of loads, and of rows, that one case may drive: nine loads per wheel
                                            !! and a few more
@@ -79,7 +79,7 @@ module ek_case
       real(wp) :: steer_from = 0.0_wp, steer_to = 0.0_wp   !! changes of the steering driver in a grid [m, rad]
       integer :: steer_increments = 12
       character(:), allocatable :: method   !! one of method_names
-      logical :: uses_plan = .false.        !! solver 'plan': factorises by a plan of elimination; else by LAPACK
+      logical :: uses_plan = .false.        !! solver 'sparse': factorises by a plan of elimination; else by LAPACK
       logical :: says_solver = .false.      !! the deck or the command line gives the solver
       logical :: follows_arc = .false.      !! states at equal distances along the path; else at equal swept values
       real(wp) :: tolerance = default_tolerance   !! largest last Newton correction of a state [m]
