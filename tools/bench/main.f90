@@ -13,9 +13,9 @@ program elastokin_bench
    type(command_t), parameter :: commands(1) = [ &
       command_t('bench', 'bench DECK   or   elastokin-bench --growth N', 'bench DECK', &
       'measure the time of increments, relative to LAPACK', &
-      'Measures the time of a complete increment and of its parts, for each method and each solver (lapack, sparse). The unit'//nl// &
-      'is the time of LAPACK''s dsysv (factorisation and solution) on the same matrices in the same run. Also measures:'//nl// &
-      '  packs of four designs,'//nl// &
+      'Measures the time of a complete increment and of its parts, for each method and each solver (lapack, sparse). The'//nl// &
+      'unit is the time of LAPACK''s dsysv (factorisation and solution) on the same matrices in the same run. Also measures:'//nl// &
+      '  SIMD batches of four designs,'//nl// &
       '  the compliance matrix at one state,'//nl// &
       '  a complete design of 20 increments (as in a study), and its time minus the time of its states and one column,'//nl// &
       '  all steps from deck to CSV (omitted with --quiet).', '', alone='--growth')]
