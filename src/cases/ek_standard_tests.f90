@@ -269,15 +269,16 @@ contains
       logical, intent(in) :: holds_heave         !! nothing carries the wheels: a roll test holds their mean height
       character(48) :: held
       type(rig_test_t) :: test
-      character(6) :: control, word
+      character(6) :: control
+      character(10) :: word
 
       held = ''
       if (len(this%test) == 0) return
       test = rig_test(this%test)
       control = test%control
       if (this%vertical /= '') control = this%vertical
-      word = 'held'
-      if (any(test%action == [moves_heights, covers_grid])) word = 'driven'
+      word = 'constant'
+      if (any(test%action == [moves_heights, covers_grid])) word = 'prescribed'
       select case (control)
       case ('centre')
          held = 'wheel centre heights '//word

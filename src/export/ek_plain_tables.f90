@@ -176,7 +176,7 @@ contains
       case ('road')
          text = 'contact points held on the road by the tyre rate'
       case ('centre')
-         text = 'wheel centres held at their height'
+         text = 'wheel centres at constant height'
       case default
          text = 'vertical loads constant'
       end select
