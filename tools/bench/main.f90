@@ -14,7 +14,8 @@ program elastokin_bench
       command_t('bench', 'bench DECK   or   elastokin-bench --growth N', 'bench DECK', &
       'measure the time of increments, relative to LAPACK', &
       'Measures the time of a complete increment and of its parts, for each method and each solver (lapack, sparse). The'//nl// &
-      'unit is the time of LAPACK''s dsysv (factorisation and solution) on the same matrices in the same run.'//nl//'Also measures:'//nl// &
+      'unit is the time of LAPACK''s dsysv (factorisation and solution) on the same matrices in the same run.'//nl// &
+      'Also measures:'//nl// &
       '  SIMD batches of four designs,'//nl// &
       '  the compliance matrix at one state,'//nl// &
       '  a complete design of 20 increments (as in a study), and its time minus the time of its states and one column,'//nl// &
