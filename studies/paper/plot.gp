@@ -43,7 +43,7 @@ columns = 'toe_deg camber_deg track_change_mm'
 units = 'deg deg mm'
 array heading[3] = ['Toe over the wheel stroke', 'Camber over the wheel stroke', 'Lateral movement over the wheel stroke']
 array axis[3] = ['toe [deg]   (+ front edge inward)', 'camber [deg]   (+ top outward)', \
-   'contact patch, lateral [mm]   (+ outward)']
+   'contact point, lateral [mm]   (+ outward)']
 
 set xtics 20
 do for [k = 1:3] {
@@ -62,7 +62,7 @@ do for [k = 1:3] {
 
       set label 1 heading[k] at screen 0.03, screen 0.967 \
          font 'sans-serif:Bold,21' textcolor rgb '#202020'
-      set label 2 'McPherson strut under a vertical load at the contact patch' at screen 0.03, screen 0.932 \
+      set label 2 'McPherson strut under a vertical load at the contact point' at screen 0.03, screen 0.932 \
          font 'sans-serif,14' textcolor rgb '#606060'
       set key at screen 0.985, screen 0.985 right top vertical Left reverse samplen 4 width -1 spacing 1.05
       set tmargin at screen 0.895; set bmargin at screen 0.41
