@@ -158,6 +158,9 @@ json_fits_the_schemas() {
     "$program" export "$axle" --to matlab-kc --out "$folder/export" && "$program" export "$axle" --to csv --out "$folder/export" || return 1
   fi
   "$program" list "$axle" --json >"$folder/list.json" && "$program" list tests/decks/every_dimension.nml --json >"$folder/out/every_list.json" || return 1
+  printf 'WhlZ_FL,Toe_FL\nmm,min\n-10,3\n0,0\n10,-2\n' >"$folder/rig.csv"
+  "$program" compare "$axle" --measured parallel_travel="$folder/rig.csv" --map examples/measured/fl_iso.nml --json --quiet \
+    --out "$folder/compared" >"$folder/compare.json" || return 1
   "$program" schema >"$folder/schema" && cmp "$folder/schema" schema/deck.schema.json || return 1
   "$tools/bin/python" tests/support/deck_as_data.py "$folder/decks" input/*/*.nml || return 1
   "$tools/bin/python" tests/support/check_json.py schema "$folder" || return 1

@@ -72,7 +72,9 @@ module ek_command
       'deck, and the key numbers and gradients sorted by change. The charts contain the curves of all results.'//nl// &
       'The gradients are printed to standard output, and the ten largest changes to standard error.'//nl// &
       'Also writes tables with the columns change and verdict (changed, same, only in A, only in B,'//nl// &
-      'not a number): differences.csv, number-differences.csv, curve-differences.csv, deck-differences.csv.', '', 2), &
+      'not a number): differences.csv, number-differences.csv, curve-differences.csv, deck-differences.csv.'//nl// &
+      'With --measured, compares decks with measured curves: compare DECK … --measured test=FILE --map FILE'//nl// &
+      'prints rms, largest deviation, slopes and loops, and writes measured-differences.csv.', '', 2, '--measured'), &
       command_t('study', 'study STUDY.nml [options]', 'study STUDY', 'run many designs of a deck, or study step-size convergence', &
       'Runs the designs of a study. Writes CSV files and the page (as described for plot) into DIR. If gnuplot is'//nl// &
       'installed, draws the figures and runs the plot script of the study. DIR/<study>.parts stores the finished'//nl// &
@@ -248,6 +250,9 @@ module ek_command
       option_t('compare', '--no-plots', 'with --static: a page without charts; gnuplot is not started'), &
       option_t('compare', '--plots', 'also draw the charts of the page as files in figures/, by gnuplot'), &
       option_t('compare', '--static', 'as for report'), &
+      option_t('compare', '--measured test=FILE', 'as for report, with decks instead of results'), &
+      option_t('compare', '--map FILE', 'as for report'), &
+      option_t('compare', '--json', 'with --measured: print one JSON object (schema/compare.schema.json)'), &
       option_t('compare', '--quiet', quiet_help), &
       option_t('study', '--out DIR', 'output folder (default: out, in the folder of the study file)'), &
       option_t('study', '--jobs N', 'number of threads (default: one per processor, at most OMP_NUM_THREADS and'//indent// &

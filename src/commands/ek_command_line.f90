@@ -18,7 +18,7 @@ module ek_command_line
       character(18) :: brief      !! usage in the overview
       character(60) :: summary    !! description in the overview
       character(960) :: text      !! description in the help of the command
-      character(230) :: ending    !! last paragraph of the help, after the options
+      character(280) :: ending    !! last paragraph of the help, after the options
       integer :: files = 1        !! code for the number of files: 1: one; 2: two or more; 0: one or more; -1: none;
       !!                              -2: none, or one of the choices in its text: 'a | b | c'
       character(15) :: alone = '' !! option that can replace the files; '' for no such option
@@ -27,7 +27,7 @@ module ek_command_line
    !> An option of a command.
    type :: option_t
       character(11) :: command    !! name of the command; '' for every command
-      character(19) :: label  !! '--plot', '--out DIR': name and form of the value; N: integer of at least 1; a=b: may be repeated
+      character(20) :: label  !! '--plot', '--out DIR': name and form of the value; N: integer of at least 1; a=b: may be repeated
       character(200) :: help      !! description in the help of the command; '' if the line of usage suffices
    end type option_t
 

@@ -20,6 +20,7 @@ module ek_compare
    use ek_compare_tables, only: write_tables, gradient_table
    use ek_compare_text, only: text_of
    use ek_compare_page, only: page_of
+   use ek_compare_measured, only: compare_measurement
    implicit none(type, external)
    private
    public :: compare
@@ -28,7 +29,7 @@ module ek_compare
 
 contains
 
-   !> Compares CSV files of one case, or report folders.
+   !> Compares CSV files of one case, or report folders; with --measured, decks with measured curves.
    subroutine compare(line, error)
       type(command_line_t), intent(in) :: line
       type(error_t), allocatable, intent(out) :: error
@@ -41,6 +42,10 @@ contains
       type(deck_record_t), allocatable :: decks(:)
       logical :: is_quiet, has_plots
 
+      if (line%has('--measured') .or. line%has('--map')) then
+         call compare_measurement(line, error)
+         return
+      end if
       allocate (this)
       is_quiet = line%has('--quiet')
       has_plots = (line%has('--plots') .or. line%has('--static')) .and. .not. line%has('--no-plots')
@@ -49,6 +54,8 @@ contains
       if (.not. allocated(error)) call read_threshold(line, this%threshold, error)
       if (.not. allocated(error) .and. line%has('--plots') .and. line%has('--no-plots')) &
          call fail(error, exit_usage, '--no-plots and --plots are mutually exclusive')
+      if (.not. allocated(error) .and. line%has('--json')) call fail(error, exit_usage, &
+         '--json requires --measured; the tables of a comparison of reports are CSV files')
       if (allocated(error)) return
       this%is_static = line%has('--static')
       allocate (this%results(line%files%count()))

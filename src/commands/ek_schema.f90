@@ -10,7 +10,7 @@ module ek_schema
    use ek_number_range, only: positive, not_negative, not_zero, share
    use ek_group, only: case_group, group_names, group_summaries, occurs_once, is_deck_group, key_t, keys, find_key, number, whole, &
       long_whole, switch, longest, word_length
-   use ek_choices, only: choices_of
+   use ek_choices, only: choices_of, named_group, built_in_name
    use ek_console, only: print_text
    implicit none(type, external)
    private
@@ -37,7 +37,8 @@ contains
       call json%item('title', json_string('deck'))
       call json%item('description', json_string('A deck of elastokin as data: a list of records for each group. '// &
          'x-unit: length, force, angle and mass are the units that model selects; deflection and reaction are those of the '// &
-         'measure, driver or element that the record names; swept is the swept value of a case.'))
+         'measure, driver or element that the record names; swept is the swept value of a case. '// &
+         'x-names: group whose items the strings name; examples: names that exist in every deck.'))
       call json%item('type', json_string('object'))
       call json%open('{', 'properties')
       do g = 1, size(group_names)
@@ -122,6 +123,8 @@ contains
       end if
       if (row%default /= '') call json%item('default', default_of(row))
       if (row%dimension /= pure_number) call json%item('x-unit', json_string(unit_formula(row%dimension)))
+      if (named_group(row) > 0) call json%item('x-names', json_string(trim(group_names(named_group(row)))))
+      if (built_in_name(row) /= '') call json%item('examples', '['//json_string(trim(built_in_name(row)))//']')
       call json%close('}')
    end subroutine add_key
 

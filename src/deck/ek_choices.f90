@@ -8,11 +8,11 @@ module ek_choices
    use ek_joint, only: joint_kinds
    use ek_new_curve, only: curve_kinds
    use ek_case, only: method_names, solver_names, follow_names
-   use ek_group, only: group_names, word_length
+   use ek_group, only: group_names, word_length, key_t, curves, model_group, body_group, case_group, curve_group, load_state_group
    use ek_manoeuvre_records, only: set_names
    implicit none(type, external)
    private
-   public :: choices_of
+   public :: choices_of, named_group, built_in_name
 
 contains
 
@@ -85,5 +85,26 @@ contains
          allocate (words(0))
       end select
    end function choices_of
+
+   !> Index of the group whose items the strings of a key name; 0 if they name no items. The curves of a bushing are named as
+   !> 'fx=name'.
+   pure integer function named_group(row)
+      type(key_t), intent(in) :: row        !! row of the key in the table of keys
+
+      named_group = row%role
+      if (row%role == curves .or. row%name == 'curve') named_group = curve_group
+      if (row%group == model_group .and. row%name == 'state') named_group = load_state_group
+      if (named_group > size(group_names)) named_group = 0      ! a vector or a side
+   end function named_group
+
+   !> The name that a key accepts in every deck, in addition to the names of the items of the deck; '' for other keys.
+   pure function built_in_name(row) result(name)
+      type(key_t), intent(in) :: row        !! row of the key in the table of keys
+      character(12) :: name
+
+      name = ''
+      if (row%role == body_group) name = 'chassis'
+      if (row%group == case_group .and. row%name == 'drive') name = 'wheel_travel'
+   end function built_in_name
 
 end module ek_choices

@@ -20,7 +20,10 @@ module ek_measurement
    use ek_frame, only: frame_t, new_frame
    implicit none(type, external)
    private
-   public :: measurement_t, channel_t, stop_where_measured, compare_measured, measured_csv
+   public :: measurement_t, channel_t, stop_where_measured, compare_measured, measured_csv, put_measured, measured_heads
+
+   character(*), parameter :: measured_heads = &
+      'test,column,unit,points,rms,largest_deviation,measured_slope,slope,window,loop,file,heading'     !! of put_measured
 
    !> A measured curve, and its deviation from the curve of the model. Numbers without a value are NaN.
    type :: channel_t
@@ -192,9 +195,18 @@ contains
       type(measurement_t), intent(in) :: measurements(:)
       character(:), allocatable :: text
       type(frame_t) :: frame
+
+      frame = new_frame(measured_heads)
+      call put_measured(measurements, frame)
+      text = frame%csv()
+   end function measured_csv
+
+   !> Appends a row for each measured curve, with the cells of measured_heads.
+   subroutine put_measured(measurements, frame)
+      type(measurement_t), intent(in) :: measurements(:)
+      type(frame_t), intent(inout) :: frame
       integer :: k, l
 
-      frame = new_frame('test,column,unit,points,rms,largest_deviation,measured_slope,slope,window,loop,file,heading')
       do k = 1, size(measurements)
          do l = 1, size(measurements(k)%channels)
             associate (channel => measurements(k)%channels(l))
@@ -213,7 +225,6 @@ contains
             end associate
          end do
       end do
-      text = frame%csv()
-   end function measured_csv
+   end subroutine put_measured
 
 end module ek_measurement
