@@ -13,29 +13,28 @@ contains
    !> OptimumKinematics, case study of a Formula Student car (OptimumG, May 2015): both axles at design, as printed.
    !>
    !> Tolerance: half a unit of the last printed digit. The front view swing arm of the front axle is 921.38 mm here and printed as 921.3: it has
-   !> one unit. The source measures the swing arm from the contact point.
+   !> one unit. All numbers are those of --definitions optimumk.
    subroutine compare_optimum(list)
       type(comparisons_t), intent(inout) :: list
       character(*), parameter :: axles(2) = [character(5) :: 'front', 'rear'], &
          names(5) = [character(24) :: 'kingpin inclination', 'caster', 'scrub radius', 'caster trail', 'roll centre height'], &
          units(5) = [character(3) :: 'deg', 'deg', 'mm', 'mm', 'mm'], &
-         columns(5) = [character(32) :: 'left_kingpin_inclination_deg', 'left_caster_deg', 'left_scrub_radius_mm', &
-         'left_caster_trail_mm', 'roll_centre_height_mm']
+         columns(5) = [character(40) :: 'left King Pin Angle [deg]', 'left Caster Angle [deg]', 'left Scrub Radius [mm]', &
+         'left Mechanical Trail [mm]', 'Kinematic Roll Center Height [mm]']
       real(wp), parameter :: printed(5, 2) = reshape([4.0_wp, 6.0_wp, 38.2_wp, 24.7_wp, 28.3_wp, &
          0.0_wp, 11.6_wp, 61.0_wp, 63.0_wp, 37.2_wp], [5, 2]), arm(2) = [921.3_wp, 972.5_wp], half = 0.05_wp + 1.0e-9_wp
       integer, parameter :: design = 2
-      type(table_t) :: table
+      type(table_t) :: own, table
       integer :: a, k
 
       do a = 1, 2
          list%part = trim(axles(a))//' axle'
-         call solve(list, 'optimum_'//trim(axles(a)), 'design', [character(1) :: ''], table)
+         call solve(list, 'optimum_'//trim(axles(a)), 'design', [character(1) :: ''], own, 'optimumk', table)
          do k = 1, 5
             call add(list, trim(names(k)), 'design', trim(units(k)), pick(table, trim(columns(k)), design), printed(k, a), half)
          end do
          call add(list, 'front view swing arm', 'design', 'mm', &
-            hypot(pick(table, 'left_front_view_arm_centre_y_mm', design) - 525, &
-            pick(table, 'left_front_view_arm_centre_z_mm', design)), arm(a), merge(0.1_wp, half, a == 1))
+            pick(table, 'left Front View Swing Arm Length [mm]', design), arm(a), merge(0.1_wp, half, a == 1))
       end do
    end subroutine compare_optimum
 
