@@ -271,7 +271,7 @@ contains
       character(*), intent(in) :: program
       character(:), allocatable :: line
 
-      line = 'definitions: '//program//' ('//title_of(program)//'). Columns without a published definition are left out; '// &
+      line = 'definitions: '//program//' ('//title_of(program)//'). Columns without a known definition are left out; '// &
          'elastokin list --definitions '//program//' lists all'
    end function definitions_line
 

@@ -5,7 +5,7 @@ module ek_definition
    use ek_text, only: quoted, suggestion
    use ek_quantity, only: unit_of, unit_text, unit_size
    use ek_formula, only: formula_t, read_formula
-   use ek_definition_rows, only: definition_t, definitions, programs, program_titles, unpublished, beyond
+   use ek_definition_rows, only: definition_t, definitions, programs, program_titles, unpublished, unconfirmed, beyond
    implicit none(type, external)
    private
    public :: rows_of, check_program, title_of, own_unit_size, has_own_unit, heading, label_of_heading, status_of, formula_of, &
@@ -110,6 +110,8 @@ contains
          status = 'printed'
       else if (index(row%difference, unpublished) == 1) then
          status = unpublished
+      else if (index(row%difference, unconfirmed) == 1) then
+         status = unconfirmed
       else
          status = beyond
       end if

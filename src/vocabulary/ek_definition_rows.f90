@@ -45,7 +45,8 @@ module ek_definition_rows
       'SAE J670 (2008) and ISO 8855 (2011)']
 
    ! reasons why a row has no formula
-   character(*), parameter, public :: unpublished = 'definition not published', beyond = 'not a function of the columns of a state'
+   character(*), parameter, public :: unpublished = 'definition not published', unconfirmed = 'definition not confirmed', &
+      beyond = 'not a function of the columns of a state'
 
    character(*), parameter :: outward = 'top outward', inward = 'top inward', rearward = 'top rearward', &
       toe_in = 'front edge inward', toe_out = 'front edge outward', left = 'to the left', up = 'wheel up', &
@@ -93,19 +94,31 @@ module ek_definition_rows
       definition_t('adams', 'suspension_roll_rate_nm_per_deg', 'Suspension Roll Rate', difference=tyre_roll), &
       definition_t('adams', 'total_roll_rate_nm_per_deg', 'Total Roll Rate', difference=tyre_roll), &
       definition_t('adams', 'roll_centre_height_mm', 'Roll Center Location', difference=tyre_roll//'; with tyre deflection'), &
-      definition_t('adams', 'side_view_angle_deg', 'Side-View Angle', difference=unpublished//': sign not confirmed'), &
-      definition_t('adams', 'side_view_arm_angle_deg', 'Side-View Swing Arm Angle', difference=unpublished// &
-      ': sign not confirmed; the arm is that of elastokin'), &
-      definition_t('adams', 'front_view_arm_angle_deg', 'Front-View Swing Arm Angle', difference=unpublished// &
-      ': sign not confirmed; the arm is that of elastokin'), &
+      definition_t('adams', 'side_view_angle_deg', 'Side-View Angle', difference=unconfirmed//': sign'), &
+      definition_t('adams', 'side_view_arm_angle_deg', 'Side-View Swing Arm Angle', difference=unconfirmed// &
+      ': sign; the arm is that of elastokin'), &
+      definition_t('adams', 'front_view_arm_angle_deg', 'Front-View Swing Arm Angle', difference=unconfirmed// &
+      ': sign; the arm is that of elastokin'), &
       definition_t('adams', 'lateral_in_load_held_steer_deg_per_kn', 'Lateral Force - Steer Compliance', &
       difference=beyond//': rotation of the carrier'//entries), &
-      definition_t('adams', 'anti_dive_percent', 'Percent Anti-dive Braking', difference=unpublished// &
-      ': not confirmed against numbers'), &
-      definition_t('adams', 'anti_squat_percent', 'Percent Anti-squat Acceleration', difference=unpublished// &
-      ': not confirmed against numbers'), &
-      definition_t('adams', 'ackermann_percent', 'Percent Ackerman', difference=unpublished//': with static toe'), &
-      definition_t('adams', 'turning_circle_m', 'Outside Turn Diameter', difference=unpublished)]
+      definition_t('adams', 'anti_dive_percent', 'Percent Anti-dive Braking', difference=unconfirmed// &
+      ': no published number'), &
+      definition_t('adams', 'anti_squat_percent', 'Percent Anti-squat Acceleration', difference=unconfirmed// &
+      ': no published number'), &
+      definition_t('adams', 'ackermann_percent', 'Percent Ackerman', difference=unconfirmed//': theirs with static toe'), &
+      definition_t('adams', 'ackermann_error_deg', 'Ackerman Error', difference=unconfirmed), &
+      definition_t('adams', 'turning_circle_m', 'Outside Turn Diameter', difference=unconfirmed// &
+      ': elastokin: circle of the contact point of the outer wheel'), &
+      definition_t('adams', 'anti_lift_drive_percent', 'Percent Anti-lift Acceleration', difference=unconfirmed), &
+      definition_t('adams', 'anti_lift_brake_percent', 'Percent Anti-lift Braking', difference=unconfirmed), &
+      definition_t('adams', 'brake_dive_mm_per_g', 'Dive Braking', difference=unconfirmed), &
+      definition_t('adams', 'drive_squat_mm_per_g', 'Squat Acceleration', difference=unconfirmed), &
+      definition_t('adams', 'brake_lift_mm_per_g', 'Lift Braking', difference=unconfirmed), &
+      definition_t('adams', 'drive_lift_mm_per_g', 'Lift Acceleration', difference=unconfirmed), &
+      definition_t('adams', 'lateral_in_load_held_deflection_mm_per_kn', 'Lateral Force - Deflection Compliance', &
+      difference=unconfirmed), &
+      definition_t('adams', 'lateral_in_load_held_camber_deg_per_kn', 'Lateral Force - Camber Compliance', &
+      difference=beyond//': rotation of the carrier'//entries)]
 
    type(definition_t), parameter :: motionview(*) = [ &
       definition_t('motionview', 'toe_deg', 'Toe-In (80000010)', 'deg', toe_in, 'toe_deg'), &
@@ -150,7 +163,30 @@ module ek_definition_rows
       definition_t('motionview', 'suspension_roll_rate_nm_per_deg', 'Suspension Roll Rate (80000220)', difference=tyre_roll), &
       definition_t('motionview', 'total_roll_rate_nm_per_deg', 'Total Roll Rate (80000220)', difference=tyre_roll), &
       definition_t('motionview', 'tramp_rate_nm_per_deg', 'Tramp Rate (80000220)', difference=tyre_roll), &
-      definition_t('motionview', 'roll_centre_with_tyres_height_mm', 'Roll Center Height (80000220)', difference=tyre_roll)]
+      definition_t('motionview', 'roll_centre_with_tyres_height_mm', 'Roll Center Height (80000220)', difference=tyre_roll), &
+      definition_t('motionview', 'instant_caster_deg', 'Virtual Caster', difference=unconfirmed), &
+      definition_t('motionview', 'ride_rate_n_per_mm', 'Ride Rate', difference=unconfirmed), &
+      definition_t('motionview', 'braking_load_held_deflection_mm_per_kn', 'Longitudinal Force Deflection @ Tire patch', &
+      difference=unconfirmed//': sign of the force'), &
+      definition_t('motionview', 'braking_load_held_rotation_z_deg_per_kn', 'Longitudinal Compliance Steer @ Tire patch', &
+      difference=unconfirmed//': sign of the force'), &
+      definition_t('motionview', 'braking_load_held_rotation_y_deg_per_kn', 'Longitudinal Caster Compliance @ Tire patch', &
+      difference=unconfirmed//': sign of the force'), &
+      definition_t('motionview', 'traction_load_held_deflection_mm_per_kn', 'Longitudinal Force Deflection @ Wheel center', &
+      difference=unconfirmed//': sign of the force'), &
+      definition_t('motionview', 'traction_load_held_rotation_z_deg_per_kn', 'Longitudinal Compliance Steer @ Wheel center', &
+      difference=unconfirmed//': sign of the force'), &
+      definition_t('motionview', 'traction_load_held_rotation_y_deg_per_kn', 'Longitudinal Caster Compliance @ Wheel center', &
+      difference=unconfirmed//': sign of the force'), &
+      definition_t('motionview', 'fore_aft_stiffness_n_per_mm', 'Wheel Center X Stiffness (80000050)', difference=unconfirmed// &
+      ': one wheel loaded, or both'), &
+      definition_t('motionview', 'lateral_stiffness_n_per_mm', 'Wheel Center Y Stiffness (80000050)', difference=unconfirmed// &
+      ': one wheel loaded, or both'), &
+      definition_t('motionview', 'vertical_stiffness_n_per_mm', 'Wheel Center Z Stiffness (80000050)', difference=unconfirmed// &
+      ': one wheel loaded, or both'), &
+      definition_t('motionview', 'rotational_stiffness_x_nm_per_deg', 'Wheel Center XX Stiffness', difference=unconfirmed), &
+      definition_t('motionview', 'rotational_stiffness_y_nm_per_deg', 'Wheel Center YY Stiffness', difference=unconfirmed), &
+      definition_t('motionview', 'rotational_stiffness_z_nm_per_deg', 'Wheel Center ZZ Stiffness', difference=unconfirmed)]
 
    type(definition_t), parameter :: ipg(*) = [ &
       definition_t('ipg', 'wheel_centre_x_mm', 'x', 'mm', 'forward', 'iso*wheel_centre_x_mm', 'x forward'), &
@@ -228,7 +264,7 @@ module ek_definition_rows
       'of the line from the wheel centre to the instant centre; '//by_compliance), &
       definition_t('optimumk', 'anti_lift_drive_percent', 'Front Anti-Lift', '%', '', '-'//anti//'front_drive_share'// &
       rise_to_centre, 'of the line from the wheel centre to the instant centre; '//by_compliance), &
-      definition_t('optimumk', 'ackermann_percent', 'Ackerman Percentage', difference=unpublished//': an equation in a figure'), &
+      definition_t('optimumk', 'ackermann_percent', 'Ackerman Percentage', difference=unconfirmed), &
       definition_t('optimumk', 'roll_centre_y_mm', 'Kinematic Pitch Center', difference=beyond//': needs the other axle')]
 
    type(definition_t), parameter :: lotus(*) = [ &
@@ -236,8 +272,8 @@ module ek_definition_rows
       'of the lowest point of the tyre (crown_radius = 0), from design; elastokin: of the wheel centre'), &
       definition_t('lotus', 'camber_deg', 'Camber Angle', 'deg', outward, 'camber_deg'), &
       definition_t('lotus', 'toe_deg', 'Toe Angle {SAE}', 'deg', toe_in, 'toe_deg'), &
-      definition_t('lotus', 'toe_deg', 'Toe Angle {Plane}', difference=unpublished// &
-      ': positive outward, and -1 times the SAE toe at zero camber; its value with camber is not confirmed'), &
+      definition_t('lotus', 'toe_deg', 'Toe Angle {Plane}', difference=unconfirmed// &
+      ': positive outward, and -1 times the SAE toe at zero camber; its value with camber is not known to us'), &
       definition_t('lotus', 'caster_deg', 'Castor Angle', 'deg', rearward, 'caster_deg'), &
       definition_t('lotus', 'spindle_offset_mm', 'Castor Trail (hub)', 'mm', 'axis aft of the centre', '-spindle_offset_mm', &
       'opposite sign'), &
@@ -251,11 +287,11 @@ module ek_definition_rows
       definition_t('lotus', 'roll_centre_height_mm', 'Roll Centre Height', 'mm', above, 'roll_centre_height_mm'), &
       definition_t('lotus', '<spring>_motion_ratio', 'Ratio', '', none, 'abs('//patch_travel//'/#_motion_ratio)', &
       'travel of the contact point over length, without sign (Spring Ratio, Damper Ratio); elastokin: length over travel'), &
-      definition_t('lotus', 'track_change_mm', 'Half Track Change', difference=unpublished//': sign not confirmed'), &
-      definition_t('lotus', 'wheelbase_change_mm', 'Wheelbase Change', difference=unpublished//': sign not confirmed'), &
-      definition_t('lotus', 'anti_dive_percent', 'Anti Dive', difference=unpublished//': not confirmed against numbers'), &
-      definition_t('lotus', 'anti_squat_percent', 'Anti Squat', difference=unpublished//': not confirmed against numbers'), &
-      definition_t('lotus', 'ackermann_percent', 'Ackermann', difference=unpublished)]
+      definition_t('lotus', 'track_change_mm', 'Half Track Change', difference=unconfirmed//': sign'), &
+      definition_t('lotus', 'wheelbase_change_mm', 'Wheelbase Change', difference=unconfirmed//': sign'), &
+      definition_t('lotus', 'anti_dive_percent', 'Anti Dive', difference=unconfirmed//': no published number'), &
+      definition_t('lotus', 'anti_squat_percent', 'Anti Squat', difference=unconfirmed//': no published number'), &
+      definition_t('lotus', 'ackermann_percent', 'Ackermann', difference=unconfirmed)]
 
    type(definition_t), parameter :: mathworks(*) = [ &
       definition_t('mathworks', 'toe_deg', 'Toe', 'deg', toe_in, 'toe_deg'), &
@@ -319,9 +355,8 @@ module ek_definition_rows
       'distance of the contact point from the axis on the ground; elastokin: its lateral part'), &
       definition_t('sae', 'total_track_mm', 'Track', 'mm', '', 'total_track_mm'), &
       definition_t('sae', 'ride_rate_n_per_mm', 'Ride Rate', 'N/mm', '', 'ride_rate_n_per_mm'), &
-      definition_t('sae', 'spindle_offset_mm', 'Caster Offset at Wheel Center', difference=unpublished//': sign not confirmed'), &
-      definition_t('sae', 'spindle_length_mm', 'Steering-Axis Offset at Wheel Center', difference=unpublished// &
-      ': sign not confirmed')]
+      definition_t('sae', 'spindle_offset_mm', 'Caster Offset at Wheel Center', difference=unconfirmed//': sign'), &
+      definition_t('sae', 'spindle_length_mm', 'Steering-Axis Offset at Wheel Center', difference=unconfirmed//': sign')]
 
    type(definition_t), parameter, public :: definitions(*) = [adams, motionview, ipg, optimumk, lotus, mathworks, sae]
 
