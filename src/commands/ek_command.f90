@@ -132,7 +132,9 @@ module ek_command
       '  cases and standard tests: name, kind, swept value, range, unit and increments;'//nl// &
       '  key numbers: name, unit and definition; for responses, fit and solve.'//nl// &
       'In a mirrored deck, a path without a side is the number of both sides. If only one of the lists is requested, it'//nl// &
-      'is printed without a heading, and its first column contains the names alone.', ''), &
+      'is printed without a heading, and its first column contains the names alone.'//nl// &
+      '--definitions lists the quantities of another program instead, for any deck: name, unit, sign, formula of columns'// &
+      nl//'of elastokin, and how they differ.', '', alone='--definitions'), &
       command_t('new', 'new [KIND]', 'new [KIND]', 'print a commented deck of the library as a start', &
       'Prints a deck of the library to standard output: elastokin new mcpherson > front.nml. The deck is one file and gives'// &
       nl//'the numbers of the deck of the library. Without KIND, lists the kinds with one line each. KIND is'//nl// &
@@ -166,6 +168,9 @@ module ek_command
       option_t('run', '--columns a,b,c', &
       'write only these columns; * stands for any letters;'//indent// &
       'state, factor and the columns on convergence are always written'), &
+      option_t('run', '--definitions NAME', &
+      'columns in the definitions, signs, units and names of another program:'//indent// &
+      'adams | motionview | ipg | optimumk | lotus | mathworks | sae'), &
       option_t('run', '--json', 'also write DIR/<model>_run.json: tables, messages and status;'//indent// &
       'with "--out -", print only this JSON object'), &
       option_t('run', '--compliance', 'also write DIR/<model>_<case>_compliance.csv: the compliance matrix at every state'), &
@@ -329,8 +334,10 @@ module ek_command
       option_t('list', '--paths', 'print the numbers of the deck'), &
       option_t('list', '--cases', 'print the cases and standard tests'), &
       option_t('list', '--numbers', 'print the key numbers'), &
+      option_t('list', '--definitions NAME', 'print the definitions of a program; a deck is not necessary:'//indent// &
+      'adams | motionview | ipg | optimumk | lotus | mathworks | sae'), &
       option_t('list', '--like PATTERN', 'print only names that match; * stands for any letters: --like "bushing.*"'), &
-      option_t('list', '--json', 'print one JSON object (schema/list.schema.json)'), &
+      option_t('list', '--json', 'print one JSON object (schema/list.schema.json, definitions.schema.json)'), &
       option_t('list', '--set path=value', 'as for run'), option_t('list', '--set-file FILE', 'as for run'), &
       option_t('list', '--height H', 'as for run'), option_t('list', '--state NAME', 'as for run'), &
       ! of every command

@@ -17,6 +17,7 @@ module ek_list
    use ek_direction, only: direction_t, all_directions
    use ek_command_line, only: command_line_t
    use ek_load_deck, only: deck_settings_t, read_deck_settings, load_deck
+   use ek_list_definitions, only: list_definitions
    use ek_console, only: print_text
    implicit none(type, external)
    private
@@ -46,6 +47,10 @@ contains
       type(message_list_t) :: known
       logical :: is_all, wants(3)      ! paths, cases, key numbers
 
+      if (line%has('--definitions')) then
+         call list_definitions(line, error)
+         return
+      end if
       call read_deck_settings(line, settings)
       call load_deck(settings, definition, workspace, checksum, error)
       if (allocated(error)) return

@@ -22,7 +22,10 @@ module ek_run
    use ek_command_line, only: command_line_t
    use ek_load_deck, only: deck_settings_t, read_deck_settings, load_deck, chosen_cases, examine_chosen
    use ek_run_numbers, only: run_numbers
-   use ek_run_columns, only: choose_columns
+   use ek_run_columns, only: choose_columns, choose_defined
+   use ek_defined_table, only: defined_table
+   use ek_definition, only: check_program, label_of_heading
+   use ek_definition_rows, only: definitions
    use ek_console, only: print_note, print_error, print_model_remarks, print_remarks, show_progress, clear_progress
    use ek_member_loads, only: load_record_t, begin_loads, add_loads, peak_loads
    use ek_report_names, only: loads_file, peaks_file, files_of_loads
@@ -30,7 +33,6 @@ module ek_run
    use ek_part_record, only: part_record_t, has_names, begin_parts, add_parts
    use ek_part_files, only: put_parts, remove_parts
    use ek_version, only: version
-   use ek_quantity, only: unit_of, unit_text
    use ek_remark, only: remark_t
    implicit none(type, external)
    private
@@ -44,6 +46,7 @@ module ek_run
       logical :: has_plots = .false., has_compliance = .false., has_json = .false., has_loads = .false.
       logical :: is_named_only = .false.                    !! only the cases whose states have names
       character(name_length), allocatable :: columns(:)     !! columns of the tables; not allocated: all
+      character(:), allocatable :: program                  !! whose definitions the tables have; not allocated: elastokin
    end type settings_t
 
    character(*), parameter :: compliance_ending = '_compliance.csv'
@@ -81,6 +84,8 @@ contains
       if (settings%is_named_only .and. .not. allocated(error)) call keep_named(settings%file, chosen, error)
       if (.not. allocated(error) .and. line%has('--columns')) &
          call choose_columns(line%value('--columns'), workspace%raw, chosen, settings%columns, error)
+      if (allocated(settings%program) .and. .not. allocated(error)) &
+         call choose_defined(settings%program, workspace%raw, chosen, settings%columns)
       if (allocated(error)) return
       if (settings%out == '-' .and. size(chosen) > 1 .and. .not. settings%has_json) then
          call fail(error, exit_usage, '--out - writes one table, but '//settings%file//' has '//str(size(chosen))// &
@@ -168,6 +173,8 @@ contains
          call fail(error, exit_usage, '--plot draws all columns and cannot be used with --columns')
          return
       end if
+      if (line%has('--definitions')) call read_program(line, settings%program, error)
+      if (allocated(error)) return
       call refuse_with_responses(line, error)
       if (settings%out /= '-' .or. allocated(error)) return
       if (settings%has_plots) then
@@ -179,11 +186,27 @@ contains
       end if
    end subroutine read_settings
 
+   !> Reads --definitions.
+   subroutine read_program(line, program, error)
+      type(command_line_t), intent(in) :: line
+      character(:), allocatable, intent(out) :: program
+      type(error_t), allocatable, intent(out) :: error        !! exit_usage
+
+      program = line%value('--definitions')
+      call check_program(program, error)
+      if (allocated(error)) return
+      if (line%has('--columns')) call fail(error, exit_usage, '--columns names columns of elastokin, and cannot be used with '// &
+         '--definitions, which writes all columns that the program defines')
+      if (line%has('--plot')) call fail(error, exit_usage, '--plot draws columns of elastokin, and cannot be used with '// &
+         '--definitions; run once without it')
+   end subroutine read_program
+
    !> Rejects options about tables and figures where only key numbers are written.
    subroutine refuse_with_responses(line, error)
       type(command_line_t), intent(in) :: line
       type(error_t), allocatable, intent(out) :: error
-      character(*), parameter :: others(*) = [character(12) :: '--out', '--plot', '--compliance', '--loads', '--columns', '--json']
+      character(*), parameter :: others(*) = [character(13) :: '--out', '--plot', '--compliance', '--loads', '--columns', &
+         '--json', '--definitions']
       integer :: k
 
       if (.not. line%has('--responses')) then
@@ -229,7 +252,8 @@ contains
       type(error_t), allocatable :: trouble
       type(solve_options_t) :: options
       class(case_result_t), allocatable :: result
-      type(table_t) :: compliance
+      type(table_t) :: compliance, own            ! table in the columns of elastokin
+      integer, allocatable :: rows(:)
       character(:), allocatable :: name
 
       allocate (result)
@@ -239,7 +263,11 @@ contains
       call solve_with_remarks(base, wanted, options, result, error, show_progress)
       if (result%path%states > 1000) call clear_progress()
       call print_remarks(settings%is_quiet, result%remarks)
-      if (settings%has_json) call add_run_json(result, wanted, json)
+      if (allocated(settings%program) .and. result%is_run()) then
+         own = result%table
+         call defined_table(result%suspension, own, settings%program, result%table, rows)
+      end if
+      if (settings%has_json) call add_run_json(result, wanted, settings%program, rows, json)
       if (.not. result%is_run()) return
       if (allocated(loads)) call add_loads(result%suspension, result%case, result%path, result%kkt, loads)
       if (allocated(parts)) call add_parts(result%suspension, result%case, result%path, result%kkt, parts)
@@ -256,6 +284,7 @@ contains
          end if
       end if
       if (.not. allocated(trouble)) call box%take(trouble)
+      if (allocated(settings%program)) result%table = own
       if (.not. allocated(trouble) .and. len(wanted%target) > 0) &
          call aim(settings, result, checksum, name//'_target.csv', box, trouble)
       call keep_first(trouble, box%undrawn)
@@ -273,6 +302,7 @@ contains
       type(outbox_t), intent(inout) :: box
       type(error_t), allocatable, intent(out) :: error
       type(target_t) :: found
+      type(table_t) :: own
       character(:), allocatable :: words
 
       associate (case => result%case)
@@ -285,6 +315,10 @@ contains
          if (settings%out /= '-') then
             call add_header(found%table, result%suspension, case, checksum)
             call found%table%header%add('target: '//found%column//' = '//str(found%wanted))
+            if (allocated(settings%program)) then
+               own = found%table
+               call defined_table(result%suspension, own, settings%program, found%table)
+            end if
             call box%put(name, found%table)
             call box%take(error)
             if (allocated(error)) return
@@ -342,9 +376,11 @@ contains
    end function is_vertical
 
    !> Adds one case: its outcome, its messages, and its table column by column. A case that was not solved has no columns.
-   subroutine add_run_json(result, case, json)
+   subroutine add_run_json(result, case, program, rows, json)
       type(case_result_t), intent(in) :: result
       type(case_t), intent(in) :: case             !! case as in the deck
+      character(:), allocatable, intent(in) :: program      !! whose definitions the table has; not allocated: elastokin
+      integer, allocatable, intent(in) :: rows(:)           !! of each column: its definition, 0 for none; allocated with program
       type(json_t), intent(inout) :: json
       type(message_list_t) :: names
       type(remark_t) :: remark
@@ -373,11 +409,15 @@ contains
             call json%item('names', json_strings(names))
          end if
          call json%item('factor_unit', json_string(result%case%unit_name))
+         if (allocated(program)) call json%item('definitions', json_string(program))
          call json%open('[', 'columns')
          do k = 1, size(result%table%columns)
             call json%open('{')
             call json%item('name', json_string(trim(result%table%columns(k))))
-            call json%item('unit', json_string(unit_text(unit_of(trim(result%table%columns(k))))))
+            call json%item('unit', json_string(label_of_heading(result%table%columns(k))))
+            if (allocated(rows)) then
+               if (rows(k) > 0) call json%item('formula', json_string(trim(definitions(rows(k))%formula)))
+            end if
             call json%item('values', json_numbers(result%table%values(k, :)))
             call json%close('}')
          end do

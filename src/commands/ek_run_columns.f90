@@ -1,4 +1,4 @@
-!> run --columns a,b,c: chooses the columns of the results that are computed and written.
+!> run --columns a,b,c, run --definitions NAME: chooses the columns of the results that are computed.
 module ek_run_columns
    use ek_error, only: error_t, message_list_t, fail, exit_usage
    use ek_text, only: quoted, suggestion_by_part, is_like
@@ -9,9 +9,10 @@ module ek_run_columns
    use ek_target, only: find_column
    use ek_table, only: name_length
    use ek_run_numbers, only: split_names
+   use ek_defined_table, only: needed_columns
    implicit none(type, external)
    private
-   public :: choose_columns
+   public :: choose_columns, choose_defined
 
 contains
 
@@ -27,12 +28,11 @@ contains
       character(*), intent(in), optional :: others(:)   !! further columns that may be named
       type(suspension_t) :: on_rig
       type(case_t) :: this
-      type(error_t), allocatable :: absent
       type(message_list_t) :: mistakes
       character(name_length), allocatable :: names(:), heads(:), all(:)
       character(:), allocatable :: given
       logical, allocatable :: is_known(:)
-      integer :: c, k, place
+      integer :: c, k
 
       given = '--columns'
       if (present(option)) given = option
@@ -49,9 +49,7 @@ contains
             call take(k)
          end do
          all = [character(name_length) :: all, heads]
-         if (len(cases(c)%target) == 0) cycle
-         call find_column(heads, trim(adjustl(cases(c)%target(:index(cases(c)%target, '=') - 1))), place, absent)
-         if (.not. allocated(absent)) columns = [character(name_length) :: columns, heads(place)]
+         call take_target(cases(c), heads, columns)
       end do
       do k = 1, size(names)
          if (is_known(k)) cycle
@@ -76,5 +74,41 @@ contains
       end subroutine take
 
    end subroutine choose_columns
+
+   !> Chooses the columns of elastokin that the definitions of a program need, and the columns of the targets of the cases. The
+   !> cases are set to compute all quantities.
+   subroutine choose_defined(program, suspension, cases, columns)
+      character(*), intent(in) :: program               !! one of `programs`
+      type(suspension_t), intent(in) :: suspension      !! model on no rig
+      type(case_t), intent(inout) :: cases(:)
+      character(name_length), allocatable, intent(out) :: columns(:)
+      type(suspension_t) :: on_rig
+      type(case_t) :: this
+      character(name_length), allocatable :: heads(:)
+      integer :: c
+
+      allocate (columns(0))
+      cases%has_all = .true.
+      do c = 1, size(cases)
+         if (.not. is_mountable(cases(c))) cycle
+         call mount(suspension, cases(c), on_rig, this)
+         call sweep_columns(on_rig, this, heads)
+         call needed_columns(on_rig, heads, program, columns)
+         call take_target(cases(c), heads, columns)
+      end do
+   end subroutine choose_defined
+
+   !> Adds the column of the target of a case.
+   subroutine take_target(case, heads, columns)
+      type(case_t), intent(in) :: case
+      character(name_length), intent(in) :: heads(:)
+      character(name_length), allocatable, intent(inout) :: columns(:)
+      type(error_t), allocatable :: absent
+      integer :: place
+
+      if (len(case%target) == 0) return
+      call find_column(heads, trim(adjustl(case%target(:index(case%target, '=') - 1))), place, absent)
+      if (.not. allocated(absent)) columns = [character(name_length) :: columns, heads(place)]
+   end subroutine take_target
 
 end module ek_run_columns

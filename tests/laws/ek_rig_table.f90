@@ -5,6 +5,7 @@ module ek_rig_table
    use ek_deck, only: deck_t, read_deck, set_value, split_setting
    use ek_table, only: table_t, new_table, column, row_count
    use ek_trial, only: trial_t, go_through
+   use ek_defined_table, only: defined_table
    implicit none(type, external)
    private
    public :: rig_table, values_of
@@ -12,11 +13,13 @@ module ek_rig_table
 contains
 
    !> Deck file → model → rig → sweep → table of one case, all of whose states must be found.
-   subroutine rig_table(file, case_name, settings, table, trouble)
+   subroutine rig_table(file, case_name, settings, table, trouble, program, defined)
       character(*), intent(in) :: file, case_name
       character(*), intent(in) :: settings(:)                   !! 'group.name.key=value', applied in this order; blank: none
       type(table_t), intent(out) :: table                       !! without a row when there is trouble
       character(:), allocatable, intent(out) :: trouble         !! what went wrong, '' if all is well
+      character(*), intent(in), optional :: program             !! whose definitions `defined` has, as with --definitions
+      type(table_t), intent(out), optional :: defined
       type(deck_t) :: deck
       type(trial_t) :: trial
       type(error_t), allocatable :: error
@@ -35,6 +38,9 @@ contains
       trouble = trial%trouble
       table = trial%table
       if (trouble /= '') table = new_table([character(4) :: 'none'], 0)
+      if (.not. present(defined)) return
+      defined = table
+      if (trouble == '') call defined_table(trial%suspension, table, program, defined)
    end subroutine rig_table
 
    !> A column as numbers × unit; as many zeros as rows, and a word in `trouble`, when it is not there.

@@ -37,9 +37,9 @@ sources = [
 Source: the front double wishbone of the shared database of Adams/Car 2024.1, published in the repository
 1191415541/open-kinematics (commit b940230e). Decks: `adams_double_wishbone.nml`, `adams_bushings.nml`.
 
-- Positions: x forward, y to the right, z up; toe is positive for toe-out. The published state at design differs
-  from the hardpoints by up to 9e-8 mm and 3e-8 deg. This offset is subtracted at every other state, so the design
-  state is not compared.
+- Camber and toe are those of `--definitions adams`. In the repository x is forward, y to the right, z up, and toe is
+  positive for toe-out, against the sign of Adams/Car. The published state at design differs from the hardpoints by
+  up to 9e-8 mm and 3e-8 deg. This offset is subtracted at every other state, so the design state is not compared.
 - Compliance: the four inner pivots are isotropic bushings (1e4 N/mm, 1e7 N mm/rad). The rotation is the component
   along y of the rotation vector of the carrier. Adams/Car gives it at -100 N. The rows marked Newton are from
   an independent solver of the same model, not from Adams/Car: smaller forces, and all rates times a factor.
@@ -50,7 +50,8 @@ the repository SDS-RC-FEE-CTU-in-Prague/FormulaCarMaker. Only the numbers are us
 compliances beside design have 5. Decks: `fse04_front.nml` to `pltka_rear.nml`. The table has the largest difference
 of each quantity over all axles and states; these are the rows of the pose of the wheel.
 
-- Pose of the wheel: R = Rz(rz) Rx(rx) Ry(ry), x forward, y left.
+- The pose of the wheel (R = Rz(rz) Rx(rx) Ry(ry), x forward, y left), caster, kingpin inclination, hub offsets,
+  trail, scrub radius, track change and loads are those of `--definitions ipg`.
 - Compliance: the difference of two states under ±1000 N or ±100 N m at the wheel centre, divided by twice the load,
   with the road held. elastokin solves the same states. Each entry is divided by √(Cii Cjj). For z, 1e-5 m/N takes the
   place of the diagonal. The matrix is unsymmetric by up to 5 % of an entry, because its rotations are differences of
@@ -64,9 +65,9 @@ of each quantity over all axles and states; these are the rows of the pose of th
   radius differs by up to 0.128 mm, that of a disc by 0.313 mm, and the point of the carrier at the whole radius by
   0.100 mm; this order holds for every axle. So the decks, and the decks of `elastokin import`, have no `crown_radius`.
 - Trail, scrub radius, hub offsets and track: IPGKinematics measures them in the direction of the wheel, with a
-  contact point that does not turn with the carrier about the spin axis. The comparison converts elastokin's columns
-  to this definition. The lateral position of this contact point is known to 2.4e-3 mm, which limits scrub radius and
-  track. The published track change is not zero at design, but up to 2e-3 mm.
+  contact point that does not turn with the carrier about the spin axis. The lateral position of this contact point is
+  known to 2.4e-3 mm, which limits scrub radius and track. The published track change is not zero at design, but up to
+  2e-3 mm.
 - Forces at design: elastokin and IPGKinematics share the x-force of an arm differently between its two bushings. So
   the sum of both is compared.
 - Steering: at the published heights of the wheel centres. The wheel load acts at the contact point of the carrier in
@@ -85,8 +86,15 @@ Not compared:
 Source: case study of a Formula Student car (OptimumG, May 2015), with one digit after the point. Decks:
 `optimum_front.nml`, `optimum_rear.nml`.
 
-- The front view swing arm is measured from the contact point to the instant centre.
+- The numbers are those of `--definitions optimumk`: the front view swing arm is measured from the contact point.
 - All numbers round to the printed ones, except the swing arm of the front axle: 921.38 mm, printed as 921.3.
+"""),
+    ("Lotus", "Lotus Suspension Analysis", "test_published_lotus.pf", True, """\
+Source: listings of Lotus Suspension Analysis with the hardpoints and static values of two front double wishbones
+(4x4V23.shk, v4.03; bat.shk, v5.01), with two digits after the point. Decks: `lotus_4x4.nml`, `lotus_bat.nml`.
+
+- The numbers are those of `--definitions lotus`.
+- All numbers are within one unit of the last printed digit, except the roll centre, which differs by up to 0.06 mm.
 """),
     ("Rill", "Rill", "test_published_rill.pf", True, """\
 Source: G. Rill, Road Vehicle Dynamics (2012), listing 5.6: four numbers that its program prints at design, and six

@@ -76,15 +76,17 @@ contains
       end do
    end function breach
 
-   !> The table of a case of a deck of this folder; trouble is kept in the list.
-   subroutine solve(list, deck, case_name, settings, table)
+   !> The table of a case of a deck of this folder, also in the definitions of a program; trouble is kept in the list.
+   subroutine solve(list, deck, case_name, settings, table, program, defined)
       type(comparisons_t), intent(inout) :: list
       character(*), intent(in) :: deck, case_name
       character(*), intent(in) :: settings(:)
       type(table_t), intent(out) :: table
+      character(*), intent(in), optional :: program
+      type(table_t), intent(out), optional :: defined
       character(:), allocatable :: trouble
 
-      call rig_table(decks//deck//'.nml', case_name, settings, table, trouble)
+      call rig_table(decks//deck//'.nml', case_name, settings, table, trouble, program, defined)
       if (trouble /= '' .and. .not. allocated(list%trouble)) list%trouble = deck//': '//trouble
    end subroutine solve
 

@@ -1,6 +1,7 @@
 !> Adams/Car 2024.1: the front double wishbone of its shared database, published in the repository 1191415541/open-kinematics (b940230e).
 !>
-!> The source has y positive to the right and toe positive for toe-out. Its numbers contain the error of its assembly at design (up to 9e-8 mm,
+!> Camber and toe are those of --definitions adams. The repository lists positions with x forward and y to the right, and toe with the
+!> sign opposite to that of Adams/Car, which is positive for toe-in. Its numbers contain the error of its assembly at design (up to 9e-8 mm,
 !> 2.6e-8 deg), which is subtracted at each state: at design nothing is left to compare.
 module ek_published_adams
    use ek_kinds, only: wp, degree, pi
@@ -29,23 +30,23 @@ contains
       type(comparisons_t), intent(inout) :: list
       character(*), parameter :: sides(2) = [character(5) :: 'left', 'right']
       real(wp), parameter :: tolerance = 5.0e-9_wp
-      type(table_t) :: ours, theirs
+      type(table_t) :: ours, defined, theirs
       character(:), allocatable :: side, place
       real(wp) :: sign
       integer :: k, s
 
       list%part = 'rigid double wishbone'
       call read_numbers(list, 'adams_states', theirs)
-      call solve(list, 'adams_double_wishbone', 'states', [character(1) :: ''], ours)
+      call solve(list, 'adams_double_wishbone', 'states', [character(1) :: ''], ours, 'adams', defined)
       do k = 1, row_count(theirs)
          if (k == design) cycle
          place = 'travel '//str(nint(pick(theirs, 'travel', k)))//', rack '//str(nint(pick(theirs, 'rack', k)))//' mm'
          do s = 1, 2
             side = trim(sides(s))
             sign = merge(1.0_wp, -1.0_wp, s == 1)                ! of the left wheel's y in an ISO deck
-            call add(list, side//' camber', place, 'deg', pick(ours, side//'_camber_deg', k), &
+            call add(list, side//' camber', place, 'deg', pick(defined, side//' Camber Angle [deg]', k), &
                moved(side//'_camber', 0.0_wp), tolerance)
-            call add(list, side//' toe', place, 'deg', -pick(ours, side//'_toe_deg', k), &
+            call add(list, side//' toe', place, 'deg', -pick(defined, side//' Toe Angle [deg]', k), &
                moved(side//'_toe', 0.0_wp), tolerance)
             call add(list, side//' wheel centre x', place, 'mm', centre(1) + pick(ours, side//'_wheel_centre_x_mm', k), &
                moved(side//'_x', centre(1)), tolerance)

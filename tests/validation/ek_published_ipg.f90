@@ -4,7 +4,8 @@
 !> Positions and angles are those of the left wheel: R = Rz(rz) Rx(rx) Ry(ry), x forward, y left. What the source defines otherwise:
 !>
 !> - Its contact point does not turn with the carrier about the spin axis, in track, trail and scrub radius, but the ground is at the height of the
-!>   point that does; they follow here from toe, camber and the steering axis. Trail, scrub radius and hub offsets are measured in the direction of the wheel.
+!>   point that does. Trail, scrub radius and hub offsets are measured in the direction of the wheel. All of these, the angles and the frame are
+!>   those of --definitions ipg.
 !> - Its tyre deflects as if the contact point were at 0.6 of the radius below the wheel centre, while the force acts at the whole radius: this
 !>   follows from its heights and loads (0.600 within 0.002 for all axles and states). Here the tyre has one contact point, at the whole radius. So the heights of
 !>   the road in the decks are those of the source plus 0.4 of the rise of the contact point above the wheel centre (check_roads). The point at
@@ -37,20 +38,18 @@ contains
    !> Appends all comparable numbers of the seven axles.
    subroutine compare_ipg(list)
       type(comparisons_t), intent(inout) :: list
-      type(table_t) :: table
-      type(wheel_t) :: wheel
+      type(table_t) :: table, defined
       integer :: k
 
       do k = 1, size(axles)
          list%part = axles(k)
-         wheel = wheel_of(trim(axles(k)))
-         call solve(list, trim(axles(k)), 'loads', [character(1) :: ''], table)
+         call solve(list, trim(axles(k)), 'loads', ['case.loads.quantities=all'], table, 'ipg', defined)
          if (allocated(list%trouble)) return
          call check_roads(list, trim(axles(k)), table)
-         call compare_states(list, trim(axles(k)), wheel, table)
-         call compare_compliance(list, trim(axles(k)), wheel, table)
+         call compare_states(list, trim(axles(k)), defined)
+         call compare_compliance(list, trim(axles(k)), defined)
          call compare_forces(list, trim(axles(k)), table)
-         if (index(axles(k), 'front') > 0) call compare_steering(list, trim(axles(k)), wheel)
+         if (index(axles(k), 'front') > 0) call compare_steering(list, trim(axles(k)))
       end do
    end subroutine compare_ipg
 
@@ -132,14 +131,13 @@ contains
    !> Tolerances, of numbers with 7 digits: 1e-4 mm and 5e-3 N; for FSE06 front 4e-4 mm and 0.05 N, because of one state (36 mm, the end of its travel:
    !> 3.1e-4 mm and 0.034 N, unexplained). Angles 2e-5 deg: their last digit is up to 5e-6. Trail 1e-4 mm.
    !> Scrub radius and track 1e-2 mm: where the contact point of the source is in y is known to 2.4e-3 mm, and its track is up to 2e-3 mm wide at design.
-   subroutine compare_states(list, axle, wheel, table)
+   subroutine compare_states(list, axle, table)
       type(comparisons_t), intent(inout) :: list
       character(*), intent(in) :: axle
-      type(wheel_t), intent(in) :: wheel
-      type(table_t), intent(in) :: table
+      type(table_t), intent(in) :: table                  !! in the definitions of IPG
       real(wp), parameter :: angle = 2.0e-5_wp, at_contact = 1.0e-2_wp
       type(table_t) :: theirs, compliances
-      real(wp) :: pose(6), hub(3), patch(3), ground(3), level, length
+      real(wp) :: pose(6), length
       character(:), allocatable :: place
       integer :: k, q, row
 
@@ -149,30 +147,32 @@ contains
          row = row_of(theirs, compliances, k)
          place = 'road '//str(nint(pick(theirs, 'road', k)))//' mm'
          length = merge(4.0e-4_wp, 1.0e-4_wp, axle == 'fse06_front')
-         pose = pose_of(table, row, 1, wheel)
+         pose = pose_of(table, row, 1)
          do q = 1, 6
             call add(list, trim(poses(q)), place, merge('mm ', 'deg', q <= 3), pose(q), pick(theirs, trim(poses(q)), k), &
                merge(length, angle, q <= 3))
          end do
-         call add(list, 'wheel load', place, 'N', pick(table, 'left_vertical_force_n', row), pick(theirs, 'load', k), &
+         call add(list, 'wheel load', place, 'N', pick(table, 'left wheel load [N]', row), pick(theirs, 'load', k), &
             merge(5.0e-2_wp, 5.0e-3_wp, axle == 'fse06_front'))
-         call add(list, 'coil force', place, 'N', pick(table, 'left_coil_force_n', row), pick(theirs, 'coil', k), 1.0e-2_wp)
-         call add(list, 'caster', place, 'deg', pick(table, 'left_caster_deg', row), pick(theirs, 'caster', k), angle)
-         call add(list, 'kingpin inclination', place, 'deg', pick(table, 'left_kingpin_inclination_deg', row), &
-            pick(theirs, 'kingpin', k), angle)
-         hub = [pick(table, 'left_spindle_offset_mm', row), -pick(table, 'left_spindle_length_mm', row), 0.0_wp]
-         patch = turned_z(turned_x(in_wheel(wheel%arm, wheel), pose(4)), pose(6))
-         level = wheel%arm(3) + pick(table, 'left_contact_patch_z_mm', row) - pick(table, 'left_wheel_centre_z_mm', row)
-         ground = hub - patch - level*[tan(degree*pick(table, 'left_caster_deg', row)), &
-            tan(degree*pick(table, 'left_kingpin_inclination_deg', row)), 0.0_wp]
-         hub = turned_z(hub, -pose(6))
-         ground = turned_z(ground, -pose(6))
-         call add(list, 'longitudinal hub offset', place, 'mm', hub(1), pick(theirs, 'spindle_offset', k), 2.0e-5_wp)
-         call add(list, 'lateral hub offset', place, 'mm', -hub(2), pick(theirs, 'spindle_length', k), 2.0e-5_wp)
-         call add(list, 'caster trail', place, 'mm', ground(1), pick(theirs, 'trail', k), 1.0e-4_wp)
-         call add(list, 'scrub radius', place, 'mm', -ground(2), pick(theirs, 'scrub', k), at_contact)
-         call add(list, 'track change', place, 'mm', 2*(pose(2) + patch(2) - wheel%arm(2)), pick(theirs, 'track', k), at_contact)
+         call add(list, 'coil force', place, 'N', pick(table, 'left_coil force [N]', row), pick(theirs, 'coil', k), 1.0e-2_wp)
+         call compare('caster', 'deg', 'caster', angle)
+         call compare('kingpin inclination', 'deg', 'kingpin', angle)
+         call compare('longitudinal hub offset', 'mm', 'spindle_offset', 2.0e-5_wp)
+         call compare('lateral hub offset', 'mm', 'spindle_length', 2.0e-5_wp)
+         call compare('caster trail', 'mm', 'trail', 1.0e-4_wp)
+         call compare('scrub radius', 'mm', 'scrub', at_contact)
+         call compare('track change', 'mm', 'track', at_contact)
       end do
+
+   contains
+
+      !> Adds a quantity of the left wheel.
+      subroutine compare(name, unit, published, tolerance)
+         character(*), intent(in) :: name, unit, published
+         real(wp), intent(in) :: tolerance
+         call add(list, name, place, unit, pick(table, 'left '//name//' ['//unit//']', row), pick(theirs, published, k), tolerance)
+      end subroutine compare
+
    end subroutine compare_states
 
    !> The row of the solved table that is the published state k: behind each state two rows follow for each load with published compliances.
@@ -202,11 +202,10 @@ contains
    !>
    !> An entry is compared with √(Cii Cjj): the matrix is unsymmetric by up to 5 % of an entry, because rotations are differences of Cardan angles, in
    !> the source and here. Tolerance 3e-4: the published entries have 5 digits, and the position of the masses is known from the joint forces only.
-   subroutine compare_compliance(list, axle, wheel, table)
+   subroutine compare_compliance(list, axle, table)
       type(comparisons_t), intent(inout) :: list
       character(*), intent(in) :: axle
-      type(wheel_t), intent(in) :: wheel
-      type(table_t), intent(in) :: table
+      type(table_t), intent(in) :: table                  !! in the definitions of IPG
       type(table_t) :: states, theirs, design
       real(wp), parameter :: tolerance = 3.0e-4_wp
       real(wp) :: c(6), size_of(6), road
@@ -224,7 +223,7 @@ contains
             row = row_of(states, theirs, state_at(states, road))
          end if
          j = nint(pick(theirs, 'load', k))
-         c = (pose_of(table, row + 1, 1, wheel) - pose_of(table, row + 2, 1, wheel))/(2*step(j))
+         c = (pose_of(table, row + 1, 1) - pose_of(table, row + 2, 1))/(2*step(j))
          c = [1.0e-3_wp*c(:3), degree*c(4:)]
          row = row + 2
          call add_column(list, theirs, k, 'road '//str(nint(road))//' mm', j, c, size_of, tolerance)
@@ -307,20 +306,19 @@ contains
 
    !> Steering at the published heights of the wheel centres. Tolerance 1e-2 mm and deg of up to 29 mm and deg: the wheel load acts at the contact point of
    !> the source, which does not turn with the carrier, and the bushing of the tie rod yields to its moment.
-   subroutine compare_steering(list, axle, wheel)
+   subroutine compare_steering(list, axle)
       type(comparisons_t), intent(inout) :: list
       character(*), intent(in) :: axle
-      type(wheel_t), intent(in) :: wheel
       real(wp), parameter :: tolerance = 1.0e-2_wp
-      type(table_t) :: table, theirs
+      type(table_t) :: own, table, theirs
       real(wp) :: pose(6)
       integer :: k, s, q
 
       call read_numbers(list, axle//'_racks', theirs)
-      call solve(list, axle, 'racks', [character(1) :: ''], table)
+      call solve(list, axle, 'racks', ['case.racks.quantities=all'], own, 'ipg', table)
       do k = 1, row_count(theirs)
          do s = 1, 2
-            pose = pose_of(table, k, s, wheel)
+            pose = pose_of(table, k, s)
             do q = 1, 6
                if (q == 3) cycle                       ! prescribed
                call add(list, 'steering, '//trim(sides(s))//' '//trim(poses(q)), &
@@ -332,25 +330,15 @@ contains
    end subroutine compare_steering
 
    !> Displacement of a wheel centre [mm] and its Cardan angles rx, ry, rz [deg], of R = Rz Rx Ry with ry = 0 at design.
-   function pose_of(table, row, side, wheel) result(pose)
-      type(table_t), intent(in) :: table
+   function pose_of(table, row, side) result(pose)
+      type(table_t), intent(in) :: table                  !! in the definitions of IPG
       integer, intent(in) :: row, side                    !! 1 left, 2 right
-      type(wheel_t), intent(in) :: wheel
-      real(wp) :: pose(6), arm(3), before(3), after(3), sign
-      character(:), allocatable :: prefix
+      real(wp) :: pose(6)
       integer :: q
 
-      prefix = trim(sides(side))//'_'
-      sign = merge(-1.0_wp, 1.0_wp, side == 1)
-      do q = 1, 3
-         pose(q) = pick(table, prefix//'wheel_centre_'//trim(poses(q))//'_mm', row)
-         arm(q) = wheel%arm(q) + pick(table, prefix//'contact_patch_'//trim(poses(q))//'_mm', row) - pose(q)
+      do q = 1, 6
+         pose(q) = pick(table, trim(sides(side))//' '//trim(poses(q))//trim(merge(' [mm] ', ' [deg]', q <= 3)), row)
       end do
-      pose(4) = sign*pick(table, prefix//'camber_deg', row)
-      pose(6) = sign*pick(table, prefix//'toe_deg', row)
-      before = turned_x(turned_z(wheel%arm, -sign*wheel%toe), -sign*wheel%camber)
-      after = turned_x(turned_z(arm, -pose(6)), -pose(4))
-      pose(5) = (atan2(-after(1), -after(3)) - atan2(-before(1), -before(3)))/degree
    end function pose_of
 
    !> A direction at design in the frame of the left wheel.

@@ -1,4 +1,4 @@
-!> OptimumKinematics, Rill, open-kinematics and a racing game: four sources with one rigid mechanism each.
+!> OptimumKinematics, Lotus, Rill, open-kinematics and a racing game: sources with one or two rigid mechanisms each.
 module ek_published_small
    use ek_kinds, only: wp, degree
    use ek_table, only: table_t, row_count
@@ -6,38 +6,67 @@ module ek_published_small
    use ek_comparison, only: comparisons_t, add, solve, read_numbers, pick
    implicit none(type, external)
    private
-   public :: compare_optimum, compare_rill, compare_boxster, compare_open_kinematics
+   public :: compare_optimum, compare_lotus, compare_rill, compare_boxster, compare_open_kinematics
 
 contains
 
    !> OptimumKinematics, case study of a Formula Student car (OptimumG, May 2015): both axles at design, as printed.
    !>
    !> Tolerance: half a unit of the last printed digit. The front view swing arm of the front axle is 921.38 mm here and printed as 921.3: it has
-   !> one unit. The source measures the swing arm from the contact point.
+   !> one unit. All numbers are those of --definitions optimumk.
    subroutine compare_optimum(list)
       type(comparisons_t), intent(inout) :: list
       character(*), parameter :: axles(2) = [character(5) :: 'front', 'rear'], &
          names(5) = [character(24) :: 'kingpin inclination', 'caster', 'scrub radius', 'caster trail', 'roll centre height'], &
          units(5) = [character(3) :: 'deg', 'deg', 'mm', 'mm', 'mm'], &
-         columns(5) = [character(32) :: 'left_kingpin_inclination_deg', 'left_caster_deg', 'left_scrub_radius_mm', &
-         'left_caster_trail_mm', 'roll_centre_height_mm']
+         columns(5) = [character(40) :: 'left King Pin Angle [deg]', 'left Caster Angle [deg]', 'left Scrub Radius [mm]', &
+         'left Mechanical Trail [mm]', 'Kinematic Roll Center Height [mm]']
       real(wp), parameter :: printed(5, 2) = reshape([4.0_wp, 6.0_wp, 38.2_wp, 24.7_wp, 28.3_wp, &
          0.0_wp, 11.6_wp, 61.0_wp, 63.0_wp, 37.2_wp], [5, 2]), arm(2) = [921.3_wp, 972.5_wp], half = 0.05_wp + 1.0e-9_wp
       integer, parameter :: design = 2
-      type(table_t) :: table
+      type(table_t) :: own, table
       integer :: a, k
 
       do a = 1, 2
          list%part = trim(axles(a))//' axle'
-         call solve(list, 'optimum_'//trim(axles(a)), 'design', [character(1) :: ''], table)
+         call solve(list, 'optimum_'//trim(axles(a)), 'design', [character(1) :: ''], own, 'optimumk', table)
          do k = 1, 5
             call add(list, trim(names(k)), 'design', trim(units(k)), pick(table, trim(columns(k)), design), printed(k, a), half)
          end do
          call add(list, 'front view swing arm', 'design', 'mm', &
-            hypot(pick(table, 'left_front_view_arm_centre_y_mm', design) - 525, &
-            pick(table, 'left_front_view_arm_centre_z_mm', design)), arm(a), merge(0.1_wp, half, a == 1))
+            pick(table, 'left Front View Swing Arm Length [mm]', design), arm(a), merge(0.1_wp, half, a == 1))
       end do
    end subroutine compare_optimum
+
+   !> Lotus Suspension Analysis: static values of two double wishbones, as printed in listings with their hardpoints (4x4V23.shk, v4.03;
+   !> bat.shk, v5.01), by --definitions lotus.
+   !>
+   !> Tolerance: half a unit of the last printed digit, and half a unit of the last digit of the hardpoints times the lever: 0.01 mm, 0.01 deg.
+   !> Roll centre 0.1 mm: it differs by up to 0.06 mm, for a reason that the listing does not show.
+   subroutine compare_lotus(list)
+      type(comparisons_t), intent(inout) :: list
+      character(*), parameter :: axles(2) = [character(3) :: '4x4', 'bat'], names(8) = [character(24) :: 'Castor Angle', &
+         'Castor Trail (hub)', 'Castor Offset (grnd)', 'Kingpin Angle', 'Kingpin Offset (w/c)', 'Kingpin Offset (grnd)', &
+         'Mechanical Trail (grnd)', 'Roll Centre Height'], &
+         units(8) = [character(3) :: 'deg', 'mm', 'mm', 'deg', 'mm', 'mm', 'mm', 'mm']
+      real(wp), parameter :: printed(8, 2) = reshape([16.22_wp, 5.00_wp, 76.31_wp, 9.75_wp, 98.13_wp, 50.13_wp, 73.27_wp, &
+         293.64_wp, 15.71_wp, 1.16_wp, 62.11_wp, 17.53_wp, 92.47_wp, 21.39_wp, 59.79_wp, 196.89_wp], [8, 2])
+      integer, parameter :: design = 2
+      character(:), allocatable :: head
+      type(table_t) :: own, table
+      integer :: a, k
+
+      do a = 1, 2
+         list%part = axles(a)
+         call solve(list, 'lotus_'//axles(a), 'design', [character(1) :: ''], own, 'lotus', table)
+         do k = 1, 8
+            head = trim(names(k))//' ['//trim(units(k))//']'
+            if (k < 8) head = 'left '//head
+            call add(list, trim(names(k)), 'design', trim(units(k)), pick(table, head, design), printed(k, a), &
+               merge(0.1_wp, 0.01_wp, k == 8))
+         end do
+      end do
+   end subroutine compare_lotus
 
    !> G. Rill, Road Vehicle Dynamics (2012), listing 5.6: what its program prints at design, and six states by the same
    !> construction, computed outside this program.

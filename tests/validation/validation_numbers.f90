@@ -4,13 +4,14 @@ program validation_numbers
    use ek_comparison, only: comparisons_t
    use ek_published_adams, only: compare_adams
    use ek_published_ipg, only: compare_ipg
-   use ek_published_small, only: compare_optimum, compare_rill, compare_boxster, compare_open_kinematics
+   use ek_published_small, only: compare_optimum, compare_lotus, compare_rill, compare_boxster, compare_open_kinematics
    implicit none(type, external)
-   type(comparisons_t) :: adams, ipg, optimum, rill, boxster, open_kinematics
+   type(comparisons_t) :: adams, ipg, optimum, lotus, rill, boxster, open_kinematics
 
    call compare_adams(adams)
    call compare_ipg(ipg)
    call compare_optimum(optimum)
+   call compare_lotus(lotus)
    call compare_rill(rill)
    call compare_boxster(boxster)
    call compare_open_kinematics(open_kinematics)
@@ -18,6 +19,7 @@ program validation_numbers
    call print_list('Adams/Car', adams)
    call print_list('IPGKinematics', ipg)
    call print_list('OptimumKinematics', optimum)
+   call print_list('Lotus', lotus)
    call print_list('Rill', rill)
    call print_list('Boxster', boxster)
    call print_list('open-kinematics', open_kinematics)
