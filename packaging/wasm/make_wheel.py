@@ -30,8 +30,8 @@ def metadata():
     return "\n".join([*lines, "Description-Content-Type: text/markdown", "", (top / "python" / project["readme"]).read_text()])
 
 
-sources = sorted((top / "python/src/elastokin").glob("*.py"))
-contents = {f"elastokin/{path.name}": path.read_bytes() for path in sources}
+sources = sorted((top / "python/src").glob("elastokin*/*.py"))
+contents = {f"{path.parent.name}/{path.name}": path.read_bytes() for path in sources}
 contents |= {
     "elastokin/py.typed": b"",
     "elastokin/LICENSE": (top / "LICENSE").read_bytes(),

@@ -1,5 +1,5 @@
 """python -m elastokin: the command line."""
 
-from ._command import main
+from elastokin_command import main
 
 main()
