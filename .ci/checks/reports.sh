@@ -84,6 +84,9 @@ page_in_a_browser() {
     return
   fi
   for name in mcpherson_axle twist_beam_axle; do pages+=("$logs/reports/$name/report.html"); done
+  build/release/bin/elastokin solve input/mcpherson_axle/mcpherson_axle.nml --vary point.tie_rod_inner.z=-80:-50 --for left_bump_toe=-1 \
+    --page --out "$logs/browser/solved" --quiet >/dev/null || return 1
+  pages+=("$logs/browser/solved/mcpherson_axle_solve.html")
   tools/check_page.sh "${pages[@]}" || return 1
   if ! python_with venv_browser playwright axe-playwright-python; then
     skip "live charts are not used, playwright could not be installed from PyPI"

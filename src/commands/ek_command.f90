@@ -240,12 +240,14 @@ module ek_command
       option_t('solve', '--case NAME', 'case or standard test of the columns (default: the first case of the deck)'), &
       option_t('solve', '--at VALUE', 'swept value at which columns are read (default: design)'), &
       option_t('solve', '--out DIR', 'output folder (default: out)'), &
+      option_t('solve', '--page', 'also write DIR/<model>_solve.html: before and after, contributions, what moved'), &
       option_t('solve', '--set path=value', 'as for run'), option_t('solve', '--set-file FILE', 'as for run'), &
       option_t('solve', '--height H', 'as for run'), option_t('solve', '--state NAME', 'as for run'), &
       option_t('solve', '--quiet', quiet_help), &
       option_t('fit', '--out DIR', 'output folder (default: out, in the folder of the fit file)'), &
       option_t('fit', '--set path=value', 'change a value of the deck of the fit'), &
       option_t('fit', '--height H', 'as for run'), option_t('fit', '--state NAME', 'as for run'), &
+      option_t('fit', '--page', 'also write DIR/<fit>.html: targets, curves, intervals, contributions, what moved'), &
       option_t('fit', '--no-plots', no_plots_help), option_t('fit', '--quiet', quiet_help), &
       option_t('compare', '--out DIR', 'output folder (default: out)'), &
       option_t('compare', '--window what=half', 'as for report, if gradients are computed from CSV files'), &

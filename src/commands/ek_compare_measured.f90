@@ -147,7 +147,7 @@ contains
          end if
          call print_error(trouble%message)
          if (.not. allocated(incomplete)) call fail(incomplete, exit_convergence, 'test '//quoted(model%tests(t)%name)//' of '// &
-            model%path//' is incomplete; its lost states are not compared')
+            model%path//' is incomplete; points at which it did not converge are not compared')
       end do
    end subroutine solve_tests
 

@@ -11,15 +11,16 @@ module ek_fit_command
    use ek_fit, only: fit_t
    use ek_fit_reader, only: read_fit
    use ek_fit_problem, only: fit_problem_t, make_problem
-   use ek_fit_solver, only: fit_result_t, difference_of
+   use ek_fit_solver, only: fit_result_t
    use ek_fit_statistics, only: fit_statistics_t
    use ek_fit_factors, only: fit_factors
-   use ek_fit_files, only: write_fit_files, changed_numbers, note_of
+   use ek_fit_files, only: write_fit_files, changed_numbers, note_of, target_rms_t, rms_of_target
+   use ek_fit_page, only: fit_page
+   use ek_suspension, only: suspension_t
    use ek_command_line, only: command_line_t
    use ek_load_deck, only: read_changed, settings_of
    use ek_console, only: print_text
    use ek_kinds, only: wp
-   use ek_noise, only: is_noise, solved
    use ek_bounded_search, only: gain_is_small, step_is_small
    use ek_parameter, only: choice_t
    use ek_workspace, only: workspace_t
@@ -48,7 +49,8 @@ contains
       type(fit_result_t) :: found
       type(fit_statistics_t) :: statistics
       type(buffer_t) :: text
-      character(:), allocatable :: home, out
+      type(suspension_t) :: before                         ! model at the start
+      character(:), allocatable :: home, out, page
       integer :: k, j
 
       allocate (session)
@@ -70,12 +72,15 @@ contains
       if (.not. allocated(error)) call open_deck(deck, session, error)
       if (.not. allocated(error)) call make_problem(fit, join_path(home, ''), deck, session%workspace, problem, error)
       if (.not. allocated(error)) call make_folder(out, error)
+      if (.not. allocated(error)) before = session%workspace%raw
       if (.not. allocated(error)) call fit_factors(fit, problem, session%workspace, found, statistics, error)
       if (allocated(error)) return
-      call write_fit_files(fit, session%workspace, problem, found, statistics, out, .not. line%has('--no-plots'), &
-         line%has('--quiet'), error)
-      if (allocated(error)) return
       call add_fit_findings(fit, session%workspace, problem, found, statistics, text)
+      page = ''
+      if (line%has('--page')) page = fit_page(fit, before, session%workspace, problem, found, statistics, text%text())
+      call write_fit_files(fit, session%workspace, problem, found, statistics, out, .not. line%has('--no-plots'), &
+         line%has('--quiet'), page, error)
+      if (allocated(error)) return
       call print_text(text%text(), error)
       if (.not. allocated(error) .and. found%ended == 0) call fail(error, exit_convergence, 'the fit has not ended after '// &
          plural(found%steps, 'iteration', 'iterations')//'; the factors reached were written. Give more iterations in &fit')
@@ -145,33 +150,19 @@ contains
       type(fit_problem_t), intent(in) :: problem
       type(fit_result_t), intent(in) :: found
       type(buffer_t), intent(inout) :: text
-      real(wp) :: before, after
-      integer :: k, t, many, beyond
+      type(target_rms_t) :: rms
+      integer :: t
 
       call text%line('target'//repeat(' ', name_width - 6)//'points   rms at start   rms of result')
       do t = 1, size(fit%targets)
-         before = 0.0_wp
-         after = 0.0_wp
-         many = 0
-         beyond = 0
-         do k = 1, size(problem%points)
-            if (problem%points(k)%target /= t) cycle
-            associate (point => problem%points(k))
-               before = before + (difference_of(point, found%before(k))*point%deviation)**2
-               after = after + (difference_of(point, found%after(k))*point%deviation)**2
-               many = many + 1
-               if (.not. is_given(point%value) .and. .not. is_noise(difference_of(point, found%after(k))*point%deviation, &
-                  problem%wanted(k)%heading, found%after(k), solved)) beyond = beyond + 1
-            end associate
-         end do
-         if (many == 0) then
+         rms = rms_of_target(problem, found, t)
+         if (rms%points == 0) then
             call text%line(padded(fit%targets(t)%name)//'     0   weight 0')
             cycle
          end if
-         k = findloc(problem%points%target, t, dim=1)
-         call text%line(padded(fit%targets(t)%name)//right(str(many), 6)//right(str(sqrt(before/many), 5), 15)// &
-            right(str(sqrt(after/many), 5), 16)//' '//problem%wanted(k)%unit)
-         if (beyond > 0) call text%line('  a limit is exceeded at '//plural(beyond, 'point', 'points'))
+         call text%line(padded(fit%targets(t)%name)//right(str(rms%points), 6)//right(str(rms%before, 5), 15)// &
+            right(str(rms%after, 5), 16)//' '//problem%wanted(rms%first)%unit)
+         if (rms%beyond > 0) call text%line('  a limit is exceeded at '//plural(rms%beyond, 'point', 'points'))
       end do
    end subroutine add_targets
 

@@ -15,6 +15,7 @@ module ek_fit_files
    use ek_gnuplot, only: on_level, on_range, on_limits, on_design, on_derivative
    use ek_parameter, only: choice_t, parameter_path
    use ek_study, only: is_given
+   use ek_noise, only: is_noise, solved
    use ek_fit, only: fit_t
    use ek_fit_problem, only: fit_problem_t
    use ek_fit_solver, only: fit_result_t, difference_of
@@ -22,16 +23,45 @@ module ek_fit_files
    use ek_outbox, only: outbox_t, outbox_in
    implicit none(type, external)
    private
-   public :: write_fit_files, changed_numbers, note_of
+   public :: write_fit_files, changed_numbers, note_of, fit_figure, target_rms_t, rms_of_target
 
    integer, parameter :: most_panels = 12
    character(6), parameter :: of_words(0:2) = [character(6) :: 'value', 'slope', 'change']
    character(*), parameter :: held_words(-1:1) = [character(5) :: 'lower', '', 'upper']
 
+   !> The differences of a target from its points at the start and of the result.
+   type :: target_rms_t
+      integer :: points = 0, beyond = 0        !! number of points; of these, points at which a limit is exceeded
+      real(wp) :: before = 0.0_wp, after = 0.0_wp      !! root mean square of the differences
+      integer :: first = 0                     !! index of the first point; 0: the target has no points
+   end type target_rms_t
+
 contains
 
+   !> The root mean squares of the differences of a target, in the unit of its quantity.
+   type(target_rms_t) function rms_of_target(problem, found, target) result(rms)
+      type(fit_problem_t), intent(in) :: problem
+      type(fit_result_t), intent(in) :: found
+      integer, intent(in) :: target
+      integer :: k
+
+      do k = 1, size(problem%points)
+         associate (point => problem%points(k))
+            if (point%target /= target) cycle
+            rms%before = rms%before + (difference_of(point, found%before(k))*point%deviation)**2
+            rms%after = rms%after + (difference_of(point, found%after(k))*point%deviation)**2
+            rms%points = rms%points + 1
+            if (rms%first == 0) rms%first = k
+            if (.not. is_given(point%value) .and. .not. is_noise(difference_of(point, found%after(k))*point%deviation, &
+               problem%wanted(k)%heading, found%after(k), solved)) rms%beyond = rms%beyond + 1
+         end associate
+      end do
+      rms%before = sqrt(rms%before/max(1, rms%points))
+      rms%after = sqrt(rms%after/max(1, rms%points))
+   end function rms_of_target
+
    !> Writes all files and prints their paths. Of the pictures, only the path of the PNG file is printed.
-   subroutine write_fit_files(fit, workspace, problem, found, statistics, out, draws, is_quiet, error)
+   subroutine write_fit_files(fit, workspace, problem, found, statistics, out, draws, is_quiet, page, error)
       type(fit_t), intent(in) :: fit
       type(workspace_t), intent(in) :: workspace          !! workspace with the numbers found
       type(fit_problem_t), intent(in) :: problem
@@ -40,6 +70,7 @@ contains
       character(*), intent(in) :: out                      !! folder
       logical, intent(in) :: draws                         !! whether gnuplot is run
       logical, intent(in) :: is_quiet
+      character(*), intent(in) :: page                     !! page as HTML; '': no page
       type(error_t), allocatable, intent(out) :: error
       type(outbox_t) :: box
       character(:), allocatable :: reason
@@ -48,6 +79,7 @@ contains
       call box%put(fit%name//'_factors.csv', factors_csv(problem, found, statistics))
       call box%put(fit%name//'_points.csv', points_csv(fit, workspace, problem, found))
       call box%put(fit%name//'.set', settings(fit, workspace, problem))
+      if (page /= '') call box%put(fit%name//'.html', page)
       call box%add_script(fit%name, figure_script(fit_figure(fit, workspace, problem, found)))
       if (.not. allocated(box%undrawn)) call box%announce(fit%name//'.gp')
       if (draws) then

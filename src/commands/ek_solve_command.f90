@@ -18,6 +18,8 @@ module ek_solve_command
    use ek_condition_solver, only: findings_t, solve_conditions
    use ek_compromise, only: compromise_t, find_compromise
    use ek_solve_text, only: add_findings, compromise_csv
+   use ek_solve_page, only: solve_page
+   use ek_suspension, only: suspension_t
    use ek_deck_fragment, only: records_with
    use ek_command_line, only: command_line_t
    use ek_load_deck, only: deck_settings_t, read_deck_settings, load_session, spare_results
@@ -53,6 +55,7 @@ contains
       type(findings_t) :: found
       type(message_list_t) :: origins
       type(compromise_t) :: compromise
+      type(suspension_t) :: before           ! at the start
       type(error_t), allocatable :: fault
       type(message_list_t) :: given
       character(:), allocatable :: path
@@ -78,11 +81,12 @@ contains
       if (allocated(error) .and. allocated(fault)) error%message = error%message//new_line('a')//fault%message
       call keep_first(error, fault)
       if (allocated(error)) return
+      before = session%workspace%raw
       call solve_conditions(unknowns, wanted, targets, weights, max_sweeps, session%workspace, search, found, error)
       if (allocated(error)) return
       allocate (compromise%x(size(unknowns), 0))
       if (.not. all(found%is_reached)) call find_compromise(search, max_sweeps, session%workspace, compromise)
-      call write_results(settings, session, unknowns, search, found, origins, compromise, error)
+      call write_results(settings, session, unknowns, search, found, origins, compromise, before, line%has('--page'), error)
       if (allocated(error)) return
       if (.not. all(found%is_reached)) call fail(error, exit_convergence, 'not met: '//str(count(.not. found%is_reached))// &
          ' of '//plural(size(found%is_reached), 'condition', 'conditions')//'; the numbers that come closest were written')
@@ -151,7 +155,7 @@ contains
 
    !> Writes the solution as a file of settings, the compromise of two conditions that exclude each other as a table, and prints the
    !> findings.
-   subroutine write_results(settings, session, unknowns, search, found, origins, compromise, error)
+   subroutine write_results(settings, session, unknowns, search, found, origins, compromise, before, has_page, error)
       type(deck_settings_t), intent(in) :: settings
       type(session_t), intent(in) :: session
       type(unknown_t), intent(in) :: unknowns(:)
@@ -159,11 +163,13 @@ contains
       type(findings_t), intent(in) :: found
       type(message_list_t), intent(in) :: origins           !! of read_conditions
       type(compromise_t), intent(in) :: compromise
+      type(suspension_t), intent(in) :: before              !! model at the start
+      logical, intent(in) :: has_page                       !! a page is written, too
       type(error_t), allocatable, intent(out) :: error
       type(outbox_t) :: box
       type(choice_t), allocatable :: changed(:)
       type(buffer_t) :: text, file
-      character(:), allocatable :: name
+      character(:), allocatable :: name, records
       integer :: j
 
       allocate (changed(0))
@@ -180,7 +186,8 @@ contains
          changed = [changed, unknowns(j)%direction%found]
       end do
       call text%line('as records of the deck:')
-      call text%line(records_with(session%workspace%definition, session%workspace%x, changed))
+      records = records_with(session%workspace%definition, session%workspace%x, changed)
+      call text%line(records)
       box = outbox_in(settings%out)
       call make_folder(settings%out, error)
       if (allocated(error)) return
@@ -191,6 +198,8 @@ contains
       else if (.not. box%has_failed()) then
          call box%remove([name])                           ! of an earlier step
       end if
+      if (has_page) call box%put(session%workspace%raw%name//'_solve.html', solve_page(settings%file, before, session%workspace, &
+         unknowns, search, found, compromise, records))
       call box%finish(error)
       if (.not. allocated(error)) call print_text(text%text(), error)
    end subroutine write_results

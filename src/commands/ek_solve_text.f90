@@ -12,7 +12,7 @@ module ek_solve_text
    use ek_compromise, only: compromise_t
    implicit none(type, external)
    private
-   public :: add_findings, compromise_csv
+   public :: add_findings, add_explanation, compromise_csv, label_of, has_no_effect
 
    real(wp), parameter :: share_of_conflict = 0.1_wp !! limit: a condition with a smaller component is no part of a conflict
    real(wp), parameter :: aligned = 0.9999_wp        !! smallest cosine between the effects on two conditions that change as one
@@ -47,15 +47,7 @@ contains
          end associate
       end do
       call text%line('  '//plural(found%sweeps, 'sweep', 'sweeps'))
-      if (all(found%is_reached)) then
-         call add_freedom(unknowns, found, text)
-      else
-         call add_reasons(unknowns, search%values%wanted, found, text)
-      end if
-      do j = 1, size(found%is_fixed)
-         if (found%is_fixed(j) .and. found%is_reached(j)) call text%line('  '//search%values%wanted(j)%name// &
-            ' was met before, and no number that varies changes it')
-      end do
+      call add_explanation(unknowns, search, found, text)
 
    contains
 
@@ -68,6 +60,25 @@ contains
       end function wanted_text
 
    end subroutine add_findings
+
+   !> Adds whether other solutions exist, or the reasons why conditions are not met.
+   subroutine add_explanation(unknowns, search, found, text)
+      type(unknown_t), intent(in) :: unknowns(:)
+      type(search_t), intent(in) :: search
+      type(findings_t), intent(in) :: found
+      type(buffer_t), intent(inout) :: text
+      integer :: j
+
+      if (all(found%is_reached)) then
+         call add_freedom(unknowns, found, text)
+      else
+         call add_reasons(unknowns, search%values%wanted, found, text)
+      end if
+      do j = 1, size(found%is_fixed)
+         if (found%is_fixed(j) .and. found%is_reached(j)) call text%line('  '//search%values%wanted(j)%name// &
+            ' was met before, and no number that varies changes it')
+      end do
+   end subroutine add_explanation
 
    !> Label of a condition: 'left_toe_deg of parallel_travel at 20 mm'. The label of a key number is its name.
    function label_of(workspace, wanted) result(label)

@@ -196,7 +196,7 @@ contains
       scale_of = max(scale_of, least_of(trim(channel%unit)))
    end function scale_of
 
-   !> A curve in words: 'left toe in parallel_travel'.
+   !> The name of a curve: 'left toe in parallel_travel'.
    function curve_name(model, m, c) result(name)
       type(measured_model_t), intent(in) :: model
       integer, intent(in) :: m, c

@@ -1,10 +1,12 @@
-!> Three views of a suspension at design with the names of its hardpoints: from the left, from the front and from above.
+!> Three views of a suspension at design with the names of its hardpoints: from the left, from the front and from above; also of
+!> two designs of one model, with the hardpoints that moved.
 !>
 !> Of an axle, the left half is shown, and the names of its points are without 'left_'. Axes are the axes of the deck [mm]. In
 !> the views from the left and from above, the front of the car is at the left.
 module ek_views
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp, millimetre
+   use ek_text, only: str
    use ek_suspension, only: suspension_t
    use ek_element, only: element_kinds, bushing_shape
    use ek_measure, only: distance
@@ -13,11 +15,11 @@ module ek_views
    use ek_state, only: state_t, design_state
    use ek_scene, only: scene_t, add_run, line_ground
    use ek_picture, only: add_ghost
-   use ek_gnuplot, only: on_guide, on_point, on_skeleton, on_title
-   use ek_figure, only: figure_t, new_figure, add_series, add_point_names, as_line, as_points
+   use ek_gnuplot, only: on_guide, on_point, on_skeleton, on_title, on_level, on_derivative
+   use ek_figure, only: figure_t, new_figure, add_series, add_point_names, as_line, as_points, as_segments
    implicit none(type, external)
    private
-   public :: find_views
+   public :: find_views, find_moved_views, moved_points
 
    integer, parameter :: views = 3, name_length = 63
    ! axes of a panel: to the right and upward; their directions in the frame of the program (x rearward, y to the right, z up)
@@ -26,6 +28,8 @@ module ek_views
    character(14), parameter :: titles(views) = [character(14) :: 'From the left', 'From the front', 'From above']
    character(1), parameter :: axes(3) = ['x', 'y', 'z']
    real(wp), parameter :: room = 0.12_wp         !! margin around the points, as a share of their span
+
+   real(wp), parameter :: least_move = 1.0e-9_wp !! shorter moves are rounding noise [m]
 
    !> The hardpoints that are shown, with their names.
    type :: points_t
@@ -42,18 +46,33 @@ contains
       type(figure_t), allocatable, intent(out) :: figure
       type(points_t) :: points
       type(scene_t) :: scene
-      type(state_t) :: state
       real(wp) :: frame(3)
       integer :: v
 
       call half_of(suspension, points)
       if (size(points%names) == 0) return
-      state = design_state(suspension)
-      call add_ghost(scene, suspension, state, line_ground)
-      call add_springs(scene, suspension, state)
+      call draw_design(suspension, scene)
       frame = deck_frame(suspension)
       allocate (figure)
       figure = new_figure(name, 'Hardpoints at design', suspension%name//'; axes of the deck, mm', views, height=640)
+      call begin_views(points, frame, figure)
+      do v = 1, views
+         associate (panel => figure%panels(v))
+            call add_series(panel, as_line, on_skeleton, lines_of(scene, frame, v))
+            call add_series(panel, as_points, on_point, places(points%at, frame, v), weight=0.8_wp)
+         end associate
+         call add_point_names(figure, v, points%names, frame(across(v))*points%at(across(v), :)/millimetre, &
+            frame(upward(v))*points%at(upward(v), :)/millimetre, on_guide, on_title)
+      end do
+   end subroutine find_views
+
+   !> Sets size, titles, labels and ranges of the views.
+   subroutine begin_views(points, frame, figure)
+      type(points_t), intent(in) :: points
+      real(wp), intent(in) :: frame(3)
+      type(figure_t), intent(inout) :: figure
+      integer :: v
+
       figure%width = 1600
       figure%columns = views
       figure%letters = 12
@@ -66,13 +85,95 @@ contains
             panel%x%has_range = .true.
             panel%y%has_range = .true.
             call find_ranges(figure, points, frame, v, panel%x%range, panel%y%range)
-            call add_series(panel, as_line, on_skeleton, lines_of(scene, frame, v))
-            call add_series(panel, as_points, on_point, places(points%at, frame, v), weight=0.8_wp)
          end associate
-         call add_point_names(figure, v, points%names, frame(across(v))*points%at(across(v), :)/millimetre, &
-            frame(upward(v))*points%at(upward(v), :)/millimetre, on_guide, on_title)
       end do
-   end subroutine find_views
+   end subroutine begin_views
+
+   !> Draws a suspension at design: its skeletons, and its springs, dampers and stops.
+   subroutine draw_design(suspension, scene)
+      type(suspension_t), intent(in) :: suspension
+      type(scene_t), intent(inout) :: scene
+      type(state_t) :: state
+
+      state = design_state(suspension)
+      call add_ghost(scene, suspension, state, line_ground)
+      call add_springs(scene, suspension, state)
+   end subroutine draw_design
+
+   !> Finds the views of two designs of one model, one above the other. The moves of the hardpoints are drawn larger, and their
+   !> names are given. Not allocated if no hardpoint that is shown moved.
+   subroutine find_moved_views(before, after, name, figure)
+      type(suspension_t), intent(in) :: before, after
+      character(*), intent(in) :: name
+      type(figure_t), allocatable, intent(out) :: figure
+      type(points_t) :: old, new
+      type(scene_t) :: scenes(2)
+      integer, allocatable :: order(:), moved(:)
+      real(wp), allocatable :: from(:, :), to(:, :)
+      real(wp) :: frame(3)
+      character(:), allocatable :: factor
+      integer :: k, v, larger
+
+      call half_of(before, old)
+      call half_of(after, new)
+      moved = pack([(k, k=1, size(old%names))], [(norm2(new%at(:, k) - old%at(:, k)) > least_move, k=1, size(old%names))])
+      if (size(moved) == 0) return
+      order = [moved, pack([(k, k=1, size(old%names))], [(all(moved /= k), k=1, size(old%names))])]      ! names are of the first
+      larger = magnification(old, new)
+      call draw_design(before, scenes(1))
+      call draw_design(after, scenes(2))
+      frame = deck_frame(after)
+      factor = 'moves'
+      if (larger > 1) factor = 'moves, '//str(larger)//' times larger'
+      allocate (figure)
+      figure = new_figure(name, 'Design before and after', after%name//'; axes of the deck, mm', views, height=640)
+      call begin_views(new, frame, figure)
+      do v = 1, views
+         associate (panel => figure%panels(v))
+            call add_series(panel, as_line, on_skeleton, lines_of(scenes(1), frame, v), is_dashed=.true., title='before')
+            call add_series(panel, as_line, on_level, lines_of(scenes(2), frame, v), title='after')
+            from = places(old%at(:, moved), frame, v)
+            to = places(new%at(:, moved), frame, v)
+            call add_series(panel, as_segments, on_derivative, reshape([(from(:, k), larger*(to(:, k) - from(:, k)), &
+               k=1, size(moved))], [4, size(moved)]), weight=3.0_wp, title=factor)
+            call add_series(panel, as_points, on_point, from, weight=0.8_wp)
+         end associate
+         call add_point_names(figure, v, old%names(moved), frame(across(v))*old%at(across(v), order)/millimetre, &
+            frame(upward(v))*old%at(upward(v), order)/millimetre, on_guide, on_title)
+      end do
+   end subroutine find_moved_views
+
+   !> The factor by which moves are drawn larger: 1, 2, 5, 10, …, so that the longest move is at most a fifth of the suspension.
+   pure integer function magnification(old, new) result(larger)
+      type(points_t), intent(in) :: old, new
+      integer, parameter :: factors(*) = [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000]
+      real(wp) :: span, longest
+
+      span = maxval(maxval(new%at, dim=2) - minval(new%at, dim=2))
+      longest = maxval(norm2(new%at - old%at, dim=1))
+      larger = maxval(factors, factors*longest <= 0.2_wp*span)
+      larger = max(1, larger)
+   end function magnification
+
+   !> Lists the hardpoints that moved between two designs of one model, with their positions in the axes of the deck [mm].
+   subroutine moved_points(before, after, names, from, to)
+      type(suspension_t), intent(in) :: before, after
+      character(name_length), allocatable, intent(out) :: names(:)
+      real(wp), allocatable, intent(out) :: from(:, :), to(:, :)
+      real(wp) :: frame(3)
+      integer, allocatable :: moved(:)
+      integer :: k
+
+      moved = pack([(k, k=1, size(before%points))], [(norm2(after%points(k)%at - before%points(k)%at) > least_move .and. &
+         after%points(k)%is_used, k=1, size(before%points))])
+      frame = deck_frame(after)
+      allocate (names(size(moved)), from(3, size(moved)), to(3, size(moved)))
+      do k = 1, size(moved)
+         names(k) = after%points(moved(k))%name
+         from(:, k) = frame*before%points(moved(k))%at/millimetre
+         to(:, k) = frame*after%points(moved(k))%at/millimetre
+      end do
+   end subroutine moved_points
 
    !> Lists the hardpoints that are used, without the right side of an axle.
    subroutine half_of(suspension, points)
