@@ -158,6 +158,9 @@ json_fits_the_schemas() {
     "$program" export "$axle" --to matlab-kc --out "$folder/export" && "$program" export "$axle" --to csv --out "$folder/export" || return 1
   fi
   "$program" list "$axle" --json >"$folder/list.json" && "$program" list tests/decks/every_dimension.nml --json >"$folder/out/every_list.json" || return 1
+  "$program" list --definitions mathworks --json >"$folder/definitions.json" || return 1
+  "$program" report input/mcpherson/mcpherson.nml --no-plots --quiet --definitions lotus --out "$folder/lotus" || return 1
+  "$program" run "$axle" --json --quiet --definitions ipg --out "$folder/out/ipg" || return 1
   "$program" schema >"$folder/schema" && cmp "$folder/schema" schema/deck.schema.json || return 1
   "$tools/bin/python" tests/support/deck_as_data.py "$folder/decks" input/*/*.nml || return 1
   "$tools/bin/python" tests/support/check_json.py schema "$folder" || return 1
