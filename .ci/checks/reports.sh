@@ -164,6 +164,9 @@ json_fits_the_schemas() {
   printf 'WhlZ_FL,Toe_FL\nmm,min\n-10,3\n0,0\n10,-2\n' >"$folder/rig.csv"
   "$program" compare "$axle" --measured parallel_travel="$folder/rig.csv" --map examples/measured/fl_iso.nml --json --quiet \
     --out "$folder/compared" >"$folder/compare.json" || return 1
+  "$program" list --definitions mathworks --json >"$folder/definitions.json" || return 1
+  "$program" report input/mcpherson/mcpherson.nml --no-plots --quiet --definitions lotus --out "$folder/lotus" || return 1
+  "$program" run "$axle" --json --quiet --definitions ipg --out "$folder/out/ipg" || return 1
   "$program" schema >"$folder/schema" && cmp "$folder/schema" schema/deck.schema.json || return 1
   "$tools/bin/python" tests/support/deck_as_data.py "$folder/decks" input/*/*.nml || return 1
   "$tools/bin/python" tests/support/check_json.py schema "$folder" || return 1

@@ -94,10 +94,11 @@ site() {
   "$tools/bin/python" tests/support/check_site.py "$folder" "$logs/site_pictures"
 }
 
-# docs/validation.md has the numbers that the program gives
+# docs/validation.md has the numbers that the program gives, input/NAMES.md its definitions of other programs
 validation_page() {
   cmake --build build/release --target validation_numbers --parallel "$EK_JOBS" >"$logs/validation_numbers.txt" 2>&1 || { tail -n 30 "$logs/validation_numbers.txt"; return 1; }
-  tests/support/validation_page.py --check build/release/tests/validation_numbers
+  tests/support/validation_page.py --check build/release/tests/validation_numbers || return 1
+  tests/support/names_page.py --check build/release/bin/elastokin
 }
 
 # Documents, messages and comments use the terms of the field: tools/check_language.sh contains the list

@@ -19,6 +19,7 @@ module ek_defined_table
    !> A column in a definition: where the variables of its formula come from.
    type :: defined_t
       integer :: row = 0                         !! index in `definitions`
+      character(name_length) :: of = ''          !! wheel or element; '' for a single wheel and for the axle
       character(name_length) :: head = ''        !! heading
       type(formula_t) :: formula
       integer, allocatable :: columns(:)         !! of each variable: index of its column in the table; 0: a number of the model
@@ -95,6 +96,7 @@ contains
          if (len(of) > 0) then
             if (of(len(of):) == '_') of = of(:len(of) - 1)
          end if
+         this%of = of
          this%head = heading(definitions(row), of)
          allocate (longer(size(list) + 1))
          longer(:size(list)) = list
@@ -232,12 +234,13 @@ contains
    end subroutine needed_columns
 
    !> A table in the definitions of a program. The header gains a line that names the program.
-   subroutine defined_table(suspension, table, program, result, rows)
+   subroutine defined_table(suspension, table, program, result, rows, of)
       type(suspension_t), intent(in) :: suspension
       type(table_t), intent(in) :: table                     !! with the columns of needed_columns
       character(*), intent(in) :: program
       type(table_t), intent(out) :: result
       integer, allocatable, intent(out), optional :: rows(:) !! of each column: index in `definitions`; 0: a column of elastokin
+      character(name_length), allocatable, intent(out), optional :: of(:)  !! of each column: wheel or element
       type(defined_t), allocatable :: list(:)
       integer, allocatable :: first(:), last(:)
       integer :: k, n
@@ -263,6 +266,11 @@ contains
       if (present(rows)) then
          allocate (rows(size(result%columns)), source=0)
          rows(size(first) + 1:n) = list%row
+      end if
+      if (present(of)) then
+         allocate (of(size(result%columns)))
+         of = ''
+         of(size(first) + 1:n) = list%of
       end if
    end subroutine defined_table
 

@@ -203,6 +203,9 @@ module ek_command
       option_t('report', '--increments N', 'as for run'), &
       option_t('report', '--set path=value', 'as for run'), option_t('report', '--set-file FILE', 'as for run'), &
       option_t('report', '--height H', 'as for run'), option_t('report', '--state NAME', 'as for run'), &
+      option_t('report', '--definitions NAME', &
+      'also write numbers and tables in the definitions of another program:'//indent// &
+      'adams | motionview | ipg | optimumk | lotus | mathworks | sae'), &
       option_t('report', '--loads', &
       'also write loads.csv (loads of every member at every state of every test) and peak-loads.csv'), &
       option_t('report', '--no-plots', 'without the picture in space; gnuplot is not started'), &

@@ -3,11 +3,10 @@ module ek_list_definitions
    use ek_error, only: error_t, fail, exit_usage
    use ek_text, only: quoted, is_like, suggestion_by_part
    use ek_buffer, only: buffer_t
-   use ek_json, only: json_t, json_string, json_strings
-   use ek_error, only: message_list_t
-   use ek_formula, only: formula_t
+   use ek_json, only: json_t, json_string
+   use ek_definition_json, only: add_definition
    use ek_definition_rows, only: definition_t, definitions
-   use ek_definition, only: rows_of, check_program, title_of, status_of, formula_of, has_no_column
+   use ek_definition, only: rows_of, check_program, title_of
    use ek_command_line, only: command_line_t
    use ek_console, only: print_text
    use ek_version, only: version
@@ -116,15 +115,7 @@ contains
       do k = 1, size(rows)
          associate (row => definitions(rows(k)))
             call json%open('{')
-            call json%item('name', json_string(trim(row%name)))
-            call json%item('unit', json_string(trim(row%unit)))
-            call json%item('positive', json_string(trim(row%positive)))
-            call json%item('status', json_string(status_of(row)))
-            call json%item('column', json_string(trim(row%ours)))
-            call json%item('formula', json_string(trim(row%formula)))
-            call json%item('columns', json_strings(columns_of(row)))
-            call json%item('difference', json_string(trim(row%difference)))
-            call json%item('errs', json_string(trim(row%errs)))
+            call add_definition(json, row)
             call json%close('}')
          end associate
       end do
@@ -132,19 +123,5 @@ contains
       call json%close('}')
       text = json%text()
    end function as_json
-
-   !> The columns of elastokin in a formula.
-   function columns_of(row) result(columns)
-      type(definition_t), intent(in) :: row
-      type(message_list_t) :: columns
-      type(formula_t) :: formula
-      integer :: v
-
-      if (row%formula == '') return
-      formula = formula_of(row)
-      do v = 1, formula%used
-         if (.not. has_no_column(formula%variables(v))) call columns%add(trim(formula%variables(v)))
-      end do
-   end function columns_of
 
 end module ek_list_definitions

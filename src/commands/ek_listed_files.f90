@@ -10,7 +10,7 @@ module ek_listed_files
    use ek_file, only: write_whole, join_path, file_exists, folder_exists, remove_file
    use ek_frame, only: frame_t, new_frame
    use ek_text_table, only: text_table_t, read_text_table, cell_of
-   use ek_report_names, only: parts_folder
+   use ek_report_names, only: parts_folder, windows_folder, definitions_folder
    use ek_console, only: print_note
    implicit none(type, external)
    private
@@ -98,15 +98,16 @@ contains
       end if
    end subroutine check_listed
 
-   !> Whether a listed name is the name of a file in the folder, or in its subfolders of figures and of parts.
+   !> Whether a listed name is the name of a file in the folder, or in its subfolders of figures, parts, windows and definitions.
    pure logical function is_inside(name)
       character(*), intent(in) :: name
-      character(*), parameter :: figures = 'figures/', parts = parts_folder//'/'
-      integer :: first
+      character(*), parameter :: folders(*) = [character(11) :: 'figures', parts_folder, windows_folder, definitions_folder]
+      integer :: first, k
 
       first = 1
-      if (index(name, figures) == 1) first = len(figures) + 1
-      if (index(name, parts) == 1) first = len(parts) + 1
+      do k = 1, size(folders)
+         if (index(name, trim(folders(k))//'/') == 1) first = len_trim(folders(k)) + 2
+      end do
       is_inside = len(name) >= first
       if (is_inside) is_inside = scan(name(first:), '/\') == 0 .and. name(first:first) /= '.'
    end function is_inside

@@ -12,7 +12,7 @@ module ek_report
    use ek_reader, only: definition_t
    use ek_examination, only: examination_t
    use ek_standard_tests, only: standard_tests
-   use ek_table, only: table_t, new_table, csv_text
+   use ek_table, only: table_t, new_table, csv_text, name_length
    use ek_table_reading, only: states_of_windows
    use ek_test_charts, only: test_charts
    use ek_grid, only: is_grid
@@ -23,7 +23,8 @@ module ek_report
    use ek_report_files, only: contents_csv, test_line, name_files
    use ek_report_names, only: contents_file, gradients_file, gradients_json_file, compliance_file, numbers_file, &
       numbers_json_file, deck_file, used_deck_file, data_file, page_file, loads_file, peaks_file, list_file, files_of_reports, &
-      files_of_loads, windows_folder, measured_file
+      files_of_loads, windows_folder, measured_file, definitions_folder, definitions_file, definitions_json_file, &
+      files_of_definitions
    use ek_deck_file, only: deck_csv
    use ek_deck, only: deck_t
    use ek_deck_values, only: list_values
@@ -56,6 +57,9 @@ module ek_report
    use ek_number_reach, only: lacks_state
    use ek_remark, only: remark_t, failure, on_case, on_end, on_stability, on_settling, on_rack, on_curve, on_closure
    use ek_compliance_table, only: compliance_table
+   use ek_defined_table, only: defined_table
+   use ek_defined_numbers, only: defined_numbers_t, read_defined, defined_csv, defined_json
+   use ek_definition, only: check_program
    use ek_member_loads, only: load_record_t, begin_loads, add_loads, peak_loads
    use ek_part_record, only: part_record_t, has_names, begin_parts, add_parts
    use ek_part_files, only: put_parts, remove_parts
@@ -127,7 +131,7 @@ contains
       call print_model_remarks(settings%is_quiet, remarks, page%warnings)
       if (any([(counts_from_start(chosen(k)), k=1, size(chosen))])) page%start = start_text(workspace%suspension)
       call box%remove([character(19) :: page_file, contents_file, compliance_file, deck_file, used_deck_file, measured_file, &
-         files_of_loads])
+         files_of_loads, files_of_definitions])
       call remove_parts(workspace%suspension, page%folder)
 
       if (settings%has_loads) then
@@ -137,6 +141,11 @@ contains
       if (has_names(chosen)) then
          allocate (page%parts)
          call begin_parts(workspace%suspension, workspace%suspension%name, 'elastokin '//version, checksum, page%parts)
+      end if
+      if (line%has('--definitions')) then
+         allocate (page%defined)
+         page%defined%program = line%value('--definitions')
+         page%defined%test = ''
       end if
       if (settings%live > 0) then
          allocate (page%live)
@@ -243,9 +252,26 @@ contains
          call set_targets(workspace%definition%targets, page%numbers, page%warnings)
          call box%put(numbers_file, key_numbers_csv(page%numbers, is_pair))
          call box%put(numbers_json_file, key_numbers_json(page, is_pair, model, checksum))
+         if (allocated(page%defined)) call put_defined(page%defined, model, checksum, page%warnings, box)
          call box%write(contents_file, contents_csv(page%tests))
       end associate
    end subroutine put_numbers
+
+   !> Writes the numbers in the definitions of another program. Without a design state there are none, which is a warning.
+   subroutine put_defined(defined, model, checksum, warnings, box)
+      type(defined_numbers_t), intent(in) :: defined
+      character(*), intent(in) :: model, checksum
+      type(message_list_t), intent(inout) :: warnings
+      type(outbox_t), intent(inout) :: box
+
+      if (defined%test == '') then
+         call warnings%add('--definitions: no test has a design state, so there are no numbers in the definitions of '// &
+            defined%program)
+         return
+      end if
+      call box%put(definitions_file, defined_csv(defined))
+      call box%put(definitions_json_file, defined_json(defined, model, checksum))
+   end subroutine put_defined
 
    !> Lists the files of the report, and removes the files of an earlier report from the folder.
    subroutine list_report(page, box, is_quiet, error)
@@ -317,6 +343,7 @@ contains
       settings%is_static = line%has('--static')
       settings%fails_outside = line%has('--fail-outside')
       call refuse_stream(line, error)
+      if (.not. allocated(error) .and. line%has('--definitions')) call check_program(line%value('--definitions'), error)
       if (.not. allocated(error) .and. settings%is_animated .and. .not. settings%has_plots) &
          call fail(error, exit_usage, '--no-plots and --animate are mutually exclusive')
       if (.not. allocated(error) .and. line%has('--plots') .and. .not. settings%has_plots) &
@@ -354,6 +381,7 @@ contains
       type(error_t), allocatable :: trouble
       type(table_t), allocatable :: compliance
       type(explanation_t), allocatable :: explanations(:)
+      type(table_t) :: defined                                    ! of the test in the definitions of another program
       integer :: k, failed, code
 
       allocate (page%paths(size(chosen)), page%charts(0), page%gradients(0))
@@ -362,7 +390,7 @@ contains
       code = exit_convergence
       do k = 1, size(chosen)
          call run_planned(suspension, chosen(k), found%faults%line(k), checksum, page%tests(k), page%paths(k), trouble, &
-            compliance, page%loads, explanations, page%live, page%parts)
+            compliance, page%loads, explanations, page%live, page%parts, page%defined, defined)
          if (allocated(trouble)) then
             call print_error(trouble%message)
             failed = failed + 1
@@ -372,6 +400,10 @@ contains
          if (.not. page%tests(k)%is_run) cycle
          call box%put(page%tests(k)%file, page%tests(k)%table)
          call write_windows(chosen(k), page%tests(k), box)
+         if (allocated(page%defined)) then
+            call box%make_folder(definitions_folder)
+            call box%write(definitions_folder//'/'//page%tests(k)%file, csv_text(defined))
+         end if
          if (allocated(compliance)) then
             call box%put(compliance_file, compliance)
             deallocate (compliance)
@@ -463,7 +495,7 @@ contains
    !> contain each failure, and the table has the converged states. If the test cannot be run, the table is empty; `error` has the
    !> code exit_model if the model cannot be solved.
    subroutine run_planned(base, case, fault, checksum, test, path, error, compliance, loads, explanations, live, &
-      parts)
+      parts, numbers, defined)
       type(suspension_t), intent(in) :: base
       type(case_t), intent(in) :: case
       character(*), intent(in) :: fault            !! defect of the model in this test, which is then not run; '' for none
@@ -476,10 +508,14 @@ contains
       type(explanation_t), allocatable, intent(out), optional :: explanations(:)      !! explanations of the test, with compliance
       type(live_t), intent(inout), optional :: live         !! receives the data for the sliders of --live
       type(part_record_t), intent(inout), optional :: parts !! receives the loads on the parts
+      type(defined_numbers_t), intent(inout), optional :: numbers      !! the program, if requested; receives the design state
+      type(table_t), intent(inout), optional :: defined     !! receives the table in the definitions of the program
       integer, parameter :: topics(7) = [on_case, on_end, on_stability, on_settling, on_rack, on_curve, on_closure]
       type(solve_options_t) :: options
       class(case_result_t), allocatable :: result
       type(remark_t) :: remark
+      integer, allocatable :: rows(:)
+      character(name_length), allocatable :: of(:)
       integer :: topic, k
 
       allocate (result)
@@ -506,6 +542,10 @@ contains
          call compliance_table(result%suspension, result%case, result%path, result%kkt, compliance)
          call add_header(compliance, result%suspension, result%case, checksum)
          if (present(explanations)) call find_explanations(result, explanations)
+      end if
+      if (present(numbers)) then
+         call defined_table(result%suspension, result%table, numbers%program, defined, rows, of)
+         call read_defined(defined, rows, of, test%title, numbers)
       end if
       if (present(loads)) call add_loads(result%suspension, result%case, result%path, result%kkt, loads)
       if (present(parts)) call add_parts(result%suspension, result%case, result%path, result%kkt, parts)

@@ -15,6 +15,7 @@ module ek_report_content
    use ek_turntable, only: turntable_t
    use ek_assessment, only: axle_kind_t
    use ek_tilt, only: tilt_t
+   use ek_defined_numbers, only: defined_numbers_t
    implicit none(type, external)
    private
    public :: report_t, add_fact
@@ -40,6 +41,7 @@ module ek_report_content
       type(live_t), allocatable :: live                !! rates that the page can change, if requested
       type(turntable_t), allocatable :: turntable      !! the suspension in space, if something moves
       type(tilt_t), allocatable :: tilts(:)            !! rated tilts of joints and bushings
+      type(defined_numbers_t), allocatable :: defined  !! numbers in the definitions of another program, if requested
       type(axle_kind_t) :: axle = axle_kind_t()        !! class and position of the axle, for its usual ranges
       type(message_list_t) :: drawn                    !! scripts and pictures of this report, relative to the folder
       type(message_list_t) :: copies                   !! copies of the load tables of the deck, in the folder

@@ -21,6 +21,7 @@ module ek_report_page
    use ek_member_loads, only: load_record_t
    use ek_rod_table, only: add_rod_table
    use ek_measured_table, only: add_measured_table
+   use ek_defined_numbers, only: add_defined_section
    implicit none(type, external)
    private
    public :: report_page, add_pictures, add_constants, add_peak_loads
@@ -52,6 +53,9 @@ contains
       if (is_live) call add_rates(page)
       call add_scene(page, report)
       call add_other_numbers(page, report)
+      if (allocated(report%defined)) then
+         if (report%defined%test /= '') call add_defined_section(page, report%defined)
+      end if
       if (allocated(report%explanations)) call add_explanations(page, report%explanations)
       if (allocated(report%measured)) call add_measured_table(page, report%measured)
       do k = 1, size(report%tests)

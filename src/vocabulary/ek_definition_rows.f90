@@ -64,7 +64,7 @@ module ek_definition_rows
       anti = '100*wheelbase/cg_height*iso*', drop_from_patch = '*(side_view_arm_centre_z_mm - patch_z)'// &
       '/(patch_x - side_view_arm_centre_x_mm)', rise_to_centre = '*(side_view_arm_centre_z_mm - centre_z)'// &
       '/(side_view_arm_centre_x_mm - centre_x)', &
-      by_compliance = 'elastokin: from the compliance, equal for rigid links', &
+      by_compliance = 'elastokin: from the compliance, equal for rigid links and a contact point straight below the centre', &
       sae_caster = '-side*steer_camber_deg_per_deg*cos(camber_deg)/cos(toe_deg)', &
       entries = '; entries of the compliance matrix are in compliance.csv', tyre_roll = beyond//': rolls about forces at the '// &
       'wheel centres, over the distance of the wheel centres'
