@@ -172,6 +172,7 @@ contains
       test%name = result%case%name
       test%kind = result%case%test
       test%is_anti = result%case%is_anti
+      test%trail = result%case%offset
       test%is_iso = result%suspension%is_iso
       call describe_sweep(result%suspension, result%case, test)
       test%table = result%table

@@ -9,7 +9,9 @@ module ek_chart_axis
    private
    public :: range_of, view_of, cut_of, free_range, extremes, contact_spans
 
-   real(wp), parameter :: much = 3.0_wp       !! largest span of all states, in spans of the free travel, without cutting the axis
+   !> Without cutting the axis: the largest span of all states, in spans of the free travel, and the steepest part of a curve with
+   !> a stop in contact, in steepest parts of the free travel.
+   real(wp), parameter :: much = 3.0_wp
 
 contains
 
@@ -126,13 +128,14 @@ contains
    end function cut_of
 
    !> Finds the range of the free travel, with a margin of a quarter of this range, if all states together span more than
-   !> three times the range. Otherwise, is_cut is .false.; it is also .false. if a curve has no data on contact or no free
-   !> state. A range smaller than the noise counts as the noise.
+   !> three times the range, and a curve is more than three times as steep with a stop in contact. Otherwise, is_cut is .false.: a
+   !> quantity on which stops have no effect, such as the half-track over opposite travel, is shown in full. It is also .false. if a
+   !> curve has no data on contact or no free state. A range smaller than the noise counts as the noise.
    pure subroutine free_range(chart, low, high, is_cut)
       type(chart_t), intent(in) :: chart
       real(wp), intent(out) :: low, high
       logical, intent(out) :: is_cut
-      real(wp) :: all(2), margin
+      real(wp) :: all(2), margin, steepest(2), width
       logical, allocatable :: is_free(:)
       integer :: k
 
@@ -153,10 +156,36 @@ contains
       call extremes(chart, huge(1.0_wp), all(1), all(2))
       margin = max(high - low, chart%noise)
       if (.not. margin > 0.0_wp .or. all(2) - all(1) <= much*margin) return
+      steepest = 0.0_wp
+      width = 0.0_wp
+      do k = 1, size(chart%traces)
+         steepest = max(steepest, steepest_parts(chart%traces(k)))
+         associate (x => chart%traces(k)%x)
+            width = max(width, maxval(x, mask=ieee_is_finite(x)) - minval(x, mask=ieee_is_finite(x)))
+         end associate
+      end do
+      if (width > 0.0_wp) steepest(1) = max(steepest(1), chart%noise/width)
+      if (steepest(2) <= much*steepest(1)) return
       is_cut = .true.
       low = max(all(1), low - margin/4)
       high = min(all(2), high + margin/4)
    end subroutine free_range
+
+   !> The largest magnitudes of the slope between adjacent states of a curve: in the free travel, and with a stop in contact.
+   pure function steepest_parts(trace) result(steepest)
+      type(trace_t), intent(in) :: trace
+      real(wp) :: steepest(2), step
+      integer :: k, part
+
+      steepest = 0.0_wp
+      do k = 2, size(trace%y)
+         if (.not. all(ieee_is_finite([trace%x(k - 1:k), trace%y(k - 1:k)]))) cycle
+         step = abs(trace%x(k) - trace%x(k - 1))
+         if (.not. step > 0.0_wp) cycle
+         part = merge(2, 1, any(trace%in_contact(k - 1:k)))
+         steepest(part) = max(steepest(part), abs(trace%y(k) - trace%y(k - 1))/step)
+      end do
+   end function steepest_parts
 
    !> The ranges of the abscissa in which a stop is in contact along a curve: (2, range), from the first to the last state in
    !> contact.

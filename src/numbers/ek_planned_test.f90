@@ -32,6 +32,7 @@ contains
                test%kind = case%test
                test%title = test_title(case, size(suspension%wheels), .not. has_rates(suspension))
                test%is_anti = case%is_anti
+               test%trail = case%offset
                test%held = held_text(case, .not. has_rates(suspension))
             else
                call kind_of_case(suspension, case, test%kind, test%factor_size)

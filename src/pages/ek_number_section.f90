@@ -6,17 +6,26 @@ module ek_number_section
    use ek_key_number, only: key_number_t
    use ek_number_words, only: steer_effect, target_verdict, short_name, sides_text, wheel_values, limits_text
    use ek_verdict, only: verdict_t, verdict_lines
-   use ek_page, only: page_t, begin_section, begin_table, add_cell, end_table, add_facts, add_block, write_as_text
+   use ek_page, only: page_t, begin_section, begin_table, add_cell, end_table, add_facts, add_block, add_charts, &
+      write_as_text, write_as_data, begin_beside, end_beside
+   use ek_chart_choice, only: first_charts
+   use ek_scene_section, only: has_view_in_space, add_view_in_space
    use ek_report_content, only: report_t
    use ek_summary, only: summary_numbers, kept_number
    implicit none(type, external)
    private
-   public :: add_summary, add_other_numbers
+   public :: add_summary, has_summary, add_other_numbers
 
 contains
 
-   !> Adds the summary at the top of the report: the verdicts, and the main key numbers as cards. Without main key numbers,
-   !> adds nothing.
+   !> Whether the report has a summary: it has main key numbers.
+   pure logical function has_summary(report)
+      type(report_t), intent(in) :: report
+      has_summary = size(summary_numbers(report%numbers)) > 0
+   end function has_summary
+
+   !> Adds the summary at the top of the report: the lines of the assessment beside the 3-D picture, four charts, and the main key
+   !> numbers as cards. Without main key numbers, adds nothing.
    subroutine add_summary(page, report)
       type(page_t), intent(inout) :: page
       type(report_t), intent(in) :: report
@@ -34,9 +43,32 @@ contains
          call texts%add(lines(k)%text)
          call marks%add(trim(lines(k)%verdict))
       end do
+      if (has_view_in_space(report)) call begin_beside(page)
       call add_facts(page, domains, texts, marks)
+      if (has_view_in_space(report)) then
+         call write_as_data(page, is_only=.true.)
+         call add_view_in_space(page, report)
+         call write_as_data(page, is_only=.false.)
+         call end_beside(page)
+      end if
+      call add_first_charts(page, report)
       call add_numbers(page, 'cards', report, places)
    end subroutine add_summary
+
+   !> Adds the charts of the first screen, which the script of the page draws.
+   subroutine add_first_charts(page, report)
+      type(page_t), intent(inout) :: page
+      type(report_t), intent(in) :: report
+      type(message_list_t) :: names
+      integer, allocatable :: places(:)
+      integer :: k
+
+      allocate (places, source=first_charts(report%charts, report%tests))
+      do k = 1, size(places)
+         call names%add(report%charts(places(k))%name)
+      end do
+      if (names%count() > 0) call add_charts(page, names, is_first=.true.)
+   end subroutine add_first_charts
 
    !> Adds all other key numbers, each once. A number that repeats another is named next to the number that is shown.
    subroutine add_other_numbers(page, report)

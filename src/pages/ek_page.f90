@@ -19,7 +19,7 @@ module ek_page
    implicit none(type, external)
    private
    public :: page_t, begin_page, begin_section, add_text, add_file, add_warnings, add_facts, begin_fold, end_fold
-   public :: write_as_text, end_text
+   public :: write_as_text, write_as_data, end_text, begin_beside, end_beside
    public :: begin_table, add_cell, add_numbers, add_bar, add_group, end_table
    public :: add_charts, begin_pictures, end_pictures, add_picture, add_data_picture, add_figure, add_legend, add_block, page_text
    public :: page_number, set_data
@@ -110,6 +110,13 @@ contains
       logical, intent(in) :: is_only
       page%has_data = .not. (page%is_static .or. is_only)
    end subroutine write_as_text
+
+   !> Writes the blocks that follow only as data, or again as text, too. A static page is text to its end.
+   pure subroutine write_as_data(page, is_only)
+      type(page_t), intent(inout) :: page
+      logical, intent(in) :: is_only
+      page%has_text = page%is_static .or. .not. is_only
+   end subroutine write_as_data
 
    !> Ends the text for browsers without script within a section; what follows is only data. A static page is text to its end.
    pure subroutine end_text(page)
@@ -207,15 +214,40 @@ contains
       call add_block(page, trim(merge('verdicts', 'facts   ', present(marks))), '['//rows//']')
    end subroutine add_facts
 
+   !> Begins a row of two blocks, side by side on a wide screen. The blocks follow until end_beside.
+   pure subroutine begin_beside(page)
+      type(page_t), intent(inout) :: page
+
+      call say(page, '<div class="beside">')
+      if (.not. page%has_data) return
+      call page%sections%open('{')
+      call page%sections%open('[', 'beside')
+   end subroutine begin_beside
+
+   !> Ends a row of two blocks.
+   pure subroutine end_beside(page)
+      type(page_t), intent(inout) :: page
+
+      call say(page, '</div>')
+      if (.not. page%has_data) return
+      call page%sections%close(']')
+      call page%sections%close('}')
+   end subroutine end_beside
+
    !> Begins a block that a click on its summary opens. Its blocks follow until end_fold.
-   pure subroutine begin_fold(page, summary)
+   pure subroutine begin_fold(page, summary, id)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: summary
+      character(*), intent(in), optional :: id             !! target of links: letters, digits, _ and -
+      character(:), allocatable :: name
 
-      call say(page, '<details class="more"><summary>'//escape_html(summary)//'</summary>')
+      name = ''
+      if (present(id) .and. page%is_static) name = ' id="'//escape_html(id)//'"'     ! otherwise the script gives it
+      call say(page, '<details class="more"'//name//'><summary>'//escape_html(summary)//'</summary>')
       if (.not. page%has_data) return
       call page%sections%open('{')
       call page%sections%item('fold', quoted(summary))
+      if (present(id)) call page%sections%item('id', quoted(id))
       call page%sections%open('[', 'blocks')
    end subroutine begin_fold
 
@@ -354,11 +386,16 @@ contains
    end subroutine end_table
 
    !> Adds charts of the data of the page, which the script draws side by side.
-   pure subroutine add_charts(page, names, notes)
+   pure subroutine add_charts(page, names, notes, is_first)
       type(page_t), intent(inout) :: page
       type(message_list_t), intent(in) :: names                !! ids of the charts
       type(message_list_t), intent(in), optional :: notes      !! a note on each chart; on paper the page has only the first three
+      logical, intent(in), optional :: is_first                !! .true.: charts of the first screen, which link to those of the tests
 
+      if (present(is_first)) then
+         if (is_first) call add_block(page, 'charts', json_strings(names), 'first', 'true')
+         if (is_first) return
+      end if
       if (present(notes)) call add_block(page, 'charts', json_strings(names), 'notes', json_strings(notes))
       if (.not. present(notes)) call add_block(page, 'charts', json_strings(names))
    end subroutine add_charts

@@ -14,10 +14,12 @@ module ek_report_page
    use ek_grid_figures, only: carpet_name, envelope_name
    use ek_report_content, only: report_t
    use ek_report_data, only: report_data
-   use ek_number_section, only: add_summary, add_other_numbers
+   use ek_number_section, only: add_summary, has_summary, add_other_numbers
+   use ek_scene_section, only: add_scene, add_panels, has_figures
+   use ek_chart_choice, only: open_charts
    use ek_page, only: page_t, begin_page, begin_section, add_text, add_file, add_warnings, add_facts, set_data, begin_table, &
       add_cell, add_numbers, end_table, begin_fold, end_fold, add_charts, begin_pictures, end_pictures, add_picture, &
-      add_data_picture, add_figure, add_legend, add_block, page_text, page_number
+      add_legend, add_block, page_text, page_number
    use ek_member_loads, only: load_record_t
    use ek_rod_table, only: add_rod_table
    use ek_measured_table, only: add_measured_table
@@ -27,8 +29,6 @@ module ek_report_page
    public :: report_page, add_pictures, add_constants, add_peak_loads
 
    integer, parameter :: forces(4) = [1, 2, 3, 4], resultant = 4, moment = 8, own(3) = [9, 10, 11]     !! components of a record
-
-   integer, parameter :: principal = 6        !! number of charts of a test that are not folded
 
    ! headings of the values, and whether they belong to a table with two sides
    character(6), parameter :: values(3) = [character(6) :: '>Left', '>Right', '>Value']
@@ -51,7 +51,7 @@ contains
       is_live = .false.
       if (allocated(report%live)) is_live = allocated(report%live%rates)
       if (is_live) call add_rates(page)
-      call add_scene(page, report)
+      call add_scene(page, report, has_summary(report))
       call add_other_numbers(page, report)
       if (allocated(report%defined)) then
          if (report%defined%test /= '') call add_defined_section(page, report%defined)
@@ -59,7 +59,7 @@ contains
       if (allocated(report%explanations)) call add_explanations(page, report%explanations)
       if (allocated(report%measured)) call add_measured_table(page, report%measured)
       do k = 1, size(report%tests)
-         call add_test(page, report, report%tests(k), k)
+         if (pair_of(report%tests, k) == 0) call add_test(page, report, k)
       end do
       if (allocated(report%parts)) call add_rod_table(page, report%parts)
       if (allocated(report%loads)) call add_peak_loads(page, report%loads)
@@ -80,46 +80,6 @@ contains
       call add_block(page, 'place', '"rates"')
    end subroutine add_rates
 
-   !> Whether the page has figures of panels.
-   pure logical function has_figures(report)
-      type(report_t), intent(in) :: report
-
-      has_figures = allocated(report%figures)
-      if (has_figures) has_figures = size(report%figures) > 0
-   end function has_figures
-
-   !> Adds the picture in space, the turntable, the views with hardpoints, and the animation.
-   subroutine add_scene(page, report)
-      type(page_t), intent(inout) :: page
-      type(report_t), intent(in) :: report
-      type(error_t), allocatable :: error
-      character(:), allocatable :: bytes
-      logical :: has_picture, has_gif, has_turntable, has_views
-
-      has_picture = report%has_pictures
-      if (has_picture) has_picture = file_exists(join_path(report%folder, 'picture.png'))
-      has_gif = report%has_pictures .and. report%has_animation
-      if (has_gif) has_gif = file_exists(join_path(report%folder, 'animation.gif'))
-      has_turntable = allocated(report%turntable) .and. .not. report%is_static
-      has_views = has_figures(report)
-      if (has_views) has_views = report%figures(1)%name == 'views' .and. (report%has_pictures .or. .not. report%is_static)
-      if (.not. (has_picture .or. has_gif .or. has_turntable .or. has_views)) return
-      call begin_section(page, 'picture', 'The suspension')
-      if (has_picture) then
-         call read_whole(join_path(report%folder, 'picture.png'), bytes, error)
-         if (.not. allocated(error)) call add_data_picture(page, bytes, 'png', 'The suspension in space: '//report%title, &
-            'Solid: design. Thin lines: ends of the travel. Bodies have no shape in the model; they are drawn as bars '// &
-            'between their attachment points.')
-      end if
-      if (has_turntable) call add_block(page, 'place', '"turntable"')
-      if (has_views) call add_panels(page, report, 'views', 'Hardpoints at design from the left, the front and above: '// &
-         report%title, 'Hardpoints at design; of an axle its left half, names without left_.')
-      if (has_gif) then
-         call read_whole(join_path(report%folder, 'animation.gif'), bytes, error)
-         if (.not. allocated(error)) call add_data_picture(page, bytes, 'gif', 'The suspension moving: '//report%title, '')
-      end if
-   end subroutine add_scene
-
    !> Adds the first cells of a row: a quantity and one or two cells with values. A value of the axle is in the first of two cells.
    subroutine add_values(page, quantity, has_sides, is_of_axle, left, right)
       type(page_t), intent(inout) :: page
@@ -134,8 +94,44 @@ contains
       if (.not. is_of_axle) call add_cell(page, page_number(right))
    end subroutine add_values
 
-   !> Adds the section of a test: warnings, the charts or the figures of a grid, constant quantities, and gradients.
-   subroutine add_test(page, report, test, number)
+   !> The index of the test of which test k is a variant with the force aft of the contact point; 0 if there is none.
+   pure integer function pair_of(tests, k) result(pair)
+      type(test_result_t), intent(in) :: tests(:)
+      integer, intent(in) :: k
+
+      pair = 0
+      if (.not. abs(tests(k)%trail) > 0.0_wp) return
+      do pair = size(tests), 1, -1
+         if (abs(tests(pair)%trail) > 0.0_wp .or. tests(pair)%kind /= tests(k)%kind) cycle
+         if ((tests(pair)%is_anti .eqv. tests(k)%is_anti) .and. tests(pair)%held == tests(k)%held) return
+      end do
+   end function pair_of
+
+   !> Adds the section of a test: warnings and content. Variants of the test are folded at the end of the section; their warnings
+   !> are above the fold.
+   subroutine add_test(page, report, number)
+      type(page_t), intent(inout) :: page
+      type(report_t), intent(in) :: report
+      integer, intent(in) :: number              !! index of the test
+      character(*), parameter :: heading = 'Warnings: states that failed or are doubtful'
+      integer :: k
+
+      associate (tests => report%tests)
+         call begin_section(page, 'test-'//tests(number)%name, tests(number)%title, trim(tests(number)%held))
+         call add_warnings(page, heading, tests(number)%remarks)
+         call add_content(page, report, tests(number), number)
+         do k = 1, size(tests)
+            if (pair_of(tests, k) /= number) cycle
+            call add_warnings(page, heading//' ('//tests(k)%title//')', tests(k)%remarks)
+            call begin_fold(page, tests(k)%title, 'test-'//tests(k)%name)
+            call add_content(page, report, tests(k), k)
+            call end_fold(page)
+         end do
+      end associate
+   end subroutine add_test
+
+   !> Adds the charts or the figures of a grid, constant quantities, and gradients of a test.
+   subroutine add_content(page, report, test, number)
       type(page_t), intent(inout) :: page
       type(report_t), intent(in) :: report
       type(test_result_t), intent(in) :: test
@@ -143,8 +139,6 @@ contains
       character(16), allocatable :: names(:)
       integer :: k
 
-      call begin_section(page, 'test-'//test%name, test%title, trim(test%held))
-      call add_warnings(page, 'Warnings: states that failed or are doubtful', test%remarks)
       if (test%is_run) then
          call add_file(page, plural(count(converged_rows(test%table)), 'state', 'states')//' in equilibrium, '// &
             over_what(test)//'. All columns: ', test%file)
@@ -163,11 +157,10 @@ contains
             'Positions of the wheel centre, and the spin axis outboard of it, in the frame of the deck. As numbers: '// &
             test%envelope)
       end if
-      if (report%is_static .and. report%has_pictures) call add_drawn_charts(page, report%charts, number, report%folder)
-      if (.not. report%is_static) call add_live_charts(page, report%charts, number)
+      call add_test_charts(page, report, test, number)
       call add_constants(page, report%charts, number)
       call add_gradients(page, test%name, report%gradients)
-   end subroutine add_test
+   end subroutine add_content
 
    !> Phrase about the abscissa of a test: 'plotted over ...', or 'on a grid of ...'.
    function over_what(test) result(words)
@@ -179,47 +172,49 @@ contains
          ' of the wheel travel and '//str(size(test%grid%steer))//' of '//test%grid%driver
    end function over_what
 
-   !> Adds the place of a figure, which the script of the page draws. On a static page, adds the picture drawn by gnuplot, if its
-   !> file exists.
-   subroutine add_panels(page, report, name, title, caption)
+   !> Adds the charts of a test, open or folded (ek_chart_choice): drawn by the script of the page, or on a static page by gnuplot.
+   subroutine add_test_charts(page, report, test, number)
       type(page_t), intent(inout) :: page
       type(report_t), intent(in) :: report
-      character(*), intent(in) :: name, title, caption
-      type(error_t), allocatable :: error
-      character(:), allocatable :: path, svg
+      type(test_result_t), intent(in) :: test
+      integer, intent(in) :: number              !! index of the test
+      integer, allocatable :: places(:)
+      logical :: is_drawn(size(report%charts))
+      integer :: opened, folded, k
 
-      if (.not. report%is_static) then
-         call add_figure(page, name, caption)
-         return
-      end if
-      path = join_path(report%folder, 'figures/'//name//'.svg')
-      if (.not. report%has_pictures .or. .not. file_exists(path)) return
-      call read_whole(path, svg, error)
-      if (.not. allocated(error)) call add_picture(page, svg, title, caption)
-   end subroutine add_panels
+      is_drawn = .not. report%is_static
+      do k = 1, merge(size(is_drawn), 0, report%is_static .and. report%has_pictures)
+         is_drawn(k) = file_exists(figure_of(report%charts(k), report%folder))
+      end do
+      call open_charts(report%charts, test, number, places, opened)
+      folded = count(is_drawn(places(opened + 1:)))
+      opened = count(is_drawn(places(:opened)))
+      places = pack(places, is_drawn(places))
+      if (opened > 0) call add_side_by_side(page, report, places(:opened))
+      if (folded == 0) return
+      call begin_fold(page, plural(folded, trim(merge('more chart', 'chart     ', opened > 0)), &
+         trim(merge('more charts', 'charts     ', opened > 0))))
+      call add_side_by_side(page, report, places(opened + 1:))
+      call end_fold(page)
+   end subroutine add_test_charts
 
-   !> Adds the charts of a test that the page script draws. The first six charts are open, the others folded.
-   subroutine add_live_charts(page, charts, test)
+   !> Adds charts side by side.
+   subroutine add_side_by_side(page, report, places)
       type(page_t), intent(inout) :: page
-      type(chart_t), intent(in) :: charts(:)
-      integer, intent(in) :: test
-      type(message_list_t) :: open, folded
+      type(report_t), intent(in) :: report
+      integer, intent(in) :: places(:)           !! indices of charts
+      type(message_list_t) :: names
       integer :: k
 
-      do k = 1, size(charts)
-         if (charts(k)%test /= test .or. charts(k)%is_level) cycle
-         if (open%count() < principal) then
-            call open%add(charts(k)%name)
-         else
-            call folded%add(charts(k)%name)
-         end if
+      if (report%is_static) then
+         call add_pictures(page, report%charts, places, report%folder)
+         return
+      end if
+      do k = 1, size(places)
+         call names%add(report%charts(places(k))%name)
       end do
-      if (open%count() > 0) call add_charts(page, open)
-      if (folded%count() == 0) return
-      call begin_fold(page, plural(folded%count(), 'more chart', 'more charts'))
-      call add_charts(page, folded)
-      call end_fold(page)
-   end subroutine add_live_charts
+      call add_charts(page, names)
+   end subroutine add_side_by_side
 
    !> Adds the quantities that do not change over a test as numbers, instead of charts.
    subroutine add_constants(page, charts, test)
@@ -253,28 +248,6 @@ contains
       value = (minval(y, mask=ieee_is_finite(y)) + maxval(y, mask=ieee_is_finite(y)))/2
       if (abs(value) < 1.0e-4_wp*span) value = 0.0_wp
    end function level_of
-
-   !> Adds the charts of a test as drawn by gnuplot. The charts after the first six are folded.
-   subroutine add_drawn_charts(page, charts, test, folder)
-      type(page_t), intent(inout) :: page
-      type(chart_t), intent(in) :: charts(:)
-      integer, intent(in) :: test
-      character(*), intent(in) :: folder
-      integer, allocatable :: own(:)
-      logical :: is_own(size(charts))
-      integer :: k
-
-      is_own = charts%test == test .and. .not. charts%is_level
-      do k = 1, size(charts)
-         if (is_own(k)) is_own(k) = file_exists(figure_of(charts(k), folder))
-      end do
-      own = pack([(k, k=1, size(charts))], is_own)
-      call add_pictures(page, charts, own(:min(size(own), principal)), folder)
-      if (size(own) <= principal) return
-      call begin_fold(page, plural(size(own) - principal, 'more chart', 'more charts'))
-      call add_pictures(page, charts, own(principal + 1:), folder)
-      call end_fold(page)
-   end subroutine add_drawn_charts
 
    function figure_of(chart, folder) result(path)
       type(chart_t), intent(in) :: chart

@@ -41,6 +41,7 @@ module ek_test_result
       real(wp) :: wheel_size = 0.0_wp        !! steering-wheel angle at `factor` = 1, as a magnitude [deg]; 0: unknown
       character(48) :: held = ''             !! condition of the wheels: 'vertical force held'; '': unknown
       logical :: is_anti = .false.           !! the loads on the right and left wheels are opposite
+      real(wp) :: trail = 0.0_wp             !! distance of the lateral force aft of the contact point [m]
       logical :: is_iso = .false.            !! vectors in the table are in ISO 8855 axes (x forward, y left)
       character(name_length), allocatable :: prefixes(:)   !! prefixes of the columns of the wheels: '', or 'left_' and 'right_'
       integer, allocatable :: sides(:)       !! sides of the wheels: −1 left, +1 right

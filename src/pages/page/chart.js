@@ -48,6 +48,14 @@ function value_at(xs, ys, x) {
   return null;
 }
 
+// A curve at a value of the abscissa: of the state there, or between two states interpolated linearly; null outside.
+function reading(xs, ys, x) {
+  const k = nearest(xs, ys, x), seen = xs.filter((one) => one !== null), wide = Math.max(...seen) - Math.min(...seen);
+  if (k >= 0 && Math.abs(xs[k] - x) <= 1e-6 * wide) return { x: xs[k], y: ys[k], is_between: false };
+  const y = value_at(xs, ys, x);
+  return y === null ? null : { x, y, is_between: true };
+}
+
 class Chart {
   constructor(test, figure, description) {
     Object.assign(this, { test, figure, description, is_drawn: false, is_visible: false, curves: [] });
@@ -142,8 +150,9 @@ class Chart {
       curve.dot = svg("circle", { class: "dot", r: 4, style: colour, visibility: "hidden" });
     }
     this.hair = svg("line", { class: "hair", y1: edge.top, y2: bottom, visibility: "hidden" });
+    this.mark = svg("line", { class: "hair reference", y1: edge.top, y2: bottom, visibility: "hidden" });
     this.box = svg("rect", { class: "box", y: edge.top, height: bottom - edge.top, width: 0 });
-    plot.append(this.box, this.hair, ...this.curves.map((c) => c.dot));
+    plot.append(this.box, this.mark, this.hair, ...this.curves.map((c) => c.dot));
     root.append(clipping, plot, this.x_label);
     this.figure.querySelector("svg, .keys") && this.figure.querySelectorAll("svg, .keys").forEach((n) => n.remove());
     this.figure.append(this.legend(), root);
@@ -153,8 +162,7 @@ class Chart {
     this.show_cursor();
   }
 
-  // Where a stop is in contact along the first curve: shaded, with the name of the stop above the curves; and how far the curves
-  // reach beyond the axis.
+  // Where a stop is in contact along the first curve: shaded, with the name of the stop above the curves.
   shade(plot, root, x0, x1, bottom) {
     const { contacts = [] } = this.test.data, x = this.curves[0] && this.curves[0].x;
     if (!x || this.description.points) return;
@@ -168,11 +176,14 @@ class Chart {
       plot.append(svg("rect", { class: "contact", x: from, y: edge.top, width: Math.max(1, to - from), height: bottom - edge.top }));
       names[Number(is_right)].push(contact.stop);
     });
-    names.forEach((list, k) => root.append(svg("text", { x: k ? this.width - edge.right : edge.left, y: edge.top - 3,
-      "text-anchor": k ? "end" : "start" }, list.join(", "))));
-    const { beyond } = this.description;
-    if (beyond) plot.append(svg("text", { x: (edge.left + this.width - edge.right) / 2, y: edge.top + 11, "text-anchor": "middle" },
-      `with stops ${shown(beyond[0])} … ${shown(beyond[1])}`));
+    // names that would meet in the middle are in the tip of their number
+    const fits = 6 * names.flat().join(", ").length < this.width - edge.left - edge.right;
+    names.forEach((list, k) => {
+      const text = svg("text", { x: k ? this.width - edge.right : edge.left, y: edge.top - 3, "text-anchor": k ? "end" : "start" },
+        fits || list.length < 2 ? list.join(", ") : `${list.length} stops`);
+      text.append(svg("title", {}, list.join(", ")));
+      root.append(text);
+    });
   }
 
   // The path of a curve with gaps where it has no value, or its states as points.
@@ -208,37 +219,55 @@ class Chart {
       curve.value = value;
       keys.append(button);
     }
-    if (this.curves.some((c) => c.measured.length)) {
-      const note = document.createElement("small");
-      note.textContent = "points: measured";
-      keys.append(note);
-    }
+    const { beyond } = this.description, notes = [];
+    if (beyond) notes.push(`with stops ${shown(beyond[0])} … ${shown(beyond[1])}`);      // how far the curves reach beyond the axis
+    if (this.curves.some((c) => c.measured.length)) notes.push("points: measured");
+    keys.append(...notes.map((text) => Object.assign(document.createElement("small"), { textContent: text })));
     return keys;
   }
 
-  // The cursor of the test: a line at the nearest state, a dot and a value per curve, and the difference to the overlaid report.
-  show_cursor() {
-    const x = this.test.cursor;
-    this.hair.setAttribute("visibility", x === null ? "hidden" : "visible");
-    this.x_label.textContent = x === null ? this.test.data.label : `${this.test.data.label}: ${shown(this.test.snapped)}`;
-    for (const curve of this.curves) {
-      const k = x === null ? -1 : nearest(curve.x, curve.y, x), seen = k >= 0 && !this.test.hidden.has(curve.name);
-      curve.dot.setAttribute("visibility", seen ? "visible" : "hidden");
-      curve.value.textContent = "";
-      if (!seen) continue;
-      const at = this.to_x(curve.x[k]);
-      curve.dot.setAttribute("cx", at);
-      curve.dot.setAttribute("cy", this.to_y(curve.y[k]));
-      this.hair.setAttribute("x1", at);
-      this.hair.setAttribute("x2", at);
-      const b = curve.other && value_at(curve.other.x, curve.other.y, curve.x[k]);
-      const from = this.curves[curve.from], a = from && value_at(from.x, from.y, curve.x[k]);
-      curve.value.textContent = shown(curve.y[k]) + (from ? ` Δ ${shown(a === null ? null : curve.y[k] - a)}` : "") +
-        (curve.deck ? `, deck ${shown(curve.deck.y[k])}` : "") + (curve.other ? ` | ${shown(b)} Δ ${shown(b === null ? null : b - curve.y[k])}` : "");
-    }
+  // A curve at the cursor, which is its nearest state, or without a cursor at the value of the field of the test; null without both.
+  read(curve) {
+    const { cursor, at } = this.test, k = cursor === null ? -1 : nearest(curve.x, curve.y, cursor);
+    if (cursor !== null) return k < 0 ? null : { x: curve.x[k], y: curve.y[k], is_between: false };
+    return at === null ? null : reading(curve.x, curve.y, at);
   }
 
-  // Pointer and keys: the cursor follows, a drag zooms, a double click or Escape shows everything again.
+  // The cursor of the test: a line, and a dot and a value per curve, with the differences to the reference state, to the deck and to
+  // the overlaid report.
+  show_cursor() {
+    const { data, cursor, snapped, at, reference } = this.test, x = cursor === null ? at : snapped;
+    this.mark.setAttribute("visibility", reference === null ? "hidden" : "visible");
+    if (reference !== null) for (const end of ["x1", "x2"]) this.mark.setAttribute(end, this.to_x(reference));
+    this.x_label.textContent = (reference === null ? "" : `reference ${shown(reference)}, `) + data.label + (x === null ? "" : `: ${shown(x)}`);
+    let is_seen = false;
+    for (const curve of this.curves) {
+      const read = this.test.hidden.has(curve.name) ? null : this.read(curve);
+      curve.dot.setAttribute("visibility", read ? "visible" : "hidden");
+      curve.value.textContent = "";
+      if (!read) continue;
+      is_seen = true;
+      const place = this.to_x(read.x);
+      curve.dot.setAttribute("cx", place);
+      curve.dot.setAttribute("cy", this.to_y(read.y));
+      for (const end of ["x1", "x2"]) this.hair.setAttribute(end, place);
+      const b = curve.other && value_at(curve.other.x, curve.other.y, read.x);
+      const from = this.curves[curve.from], a = from && value_at(from.x, from.y, read.x);
+      const base = reference === null ? -1 : nearest(curve.x, curve.y, reference), deck = curve.deck && reading(curve.deck.x, curve.deck.y, read.x);
+      curve.value.textContent = (read.is_between ? "≈ " : "") + shown(read.y) + (from ? ` Δ ${shown(a === null ? null : read.y - a)}` : "") +
+        (base >= 0 ? `, Δref ${shown(read.y - curve.y[base])}` : "") + (deck ? `, deck ${shown(deck.y)}` : "") +
+        (curve.other ? ` | ${shown(b)} Δ ${shown(b === null ? null : b - read.y)}` : "");
+    }
+    this.hair.setAttribute("visibility", is_seen ? "visible" : "hidden");
+  }
+
+  // The state nearest to a value of the abscissa becomes the reference of the test.
+  refer(x) {
+    const { x: xs, y: ys } = this.curves[0], k = nearest(xs, ys, x);
+    if (k >= 0) this.test.refer(xs[k]);
+  }
+
+  // Pointer and keys: the cursor follows, a click or Enter sets the reference, a drag zooms, a double click or Escape shows everything.
   listen(width) {
     const place = (event) => {
       const box = this.root.getBoundingClientRect();
@@ -256,6 +285,7 @@ class Chart {
     this.root.addEventListener("pointerup", (event) => {
       const p = place(event), ends = [this.from_x(Math.min(from, p)), this.from_x(Math.max(from, p))];
       if (from !== null && Math.abs(from - p) > 8) this.test.zoom_to(ends);
+      else if (from !== null) this.refer(ends[0]);
       from = null;
       this.box.setAttribute("width", 0);
     });
@@ -265,7 +295,8 @@ class Chart {
       const step = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
       if (step) this.test.step(step, this);
       else if (event.key === "+") this.test.zoom_in();
-      else if (event.key === "Escape" || event.key === "0") this.test.zoom_to(null);
+      else if (event.key === "Enter" && this.test.cursor !== null) this.refer(this.test.cursor);
+      else if (event.key === "Escape" || event.key === "0") this.test.clear();
       else return;
       event.preventDefault();
     });

@@ -153,7 +153,7 @@ function update(chart) {
     curve.path?.setAttribute("d", chart.path_of(curve));
     curve.ring?.setAttribute("cy", chart.to_y(curve.y[test.data.design]));
   }
-  if (test.cursor !== null) chart.show_cursor();
+  if (test.cursor !== null || test.at !== null) chart.show_cursor();
 }
 
 // The measured deviation of the numbers from runs at the ends of the sliders.

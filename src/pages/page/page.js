@@ -1,12 +1,53 @@
 // The page of a report: its tests with their charts, the filter, and another report's data laid over it.
 
+const paper_width = 230;       // of a chart of the first screen, on paper
+
 // What the charts of one test share.
 class Test {
   constructor(own, section) {
-    Object.assign(this, { data: own, section, other: null, cursor: null, snapped: null, zoom: null, hidden: new Set() });
-    this.charts = own.charts.map((c) => [document.getElementById(c.id), c]).filter(([figure]) => figure)
-      .map(([figure, c]) => new Chart(this, figure, c));
+    // cursor: abscissa at the pointer, at: abscissa in the field, reference: abscissa of the state from which differences are counted
+    Object.assign(this, { data: own, section, other: null, cursor: null, snapped: null, at: null, reference: null, zoom: null, hidden: new Set() });
+    this.charts = own.charts.flatMap((c) => (figures_of.get(c.id) || []).map((figure) => new Chart(this, figure, c)));
     this.frame = 0;
+    this.add_field();
+  }
+
+  // The field "value at" above the first chart of the section. States that do not form a path have none.
+  add_field() {
+    const first = this.charts.find(({ figure, description }) => this.section.contains(figure) && !description.points);
+    if (!first) return;
+    const row = document.createElement("p"), label = document.createElement("label"), input = document.createElement("input");
+    row.className = "value-at not-printed";
+    Object.assign(input, { type: "number", step: "any" });
+    label.append("Value at ", input, ` ${this.data.label.replace(/ +/g, " ")}`);
+    this.note = document.createElement("small");
+    this.note.setAttribute("role", "status");
+    row.append(label, this.note, Object.assign(document.createElement("small"), { textContent: "A click in a chart sets the reference of Δref." }));
+    input.addEventListener("input", () => this.read_at(input.value === "" ? null : Number(input.value)));
+    first.figure.parentNode.before(row);
+  }
+
+  // The value of the field: of a state, or between two states an interpolation, which the page says.
+  read_at(x) {
+    this.at = x;
+    const { curves } = this.charts.find(({ is_drawn }) => is_drawn) || { curves: [] };
+    const read = x === null || !curves.length ? [] : curves.map((curve) => reading(curve.x, curve.y, x));
+    this.note.textContent = !read.length ? "" : read.every((one) => one === null) ? "outside the states of the test"
+      : read.some((one) => one && one.is_between) ? "between two states: ≈ interpolated linearly" : "a state of the test";
+    this.show();
+  }
+
+  // A click sets the reference; a click on the same state removes it.
+  refer(x) {
+    this.reference = x === this.reference ? null : x;
+    this.show();
+  }
+
+  show() {
+    this.frame ||= requestAnimationFrame(() => {
+      this.frame = 0;
+      for (const one of this.charts) if (one.is_drawn && one.is_visible) one.show_cursor();
+    });
   }
 
   redraw() { for (const chart of this.charts) if (chart.is_drawn) chart.draw(); }
@@ -15,10 +56,7 @@ class Test {
     const curve = chart.curves[0], k = x === null ? -1 : nearest(curve.x, curve.y, x);
     this.cursor = x;
     this.snapped = k < 0 ? x : curve.x[k];
-    this.frame ||= requestAnimationFrame(() => {
-      this.frame = 0;
-      for (const one of this.charts) if (one.is_drawn && one.is_visible) one.show_cursor();
-    });
+    this.show();
   }
 
   step(step, chart) {
@@ -34,6 +72,11 @@ class Test {
     if (figure) [...figure.querySelectorAll("button")].find((b) => label.startsWith(b.firstChild.nextSibling.textContent))?.focus();
   }
 
+  clear() {
+    this.reference = null;
+    this.zoom_to(null);
+  }
+
   zoom_to(ends) { this.zoom = ends; this.redraw(); }
 
   zoom_in() {
@@ -43,6 +86,10 @@ class Test {
   }
 }
 
+// The places of each chart: in the section of its test, and perhaps on the first screen.
+const figures_of = new Map();
+for (const figure of document.querySelectorAll("[data-chart]"))
+  figures_of.set(figure.dataset.chart, [...figures_of.get(figure.dataset.chart) || [], figure]);
 const tests = (data.tests || []).map((own) => [own, document.getElementById(`test-${own.name}`)]).filter(([, section]) => section)
   .map(([own, section]) => new Test(own, section));
 const charts = tests.flatMap((t) => t.charts), of_figure = new Map(charts.map((c) => [c.figure, c]));
@@ -59,9 +106,14 @@ const watcher = new IntersectionObserver((entries) => {
 }, { rootMargin: "300px" });
 for (const chart of charts) watcher.observe(chart.figure);
 addEventListener("resize", () => requestAnimationFrame(() => tests.forEach((t) => t.redraw())));
+// On paper, four charts of the first screen are beside each other, whatever the width of the screen.
 addEventListener("beforeprint", () => {
-  for (const chart of charts) if (!chart.is_drawn && !chart.figure.closest("details")) chart.draw();
+  for (const chart of charts) {
+    if (chart.figure.closest(".first")) chart.draw(paper_width);
+    else if (!chart.is_drawn && !chart.figure.closest("details")) chart.draw();
+  }
 });
+addEventListener("afterprint", () => { for (const chart of charts) if (chart.figure.closest(".first")) chart.draw(); });
 
 // Controls, in the bar of contents: they need this script, so they are made here.
 const bar = document.querySelector("nav"), controls = document.createElement("div"), status = document.createElement("p");
@@ -79,19 +131,22 @@ controls.hidden = status.hidden = tests.length === 0;
 search.addEventListener("input", () => {
   const terms = search.value.toLowerCase().split(/\s+/).filter(Boolean), fits = (text) => terms.every((w) => text.toLowerCase().includes(w));
   let found = 0;
+  page.classList.toggle("is-filtered", terms.length > 0);
   for (const test of tests) {
-    let some = 0;
     for (const { figure, description } of test.charts) {
       figure.hidden = !fits(`${description.title} ${test.data.title}`);
-      if (!figure.hidden) some++;
+      if (!figure.hidden && test.section.contains(figure)) found++;
     }
-    for (const fold of test.section.querySelectorAll("details.more"))
-      fold.open = terms.length > 0 && [...fold.querySelectorAll("figure")].some((f) => !f.hidden);
-    test.section.hidden = some === 0 && terms.length > 0;
-    found += some;
   }
   for (const row of document.querySelectorAll(".cards li, .numbers tbody tr")) row.hidden = !fits(row.textContent);
   for (const table of document.querySelectorAll(".numbers")) table.hidden = ![...table.tBodies[0].rows].some((r) => !r.hidden);
+  // only what has a match is shown: a section, a fold in it, and the numbers of the summary
+  const has_hit = (part) => [...part.querySelectorAll("figure.live, .cards li, .numbers tbody tr")].some((one) => !one.hidden && !one.closest(".first"));
+  for (const section of document.querySelectorAll("main > section")) section.hidden = terms.length > 0 && !has_hit(section);
+  for (const fold of document.querySelectorAll("details.more")) {
+    if (fold.querySelector("figure.live")) fold.open = terms.length > 0 && has_hit(fold);
+    fold.hidden = terms.length > 0 && !has_hit(fold);
+  }
   status.textContent = terms.length ? `${found} ${found === 1 ? "chart" : "charts"} found` : "";
 });
 

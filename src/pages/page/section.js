@@ -38,13 +38,22 @@ function facts_of(rows, look) {
   return `<dl${look_of(look)}>${rows.map(([name, value, verdict]) => `<div><dt>${escaped(name)}</dt><dd>${escaped(value)}${mark(verdict)}</dd></div>`).join("")}</dl>`;
 }
 
-// Charts of tests side by side; on paper, charts with notes are only the first three.
-function places(ids, notes) {
-  return `<div class="charts${notes ? " few" : ""}">${ids.map((id, k) => {
-    const { title, label, test } = chart_of.get(id);
-    return `<figure class="live" id="${id}"><figcaption><b>${escaped(title)}</b>${escaped(label)}` +
-      `${notes ? span("effect", notes[k]) : test.held && `, ${escaped(test.held)}`}</figcaption></figure>`;
+// Charts of tests side by side; on paper, charts with notes are only the first three. Charts of the first screen are drawn there once
+// more, and link to their places in the sections of the tests.
+function places(ids, notes, is_first) {
+  return `<div class="charts${notes ? " few" : ""}${is_first ? " first" : ""}">${ids.map((id, k) => {
+    const { title, label, test } = chart_of.get(id), name = is_first ? `<a href="#${id}">${escaped(title)}</a>` : escaped(title);
+    return `<figure class="live" id="${is_first ? "first-" : ""}${id}" data-chart="${id}"><figcaption><b>${name}</b>${escaped(label)}` +
+      `${is_first ? `, ${escaped(test.title.replace(/^[A-Z]/, (letter) => letter.toLowerCase()))}` : notes ? span("effect", notes[k])
+        : test.held && `, ${escaped(test.held)}`}</figcaption></figure>`;
   }).join("")}</div>`;
+}
+
+// The target of a link to the curve of a key number: its chart, or without a chart the section of its test.
+function place_of({ test: name, y }) {
+  const test = data.tests.find((one) => one.name === name);
+  const chart = test && test.charts.find((one) => !one.level && one.curves.some((curve) => y.includes(curve.y)));
+  return chart ? chart.id : `test-${name}`;
 }
 
 // A value, or the values of the left and the right wheel, as the program prints them.
@@ -91,7 +100,7 @@ function spark({ curve }) {
 const name_of = ({ title }) => escaped(title.replace(" (fitted)", "").replace(/^[a-z]/, (letter) => letter.toUpperCase()));
 
 function card(number) {
-  const name = number.curve ? `<a href="#test-${escaped(number.curve.test)}">${name_of(number)}</a>` : name_of(number);
+  const name = number.curve ? `<a href="#${escaped(place_of(number.curve))}">${name_of(number)}</a>` : name_of(number);
   return `<li data-number="${escaped(number.name)}"><span class="name">${name}</span><span class="value"><b>${printed(number)}</b> ` +
     `${number.unit === "–" ? "" : escaped(number.unit)}${small(number.sides)}</span>${spark(number)}${span("effect", number.effect)}${band(number)}` +
     `${span("held", number.held)}${span("held", number.parts)}${how(number)}</li>`;
@@ -119,8 +128,9 @@ const makers = {
   warnings: ({ warnings, title }) => `<div class="warning" role="note"><strong>${escaped(title)}</strong><ul>` +
     `${warnings.map((text) => `<li>${escaped(text)}</li>`).join("")}</ul></div>`,
   table: table_of,
-  fold: ({ fold, blocks }) => `<details class="more"><summary>${escaped(fold)}</summary>${all_of(blocks)}</details>`,
-  charts: ({ charts, notes }) => places(charts, notes),
+  beside: ({ beside }) => `<div class="beside">${all_of(beside)}</div>`,
+  fold: ({ fold, id, blocks }) => `<details class="more"${id ? ` id="${escaped(id)}"` : ""}><summary>${escaped(fold)}</summary>${all_of(blocks)}</details>`,
+  charts: ({ charts, notes, first }) => places(charts, notes, first),
   design: () => '<p class="legend"><span><b></b>design</span></p>',
   figure: ({ figure, caption }) => `<figure class="wide" id="figure-${escaped(figure)}"><figcaption>${escaped(caption)}</figcaption></figure>`,
   picture: ({ picture, labels: [title, caption] }) => `<figure class="drawn wide"><img alt="${escaped(title)}" src="${picture}">` +
