@@ -17,11 +17,12 @@ module ek_point_deck
    use ek_point_set, only: choose_points
    use ek_frame_votes, only: point_set_t, half_t, wish_t, frame_t, find_frame
    use ek_vote, only: column_name, length_names, length_values
-   use ek_axle_facts, only: axle_facts_t
+   use ek_axle_facts, only: axle_facts_t, rod_slot
    use ek_deck_parts, only: writing_t, put_point
    use ek_link_deck, only: put_links, put_rack, has_rocker
    use ek_solid_deck, only: put_solid_axle, put_shared, put_middle_points
    use ek_elastic_deck, only: put_springs, has_springs
+   use ek_car_deck, only: put_car, missing_groups, unused_numbers
    implicit none(type, external)
    private
    public :: put_points
@@ -91,6 +92,7 @@ contains
       type(half_t) :: half
       logical :: is_steered
       integer :: rod(2)
+      character(:), allocatable :: rod_name
 
       half = points%half(frame%half)
       half%at = 0.0_wp
@@ -99,9 +101,13 @@ contains
       rod = [tie_inner, tie_outer]
       if (.not. all(half%has(rod))) rod = [toe_inner, toe_outer]
       is_steered = is_steered .and. rod(1) == tie_inner
+      rod_name = ''
+      if (kinds(kind)%has_rod .and. .not. facts%bushings(rod_slot)%is_given) rod_name = trim(merge('tie_rod', 'toe_rod', &
+         is_steered))
       call put_head(points, frame, kind, facts, writing)
       call mark_written(half, kind, rod, is_steered, facts, writing)
       call put_left_out(half, table, frame, facts, writing)
+      call put_other_groups(table, points%axle, is_steered, rod_name, has_springs(facts), writing)
       call put_model(title_of(kind, facts), writing)
       call writing%deck%blank()
       call writing%deck%begin('mirror')
@@ -115,6 +121,7 @@ contains
       if (is_steered) call put_rack(half, writing)
       call put_springs(half%at, facts, writing)
       call put_wheel(half, kind, facts, writing)
+      call put_car(table%numbers, points%axle, is_steered, rod_name, writing)
    end subroutine put_axle
 
    !> The title of the deck.
@@ -250,12 +257,26 @@ contains
       do k = 1, facts%omitted%count()
          call writing%deck%comment('  '//facts%omitted%line(k))
       end do
-      if (has_springs(facts)) then
-         call writing%deck%comment('  &axle (heights and shares of the car), &steering (ratio and travel of the rack), tyre_rate')
-      else
-         call writing%deck%comment('  &axle (heights and shares of the car), &steering (ratio and travel of the rack), springs')
-      end if
    end subroutine put_left_out
+
+   !> Writes the numbers of the car that are not in the deck, and the groups that are missing.
+   subroutine put_other_groups(table, axle, is_steered, rod, has_spring, writing)
+      type(point_table_t), intent(in) :: table
+      integer, intent(in) :: axle
+      logical, intent(in) :: is_steered, has_spring
+      character(*), intent(in) :: rod
+      type(writing_t), intent(inout) :: writing
+      character(:), allocatable :: why
+      integer :: k
+
+      do k = 1, table%numbers%used
+         if (table%numbers%list(k)%axle > 0 .and. table%numbers%list(k)%axle /= axle) cycle
+         why = unused_numbers(table%numbers, k, axle, is_steered, rod)
+         if (why /= '') call writing%deck%comment('  '//why)
+      end do
+      call writing%deck%comment('  '//missing_groups(table%numbers, axle, is_steered)// &
+         trim(merge('tyre_rate', 'springs  ', has_spring)))
+   end subroutine put_other_groups
 
    !> Why a recognised point is not in the deck.
    pure function why_unused(point, half) result(words)

@@ -181,7 +181,7 @@ contains
       integer :: at
 
       at = findloc(point_names == lower(name(:min(len(name), len(point_names)))), .true., dim=1)
-      if (at >= kingpin_low .and. len_trim(name) <= len(point_names)) then            ! of a solid axle: no other words
+      if (at >= kingpin_low .and. len_trim(name) <= len(point_names)) then            ! of a solid axle: no other names
          found%point = at
          return
       end if
