@@ -35,10 +35,9 @@ contains
       character(*), intent(in) :: title      !! kind of suspension, for the comment at the beginning
       type(buffer_t), intent(inout) :: out
       type(piece_t), allocatable :: pieces(:), news(:)
-      character(:), allocatable :: pending, of_points
+      character(:), allocatable :: of_points
       logical, allocatable :: is_placed(:)
-      logical :: has_changed
-      integer :: k, n
+      integer :: k
 
       of_points = title
       call replace(of_points, ' and anti-roll bar', '')
@@ -49,39 +48,111 @@ contains
       end do
       allocate (is_placed(size(news)), source=.false.)
       do k = 1, size(pieces)
-         associate (this => pieces(k))
-            if (any(dropped == this%group)) this%is_kept = .false.
-            if (this%group == 'case') this%is_kept = any([(index(this%text, "'"//trim(kinematic(n))//"'") > 0, &
-               n=1, size(kinematic))])
-            if (this%group == 'model') then
-               call replace(this%text, " balance = 'all',", '')
-               call set_title(this%text)
-            end if
-            if (this%name /= '' .and. index(joints, '! drop:') == 1) then
-               if (index(joints(:index(joints, nl)), "'"//this%name//"'") > 0) this%is_kept = .false.
-            end if
-            if (this%group == '' .or. .not. this%is_kept) cycle
-            do n = 1, size(news)
-               if (.not. is_successor(news(n), this)) cycle
-               this%text = news(n)%text
-               is_placed(n) = .true.
-            end do
-         end associate
+         call choose(pieces(k), joints, of_points)
+         if (pieces(k)%group /= '' .and. pieces(k)%is_kept) call replace_record(pieces(k), news, is_placed)
       end do
+      call drop_unnamed(pieces, news)
+      call put_comment(of_points, out)
+      call put_pieces(pieces, news, is_placed, out)
+   end subroutine keep_points
+
+   !> Decides whether a record of the deck is kept, and changes &model.
+   pure subroutine choose(this, joints, of_points)
+      type(piece_t), intent(inout) :: this
+      character(*), intent(in) :: joints, of_points
+      integer :: n
+
+      if (any(dropped == this%group)) this%is_kept = .false.
+      if (this%group == 'case') this%is_kept = any([(index(this%text, "'"//trim(kinematic(n))//"'") > 0, n=1, size(kinematic))])
+      if (this%group == 'model') then
+         call replace(this%text, " balance = 'all',", '')
+         call set_title(this%text, of_points)
+      end if
+      if (this%name == '' .or. index(joints, '! drop:') /= 1) return
+      if (index(joints(:index(joints, nl)), "'"//this%name//"'") > 0) this%is_kept = .false.
+   end subroutine choose
+
+   !> Puts the record of the file of joints that has the name of a record in its place.
+   pure subroutine replace_record(this, news, is_placed)
+      type(piece_t), intent(inout) :: this
+      type(piece_t), intent(in) :: news(:)
+      logical, intent(inout) :: is_placed(:)
+      integer :: n
+
+      do n = 1, size(news)
+         if (.not. is_successor(news(n), this)) cycle
+         this%text = news(n)%text
+         is_placed(n) = .true.
+      end do
+   end subroutine replace_record
+
+   !> Drops points and bodies that no record names any more, until none is left.
+   pure subroutine drop_unnamed(pieces, news)
+      type(piece_t), intent(inout) :: pieces(:)
+      type(piece_t), intent(in) :: news(:)
+      logical :: has_changed
+      integer :: k
+
       has_changed = .true.
-      do while (has_changed)                 ! points and bodies that no record names any more
+      do while (has_changed)
          has_changed = .false.
          do k = 1, size(pieces)
-            if (.not. pieces(k)%is_kept .or. .not. any([character(5) :: 'point', 'body'] == pieces(k)%group)) cycle
-            pieces(k)%is_kept = is_named(pieces(k)%name)
+            if (.not. pieces(k)%is_kept .or. .not. is_part(pieces(k))) cycle
+            pieces(k)%is_kept = is_named(pieces(k)%name, pieces, news)
             has_changed = has_changed .or. .not. pieces(k)%is_kept
          end do
       end do
+   end subroutine drop_unnamed
+
+   !> Whether a record is a point or a body.
+   pure logical function is_part(piece)
+      type(piece_t), intent(in) :: piece
+      is_part = any([character(5) :: 'point', 'body'] == piece%group)
+   end function is_part
+
+   !> Whether a record that is kept, other than &mirror and the record itself, names a point or a body.
+   pure logical function is_named(name, pieces, news)
+      character(*), intent(in) :: name
+      type(piece_t), intent(in) :: pieces(:), news(:)
+      integer :: j
+
+      is_named = .false.
+      do j = 1, size(pieces)
+         if (.not. pieces(j)%is_kept .or. pieces(j)%group == 'mirror' .or. pieces(j)%group == '') cycle
+         if (pieces(j)%name == name .and. is_part(pieces(j))) cycle
+         is_named = is_named .or. names(pieces(j), name)
+      end do
+      do j = 1, size(news)
+         is_named = is_named .or. names(news(j), name)
+      end do
+   end function is_named
+
+   !> Whether a record names a thing, perhaps with its side in front.
+   pure logical function names(piece, name)
+      type(piece_t), intent(in) :: piece
+      character(*), intent(in) :: name
+      names = index(piece%text, "'"//name//"'") > 0 .or. index(piece%text, "_"//name//"'") > 0
+   end function names
+
+   subroutine put_comment(of_points, out)
+      character(*), intent(in) :: of_points
+      type(buffer_t), intent(inout) :: out
 
       call out%line('! '//of_points//': points and links only, for kinematics without springs.')
       call out%line('!')
       call out%line('! Coordinates: x rearward, y right, z up, origin on the wheel centre line; mm, deg. The deck describes')
       call out%line('! the left half; the right half is its mirror image. Joints replace the bushings.')
+   end subroutine put_comment
+
+   !> Writes the records that are kept from &model on, and at the first bushing the records that replace bushings. A heading is
+   !> written with the first record below it.
+   subroutine put_pieces(pieces, news, is_placed, out)
+      type(piece_t), intent(in) :: pieces(:), news(:)
+      logical, intent(inout) :: is_placed(:)
+      type(buffer_t), intent(inout) :: out
+      character(:), allocatable :: pending
+      integer :: k, n
+
       pending = nl
       do k = findloc([(pieces(n)%group == 'model', n=1, size(pieces))], .true., dim=1), size(pieces)
          associate (this => pieces(k))
@@ -101,36 +172,18 @@ contains
             end if
          end associate
       end do
+   end subroutine put_pieces
 
-   contains
+   !> Gives &model the title of a deck without an anti-roll bar and stops.
+   pure subroutine set_title(text, of_points)
+      character(:), allocatable, intent(inout) :: text
+      character(*), intent(in) :: of_points
+      integer :: first, last
 
-      !> Gives &model the title of a deck without an anti-roll bar and stops.
-      pure subroutine set_title(text)
-         character(:), allocatable, intent(inout) :: text
-         integer :: first, last
-
-         first = index(text, "title = '") + len("title = '")
-         last = first + index(text(first:), "'") - 2
-         text = text(:first - 1)//of_points//', points and links'//text(last + 1:)
-      end subroutine set_title
-
-      !> Whether a record that is kept, other than &mirror and the record itself, names a point or a body.
-      pure logical function is_named(name)
-         character(*), intent(in) :: name
-         integer :: j
-
-         is_named = .false.
-         do j = 1, size(pieces)
-            if (.not. pieces(j)%is_kept .or. pieces(j)%group == 'mirror' .or. pieces(j)%group == '') cycle
-            if (pieces(j)%name == name .and. any([character(5) :: 'point', 'body'] == pieces(j)%group)) cycle
-            is_named = is_named .or. index(pieces(j)%text, "'"//name//"'") > 0 .or. index(pieces(j)%text, "_"//name//"'") > 0
-         end do
-         do j = 1, size(news)
-            is_named = is_named .or. index(news(j)%text, "'"//name//"'") > 0 .or. index(news(j)%text, "_"//name//"'") > 0
-         end do
-      end function is_named
-
-   end subroutine keep_points
+      first = index(text, "title = '") + len("title = '")
+      last = first + index(text(first:), "'") - 2
+      text = text(:first - 1)//of_points//', points and links'//text(last + 1:)
+   end subroutine set_title
 
    !> Whether a record of the file of joints replaces a record of the deck.
    pure logical function is_successor(new, old)

@@ -1,34 +1,59 @@
-!> Suspensions of Project Chrono (JSON of Chrono::Vehicle): the hardpoints of an axle. The format defines the frame: x forward,
-!> y left, z up, in m, for the left half. It does not give the axle, the tyre and the road.
+!> Suspensions of Project Chrono (JSON of Chrono::Vehicle): hardpoints, springs, stops and bushings of an axle. The format defines
+!> the frame: x forward, y left, z up, in m, for the left half. It does not give the axle, the tyre and the road.
 !>
-!> Read are the templates of `templates`, by the names of their points. Masses, springs, dampers and bushings are not read; the
-!> deck lists them.
+!> Read are the templates of `templates`, by the names of their points. ek_chrono_parts reads springs and bushings.
 module ek_chrono
    use ek_kinds, only: wp
+   use ek_error, only: message_list_t
    use ek_text, only: str, did_you_mean
    use ek_flaws, only: flaws_t, shown
    use ek_hardpoint, only: single_point
-   use ek_json_tree, only: json_tree_t, parse_json, find_leaf, has_branch
+   use ek_json_tree, only: json_tree_t, parse_json, find_leaf, has_branch, branch_line
    use ek_point_name, only: wheel_centre, lca_front, lca_rear, lower_ball, uca_front, uca_rear, upper_ball, tie_inner, tie_outer, &
       strut_top, strut_low, arm_inner, arm_outer, upper_front_in, upper_front_out, upper_rear_in, upper_rear_out, lower_in, &
-      lower_out, trailing_front, trailing_rear, point_names
+      lower_out, trailing_front, trailing_rear, damper_top, damper_low, spring_top, spring_low, kingpin_low, kingpin_top, &
+      upper_rod_chassis, upper_rod_axle, lower_rod_chassis, lower_rod_axle, panhard_chassis, panhard_axle, &
+      drag_link_chassis, drag_link_crank, crank_tie_rod, crank_axle, triangle_chassis, triangle_axle, axle_pivot, &
+      watt_left_chassis, watt_left_lever, watt_right_chassis, watt_right_lever, point_names
    use ek_point_table, only: point_table_t, table_point_t
-   use ek_point_deck, only: axle_facts_t
+   use ek_axle_facts, only: axle_facts_t, spring_slot, damper_slot, upper_slot, lower_slot, rod_slot
+   use ek_chrono_parts, only: take_spring, take_bushing, take_axes, take_angle
    implicit none(type, external)
    private
    public :: is_json, is_chrono, parse_chrono
 
-   !> A point of a template: its path in the file.
+   !> A point of a family of templates: its path in the file.
    type :: place_t
-      character(22) :: template
+      character(18) :: family
       integer :: point
       character(48) :: path
    end type place_t
 
-   character(*), parameter :: upper_arm = 'Upper Control Arm/Location ', lower_arm = 'Lower Control Arm/Location '
-   character(*), parameter :: arms = 'DoubleWishbone', reduced = 'DoubleWishboneReduced', strut = 'MacPhersonStrut', &
-      links = 'MultiLink', arm = 'SemiTrailingArm', every = ''
-   character(22), parameter :: templates(5) = [character(22) :: arms, reduced, strut, links, arm]
+   !> A template: the family whose points it has, the key of the moved end of springs, and their body in the deck.
+   type :: template_t
+      character(18) :: family
+      character(16) :: end_key
+      character(14) :: body
+   end type template_t
+
+   character(*), parameter :: arms = 'DoubleWishbone', strut = 'MacPhersonStrut', links = 'MultiLink', arm = 'SemiTrailingArm', &
+      solid = 'SolidAxle', triangle = 'SolidThreeLinkAxle', watt = 'DeDionAxle', every = ''
+   character(22), parameter :: template_names(8) = [character(22) :: arms, 'DoubleWishboneReduced', strut, links, arm, solid, &
+      triangle, watt]
+   type(template_t), parameter :: templates(8) = [ &
+      template_t(arms, 'Location Arm', 'lca'), &
+      template_t(arms, 'Location Upright', 'carrier'), &
+      template_t(strut, 'Location Upright', 'carrier'), &
+      template_t(links, 'Location Link', 'trailing_link'), &
+      template_t(arm, 'Location Arm', 'arm'), &
+      template_t(solid, 'Location Axle', 'axle'), &
+      template_t(triangle, 'Location Axle', 'axle'), &
+      template_t(watt, 'Location Axle', 'axle')]
+   !> Families without a tie rod on the chassis.
+   character(*), parameter :: rodless(4) = [character(18) :: arm, solid, triangle, watt]
+
+   character(*), parameter :: upper_arm = 'Upper Control Arm/Location ', lower_arm = 'Lower Control Arm/Location ', &
+      of_watt = 'Watt Mechanism/Location '
    type(place_t), parameter :: places(*) = [ &
       place_t(every, wheel_centre, 'Spindle/COM'), &
       place_t(arms, uca_front, upper_arm//'Chassis Front'), place_t(arms, uca_rear, upper_arm//'Chassis Back'), &
@@ -47,10 +72,26 @@ module ek_chrono
       place_t(links, trailing_rear, 'Trailing Link/Location Upright'), &
       place_t(arm, arm_inner, 'Trailing Arm/Location Chassis Inner'), &
       place_t(arm, arm_outer, 'Trailing Arm/Location Chassis Outer'), &
+      place_t(solid, kingpin_low, 'Knuckle/Location Lower'), place_t(solid, kingpin_top, 'Knuckle/Location Upper'), &
+      place_t(solid, upper_rod_chassis, 'Upper Link/Location Chassis'), &
+      place_t(solid, upper_rod_axle, 'Upper Link/Location Axle'), &
+      place_t(solid, lower_rod_chassis, 'Lower Link/Location Chassis'), &
+      place_t(solid, lower_rod_axle, 'Lower Link/Location Axle'), &
+      place_t(solid, panhard_chassis, 'Trackbar/Location Chassis'), place_t(solid, panhard_axle, 'Trackbar/Location Axle'), &
+      place_t(solid, tie_outer, 'Tierod/Location Knuckle'), &
+      place_t(solid, drag_link_chassis, 'Draglink/Location Chassis'), &
+      place_t(solid, drag_link_crank, 'Draglink/Location Bell Crank'), &
+      place_t(solid, crank_tie_rod, 'Bell Crank/Location Tierod'), place_t(solid, crank_axle, 'Bell Crank/Location Axle'), &
+      place_t(triangle, triangle_chassis, 'Triangular Link/Location Chassis'), &
+      place_t(triangle, triangle_axle, 'Triangular Link/Location Axle'), &
+      place_t(triangle, lower_rod_chassis, 'Longitudinal Link/Location Chassis'), &
+      place_t(triangle, lower_rod_axle, 'Longitudinal Link/Location Axle'), &
+      place_t(watt, axle_pivot, 'Axle Tube/Location Connector Chassis'), &
+      place_t(watt, watt_left_chassis, of_watt//'Left Link to Chassis'), &
+      place_t(watt, watt_left_lever, of_watt//'Left Link to Center'), &
+      place_t(watt, watt_right_chassis, of_watt//'Right Link to Chassis'), &
+      place_t(watt, watt_right_lever, of_watt//'Right Link to Center'), &
       place_t(every, tie_inner, 'Tierod/Location Chassis'), place_t(every, tie_outer, 'Tierod/Location Upright')]
-
-   !> Objects of the files that are not read.
-   character(*), parameter :: unread(5) = [character(6) :: 'Spring', 'Shock', 'Axle', 'Mass', 'Damper']
 
 contains
 
@@ -70,45 +111,53 @@ contains
       is_chrono = index(text, '"Type"') > 0 .or. index(text, '"Template"') > 0
    end function is_chrono
 
-   !> Reads the points of a suspension.
+   !> Reads a suspension.
    subroutine parse_chrono(text, table, facts, flaws)
       character(*), intent(in) :: text
       type(point_table_t), intent(out) :: table
       type(axle_facts_t), intent(out) :: facts
       type(flaws_t), intent(inout) :: flaws
       type(json_tree_t) :: tree
-      character(:), allocatable :: template
-      integer :: k
+      type(message_list_t) :: missing
+      integer :: k, template
 
-      allocate (table%points(size(places) + size(unread)))
+      allocate (table%points(size(places) + 4))
       call parse_json(text, tree, flaws)
       if (flaws%count() > 0) return
       call find_template(tree, template, flaws)
       if (flaws%count() > 0) return
-      do k = 1, size(places)
-         if (places(k)%template /= every .and. places(k)%template /= template) cycle
-         if (template == arm .and. index(places(k)%path, 'Tierod') == 1) cycle
-         call take_point(tree, places(k), table, flaws)
-      end do
-      if (table%used == 0 .and. flaws%count() == 0) call flaws%add(0, 'expected the points of a suspension, found none')
-      do k = 1, size(unread)
-         if (.not. has_branch(tree, trim(unread(k)))) cycle
-         table%used = table%used + 1
-         table%points(table%used) = table_point_t(name=unread(k), point=0, line=line_of(tree, trim(unread(k))))
-      end do
+      associate (family => templates(template)%family)
+         do k = 1, size(places)
+            if (places(k)%family /= every .and. places(k)%family /= family) cycle
+            if (places(k)%family == every .and. index(places(k)%path, 'Tierod') == 1 .and. any(rodless == family)) cycle
+            if (index(places(k)%path, 'Trackbar') == 1 .and. .not. has_branch(tree, 'Trackbar')) cycle
+            if (branch_line(tree, trim(places(k)%path)//'/') == 0) then
+               call missing%add(trim(places(k)%path))
+            else
+               call take_point(tree, places(k)%point, trim(places(k)%path), table, flaws)
+            end if
+         end do
+      end associate
+      if (missing%count() > 0) then            ! the cause alone: of another template, springs are elsewhere, too
+         call flaws%add(0, missing_points(missing, trim(template_names(template))))
+         return
+      end if
       table%length = 3                       ! m
       call take_angle(tree, 'Camber Angle (deg)', facts%camber, facts%has_camber, flaws)
       call take_angle(tree, 'Toe Angle (deg)', facts%toe, facts%has_toe, flaws)
+      call take_springs(tree, template, table, facts, flaws)
+      call take_bushings(tree, template, facts, flaws)
+      call explain(tree, template, facts)
    end subroutine parse_chrono
 
-   !> Finds the template of a suspension. The reduced double wishbone has the points of the double wishbone.
+   !> Finds the template of a suspension.
    subroutine find_template(tree, template, flaws)
       type(json_tree_t), intent(in) :: tree
-      character(:), allocatable, intent(out) :: template
+      integer, intent(out) :: template                 !! index in templates
       type(flaws_t), intent(inout) :: flaws
       integer :: k
 
-      template = ''
+      template = 0
       k = find_leaf(tree, 'Type')
       if (k == 0) then
          call flaws%add(0, 'expected the JSON of a Chrono suspension ("Type": "Suspension"), found JSON without "Type"')
@@ -123,82 +172,143 @@ contains
          call flaws%add(0, 'expected "Template", found none')
          return
       end if
-      template = tree%leaves(k)%text
-      if (any(templates == template)) then
-         if (template == reduced) template = arms
-      else
-         call flaws%add(tree%leaves(k)%line, 'the template '//shown(template)//' is not read'//did_you_mean(template, templates)// &
-            '; give its points as a table (name, x, y, z)')
-      end if
+      template = findloc(template_names == tree%leaves(k)%text, .true., dim=1)
+      if (template == 0) call flaws%add(tree%leaves(k)%line, 'the template '//shown(tree%leaves(k)%text)//' is not read'// &
+         did_you_mean(tree%leaves(k)%text, template_names)//'; give its points as a table (name, x, y, z)')
    end subroutine find_template
 
+   !> The message on points that the template needs and the file does not have, of which three are named.
+   function missing_points(missing, template) result(text)
+      type(message_list_t), intent(in) :: missing
+      character(*), intent(in) :: template
+      character(:), allocatable :: text
+      integer :: k
+
+      text = 'expected the points of the template '//shown(template)//'; missing: '
+      do k = 1, min(missing%count(), 3)
+         if (k > 1) text = text//', '
+         text = text//shown(missing%line(k))
+      end do
+      if (missing%count() > 3) text = text//' and '//str(missing%count() - 3)//' more; is it another template?'
+   end function missing_points
+
    !> Takes a point: three numbers.
-   subroutine take_point(tree, place, table, flaws)
+   subroutine take_point(tree, id, path, table, flaws)
       type(json_tree_t), intent(in) :: tree
-      type(place_t), intent(in) :: place
+      integer, intent(in) :: id                        !! index in point_names
+      character(*), intent(in) :: path
       type(point_table_t), intent(inout) :: table
       type(flaws_t), intent(inout) :: flaws
       type(table_point_t) :: point
-      integer :: c, k
+      logical :: is_good
 
-      point%name = place%path
-      point%point = place%point
+      point%name = path
+      point%point = id
       point%side = single_point
-      do c = 1, 3
-         k = find_leaf(tree, trim(place%path)//'/'//str(c))
-         if (k == 0) then
-            call flaws%add(line_of(tree, trim(place%path)), 'expected three numbers for '//shown(trim(place%path))//' ('// &
-               trim(point_names(place%point))//'), found '//str(c - 1))
-            return
-         else if (.not. tree%leaves(k)%is_number) then
-            call flaws%add(tree%leaves(k)%line, 'expected a number for '//shown(trim(place%path))//', found '// &
-               shown(tree%leaves(k)%text))
-            return
-         end if
-         point%at(c) = tree%leaves(k)%value
-         point%line = tree%leaves(k)%line
-      end do
-      if (find_leaf(tree, trim(place%path)//'/4') > 0) then
-         call flaws%add(point%line, 'expected three numbers for '//shown(trim(place%path))//', found more')
-         return
-      end if
+      call take_axes(tree, path, trim(point_names(id)), point%at, point%line, is_good, flaws)
+      if (.not. is_good) return
       table%used = table%used + 1
       table%points(table%used) = point
    end subroutine take_point
 
-   !> The line of the first value of an object or a list; 0 if it has none.
-   pure integer function line_of(tree, path) result(line)
+   !> Takes spring and shock with their points. The spring of a strut acts between the ends of the strut.
+   subroutine take_springs(tree, template, table, facts, flaws)
       type(json_tree_t), intent(in) :: tree
-      character(*), intent(in) :: path
-      integer :: k
-
-      line = 0
-      do k = 1, tree%used
-         if (index(tree%leaves(k)%path, path) /= 1) cycle
-         line = tree%leaves(k)%line
-         return
-      end do
-   end function line_of
-
-   !> Takes a static angle [deg]: camber is positive if the top leans outboard, toe is positive if the front edge is inboard.
-   subroutine take_angle(tree, key, value, has, flaws)
-      type(json_tree_t), intent(in) :: tree
-      character(*), intent(in) :: key
-      real(wp), intent(inout) :: value
-      logical, intent(inout) :: has
+      integer, intent(in) :: template                  !! index in templates
+      type(point_table_t), intent(inout) :: table
+      type(axle_facts_t), intent(inout) :: facts
       type(flaws_t), intent(inout) :: flaws
+      character(*), parameter :: objects(2) = [character(6) :: 'Spring', 'Shock']
+      integer, parameter :: tops(2) = [spring_top, damper_top], lows(2) = [spring_low, damper_low]
+      character(:), allocatable :: object
       integer :: k
 
-      k = find_leaf(tree, key)
-      has = k > 0
-      if (.not. has) return
-      has = tree%leaves(k)%is_number
-      if (has) has = abs(tree%leaves(k)%value) < 45.0_wp
-      if (has) then
-         value = tree%leaves(k)%value
-      else
-         call flaws%add(tree%leaves(k)%line, 'expected '//shown(key)//' between -45 and 45, found '//shown(tree%leaves(k)%text))
-      end if
-   end subroutine take_angle
+      do k = spring_slot, damper_slot
+         object = trim(objects(k))
+         if (.not. has_branch(tree, object)) cycle
+         associate (this => facts%springs(k))
+            this%top = tops(k)
+            this%low = lows(k)
+            if (templates(template)%family == strut .and. k == spring_slot) then
+               this%top = strut_top
+               this%low = strut_low
+            else
+               call take_point(tree, this%top, object//'/Location Chassis', table, flaws)
+               call take_point(tree, this%low, object//'/'//trim(templates(template)%end_key), table, flaws)
+            end if
+            this%body = templates(template)%body
+            call take_spring(tree, object, this, facts%assumed, facts%omitted, flaws)
+         end associate
+      end do
+      if (templates(template)%family /= links .or. .not. any(facts%springs%is_given)) return
+      call take_link_axes(tree, facts, flaws)
+   end subroutine take_springs
+
+   !> Takes the axes of the joint of the trailing link on the chassis, which must be perpendicular.
+   subroutine take_link_axes(tree, facts, flaws)
+      type(json_tree_t), intent(in) :: tree
+      type(axle_facts_t), intent(inout) :: facts
+      type(flaws_t), intent(inout) :: flaws
+      character(*), parameter :: paths(2) = [character(42) :: 'Trailing Link/Universal Joint Axis Chassis', &
+         'Trailing Link/Universal Joint Axis Link']
+      logical :: is_good(2)
+      integer :: k, line
+
+      do k = 1, 2
+         call take_axes(tree, trim(paths(k)), 'an axis', facts%link_axes(:, k), line, is_good(k), flaws)
+         if (.not. is_good(k)) return
+         if (.not. norm2(facts%link_axes(:, k)) > 1.0e-6_wp) then
+            call flaws%add(line, 'expected an axis for '//shown(trim(paths(k)))//', found 0, 0, 0')
+            return
+         end if
+         facts%link_axes(:, k) = facts%link_axes(:, k)/norm2(facts%link_axes(:, k))
+      end do
+      if (abs(dot_product(facts%link_axes(:, 1), facts%link_axes(:, 2))) > 1.0e-3_wp) call flaws%add(line, &
+         'expected perpendicular axes of the universal joint of the trailing link, found others')
+      facts%link_axes(:, 2) = facts%link_axes(:, 2) - facts%link_axes(:, 1)*dot_product(facts%link_axes(:, 1), &
+         facts%link_axes(:, 2))
+      facts%has_link_axes = .true.
+   end subroutine take_link_axes
+
+   !> Takes the bushings of arms and tie rod. Those of a tie rod count if the rod is a body, with a mass.
+   subroutine take_bushings(tree, template, facts, flaws)
+      type(json_tree_t), intent(in) :: tree
+      integer, intent(in) :: template                  !! index in templates
+      type(axle_facts_t), intent(inout) :: facts
+      type(flaws_t), intent(inout) :: flaws
+
+      select case (template_names(template))
+      case (arms)
+         call take_bushing(tree, 'Upper Control Arm', facts%bushings(upper_slot), flaws)
+         call take_bushing(tree, 'Lower Control Arm', facts%bushings(lower_slot), flaws)
+      case (strut)
+         call take_bushing(tree, 'Control Arm', facts%bushings(lower_slot), flaws)
+      case (arm)
+         call take_bushing(tree, 'Trailing Arm', facts%bushings(lower_slot), flaws)
+      end select
+      if (any([character(22) :: arms, strut, links] == template_names(template)) .and. find_leaf(tree, 'Tierod/Mass') > 0) &
+         call take_bushing(tree, 'Tierod', facts%bushings(rod_slot), flaws)
+      if (any(facts%bushings%is_given)) call facts%assumed%add('one bushing replaces a hinge, with equal rates along x, y '// &
+         'and z, as in Chrono')
+   end subroutine take_bushings
+
+   !> Adds lines on what is assumed and omitted.
+   subroutine explain(tree, template, facts)
+      type(json_tree_t), intent(in) :: tree
+      integer, intent(in) :: template                  !! index in templates
+      type(axle_facts_t), intent(inout) :: facts
+
+      select case (templates(template)%family)
+      case (solid)
+         call facts%assumed%add('the drag link ends on the chassis: the file has no steering gear')
+         if (has_branch(tree, 'Trackbar')) call facts%assumed%add('four rigid links and the Panhard rod lock the axle in roll, '// &
+            'as in Chrono: put the links on bushings before a test')
+      case (watt)
+         call facts%assumed%add('the lever of the Watt linkage rotates about the middle of its ends (Chrono: left end plus '// &
+            'half of the right one)')
+      end select
+      if (has_branch(tree, 'Shock')) call facts%omitted%add('line '//str(branch_line(tree, 'Shock/'))//': Shock: damping')
+      call facts%omitted%add('masses and moments of inertia')
+   end subroutine explain
 
 end module ek_chrono

@@ -14,7 +14,8 @@ module ek_foreign_deck
    use ek_hardpoint_sheet, only: hardpoints_t, parse_hardpoints, single_point, left_point, right_point, point_pair
    use ek_frame_votes, only: wish_t
    use ek_point_table, only: point_table_t, parse_points
-   use ek_point_deck, only: put_points, axle_facts_t
+   use ek_axle_facts, only: axle_facts_t
+   use ek_point_deck, only: put_points
    use ek_chrono, only: is_json, is_chrono, parse_chrono
    use ek_point_list, only: is_toml, as_json, parse_point_list
    use ek_shark, only: is_shark, parse_shark

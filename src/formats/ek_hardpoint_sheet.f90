@@ -21,6 +21,7 @@ module ek_hardpoint_sheet
    use ek_sheet, only: sheet_t, parse_sheet, cells_t, new_cells, split_row, plain_cell, cell_of, head_place
    use ek_sheet_cell, only: get_cell, cell_fault
    use ek_sheet_columns, only: find_unit_row, find_decimal_marks, is_decimal_comma, row_fault
+   use ek_point_heading, only: split_plain_head
    use ek_unit_word, only: unit_of, length_unit
    implicit none(type, external)
    private
@@ -176,8 +177,8 @@ contains
          character(:), allocatable :: ignored
          real(wp) :: one, other
 
-         call split_head(head, length, ignored, one)
-         call split_head(head, 2.0_wp*length, ignored, other)
+         call split_plain_head(head, length, ignored, one)
+         call split_plain_head(head, 2.0_wp*length, ignored, other)
          has_unit = abs(one - other) <= 0.0_wp
       end function has_unit
 
@@ -210,7 +211,7 @@ contains
       columns = 0
       units = length
       do k = 1, min(size(table%heads), 200)
-         call split_head(trim(table%heads(k)), length, head, unit)
+         call split_plain_head(trim(table%heads(k)), length, head, unit)
          select case (head)
          case ('name', 'hardpoint', 'hardpointname', 'point', 'pointname', 'label', 'id', 'marker', 'punkt', 'bezeichnung')
             c = 1
@@ -238,50 +239,6 @@ contains
          return
       end do
    end subroutine find_columns
-
-   !> Splits a column heading into the letters that give its meaning, and its unit: 'x' and 1e-3 for 'X-Coordinate [mm]' and for
-   !> 'loc_x_mm'.
-   subroutine split_head(text, length, head, unit)
-      character(*), intent(in) :: text
-      real(wp), intent(in) :: length
-      character(:), allocatable, intent(out) :: head
-      real(wp), intent(out) :: unit
-      character(*), parameter :: idle(13) = [character(10) :: 'coordinate', 'coord', 'value', 'position', 'pos', 'location', &
-         'loc', 'achse', 'axis', 'wert', 'in', 'of', 'the']
-      character(:), allocatable :: folded, word
-      real(wp) :: found
-      integer :: at, next
-
-      folded = lower(text(:min(len(text), 200)))
-      head = ''
-      unit = length
-      at = 1
-      do while (at <= len(folded))
-         next = verify(folded(at:), 'abcdefghijklmnopqrstuvwxyz')
-         if (next == 0) next = len(folded) - at + 2
-         word = folded(at:at + next - 2)
-         at = at + max(next, 1)
-         if (word == '') cycle
-         found = unit_of(length_unit, word)
-         if (found > 0.0_wp .and. head /= '') then
-            unit = found
-         else if (.not. any(idle == word)) then
-            head = head//word
-         end if
-      end do
-      if (len(head) == 1) return
-      ! xvalue, locx: one word of two
-      do at = 1, size(idle)
-         if (head == 'x'//trim(idle(at)) .or. head == 'y'//trim(idle(at)) .or. head == 'z'//trim(idle(at))) then
-            head = head(1:1)
-            return
-         end if
-         if (head == trim(idle(at))//'x' .or. head == trim(idle(at))//'y' .or. head == trim(idle(at))//'z') then
-            head = head(len(head):)
-            return
-         end if
-      end do
-   end subroutine split_head
 
    !> Reads all [HARDPOINT] blocks.
    subroutine take_blocks(file, sheet, flaws)

@@ -9,7 +9,7 @@ module ek_json_tree
    use ek_flaws, only: flaws_t, shown
    implicit none(type, external)
    private
-   public :: json_tree_t, json_leaf_t, parse_json, find_leaf, has_branch, triple_at
+   public :: json_tree_t, json_leaf_t, parse_json, find_leaf, has_branch, branch_line, triple_at
 
    integer, parameter :: deepest = 20, most_leaves = 20000, most_keys = 2000, longest_path = 120
 
@@ -70,6 +70,20 @@ contains
 
       has_branch = any([(index(tree%leaves(k)%path, path//'/') == 1, k=1, tree%used)])
    end function has_branch
+
+   !> The line of the first value of an object or a list; 0 if it has none.
+   pure integer function branch_line(tree, path) result(line)
+      type(json_tree_t), intent(in) :: tree
+      character(*), intent(in) :: path
+      integer :: k
+
+      line = 0
+      do k = 1, tree%used
+         if (index(tree%leaves(k)%path, path) /= 1) cycle
+         line = tree%leaves(k)%line
+         return
+      end do
+   end function branch_line
 
    !> Finds whether leaves k, k + 1, k + 2 are the three numbers of a list, 'name/1' to 'name/3'. `path` is then the name.
    pure subroutine triple_at(tree, k, path, at, is_triple)

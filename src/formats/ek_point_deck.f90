@@ -1,41 +1,31 @@
-!> The deck of an axle made from its points: a deck of points and links, without springs, as `elastokin new KIND --points-only`
-!> prints. Every point has the line of its source as a note. Comments at the beginning list what was taken, assumed and left out.
+!> The deck of an axle made from its points, and from the springs and bushings of its file. Without springs it is a deck of points
+!> and links, as `elastokin new KIND --points-only` prints. Every number has the line of its source as a note. Comments at the
+!> beginning list what was decided, assumed and omitted.
 module ek_point_deck
    use ek_kinds, only: wp, degree
    use ek_text, only: str, lower
    use ek_flaws, only: flaws_t
    use ek_fields, only: legal_name
    use ek_hardpoint, only: left_point, right_point, point_pair
-   use ek_deck_text, only: deck_text_t
-   use ek_point_name, only: point_count, point_names, unused_point, wheel_centre, contact_patch, lca_front, &
-      lca_rear, lower_ball, uca_front, uca_rear, upper_ball, tie_inner, tie_outer, toe_inner, toe_outer, strut_top, strut_low, &
-      push_low, push_top, rocker_pivot, rocker_axis, arm_inner, arm_outer, upper_front_in, upper_front_out, upper_rear_in, &
-      upper_rear_out, lower_in, lower_out, trailing_front, trailing_rear, rack_centre, damper_inner, damper_outer
-   use ek_point_kind, only: kinds, double_wishbone, mcpherson, five_link, trailing_arm, find_kind, incomplete, check_rod, nearest
+   use ek_point_name, only: point_count, point_names, unused_point, wheel_centre, contact_patch, lower_ball, upper_ball, &
+      tie_inner, tie_outer, toe_inner, toe_outer, strut_top, push_low, push_top, rocker_pivot, rocker_axis, rack_centre, &
+      damper_inner, damper_outer, kingpin_low, kingpin_top, panhard_chassis, panhard_axle, &
+      triangle_chassis, triangle_axle
+   use ek_point_kind, only: kinds, double_wishbone, mcpherson, trailing_arm, four_link_axle, three_link_axle, is_solid, find_kind, &
+      incomplete, check_rod, nearest
    use ek_point_table, only: point_table_t, not_a_point
    use ek_point_set, only: choose_points
    use ek_frame_votes, only: point_set_t, half_t, wish_t, frame_t, find_frame
-   use ek_vote, only: column_name, length_names
+   use ek_vote, only: column_name, length_names, length_values
+   use ek_axle_facts, only: axle_facts_t, rod_slot
+   use ek_deck_parts, only: writing_t, put_point
+   use ek_link_deck, only: put_links, put_rack, has_rocker
+   use ek_solid_deck, only: put_solid_axle, put_shared, put_middle_points
+   use ek_elastic_deck, only: put_springs, has_springs
+   use ek_car_deck, only: put_car, missing_groups, unused_numbers
    implicit none(type, external)
    private
-   public :: put_points, axle_facts_t
-
-   !> Numbers of an axle besides its points; `has_` marks those that are given.
-   type :: axle_facts_t
-      character(60) :: title = ''
-      logical :: has_toe = .false., has_camber = .false.
-      real(wp) :: toe = 0.0_wp, camber = 0.0_wp          !! [deg], signs of the deck
-   end type axle_facts_t
-
-   !> The deck being written.
-   type :: writing_t
-      type(deck_text_t) :: deck
-      logical :: is_rear = .false.                  !! axes of the deck: x-rear; otherwise iso
-      real(wp) :: factor = 1.0_wp                   !! unit of the table per unit of the deck
-      character(2) :: length = 'mm'                 !! unit of the deck
-      logical :: is_written(point_count) = .false.
-      character(:), allocatable :: file
-   end type writing_t
+   public :: put_points
 
 contains
 
@@ -70,7 +60,7 @@ contains
       if (kind > 0) then
          call put_axle(points, frame, kind, facts, table, writing)
       else
-         call put_part(points, frame, table, writing, flaws)
+         call put_part(frame, table, writing, flaws)
       end if
       if (flaws%count() == 0) text = writing%deck%text()
    end subroutine put_points
@@ -88,6 +78,7 @@ contains
          writing%length = 'in'
          writing%factor = 12.0_wp
       end if
+      writing%metre = writing%factor/length_values(length)
    end subroutine choose_unit
 
    !> Writes the axle.
@@ -101,27 +92,47 @@ contains
       type(half_t) :: half
       logical :: is_steered
       integer :: rod(2)
+      character(:), allocatable :: rod_name
 
       half = points%half(frame%half)
       half%at = 0.0_wp
       call turn_points(points%half(frame%half), frame, writing, half%at)
-      is_steered = points%axle == 1 .and. kind /= trailing_arm
+      is_steered = points%axle == 1 .and. kind /= trailing_arm .and. .not. is_solid(kind)
       rod = [tie_inner, tie_outer]
       if (.not. all(half%has(rod))) rod = [toe_inner, toe_outer]
       is_steered = is_steered .and. rod(1) == tie_inner
+      rod_name = ''
+      if (kinds(kind)%has_rod .and. .not. facts%bushings(rod_slot)%is_given) rod_name = trim(merge('tie_rod', 'toe_rod', &
+         is_steered))
       call put_head(points, frame, kind, facts, writing)
-      call mark_written(half, kind, rod, is_steered, writing)
-      call put_left_out(half, table, frame, writing)
-      call put_model(trim(kinds(kind)%title), writing)
+      call mark_written(half, kind, rod, is_steered, facts, writing)
+      call put_left_out(half, table, frame, facts, writing)
+      call put_other_groups(table, points%axle, is_steered, rod_name, has_springs(facts), writing)
+      call put_model(title_of(kind, facts), writing)
       call writing%deck%blank()
       call writing%deck%begin('mirror')
       if (is_steered) call writing%deck%word('shared', 'rack')
+      if (is_solid(kind)) call put_shared(kind, writing)
       call writing%deck%end()
-      call put_all_points(half, frame, facts, is_steered, writing)
-      call put_links(half, kind, rod, is_steered, writing)
+      call put_all_points(half, kind, frame, facts, is_steered, writing)
+      call writing%deck%heading('bodies and joints')
+      if (is_solid(kind)) call put_solid_axle(kind, writing)
+      if (.not. is_solid(kind)) call put_links(half, kind, rod, is_steered, facts, writing)
       if (is_steered) call put_rack(half, writing)
+      call put_springs(half%at, facts, writing)
       call put_wheel(half, kind, facts, writing)
+      call put_car(table%numbers, points%axle, is_steered, rod_name, writing)
    end subroutine put_axle
+
+   !> The title of the deck.
+   pure function title_of(kind, facts) result(title)
+      integer, intent(in) :: kind
+      type(axle_facts_t), intent(in) :: facts
+      character(:), allocatable :: title
+
+      title = trim(kinds(kind)%title)
+      if (.not. has_springs(facts)) title = title//', points and links'
+   end function title_of
 
    !> Turns the points to the axes of the deck. The half is written as the left half.
    subroutine turn_points(half, frame, writing, at)
@@ -145,11 +156,15 @@ contains
       integer, intent(in) :: kind
       type(axle_facts_t), intent(in) :: facts
       type(writing_t), intent(inout) :: writing
-      character(:), allocatable :: title
+      integer :: k
 
-      title = trim(kinds(kind)%title)
       call writing%deck%comment('Made by elastokin import from '//writing%file//'.')
-      call writing%deck%comment(title//': for kinematics without springs. The note of a point is the line of its source.')
+      if (has_springs(facts)) then
+         call writing%deck%comment(title_of(kind, facts)//', with springs. The note of a number is the line of its source.')
+      else
+         call writing%deck%comment(title_of(kind, facts)//': for kinematics without springs. The note of a point is the line '// &
+            'of its source.')
+      end if
       call writing%deck%blank()
       call writing%deck%comment('Decided:')
       call put_lines(frame%how, writing)
@@ -169,6 +184,9 @@ contains
             call writing%deck%comment('  static camber 0: the source does not give it')
          end if
       end if
+      do k = 1, facts%assumed%count()
+         call writing%deck%comment('  '//facts%assumed%line(k))
+      end do
    end subroutine put_head
 
    subroutine put_lines(text, writing)
@@ -186,36 +204,36 @@ contains
    end subroutine put_lines
 
    !> Marks the points that the deck has.
-   subroutine mark_written(half, kind, rod, is_steered, writing)
+   subroutine mark_written(half, kind, rod, is_steered, facts, writing)
       type(half_t), intent(in) :: half
       integer, intent(in) :: kind, rod(2)
       logical, intent(in) :: is_steered
+      type(axle_facts_t), intent(in) :: facts
       type(writing_t), intent(inout) :: writing
+      integer :: k
 
       associate (needs => kinds(kind)%needs)
          writing%is_written(pack(needs, needs > 0)) = .true.
       end associate
       writing%is_written(contact_patch) = half%has(contact_patch)
+      if (is_solid(kind)) writing%is_written([panhard_chassis, panhard_axle]) = half%has([panhard_chassis, panhard_axle])
       if (kinds(kind)%has_rod) writing%is_written(rod) = .true.
       if (is_steered) writing%is_written(rack_centre) = half%has(rack_centre)
       if (has_rocker(half, kind)) then
          writing%is_written([push_low, push_top, rocker_pivot, rocker_axis]) = .true.
          writing%is_written([damper_inner, damper_outer]) = all(half%has([damper_inner, damper_outer]))
       end if
+      do k = 1, size(facts%springs)
+         if (facts%springs(k)%is_given) writing%is_written([facts%springs(k)%top, facts%springs(k)%low]) = .true.
+      end do
    end subroutine mark_written
 
-   !> Whether push rod and rocker are complete, with the axis of the rocker.
-   pure logical function has_rocker(half, kind)
-      type(half_t), intent(in) :: half
-      integer, intent(in) :: kind
-      has_rocker = kind == double_wishbone .and. all(half%has([push_low, push_top, rocker_pivot, rocker_axis]))
-   end function has_rocker
-
    !> Writes what was left out.
-   subroutine put_left_out(half, table, frame, writing)
+   subroutine put_left_out(half, table, frame, facts, writing)
       type(half_t), intent(in) :: half
       type(point_table_t), intent(in) :: table
       type(frame_t), intent(in) :: frame
+      type(axle_facts_t), intent(in) :: facts
       type(writing_t), intent(inout) :: writing
       integer :: k
 
@@ -236,8 +254,29 @@ contains
             end if
          end associate
       end do
-      call writing%deck%comment('  &axle (heights and shares of the car), &steering (ratio and travel of the rack), springs')
+      do k = 1, facts%omitted%count()
+         call writing%deck%comment('  '//facts%omitted%line(k))
+      end do
    end subroutine put_left_out
+
+   !> Writes the numbers of the car that are not in the deck, and the groups that are missing.
+   subroutine put_other_groups(table, axle, is_steered, rod, has_spring, writing)
+      type(point_table_t), intent(in) :: table
+      integer, intent(in) :: axle
+      logical, intent(in) :: is_steered, has_spring
+      character(*), intent(in) :: rod
+      type(writing_t), intent(inout) :: writing
+      character(:), allocatable :: why
+      integer :: k
+
+      do k = 1, table%numbers%used
+         if (table%numbers%list(k)%axle > 0 .and. table%numbers%list(k)%axle /= axle) cycle
+         why = unused_numbers(table%numbers, k, axle, is_steered, rod)
+         if (why /= '') call writing%deck%comment('  '//why)
+      end do
+      call writing%deck%comment('  '//missing_groups(table%numbers, axle, is_steered)// &
+         trim(merge('tyre_rate', 'springs  ', has_spring)))
+   end subroutine put_other_groups
 
    !> Why a recognised point is not in the deck.
    pure function why_unused(point, half) result(words)
@@ -272,8 +311,9 @@ contains
    end subroutine put_model
 
    !> Writes the points, each with the line of its source.
-   subroutine put_all_points(half, frame, facts, is_steered, writing)
+   subroutine put_all_points(half, kind, frame, facts, is_steered, writing)
       type(half_t), intent(inout) :: half
+      integer, intent(in) :: kind
       type(frame_t), intent(in) :: frame
       type(axle_facts_t), intent(in) :: facts
       logical, intent(in) :: is_steered
@@ -284,12 +324,14 @@ contains
       call writing%deck%heading('hardpoints, design position')
       do k = 1, point_count
          if (.not. writing%is_written(k) .or. k == rack_centre) cycle
+         if (kind == three_link_axle .and. any([triangle_chassis, triangle_axle] == k)) cycle
          call put_point(trim(point_names(k)), half%at(:, k), writing%file//':'//str(half%line(k)), writing)
          if (k == wheel_centre .and. .not. half%has(contact_patch)) then
             half%at(:, contact_patch) = contact_point(half%at(:, wheel_centre), frame%road*writing%factor, facts, writing%is_rear)
             call put_point('contact_patch', half%at(:, contact_patch), 'below the wheel centre, on the road', writing)
          end if
       end do
+      if (is_solid(kind)) call put_middle_points(half, kind, writing)
       if (.not. is_steered) return
       at = half%at(:, tie_inner)
       at(2) = 0.0_wp
@@ -314,178 +356,6 @@ contains
       at = [centre(1) + at(1), centre(2) + at(2), road]
    end function contact_point
 
-   subroutine put_point(name, at, note, writing)
-      character(*), intent(in) :: name, note
-      real(wp), intent(in) :: at(3)
-      type(writing_t), intent(inout) :: writing
-
-      call writing%deck%begin('point')
-      call writing%deck%word('name', name)
-      call writing%deck%numbers('at', at)
-      call writing%deck%word('note', note)
-      call writing%deck%end()
-   end subroutine put_point
-
-   !> Writes bodies and joints.
-   subroutine put_links(half, kind, rod, is_steered, writing)
-      type(half_t), intent(in) :: half
-      integer, intent(in) :: kind, rod(2)
-      logical, intent(in) :: is_steered
-      type(writing_t), intent(inout) :: writing
-
-      call writing%deck%heading('bodies and joints')
-      if (kind == trailing_arm) then
-         call put_body('arm', writing, origin='wheel_centre')
-         call put_hinge('arm_hinge', 'arm', arm_inner, arm_outer, writing)
-         return
-      end if
-      call put_body('carrier', writing, origin='wheel_centre')
-      if (kind /= five_link) then
-         call put_body('lca', writing)
-         call put_hinge('lca_hinge', 'lca', lca_front, lca_rear, writing)
-         call put_joint('lower_ball', 'spherical', 'lca', 'carrier', [lower_ball], writing)
-      end if
-      select case (kind)
-      case (double_wishbone)
-         call put_body('uca', writing)
-         call put_hinge('uca_hinge', 'uca', uca_front, uca_rear, writing)
-         call put_joint('upper_ball', 'spherical', 'uca', 'carrier', [upper_ball], writing)
-         if (has_rocker(half, kind)) call put_rocker(half, writing)
-      case (mcpherson)
-         call put_strut(writing)
-      case (five_link)
-         call put_joint('upper_front_link', 'distance', 'chassis', 'carrier', [upper_front_in, upper_front_out], writing)
-         call put_joint('upper_rear_link', 'distance', 'chassis', 'carrier', [upper_rear_in, upper_rear_out], writing)
-         call put_joint('lower_link', 'distance', 'chassis', 'carrier', [lower_in, lower_out], writing)
-         call put_joint('trailing_link', 'distance', 'chassis', 'carrier', [trailing_front, trailing_rear], writing)
-      end select
-      call put_joint(trim(merge('tie_rod', 'toe_rod', is_steered)), 'distance', trim(merge('rack   ', 'chassis', is_steered)), &
-         'carrier', rod, writing)
-   end subroutine put_links
-
-   subroutine put_body(name, writing, origin)
-      character(*), intent(in) :: name
-      type(writing_t), intent(inout) :: writing
-      character(*), intent(in), optional :: origin
-
-      call writing%deck%begin('body')
-      call writing%deck%word('name', name)
-      if (present(origin)) call writing%deck%word('origin', origin)
-      call writing%deck%end()
-   end subroutine put_body
-
-   !> Writes a joint between two bodies at one or two points.
-   subroutine put_joint(name, type, first, second, at, writing)
-      character(*), intent(in) :: name, type, first, second
-      integer, intent(in) :: at(:)
-      type(writing_t), intent(inout) :: writing
-
-      call writing%deck%begin('joint')
-      call writing%deck%word('name', name)
-      call writing%deck%word('type', type)
-      call writing%deck%words('bodies', first, second)
-      if (size(at) == 1) then
-         call writing%deck%word('at', trim(point_names(at(1))))
-      else
-         call writing%deck%words('at', trim(point_names(at(1))), trim(point_names(at(2))))
-      end if
-      call writing%deck%end()
-   end subroutine put_joint
-
-   !> Writes the hinge of an arm on the chassis.
-   subroutine put_hinge(name, body, one, other, writing)
-      character(*), intent(in) :: name, body
-      integer, intent(in) :: one, other
-      type(writing_t), intent(inout) :: writing
-
-      call writing%deck%begin('joint')
-      call writing%deck%word('name', name)
-      call writing%deck%word('type', 'revolute')
-      call writing%deck%words('bodies', 'chassis', body)
-      call writing%deck%word('at', trim(point_names(one)))
-      call writing%deck%words('axis', trim(point_names(one)), trim(point_names(other)))
-      call writing%deck%end()
-   end subroutine put_hinge
-
-   !> Writes the strut of a McPherson axle: its tube is part of the carrier, its rod cannot spin in the top mount.
-   subroutine put_strut(writing)
-      type(writing_t), intent(inout) :: writing
-
-      call put_body('strut', writing, origin='strut_top')
-      call writing%deck%begin('joint')
-      call writing%deck%word('name', 'slider')
-      call writing%deck%word('type', 'cylindrical')
-      call writing%deck%words('bodies', 'carrier', 'strut')
-      call writing%deck%word('at', 'strut_low')
-      call writing%deck%words('axis', 'strut_low', 'strut_top')
-      call writing%deck%end()
-      call writing%deck%begin('joint')
-      call writing%deck%word('name', 'top_mount')
-      call writing%deck%word('type', 'universal')
-      call writing%deck%words('bodies', 'chassis', 'strut')
-      call writing%deck%word('at', 'strut_top')
-      call writing%deck%numbers('axis_vector', [1.0_wp, 0.0_wp, 0.0_wp])
-      call writing%deck%numbers('axis_2_vector', [0.0_wp, 1.0_wp, 0.0_wp])
-      call writing%deck%end()
-   end subroutine put_strut
-
-   !> Writes push rod and rocker, and the length of the damper as a measure. The rod is on the arm whose ball joint is nearer.
-   subroutine put_rocker(half, writing)
-      type(half_t), intent(in) :: half
-      type(writing_t), intent(inout) :: writing
-      logical :: is_lower
-
-      is_lower = norm2(half%at(:, push_low) - half%at(:, lower_ball)) <= norm2(half%at(:, push_low) - half%at(:, upper_ball))
-      call put_body('rocker', writing, origin='rocker_pivot')
-      call put_hinge('rocker_hinge', 'rocker', rocker_pivot, rocker_axis, writing)
-      call writing%deck%comment('assumed: the rod is on the arm whose ball joint is nearer')
-      call put_joint('push_rod', 'distance', trim(merge('lca', 'uca', is_lower)), 'rocker', [push_low, push_top], writing)
-      if (.not. writing%is_written(damper_outer)) return
-      call writing%deck%begin('measure')
-      call writing%deck%word('name', 'damper_length')
-      call writing%deck%word('type', 'distance')
-      call writing%deck%words('bodies', 'rocker', 'chassis')
-      call writing%deck%words('at', 'damper_outer', 'damper_inner')
-      call writing%deck%end()
-   end subroutine put_rocker
-
-   !> Writes the rack. Its travel is positive where it turns the wheels to the left.
-   subroutine put_rack(half, writing)
-      type(half_t), intent(in) :: half
-      type(writing_t), intent(inout) :: writing
-      real(wp) :: axis(3), ahead, left
-      integer :: top
-
-      top = merge(upper_ball, strut_top, half%has(upper_ball))
-      axis = half%at(:, top) - half%at(:, lower_ball)
-      ahead = half%at(1, tie_outer) - half%at(1, lower_ball)
-      if (abs(axis(3)) > 0.0_wp) ahead = ahead - axis(1)*(half%at(3, tie_outer) - half%at(3, lower_ball))/axis(3)
-      if (writing%is_rear) ahead = -ahead
-      left = merge(-1.0_wp, 1.0_wp, writing%is_rear)*merge(1.0_wp, -1.0_wp, ahead > 0.0_wp)
-      call writing%deck%heading('steering; rack travel is positive to the '// &
-         trim(merge('left ', 'right', ahead > 0.0_wp))//', which turns the wheels to the left')
-      call put_body('rack', writing)
-      call writing%deck%begin('joint')
-      call writing%deck%word('name', 'rack_guide')
-      call writing%deck%word('type', 'translational')
-      call writing%deck%words('bodies', 'chassis', 'rack')
-      call writing%deck%word('at', 'rack_centre')
-      call writing%deck%numbers('axis_vector', [0.0_wp, left, 0.0_wp])
-      call writing%deck%end()
-      call writing%deck%begin('measure')
-      call writing%deck%word('name', 'rack_travel')
-      call writing%deck%word('type', 'gap')
-      call writing%deck%words('bodies', 'chassis', 'rack')
-      call writing%deck%word('at', 'rack_centre')
-      call writing%deck%numbers('axis_vector', [0.0_wp, left, 0.0_wp])
-      call writing%deck%end()
-      call writing%deck%begin('joint')
-      call writing%deck%word('name', 'rack_drive')
-      call writing%deck%word('type', 'driver')
-      call writing%deck%word('measure', 'rack_travel')
-      call writing%deck%end()
-   end subroutine put_rack
-
    !> Writes the wheel and the test of parallel travel.
    subroutine put_wheel(half, kind, facts, writing)
       type(half_t), intent(in) :: half
@@ -493,7 +363,6 @@ contains
       type(axle_facts_t), intent(in) :: facts
       type(writing_t), intent(inout) :: writing
       real(wp) :: arm(3), camber, radius
-      integer :: top
 
       arm = half%at(:, contact_patch) - half%at(:, wheel_centre)
       radius = norm2(arm)
@@ -503,16 +372,21 @@ contains
       call writing%deck%heading('wheel, test')
       call writing%deck%begin('wheel')
       call writing%deck%word('name', 'left')
-      call writing%deck%word('body', trim(merge('arm    ', 'carrier', kind == trailing_arm)))
+      call writing%deck%word('body', wheel_body(kind))
       call writing%deck%word('side', 'left')
       call writing%deck%word('centre', 'wheel_centre')
       call writing%deck%word('contact', 'contact_patch')
       call writing%deck%number('toe', facts%toe)
       call writing%deck%number('camber', camber)
       call writing%deck%number('radius', radius)
-      top = merge(upper_ball, strut_top, kind == double_wishbone)
-      if (any([double_wishbone, mcpherson] == kind)) call writing%deck%words('steer_axis', trim(point_names(lower_ball)), &
-         trim(point_names(top)))
+      select case (kind)
+      case (double_wishbone)
+         call writing%deck%words('steer_axis', trim(point_names(lower_ball)), trim(point_names(upper_ball)))
+      case (mcpherson)
+         call writing%deck%words('steer_axis', trim(point_names(lower_ball)), trim(point_names(strut_top)))
+      case (four_link_axle)
+         call writing%deck%words('steer_axis', trim(point_names(kingpin_low)), trim(point_names(kingpin_top)))
+      end select
       call writing%deck%end()
       call writing%deck%blank()
       call writing%deck%comment('assumed: the range, a tenth of the loaded radius')
@@ -522,6 +396,16 @@ contains
       call writing%deck%number('to', range_of(radius))
       call writing%deck%end()
    end subroutine put_wheel
+
+   !> The body with the wheel.
+   pure function wheel_body(kind) result(body)
+      integer, intent(in) :: kind
+      character(:), allocatable :: body
+
+      body = 'carrier'
+      if (kind == trailing_arm) body = 'arm'
+      if (is_solid(kind) .and. kind /= four_link_axle) body = 'axle'
+   end function wheel_body
 
    !> A tenth of a radius, with two digits.
    pure real(wp) function range_of(radius)
@@ -533,8 +417,7 @@ contains
    end function range_of
 
    !> Writes the points alone, as a part of a deck, if they are not those of a known kind of suspension.
-   subroutine put_part(points, frame, table, writing, flaws)
-      type(point_set_t), intent(in) :: points
+   subroutine put_part(frame, table, writing, flaws)
       type(frame_t), intent(in) :: frame
       type(point_table_t), intent(in) :: table
       type(writing_t), intent(inout) :: writing

@@ -4,14 +4,18 @@ module ek_point_kind
    use ek_flaws, only: flaws_t, shown
    use ek_point_name, only: point_count, point_names, nearest_point, wheel_centre, lca_front, lca_rear, lower_ball, uca_front, &
       uca_rear, upper_ball, tie_inner, tie_outer, toe_inner, toe_outer, strut_top, strut_low, arm_inner, arm_outer, &
-      upper_front_in, upper_front_out, upper_rear_in, upper_rear_out, lower_in, lower_out, trailing_front, trailing_rear
+      upper_front_in, upper_front_out, upper_rear_in, upper_rear_out, lower_in, lower_out, trailing_front, trailing_rear, &
+      kingpin_low, kingpin_top, upper_rod_chassis, upper_rod_axle, lower_rod_chassis, lower_rod_axle, &
+      drag_link_chassis, drag_link_crank, crank_tie_rod, crank_axle, triangle_chassis, triangle_axle, axle_pivot, &
+      watt_left_chassis, watt_left_lever, watt_right_chassis, watt_right_lever
    use ek_point_table, only: point_table_t
    use ek_frame_votes, only: point_set_t
    implicit none(type, external)
    private
-   public :: kinds, double_wishbone, mcpherson, five_link, trailing_arm, find_kind, incomplete, check_rod, nearest
+   public :: kinds, double_wishbone, mcpherson, five_link, trailing_arm, four_link_axle, three_link_axle, de_dion, is_solid, &
+      find_kind, incomplete, check_rod, nearest
 
-   integer, parameter :: most_needed = 10
+   integer, parameter :: most_needed = 14
 
    !> A kind of suspension with the points that it needs. `rod` is the tie rod or the toe link.
    type :: kind_t
@@ -21,19 +25,33 @@ module ek_point_kind
       integer :: needs(most_needed)
    end type kind_t
 
-   integer, parameter :: double_wishbone = 1, mcpherson = 2, five_link = 3, trailing_arm = 4
-   type(kind_t), parameter :: kinds(4) = [ &
-      kind_t('double wishbone', 'Double wishbone axle, points and links', .true., &
-      [wheel_centre, lca_front, lca_rear, lower_ball, uca_front, uca_rear, upper_ball, 0, 0, 0]), &
-      kind_t('McPherson', 'McPherson axle, points and links', .true., &
-      [wheel_centre, lca_front, lca_rear, lower_ball, strut_low, strut_top, 0, 0, 0, 0]), &
-      kind_t('five-link', 'Five-link axle, points and links', .true., &
+   integer, parameter :: double_wishbone = 1, mcpherson = 2, five_link = 3, trailing_arm = 4, four_link_axle = 5, &
+      three_link_axle = 6, de_dion = 7
+   type(kind_t), parameter :: kinds(7) = [ &
+      kind_t('double wishbone', 'Double wishbone axle', .true., &
+      [wheel_centre, lca_front, lca_rear, lower_ball, uca_front, uca_rear, upper_ball, 0, 0, 0, 0, 0, 0, 0]), &
+      kind_t('McPherson', 'McPherson axle', .true., &
+      [wheel_centre, lca_front, lca_rear, lower_ball, strut_low, strut_top, 0, 0, 0, 0, 0, 0, 0, 0]), &
+      kind_t('five-link', 'Five-link axle', .true., &
       [wheel_centre, upper_front_in, upper_front_out, upper_rear_in, upper_rear_out, lower_in, lower_out, trailing_front, &
-      trailing_rear, 0]), &
-      kind_t('trailing arm', 'Trailing arm axle, points and links', .false., [wheel_centre, arm_inner, arm_outer, 0, 0, 0, 0, 0, &
-      0, 0])]
+      trailing_rear, 0, 0, 0, 0, 0]), &
+      kind_t('trailing arm', 'Trailing arm axle', .false., &
+      [wheel_centre, arm_inner, arm_outer, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]), &
+      kind_t('solid four-link', 'Solid axle, four links', .false., &
+      [wheel_centre, kingpin_low, kingpin_top, upper_rod_chassis, upper_rod_axle, lower_rod_chassis, lower_rod_axle, &
+      tie_outer, drag_link_chassis, drag_link_crank, crank_tie_rod, crank_axle, 0, 0]), &
+      kind_t('solid three-link', 'Solid axle, two links and triangle', .false., &
+      [wheel_centre, lower_rod_chassis, lower_rod_axle, triangle_chassis, triangle_axle, 0, 0, 0, 0, 0, 0, 0, 0, 0]), &
+      kind_t('de Dion', 'De Dion axle with Watt linkage', .false., &
+      [wheel_centre, axle_pivot, watt_left_chassis, watt_left_lever, watt_right_chassis, watt_right_lever, 0, 0, 0, 0, 0, 0, 0, 0])]
 
 contains
+
+   !> Whether both wheels are on one axle tube.
+   pure logical function is_solid(kind)
+      integer, intent(in) :: kind
+      is_solid = any([four_link_axle, three_link_axle, de_dion] == kind)
+   end function is_solid
 
    !> Finds the kind of suspension for which the fewest points are missing; 0 if half of the points of every kind or more are
    !> missing.

@@ -11,7 +11,9 @@ module ek_point_list
    use ek_fields, only: lines_t
    use ek_json_tree, only: json_tree_t, parse_json, triple_at
    use ek_unit_word, only: unit_of, length_unit
-   use ek_point_table, only: point_table_t, table_point_t, not_a_point, split_place, take_length, recognise, add_point
+   use ek_car_number, only: car_number_t, car_number_of, add_car_number, count_of
+   use ek_point_heading, only: split_place
+   use ek_point_table, only: point_table_t, table_point_t, not_a_point, take_length, recognise, add_point
    implicit none(type, external)
    private
    public :: is_toml, parse_point_list, as_json
@@ -140,6 +142,11 @@ contains
             call take_length(unit, tree%leaves(k)%line, table, flaws)
             if (.not. unit > 0.0_wp) call flaws%add(tree%leaves(k)%line, 'expected a unit of length for '// &
                shown(trim(tree%leaves(k)%path))//', found '//shown(tree%leaves(k)%text))
+         else if (k > last .and. is_car_number(tree, k)) then
+            call take_path(without_index(trim(tree%leaves(k)%path)), point)
+            last = k + count_of(car_number_of(trim(point%name))) - 1
+            call add_car_number(car_number_t(car_number_of(trim(point%name)), point%axle, &
+               [tree%leaves(k)%value, tree%leaves(last)%value], tree%leaves(k)%line), table%numbers, flaws)
          else if (k > last .and. tree%leaves(k)%is_number .and. others < max_others) then
             others = others + 1
             call add_point(table_point_t(name=trim(tree%leaves(k)%path), point=not_a_point, line=tree%leaves(k)%line), table, flaws)
@@ -149,6 +156,40 @@ contains
          'expected points, as "lca_front": [1, 2, 3], or the JSON of a Chrono suspension ("Type": "Suspension"), found neither')
       call recognise(table, flaws)
    end subroutine parse_point_list
+
+   !> Whether leaf k is a number of the car, or the first of the two numbers of an adjuster.
+   logical function is_car_number(tree, k)
+      type(json_tree_t), intent(in) :: tree
+      integer, intent(in) :: k
+      character(:), allocatable :: path
+      type(table_point_t) :: point
+      integer :: n
+
+      is_car_number = .false.
+      if (.not. tree%leaves(k)%is_number) return
+      path = trim(tree%leaves(k)%path)
+      call take_path(without_index(path), point)
+      if (car_number_of(trim(point%name)) == 0) return
+      n = count_of(car_number_of(trim(point%name)))
+      if (n == 1) is_car_number = without_index(path) == path
+      if (n == 1 .or. k + n - 1 > tree%used) return
+      if (without_index(path)//'/1' /= path) return
+      is_car_number = tree%leaves(k + 1)%path == without_index(path)//'/2' .and. tree%leaves(k + 1)%is_number
+      if (k + 2 <= tree%used) is_car_number = is_car_number .and. tree%leaves(k + 2)%path /= without_index(path)//'/3'
+   end function is_car_number
+
+   !> A path without the index of an element at its end.
+   pure function without_index(path) result(short)
+      character(*), intent(in) :: path
+      character(:), allocatable :: short
+      integer :: at
+
+      at = index(path, '/', back=.true.)
+      short = path
+      if (at > 1 .and. at < len(path)) then
+         if (verify(path(at + 1:), '0123456789') == 0) short = path(:at - 1)
+      end if
+   end function without_index
 
    !> Whether the last name of a path is that of a unit.
    pure logical function names_unit(path)

@@ -3,7 +3,8 @@
 !>
 !> A name is divided into known terms, each of which stands for some letters: 'lower wishbone front pivot' has L, A, F and V. A
 !> point of `points` is meant if all letters that it needs are there, and no letter beyond those that it may have. A name with a
-!> term that is not in the list stands for no point: nothing is guessed.
+!> term that is not in the list stands for no point: nothing is guessed. The points of a solid axle have their name of
+!> `point_names` only.
 !>
 !> Letters: L lower, U upper, F front, R rear, I inner or chassis, O outer or wheel carrier, A arm, B ball joint, T tie rod,
 !> E toe link, K rack, W wheel, C centre, P contact point, S strut, D damper, G spring, H push or pull rod, X rocker, Z axis,
@@ -17,7 +18,10 @@ module ek_point_name
    public :: wheel_centre, contact_patch, lca_front, lca_rear, lower_ball, uca_front, uca_rear, upper_ball, tie_inner, tie_outer, &
       toe_inner, toe_outer, strut_top, strut_low, push_low, push_top, rocker_pivot, rocker_axis, damper_inner, damper_outer, &
       arm_inner, arm_outer, upper_front_in, upper_front_out, upper_rear_in, upper_rear_out, lower_in, lower_out, trailing_front, &
-      trailing_rear, rack_centre, damper_top, damper_low, spring_top, spring_low
+      trailing_rear, rack_centre, damper_top, damper_low, spring_top, spring_low, kingpin_low, kingpin_top, upper_rod_chassis, &
+      upper_rod_axle, lower_rod_chassis, lower_rod_axle, panhard_chassis, panhard_axle, drag_link_chassis, drag_link_crank, &
+      crank_tie_rod, crank_axle, triangle_chassis, triangle_axle, axle_pivot, watt_left_chassis, watt_left_lever, &
+      watt_right_chassis, watt_right_lever
 
    integer, parameter :: wheel_centre = 1, contact_patch = 2, lca_front = 3, lca_rear = 4, lower_ball = 5, uca_front = 6, &
       uca_rear = 7, upper_ball = 8, tie_inner = 9, tie_outer = 10, toe_inner = 11, toe_outer = 12, strut_top = 13, &
@@ -25,14 +29,23 @@ module ek_point_name
       arm_inner = 21, arm_outer = 22, upper_front_in = 23, upper_front_out = 24, upper_rear_in = 25, upper_rear_out = 26, &
       lower_in = 27, lower_out = 28, trailing_front = 29, trailing_rear = 30, rack_centre = 31, damper_top = 32, &
       damper_low = 33, spring_top = 34, spring_low = 35
-   integer, parameter :: point_count = 35
+   !> Points of a solid axle.
+   integer, parameter :: kingpin_low = 36, kingpin_top = 37, upper_rod_chassis = 38, upper_rod_axle = 39, &
+      lower_rod_chassis = 40, lower_rod_axle = 41, panhard_chassis = 42, panhard_axle = 43, drag_link_chassis = 44, &
+      drag_link_crank = 45, crank_tie_rod = 46, crank_axle = 47, triangle_chassis = 48, triangle_axle = 49, &
+      axle_pivot = 50, watt_left_chassis = 51, watt_left_lever = 52, watt_right_chassis = 53, watt_right_lever = 54
+   integer, parameter :: point_count = 54
    integer, parameter :: unused_point = 0      !! a known part that is not read, as an anti-roll bar
    character(20), parameter :: point_names(point_count) = [character(20) :: 'wheel_centre', 'contact_patch', 'lca_front', &
       'lca_rear', 'lower_ball_joint', 'uca_front', 'uca_rear', 'upper_ball_joint', 'tie_rod_inner', 'tie_rod_outer', &
       'toe_inner', 'toe_outer', 'strut_top', 'strut_low', 'push_rod_low', 'push_rod_top', 'rocker_pivot', 'rocker_axis', &
       'damper_inner', 'damper_outer', 'arm_inner', 'arm_outer', 'upper_front_inner', 'upper_front_outer', 'upper_rear_inner', &
       'upper_rear_outer', 'lower_inner', 'lower_outer', 'trailing_front', 'trailing_rear', 'rack_centre', 'damper_top', &
-      'damper_low', 'spring_top', 'spring_low']
+      'damper_low', 'spring_top', 'spring_low', &
+      'kingpin_low', 'kingpin_top', 'upper_rod_chassis', 'upper_rod_axle', 'lower_rod_chassis', 'lower_rod_axle', &
+      'panhard_chassis', 'panhard_axle', 'drag_link_chassis', 'drag_link_crank', 'crank_tie_rod', 'crank_axle', &
+      'triangle_chassis', 'triangle_axle', 'axle_pivot', 'watt_left_chassis', 'watt_left_lever', 'watt_right_chassis', &
+      'watt_right_lever']
 
    !> A set of letters that stands for a point.
    type :: rule_t
@@ -167,6 +180,11 @@ contains
       logical :: is_known
       integer :: at
 
+      at = findloc(point_names == lower(name(:min(len(name), len(point_names)))), .true., dim=1)
+      if (at >= kingpin_low .and. len_trim(name) <= len(point_names)) then            ! of a solid axle: no other names
+         found%point = at
+         return
+      end if
       letters = ''
       ends = ''                              ! front and rear, in the order of the name
       at = 1

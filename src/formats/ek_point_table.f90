@@ -5,19 +5,21 @@
 !> in the columns and the unit of the table.
 module ek_point_table
    use ek_kinds, only: wp
-   use ek_text, only: str, lower, plural
+   use ek_text, only: str, lower
    use ek_letters, only: with_line_ends
    use ek_sheet, only: sheet_t, parse_sheet, cells_t, new_cells, split_row, plain_cell, cell_of
    use ek_sheet_cell, only: get_cell, cell_fault
    use ek_sheet_columns, only: find_unit_row, find_decimal_marks, is_decimal_comma, row_fault
    use ek_unit_word, only: unit_of, length_unit
+   use ek_point_heading, only: split_head, split_place, joined_heads
    use ek_flaws, only: flaws_t, shown
-   use ek_hardpoint, only: take_symmetry, single_point, point_pair, left_point, right_point
-   use ek_point_name, only: meaning_t, hints_t, meaning_of, hints_in, nearest_point
+   use ek_hardpoint, only: take_symmetry, single_point, point_pair
+   use ek_point_name, only: meaning_t, hints_t, meaning_of, hints_in
    use ek_vote, only: length_names, length_values
+   use ek_car_number, only: car_number_t, car_numbers_t, car_number_of, add_car_number, count_of
    implicit none(type, external)
    private
-   public :: table_point_t, point_table_t, not_a_point, parse_points, split_place, take_length, recognise, add_point
+   public :: table_point_t, point_table_t, not_a_point, parse_points, take_length, recognise, add_point
 
    integer, parameter :: most_blocks = 12        !! most groups of columns x, y, z
    integer, parameter :: most_points = 5000
@@ -38,6 +40,7 @@ module ek_point_table
       integer :: used = 0
       type(table_point_t), allocatable :: points(:)
       integer :: length = 0                      !! unit that the table names, index in length_names; 0: none
+      type(car_numbers_t) :: numbers             !! numbers of the car and of adjusters
    end type point_table_t
 
    !> Columns x, y and z of a corner, an axle or a side.
@@ -94,94 +97,6 @@ contains
       call recognise(table, flaws)
       if (table%used == 0 .and. flaws%count() == 0) call flaws%add(0, 'expected hardpoints, found none')
    end subroutine parse_points
-
-   !> Joins a line of corners above the headings with the headings: 'name,FL,,,FR,,' and ',x,y,z,x,y,z' become a comment and
-   !> 'name,FL x,FL y, …'. Other texts are unchanged.
-   function joined_heads(text) result(joined)
-      character(*), intent(in) :: text
-      character(:), allocatable :: joined
-      character(:), allocatable :: upper, lower_line, block, cell, head
-      character :: separator
-      integer :: first(2), last(2)
-
-      joined = text
-      if (.not. has_block_line(text, first, last, separator)) return
-      upper = text(first(1):last(1))
-      lower_line = text(first(2):last(2))
-      block = ''
-      head = ''
-      do while (upper /= '' .or. lower_line /= '')
-         call cut_cell(upper, separator, cell)
-         if (cell /= '') block = cell
-         call cut_cell(lower_line, separator, cell)
-         if (head /= '') head = head//separator
-         if (coordinate_of(cell) == 0) then
-            if (cell == '') cell = block
-         else if (block /= '') then
-            cell = block//' '//cell
-         end if
-         head = head//cell
-      end do
-      joined = text(:first(1) - 1)//'#'//text(first(1):last(1))//text(last(1) + 1:first(2) - 1)//head//text(last(2) + 1:)
-   end function joined_heads
-
-   !> Whether the first line of a text names corners, axles or sides, and the second line has x, y, z at least twice.
-   logical function has_block_line(text, first, last, separator) result(has)
-      character(*), intent(in) :: text
-      integer, intent(out) :: first(2), last(2)            !! positions of the two lines
-      character, intent(out) :: separator
-      character(:), allocatable :: line, cell
-      integer :: at, n, k, x, places, axle, side
-      logical :: is_place
-
-      has = .false.
-      separator = ','
-      at = 1
-      n = 0
-      do while (at <= len(text) .and. n < 2)
-         k = index(text(at:), new_line('a')) - 1
-         if (k < 0) k = len(text) - at + 1
-         if (verify(text(at:at + k - 1), ' ,;"'//achar(9)) > 0 .and. index(adjustl(text(at:at + k - 1)), '#') /= 1) then
-            n = n + 1
-            first(n) = at
-            last(n) = at + k - 1
-         end if
-         at = at + k + 1
-      end do
-      if (n < 2) return
-      line = text(first(2):last(2))
-      if (index(line, achar(9)) > 0) separator = achar(9)
-      if (index(line, ';') > 0) separator = ';'
-      x = 0
-      do while (line /= '')
-         call cut_cell(line, separator, cell)
-         if (coordinate_of(cell) == 1) x = x + 1
-      end do
-      places = 0
-      line = text(first(1):last(1))
-      do while (line /= '')
-         call cut_cell(line, separator, cell)
-         call split_place(cell, axle, side, is_place)
-         if (is_place) places = places + 1
-      end do
-      has = x >= 2 .and. places >= 2
-   end function has_block_line
-
-   !> Takes the first cell from a line, without quotes and blanks at its ends.
-   subroutine cut_cell(line, separator, cell)
-      character(:), allocatable, intent(inout) :: line
-      character, intent(in) :: separator
-      character(:), allocatable, intent(out) :: cell
-      integer :: at
-
-      at = index(line, separator)
-      if (at == 0) at = len(line) + 1
-      cell = trim(adjustl(line(:at - 1)))
-      line = line(min(at + 1, len(line) + 1):)
-      if (len(cell) > 1) then
-         if (cell(1:1) == '"' .and. cell(len(cell):) == '"') cell = trim(adjustl(cell(2:len(cell) - 1)))
-      end if
-   end subroutine cut_cell
 
    !> Finds the columns.
    subroutine find_layout(sheet, layout, table, flaws)
@@ -295,118 +210,6 @@ contains
 
    end function name_column
 
-   !> Splits a heading into corner, axle or side, the letters that remain, and its unit [m]; 0 if it names none: 'FL x [mm]'.
-   subroutine split_head(text, axle, side, head, unit)
-      character(*), intent(in) :: text
-      integer, intent(out) :: axle, side
-      character(:), allocatable, intent(out) :: head
-      real(wp), intent(out) :: unit
-      character(*), parameter :: idle(13) = [character(10) :: 'coordinate', 'coord', 'value', 'position', 'pos', 'location', &
-         'loc', 'achse', 'axis', 'wert', 'of', 'the', 'in']
-      character(:), allocatable :: folded, word, others
-      integer :: at, next, a, s
-      logical :: is_place
-
-      axle = 0
-      side = 0
-      unit = 0.0_wp
-      head = ''
-      others = ''
-      folded = lower(text(:min(len(text), 200)))
-      at = 1
-      do while (at <= len(folded))
-         next = verify(folded(at:), 'abcdefghijklmnopqrstuvwxyz')
-         if (next == 0) next = len(folded) - at + 2
-         word = folded(at:at + next - 2)
-         at = at + max(next, 1)
-         if (word == '') cycle
-         call split_place(word, a, s, is_place)
-         if (is_place) then
-            if (a > 0) axle = a
-            if (s > 0) side = s
-         else if (len(word) == 1 .and. scan(word, 'xyz') == 1) then
-            head = head//word
-         else if (head /= '' .and. unit_of(length_unit, word) > 0.0_wp) then
-            unit = unit_of(length_unit, word)
-         else if (.not. any(idle == word)) then
-            others = others//word
-         end if
-      end do
-      if (others /= '') then
-         head = head//others
-         do at = 1, size(idle)                    ! xvalue, locx: one word of two
-            if (len(head) /= len_trim(idle(at)) + 1) cycle
-            if (head(2:) == idle(at) .and. scan(head(1:1), 'xyz') == 1) head = head(1:1)
-            if (len(head) == 1) exit
-            if (head(:len(head) - 1) == idle(at) .and. scan(head(len(head):), 'xyz') == 1) head = head(len(head):)
-            if (len(head) == 1) exit
-         end do
-      end if
-      if (head == '' .and. (axle > 0 .or. side > 0)) head = 'place'
-      if (head == '' .and. index(folded, 'achse') > 0) head = 'achse'
-   end subroutine split_head
-
-   !> The coordinate that a heading names, 1 to 3; 0 if it names none.
-   integer function coordinate_of(text)
-      character(*), intent(in) :: text
-      character(:), allocatable :: head
-      real(wp) :: unit
-      integer :: axle, side
-
-      call split_head(text, axle, side, head, unit)
-      coordinate_of = 0
-      if (len(head) == 1) coordinate_of = index('xyz', head)
-   end function coordinate_of
-
-   !> Splits a text that names a corner, an axle or a side: 'FL', 'Front Left', 'rear', 'RH'.
-   subroutine split_place(text, axle, side, is_place)
-      character(*), intent(in) :: text
-      integer, intent(out) :: axle, side            !! 0 if the text names none
-      logical, intent(out) :: is_place              !! the text names nothing else
-      character(:), allocatable :: word
-
-      axle = 0
-      side = 0
-      word = plain(text)
-      is_place = .true.
-      select case (word)
-      case ('front', 'vorn', 'vorne', 'va', 'frontaxle', 'axlefront')
-         axle = 1
-      case ('rear', 'back', 'hinten', 'ha', 'rearaxle', 'axlerear')
-         axle = 2
-      case ('left', 'l', 'lh', 'lhs', 'links', 'leftside')
-         side = 1
-      case ('right', 'rh', 'rhs', 'rechts', 'rightside')
-         side = 2
-      case ('fl', 'lf', 'frontleft', 'leftfront', 'vl', 'frontlh')
-         axle = 1
-         side = 1
-      case ('fr', 'rf', 'frontright', 'rightfront', 'vr', 'frontrh')
-         axle = 1
-         side = 2
-      case ('rl', 'lr', 'rearleft', 'leftrear', 'hl', 'rearlh')
-         axle = 2
-         side = 1
-      case ('rr', 'rearright', 'rightrear', 'hr', 'rearrh')
-         axle = 2
-         side = 2
-      case default
-         is_place = .false.
-      end select
-   end subroutine split_place
-
-   !> A text in lower case without blanks, underscores, hyphens and dots.
-   pure function plain(text) result(word)
-      character(*), intent(in) :: text
-      character(:), allocatable :: word
-      integer :: k
-
-      word = ''
-      do k = 1, min(len(text), 60)
-         if (scan(text(k:k), ' _-./') == 0) word = word//lower(text(k:k))
-      end do
-   end function plain
-
    !> Takes the unit of a heading or of the row of units; all must be the same.
    subroutine take_length(unit, line, table, flaws)
       real(wp), intent(in) :: unit                     !! [m]; 0: none
@@ -470,6 +273,15 @@ contains
          if (is_good(c)) is_good(c) = abs(point%at(c)) < most
       end do
       if (all(is_empty) .and. (layout%used > 1 .or. name == '')) return
+      point%name = name
+      point%line = sheet%lines(row)
+      point%axle = block%axle
+      point%side = block%side
+      if (is_car_number(name, is_good, is_empty)) then
+         call take_places(sheet, cells, layout, point, flaws)
+         call add_car_number(car_number_t(car_number_of(name), point%axle, point%at(:2), point%line), table%numbers, flaws)
+         return
+      end if
       do c = 1, 3
          if (is_good(c)) cycle
          call flaws%add(sheet%lines(row), 'xyz'(c:c)//' of '//shown(name)//': '// &
@@ -477,13 +289,22 @@ contains
       end do
       if (name == '' .and. any(is_good)) call flaws%add(sheet%lines(row), 'expected the name of a hardpoint, found nothing')
       if (name == '' .or. .not. all(is_good)) return
-      point%name = name
-      point%line = sheet%lines(row)
-      point%axle = block%axle
-      point%side = block%side
       call take_places(sheet, cells, layout, point, flaws)
       call add_point(point, table, flaws)
    end subroutine take_block
+
+   !> Whether a row has a number of the car: in its first cells, and the others are empty.
+   pure logical function is_car_number(name, is_good, is_empty)
+      character(*), intent(in) :: name
+      logical, intent(in) :: is_good(3), is_empty(3)
+      integer :: slot, n
+
+      slot = car_number_of(name)
+      is_car_number = slot > 0
+      if (.not. is_car_number) return
+      n = count_of(slot)
+      is_car_number = all(is_good(:n)) .and. all(is_empty(n + 1:))
+   end function is_car_number
 
    !> Adds a point. More than 5000 points are an error.
    subroutine add_point(point, table, flaws)

@@ -1,0 +1,133 @@
+!> Bodies and joints of a solid axle or a de Dion axle, made from its points. The axle tube is one body of both sides.
+module ek_solid_deck
+   use ek_kinds, only: wp
+   use ek_text, only: str
+   use ek_point_name, only: point_names, kingpin_low, kingpin_top, upper_rod_chassis, upper_rod_axle, lower_rod_chassis, &
+      lower_rod_axle, panhard_chassis, panhard_axle, drag_link_chassis, drag_link_crank, crank_tie_rod, crank_axle, &
+      triangle_chassis, triangle_axle, axle_pivot, watt_left_chassis, watt_left_lever, watt_right_chassis, watt_right_lever
+   use ek_point_kind, only: four_link_axle, three_link_axle, de_dion
+   use ek_frame_votes, only: half_t
+   use ek_deck_parts, only: writing_t, put_point, put_body, put_joint, put_joint_at, put_line_joint, put_axis_joint
+   implicit none(type, external)
+   private
+   public :: put_solid_axle, put_shared, put_middle_points
+
+   real(wp), parameter :: along_x(3) = [1.0_wp, 0.0_wp, 0.0_wp], along_y(3) = [0.0_wp, 1.0_wp, 0.0_wp], &
+      along_z(3) = [0.0_wp, 0.0_wp, 1.0_wp]
+
+   !> Points that exist once, and the bodies that both sides share, of each kind.
+   integer, parameter :: panhard_points(2) = [panhard_chassis, panhard_axle], crank_points(4) = [drag_link_chassis, &
+      drag_link_crank, crank_tie_rod, crank_axle], watt_points(5) = [axle_pivot, watt_left_chassis, watt_left_lever, &
+      watt_right_chassis, watt_right_lever]
+
+contains
+
+   !> Writes the key `shared` of &mirror.
+   subroutine put_shared(kind, writing)
+      integer, intent(in) :: kind
+      type(writing_t), intent(inout) :: writing
+
+      call writing%deck%add_word('shared', 'axle', .true.)
+      select case (kind)
+      case (four_link_axle)
+         call add('tie_rod')
+         call add('bell_crank')
+         call add_points(crank_points)
+         if (all(writing%is_written(panhard_points))) call add_points(panhard_points)
+      case (three_link_axle)
+         call add('triangle')
+      case (de_dion)
+         call add('watt_lever')
+         call add('watt_pivot')
+         call add_points(watt_points)
+      end select
+
+   contains
+
+      subroutine add(word)
+         character(*), intent(in) :: word
+         call writing%deck%add_word('shared', word, .false.)
+      end subroutine add
+
+      subroutine add_points(points)
+         integer, intent(in) :: points(:)
+         integer :: k
+
+         do k = 1, size(points)
+            call add(trim(point_names(points(k))))
+         end do
+      end subroutine add_points
+
+   end subroutine put_shared
+
+   !> Writes the points in the middle of the car that follow from points of the file.
+   subroutine put_middle_points(half, kind, writing)
+      type(half_t), intent(in) :: half
+      integer, intent(in) :: kind
+      type(writing_t), intent(inout) :: writing
+      real(wp), parameter :: middle(3) = [1.0_wp, 0.0_wp, 1.0_wp]
+
+      if (kind == three_link_axle) then
+         call put_point('triangle_pivot', middle*half%at(:, triangle_chassis), middle_of(triangle_chassis), writing)
+         call put_point('triangle_ball', middle*half%at(:, triangle_axle), middle_of(triangle_axle), writing)
+      else if (kind == de_dion) then
+         call put_point('watt_pivot', 0.5_wp*(half%at(:, watt_left_lever) + half%at(:, watt_right_lever)), &
+            'between watt_left_lever and watt_right_lever', writing)
+      end if
+
+   contains
+
+      !> The source of a point in the middle plane: a point of the left half in the file.
+      function middle_of(point) result(note)
+         integer, intent(in) :: point
+         character(:), allocatable :: note
+         note = 'between the sides, '//writing%file//':'//str(half%line(point))
+      end function middle_of
+
+   end subroutine put_middle_points
+
+   !> Writes bodies and joints.
+   subroutine put_solid_axle(kind, writing)
+      integer, intent(in) :: kind
+      type(writing_t), intent(inout) :: writing
+
+      call put_body('axle', writing)
+      select case (kind)
+      case (four_link_axle)
+         call put_joint('upper_rod', 'distance', 'chassis', 'axle', [upper_rod_chassis, upper_rod_axle], writing)
+         call put_joint('lower_rod', 'distance', 'chassis', 'axle', [lower_rod_chassis, lower_rod_axle], writing)
+         if (all(writing%is_written(panhard_points))) call put_joint('panhard_rod', 'distance', 'chassis', &
+            'axle', panhard_points, writing)
+         call put_knuckles(writing)
+      case (three_link_axle)
+         call put_joint('lower_rod', 'distance', 'chassis', 'axle', [lower_rod_chassis, lower_rod_axle], writing)
+         call put_body('triangle', writing)
+         call put_axis_joint('triangle_hinge', 'revolute', 'chassis', 'triangle', 'triangle_pivot', along_y, writing)
+         call put_joint_at('triangle_joint', 'spherical', 'triangle', 'axle', 'triangle_ball', writing)
+      case (de_dion)
+         call put_joint('tube_ball', 'spherical', 'chassis', 'axle', [axle_pivot], writing)
+         call put_body('watt_lever', writing, origin='watt_pivot')
+         call put_axis_joint('watt_hinge', 'revolute', 'axle', 'watt_lever', 'watt_pivot', along_x, writing)
+         call put_joint('watt_left_rod', 'distance', 'chassis', 'watt_lever', [watt_left_chassis, watt_left_lever], writing)
+         call put_joint('watt_right_rod', 'distance', 'chassis', 'watt_lever', [watt_right_chassis, watt_right_lever], writing)
+      end select
+   end subroutine put_solid_axle
+
+   !> Writes the knuckles on their kingpins, the tie rod between them, and the bell crank with the drag link. The tie rod cannot
+   !> spin in its right joint. The bell crank moves it by its pin, in a plane across the rod.
+   subroutine put_knuckles(writing)
+      type(writing_t), intent(inout) :: writing
+
+      call put_body('carrier', writing, origin='wheel_centre')
+      call put_line_joint('kingpin', 'revolute', 'axle', 'carrier', kingpin_low, kingpin_top, writing)
+      call put_body('tie_rod', writing)
+      call put_joint_at('left_tie_rod_joint', 'spherical', 'tie_rod', 'left_carrier', 'left_tie_rod_outer', writing)
+      call put_axis_joint('right_tie_rod_joint', 'universal', 'tie_rod', 'right_carrier', 'right_tie_rod_outer', along_x, &
+         writing, axis_2=along_z)
+      call put_body('bell_crank', writing)
+      call put_axis_joint('crank_hinge', 'revolute', 'axle', 'bell_crank', trim(point_names(crank_axle)), along_z, writing)
+      call put_axis_joint('crank_pin', 'in_plane', 'tie_rod', 'bell_crank', trim(point_names(crank_tie_rod)), along_y, writing)
+      call put_joint('drag_link', 'distance', 'chassis', 'bell_crank', [drag_link_chassis, drag_link_crank], writing)
+   end subroutine put_knuckles
+
+end module ek_solid_deck
