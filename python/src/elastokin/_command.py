@@ -1,4 +1,4 @@
-"""The program `elastokin` of this package: the command line."""
+"""The programs `elastokin` and `elastokin-lsp` of this package: the command line, and the language server for editors."""
 
 from __future__ import annotations
 
@@ -21,3 +21,12 @@ def main() -> None:
     except ImportError as reason:
         sys.exit(f"elastokin: {reason}")
     sys.exit(run(program, sys.argv[1:]))
+
+
+def serve() -> None:
+    """Runs the language server. Without pygls, the message names the command that installs it."""
+    try:
+        from .lsp import main as run_server
+    except ModuleNotFoundError as reason:
+        sys.exit(f'elastokin-lsp: {reason}; install it with: pip install "elastokin[lsp]"')
+    run_server()
