@@ -3,6 +3,7 @@
 import asyncio
 import importlib.util
 import os
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -208,6 +209,15 @@ class Editing(unittest.IsolatedAsyncioTestCase):
             self.assertIn("note", keys)
             for key in keys.values():
                 self.assertTrue(key.documentation.value.startswith(f"**{key.label}** of `&{group.label}`"))
+
+
+class Starting(unittest.TestCase):
+    def test_without_pygls_the_message_names_the_command_that_installs_it(self) -> None:
+        words = "import sys; sys.modules['pygls'] = None; sys.modules['lsprotocol'] = None; from elastokin_command import serve; serve()"
+        found = subprocess.run([sys.executable, "-c", words], capture_output=True, text=True)
+        self.assertEqual(found.returncode, 1)
+        self.assertIn('pip install "elastokin[lsp]"', found.stderr)
+        self.assertEqual(found.stderr.count("\n"), 1)
 
 
 if __name__ == "__main__":

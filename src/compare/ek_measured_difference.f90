@@ -65,7 +65,7 @@ contains
       real(wp), intent(in) :: threshold
       character(:), allocatable :: text
       type(item_t), allocatable :: items(:)
-      integer :: m, c, used, agreeing
+      integer :: m, c, used, agreeing, lost
 
       allocate (items(curves_of(model)))
       used = 0
@@ -81,8 +81,12 @@ contains
             ' of the range'
          return
       end if
-      text = joined(items, threshold)//'; '//str(agreeing)//' of '//plural(used, 'curve agrees', 'curves agree')//' within '// &
-         percent(threshold)//' of the range'
+      text = joined(items, threshold, '; ')
+      if (text /= '') text = text//'; '
+      text = text//str(agreeing)//' of '//plural(used, 'curve agrees', 'curves agree')//' within '//percent(threshold)// &
+         ' of the range'
+      lost = count(items%share < 0.0_wp)
+      if (lost > 0) text = text//'; '//plural(lost, 'curve has', 'curves have')//' no point that can be compared'
    end function sentence_of
 
    !> The changes of rms from the first model to another model, and the number of curves to which it is nearer.
@@ -117,15 +121,16 @@ contains
             if (after > before) farther = farther + 1
          end do
       end do
-      text = joined(items, threshold)
+      text = joined(items, threshold, ', ')
       if (text == '') text = 'no rms changed by more than '//percent(threshold)//' of the range'
       text = text//'; nearer than A to '//str(nearer)//', farther from '//str(farther)//' of '//plural(used, 'curve', 'curves')
    end function change_sentence
 
    !> The largest items as a phrase; '' if none is above the threshold.
-   function joined(items, threshold) result(text)
+   function joined(items, threshold, mark) result(text)
       type(item_t), intent(in) :: items(:)
       real(wp), intent(in) :: threshold
+      character(*), intent(in) :: mark             !! between two items
       character(:), allocatable :: text
       real(wp) :: sizes(size(items))
       integer :: order(size(items)), k, used
@@ -139,7 +144,7 @@ contains
          associate (item => items(order(k)))
             if (used == most_items) exit
             if (.not. (item%is_flip .or. item%share > threshold)) cycle
-            if (used > 0) text = text//', '
+            if (used > 0) text = text//mark
             text = text//item%text
             used = used + 1
          end associate

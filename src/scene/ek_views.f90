@@ -15,7 +15,7 @@ module ek_views
    use ek_state, only: state_t, design_state
    use ek_scene, only: scene_t, add_run, line_ground
    use ek_picture, only: add_ghost
-   use ek_gnuplot, only: on_guide, on_point, on_skeleton, on_title, on_level, on_derivative
+   use ek_gnuplot, only: on_guide, on_point, on_skeleton, on_title, on_level, on_derivative, on_range
    use ek_figure, only: figure_t, new_figure, add_series, add_point_names, as_line, as_points, as_segments
    implicit none(type, external)
    private
@@ -130,7 +130,7 @@ contains
       call begin_views(new, frame, figure)
       do v = 1, views
          associate (panel => figure%panels(v))
-            call add_series(panel, as_line, on_skeleton, lines_of(scenes(1), frame, v), is_dashed=.true., title='before')
+            call add_series(panel, as_line, on_range, lines_of(scenes(1), frame, v), is_dashed=.true., title='before')
             call add_series(panel, as_line, on_level, lines_of(scenes(2), frame, v), title='after')
             from = places(old%at(:, moved), frame, v)
             to = places(new%at(:, moved), frame, v)

@@ -14,12 +14,9 @@ import sys
 from pathlib import Path
 from typing import Any
 
-try:
-    from lsprotocol import types as lsp
-    from pygls.lsp.server import LanguageServer
-    from pygls.uris import from_fs_path, to_fs_path
-except ImportError as reason:
-    sys.exit(f'elastokin-lsp: {reason}; install it with: pip install "elastokin[lsp]"')
+from lsprotocol import types as lsp
+from pygls.lsp.server import LanguageServer
+from pygls.uris import from_fs_path, to_fs_path
 
 from . import __version__
 from ._deck_schema import Key, Schema

@@ -1,4 +1,4 @@
-"""The program `elastokin` of the package elastokin: the command line.
+"""The programs `elastokin` and `elastokin-lsp` of the package elastokin: the command line, and the language server for editors.
 
 This module does not import the package, so that a command does not wait for NumPy and the library.
 """
@@ -28,3 +28,12 @@ def main() -> None:
     except ImportError as reason:
         sys.exit(f"elastokin: {reason}")
     sys.exit(run(program, sys.argv[1:]))
+
+
+def serve() -> None:
+    """Runs the language server. Without pygls, the message names the command that installs it."""
+    try:
+        from elastokin.lsp import main as run_server
+    except ModuleNotFoundError as reason:
+        sys.exit(f'elastokin-lsp: {reason}; install it with: pip install "elastokin[lsp]"')
+    run_server()
