@@ -150,6 +150,12 @@ int ek_case_is_of_deck(ek_model *model, int k);     /* 1: defined in the deck; 0
  * columns in the order of the program's tables, and the columns on convergence (`converged` and those after
  * `converged`). In a requested name, * matches any sequence of characters, also an empty sequence. */
 int ek_solve(ek_model *model, const char *name, int n_columns, const char *const *columns);
+/* Converts the table of the last solution to the definitions of another program: names, units, signs and values of its
+ * columns. program is a value of --definitions: "adams", "motionview", "ipg", "optimumk", "lotus", "mathworks" or "sae";
+ * NULL or "" gives the columns of elastokin again. ek_column_count to ek_column_values then describe the converted
+ * table; its rows are those of the solution. Only columns whose formula has all of its columns in the solution exist: ask
+ * ek_solve for all columns. The next ek_solve gives the columns of elastokin. */
+int ek_define(ek_model *model, const char *program);
 int ek_row_count(ek_model *model);                  /* rows (states) of the last solution; 0 without a solution */
 int ek_column_count(ek_model *model);
 const char *ek_column_name(ek_model *model, int k);          /* "left_toe_deg" */

@@ -263,6 +263,21 @@ class Solving(unittest.TestCase):
         self.assertFalse(np.array_equal(before["left_toe_deg"], after["left_toe_deg"]))
         np.testing.assert_array_equal(before.values, kept)
 
+    def test_a_result_can_have_the_definitions_of_another_program(self) -> None:
+        own = self.model.solve("parallel_travel")
+        lotus = self.model.solve("parallel_travel", definitions="lotus")
+        trail = own["left_caster_trail_mm"] * np.cos(np.radians(own["left_caster_deg"]))
+        np.testing.assert_allclose(lotus["left Mechanical Trail (grnd) [mm]"], trail, rtol=0, atol=1e-11)
+        self.assertEqual("mm", lotus.units["left Castor Trail (hub) [mm]"])
+        self.assertEqual("Castor Trail (hub)", lotus.titles["left Castor Trail (hub) [mm]"])
+        self.assertEqual("axis aft of the centre", lotus.signs["left Castor Trail (hub) [mm]"])
+        self.assertEqual("", lotus.units["converged"])
+        self.assertIn("left_toe_deg", self.model.solve("parallel_travel"))
+        with self.assertRaisesRegex(elastokin.UsageError, "did you mean 'lotus'"):
+            self.model.solve("parallel_travel", definitions="lotos")
+        with self.assertRaises(elastokin.UsageError):
+            self.model.solve("parallel_travel", ["left_toe_deg"], definitions="lotus")
+
     def test_unknown_cases_and_columns_are_usage_errors(self) -> None:
         with self.assertRaisesRegex(elastokin.UsageError, "no_such"):
             self.model.solve("no_such")

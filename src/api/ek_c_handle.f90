@@ -3,7 +3,7 @@ module ek_c_handle
    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_double, c_f_pointer, c_int, c_loc, c_null_char, c_ptr, c_size_t
    use ek_error, only: error_t, message_list_t, exit_usage
    use ek_text, only: str, quoted
-   use ek_table, only: name_length
+   use ek_table, only: table_t, name_length
    use ek_session, only: session_t
    use ek_model_remark, only: model_remarks_t
    use ek_words, only: begin_words, end_words
@@ -29,6 +29,8 @@ module ek_c_handle
       integer :: last = 0                                    !! index of the string returned last
       type(message_list_t) :: number_names, number_units, number_definitions      !! lists of key numbers, made at first request
       type(model_remarks_t) :: remarks                       !! messages on the model at the last request
+      type(table_t), allocatable :: defined                  !! table of the last solution in other definitions, if requested
+      integer, allocatable :: defined_rows(:)                !! of each of its columns: index in `definitions`; 0 for none
    end type handle_t
 
    interface

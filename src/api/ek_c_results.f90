@@ -5,7 +5,10 @@ module ek_c_results
    use ek_error, only: error_t
    use ek_quantity, only: quantity_t, quantity_named, unit_of, unit_text
    use ek_response, only: no_column
-   use ek_table, only: name_length, column_index
+   use ek_table, only: table_t, name_length, column_index
+   use ek_definition_rows, only: definitions
+   use ek_definition, only: check_program
+   use ek_defined_table, only: defined_table
    use ek_case_result, only: case_result_t
    use ek_session_solution, only: solve, result_of, compliance_at, read_remark, find_slopes
    use ek_c_handle, only: handle_t, open_handle, take_handle, take_array, take_names, take_text, finish, refuse, say, &
@@ -13,8 +16,8 @@ module ek_c_results
    use ek_words, only: begin_words, end_words
    implicit none(type, external)
    private
-   public :: ek_solve, ek_row_count, ek_column_count, ek_column_name, ek_column_unit, ek_column_title, ek_column_sign, ek_values, &
-      ek_column_values, ek_remark_count, ek_remark_text, ek_remark_severity, ek_compliance, ek_derivatives, take_solution
+   public :: ek_solve, ek_define, ek_row_count, ek_column_count, ek_column_name, ek_column_unit, ek_column_title, ek_column_sign, &
+      ek_values, ek_column_values, ek_remark_count, ek_remark_text, ek_remark_severity, ek_compliance, ek_derivatives, take_solution
 
    character(*), parameter :: no_solution = 'there is no solution'
 
@@ -38,9 +41,42 @@ contains
       call take_names(handle, columns, n_columns, names, code)
       if (code /= ek_ok) return
       call from_c(name, case)
+      if (allocated(handle%defined)) deallocate (handle%defined, handle%defined_rows)
       call solve(handle%session, case, error, names)
       code = finish(handle, error)
    end function ek_solve
+
+   !> Exit code after converting the table of the last solution to the definitions of another program (elastokin.h).
+   integer(c_int) function ek_define(model, program) bind(c) result(code)
+      type(c_ptr), value :: model, program
+      type(handle_t), pointer :: handle
+      type(case_result_t), pointer :: last
+      type(error_t), allocatable :: error
+      character(:), allocatable :: name
+
+      call take_solution(model, handle, last, code)
+      if (code /= ek_ok) return
+      call from_c(program, name)
+      call begin_words()
+      if (name /= '') call check_program(name, error)
+      if (.not. allocated(error) .and. allocated(handle%defined)) deallocate (handle%defined, handle%defined_rows)
+      if (.not. allocated(error) .and. name /= '') then
+         allocate (handle%defined)
+         call defined_table(last%suspension, last%table, name, handle%defined, handle%defined_rows)
+      end if
+      call end_words()
+      code = finish(handle, error)
+   end function ek_define
+
+   !> The table of the last solution as the caller sees it: in the definitions of ek_define, else as solved.
+   function table_of(handle, last) result(table)
+      type(handle_t), pointer, intent(in) :: handle
+      type(case_result_t), pointer, intent(in) :: last
+      type(table_t), pointer :: table
+
+      table => last%table
+      if (allocated(handle%defined)) table => handle%defined
+   end function table_of
 
    !> The last solution; not associated if there is no solution.
    function solution_of(handle) result(last)
@@ -86,11 +122,16 @@ contains
    !> Number of columns of the last solution; 0 without a solution.
    integer(c_int) function ek_column_count(model) bind(c) result(count)
       type(c_ptr), value :: model
+      type(handle_t), pointer :: handle
       type(case_result_t), pointer :: last
+      type(table_t), pointer :: table
 
-      last => solution_of(open_handle(model))
+      handle => open_handle(model)
+      last => solution_of(handle)
       count = 0
-      if (associated(last)) count = int(size(last%table%values, 1), c_int)
+      if (.not. associated(last)) return
+      table => table_of(handle, last)
+      count = int(size(table%values, 1), c_int)
    end function ek_column_count
 
    !> Name of column k, from 0, as a C string; NULL outside the table.
@@ -127,15 +168,23 @@ contains
       integer(c_int), intent(in) :: k
       character(*), intent(in) :: what
       type(case_result_t), pointer :: last
+      type(table_t), pointer :: table
       type(quantity_t) :: quantity
       character(:), allocatable :: name, text
 
       address = c_null_ptr
       last => described_solution(handle)
       if (.not. associated(last)) return
-      if (.not. is_position(handle, k, size(last%table%columns))) return
+      table => table_of(handle, last)
+      if (.not. is_position(handle, k, size(table%columns))) return
+      if (allocated(handle%defined_rows)) then
+         if (handle%defined_rows(k + 1) > 0) then
+            address = text_of_defined(handle, k + 1, what)
+            return
+         end if
+      end if
       call begin_words()
-      name = trim(last%table%columns(k + 1))
+      name = trim(table%columns(k + 1))
       text = name
       select case (what)
       case ('unit')
@@ -153,18 +202,45 @@ contains
       call end_words()
    end function text_of_column
 
+   !> Name, unit, title or sign of a column in the definitions of another program.
+   type(c_ptr) function text_of_defined(handle, k, what) result(address)
+      type(handle_t), pointer, intent(in) :: handle
+      integer, intent(in) :: k
+      character(*), intent(in) :: what
+      character(:), allocatable :: text
+
+      call begin_words()
+      associate (row => definitions(handle%defined_rows(k)))
+         select case (what)
+         case ('unit')
+            text = trim(row%unit)
+         case ('title')
+            text = trim(row%name)
+         case ('sign')
+            text = trim(row%positive)
+         case default
+            text = trim(handle%defined%columns(k))
+         end select
+      end associate
+      address = say(handle, text)
+      call end_words()
+   end function text_of_defined
+
    !> Exit code after copying the table of the last solution, row after row.
    integer(c_int) function ek_values(model, n, values) bind(c) result(code)
       type(c_ptr), value :: model, values
       integer(c_int), value :: n
       type(handle_t), pointer :: handle
       type(case_result_t), pointer :: last
+      type(table_t), pointer :: table
       real(c_double), pointer :: place(:)
 
       call take_solution(model, handle, last, code)
-      if (code == ek_ok) call take_array(handle, values, n, size(last%table%values), &
+      if (code /= ek_ok) return
+      table => table_of(handle, last)
+      call take_array(handle, values, n, size(table%values), &
          'the array must have rows x columns numbers (ek_row_count, ek_column_count)', place, code)
-      if (code == ek_ok) call put_grid(last%table%values, place)
+      if (code == ek_ok) call put_grid(table%values, place)
    end function ek_values
 
    !> Copies a matrix column by column.
@@ -179,6 +255,7 @@ contains
       integer(c_int), value :: n
       type(handle_t), pointer :: handle
       type(case_result_t), pointer :: last
+      type(table_t), pointer :: table
       real(c_double), pointer :: place(:)
       character(:), allocatable :: head
       integer :: k
@@ -186,16 +263,17 @@ contains
       call take_solution(model, handle, last, code)
       if (code == ek_ok) call take_text(handle, name, 'name must not be NULL', head, code)
       if (code /= ek_ok) return
-      k = column_index(last%table, head)
+      table => table_of(handle, last)
+      k = column_index(table, head)
       if (k == 0) then
          call begin_words()
-         code = refuse(handle, no_column(head, last%table%columns))
+         code = refuse(handle, no_column(head, table%columns))
          call end_words()
          return
       end if
-      call take_array(handle, values, n, size(last%table%values, 2), &
+      call take_array(handle, values, n, size(table%values, 2), &
          'the array must have as many numbers as there are rows (ek_row_count)', place, code)
-      if (code == ek_ok) place = last%table%values(k, :)
+      if (code == ek_ok) place = table%values(k, :)
    end function ek_column_values
 
    integer(c_int) function ek_remark_count(model) bind(c) result(count)

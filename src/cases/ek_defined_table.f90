@@ -199,7 +199,7 @@ contains
       end associate
    end function has_number
 
-   !> The columns of elastokin that the columns of a program need, each once; also those of the wheel positions.
+   !> Lists the columns of elastokin that the columns of a program need, each once; also those of the wheel positions.
    subroutine needed_columns(suspension, columns, program, needed)
       type(suspension_t), intent(in) :: suspension
       character(name_length), intent(in) :: columns(:)       !! all columns of a case
@@ -233,7 +233,7 @@ contains
 
    end subroutine needed_columns
 
-   !> A table in the definitions of a program. The header gains a line that names the program.
+   !> Converts a table to the definitions of a program. The header gains a line that names the program.
    subroutine defined_table(suspension, table, program, result, rows, of)
       type(suspension_t), intent(in) :: suspension
       type(table_t), intent(in) :: table                     !! with the columns of needed_columns
@@ -279,7 +279,7 @@ contains
       character(*), intent(in) :: program
       character(:), allocatable :: line
 
-      line = 'definitions: '//program//' ('//title_of(program)//'). Columns without a known definition are left out; '// &
+      line = 'definitions: '//program//' ('//title_of(program)//'). Columns without a known definition are omitted; '// &
          'elastokin list --definitions '//program//' lists all'
    end function definitions_line
 
@@ -300,7 +300,7 @@ contains
       end do
    end subroutine fill_row
 
-   !> The value of a column of a program in its unit, and its derivatives with respect to its variables in the units of their
+   !> Computes a column of a program in its unit, and its derivatives with respect to its variables in the units of their
    !> columns (numbers of the model: SI).
    subroutine defined_value(suspension, table, row, this, value, gradient)
       type(suspension_t), intent(in) :: suspension

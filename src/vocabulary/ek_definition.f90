@@ -56,7 +56,7 @@ contains
       call fail(error, exit_usage, '--definitions: expected '//names//', found '//quoted(program)//suggestion(program, programs))
    end subroutine check_program
 
-   !> A program in words.
+   !> The full name of a program.
    pure function title_of(program) result(title)
       character(*), intent(in) :: program
       character(:), allocatable :: title

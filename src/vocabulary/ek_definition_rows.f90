@@ -19,7 +19,7 @@
 !>     front_brake_share, rear_brake_share, front_drive_share, rear_drive_share      share of this axle, if it is the front or rear
 !>
 !> A row whose columns or numbers the model does not have is left out.
-!> A row without formula is not printed. Its `difference` then gives the reason, which begins with one of the words of `reasons`.
+!> A row without formula is not printed. Its `difference` then gives the reason, and begins with `unpublished`, `unconfirmed` or `beyond`.
 !> No row is a guess: without a published definition there is no formula.
 module ek_definition_rows
    implicit none(type, external)
@@ -108,7 +108,7 @@ module ek_definition_rows
       definition_t('adams', 'ackermann_percent', 'Percent Ackerman', difference=unconfirmed//': theirs with static toe'), &
       definition_t('adams', 'ackermann_error_deg', 'Ackerman Error', difference=unconfirmed), &
       definition_t('adams', 'turning_circle_m', 'Outside Turn Diameter', difference=unconfirmed// &
-      ': elastokin: circle of the contact point of the outer wheel'), &
+      '; elastokin: circle of the contact point of the outer wheel'), &
       definition_t('adams', 'anti_lift_drive_percent', 'Percent Anti-lift Acceleration', difference=unconfirmed), &
       definition_t('adams', 'anti_lift_brake_percent', 'Percent Anti-lift Braking', difference=unconfirmed), &
       definition_t('adams', 'brake_dive_mm_per_g', 'Dive Braking', difference=unconfirmed), &
@@ -193,14 +193,14 @@ module ek_definition_rows
       definition_t('ipg', 'wheel_centre_y_mm', 'y', 'mm', 'to the left', 'iso*wheel_centre_y_mm', 'y left'), &
       definition_t('ipg', 'wheel_centre_z_mm', 'z', 'mm', 'up', 'wheel_centre_z_mm'), &
       definition_t('ipg', 'camber_deg', 'rx', 'deg', 'about x forward', 'side*camber_deg', &
-      'Cardan angle of R = Rz(rz) Rx(rx) Ry(ry), with static camber: left -camber, right camber'), &
-      definition_t('ipg', 'side_view_angle_deg', 'ry', 'deg', 'about y left: top forward', &
+      'Cardan angle of R = Rz(rz) Rx(rx) Ry(ry), with static camber (left -camber, right camber)'), &
+      definition_t('ipg', 'side_view_angle_deg', 'ry', 'deg', 'about y left (top forward)', &
       'asin((sin(toe_deg)*cos(camber_deg) - tan(side_view_angle_deg)*sin(camber_deg))*sin(design_camber)'// &
       '/hypot(cos(toe_deg), sin(toe_deg)*sin(camber_deg) + tan(side_view_angle_deg)*cos(camber_deg))/cos(design_camber))'// &
       ' - atan2(sin(toe_deg)*sin(camber_deg) + tan(side_view_angle_deg)*cos(camber_deg), cos(toe_deg))', &
       'Cardan angle about the spin axis from design; the side-view angle contains steer and camber'), &
       definition_t('ipg', 'toe_deg', 'rz', 'deg', left, 'side*toe_deg', &
-      'Cardan angle, with static toe: left -toe, right toe'), &
+      'Cardan angle, with static toe (left -toe, right toe)'), &
       definition_t('ipg', 'caster_deg', 'caster', 'deg', rearward, 'caster_deg'), &
       definition_t('ipg', 'kingpin_inclination_deg', 'kingpin inclination', 'deg', inward, 'kingpin_inclination_deg'), &
       definition_t('ipg', 'spindle_offset_mm', 'longitudinal hub offset', 'mm', 'centre aft of the axis', &
@@ -326,7 +326,7 @@ module ek_definition_rows
       definition_t('mathworks', 'ride_rate_n_per_mm', 'Ride Rate', 'N/mm', '', 'ride_rate_n_per_mm', &
       'a secant over 20 mm either way; this is its limit'), &
       definition_t('mathworks', 'ride_frequency_hz', 'Ride Frequency', 'Hz', '', 'sqrt(ride_rate_n_per_mm/1000/(car_mass/4))', &
-      'a quarter of the mass of the car', 'without 1/(2 pi), and with N/mm in place of N/m: 0.199 of the frequency in Hz'), &
+      'a quarter of the mass of the car', 'without 1/(2 pi), and with N/mm in place of N/m; it is 0.199 of the frequency in Hz'), &
       definition_t('mathworks', 'recession_gradient_mm_per_m', 'WC Recession Long', 'mm/m', 'forward in bump', &
       '-recession_gradient_mm_per_m/1000', 'forward, in m/m', &
       'unit given as mm/m, value in m/m; described as positive rearward, value positive forward'), &

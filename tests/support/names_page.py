@@ -8,14 +8,15 @@ import json
 import re
 import subprocess
 import sys
+import textwrap
 from pathlib import Path
 
 page = Path(__file__).resolve().parents[2] / "input/NAMES.md"
 
 intro = """# Names and definitions of the quantities in other programs
 
-Use these tables to compare numbers between programs. [QUANTITIES.md](QUANTITIES.md) gives the formulas of elastokin;
-[docs/EXPORT.md](../docs/EXPORT.md) describes the files that it writes for CarMaker, CarSim and MATLAB. The same tables
+Use these lists to compare numbers between programs. [QUANTITIES.md](QUANTITIES.md) gives the formulas of elastokin;
+[docs/EXPORT.md](../docs/EXPORT.md) describes the files that it writes for CarMaker, CarSim and MATLAB. The same lists
 are printed by `elastokin list --definitions lotus`. Results in the definitions of a program are written by
 
     elastokin run DECK --definitions lotus
@@ -23,7 +24,7 @@ are printed by `elastokin list --definitions lotus`. Results in the definitions 
 [How to compare with another program](../docs/definitions.md) explains the files. `tests/support/names_page.py` writes
 this page from `src/vocabulary/ek_definition_rows.f90`.
 
-Each table gives the name in the program, its unit, the meaning of a positive value, and the value as a formula of
+Each list gives the name in the program, its unit, the meaning of a positive value, and the value as a formula of
 columns of elastokin at the same state. In a formula, angles are in rad, lengths in m and so on: the values of the
 columns in SI. A column is that of the same wheel, without its prefix; `#` is the name of an element.
 
@@ -42,9 +43,11 @@ columns in SI. A column is that of the same wheel, without its prefix; `#` is th
 
 Quantities that are not printed are listed with the reason:
 
-- *definition not published*: no document and no published number gives it;
-- *definition not confirmed*: a description exists, but not all of it (often the sign) is known to us;
-- *not a function of the columns of a state*: it needs several states, or entries of the compliance matrix.
+| reason | meaning |
+|---|---|
+| definition not published | no document and no published number gives it |
+| definition not confirmed | a description exists, but not all of it (often the sign) is known to us |
+| not a function of the columns of a state | it needs several states, or entries of the compliance matrix |
 
 ## General differences
 
@@ -87,16 +90,35 @@ def output(program, *arguments):
     return subprocess.run([program, *arguments], check=True, capture_output=True, text=True).stdout
 
 
-def table(heads, rows):
-    lines = ["| " + " | ".join(heads) + " |", "|" + "---|"*len(heads)]
-    return "\n".join(lines + ["| " + " | ".join(cell.replace("|", "\\|") for cell in row) + " |" for row in rows]) + "\n"
+def item(words):
+    """An item of a list, wrapped."""
+    return textwrap.fill(words, 118, initial_indent="- ", subsequent_indent="  ", break_long_words=False,
+                         break_on_hyphens=False) + "\n"
 
 
-def difference(row):
-    words = row["difference"]
+def code(formula):
+    """A formula as a block of code, broken at operators between blanks."""
+    lines = textwrap.wrap(formula, 112, break_long_words=False, break_on_hyphens=False)
+    return "".join("\n      " + line for line in lines) + "\n"
+
+
+def entry(row):
+    words = "**" + row["name"] + "**" + (" [" + row["unit"] + "]" if row["unit"] else "")
+    if row["status"] != "printed":
+        words += " (`" + row["column"] + "`)"
+    notes = [row["difference"]] if row["difference"] else []
+    if row["status"] == "printed" and row["positive"]:
+        notes.insert(0, ("positive: " if row["positive"] != "never negative" else "") + row["positive"])
     if row["errs"]:
-        words += ("; " if words else "") + "**it errs**: " + row["errs"]
-    return words
+        notes.append("the program errs: " + row["errs"])
+    notes = [part for note in notes for part in note.split("; ")]
+    words += "".join(". " + (note if note.startswith("elastokin") else note[0].upper() + note[1:]) for note in notes)
+    words += "." if notes else ""
+    if row["status"] != "printed":
+        return item(words)
+    if len(row["formula"]) > 80:
+        return item(words) + code(row["formula"]) + "\n"
+    return item(words + " `" + row["formula"].replace(" ", "\0") + "`").replace("\0", " ")
 
 
 def main():
@@ -110,22 +132,16 @@ def main():
         for row in each["rows"]:
             if row["column"] not in columns:
                 columns.append(row["column"])
-    rows = []
     for column in columns:
-        cells = ["; ".join(row["name"] for row in each["rows"] if row["column"] == column) or "–" for each in data]
-        rows.append(["`" + column + "`"] + cells)
-    text += table(["elastokin"] + names, rows) + "\n"
+        cells = [each["definitions"] + " *" + row["name"] + "*" for each in data for row in each["rows"] if row["column"] == column]
+        text += item("`" + column + "`: " + ", ".join(cells))
     for each in data:
-        text += "## %s\n\n`--definitions %s`\n\n" % (each["title"], each["definitions"])
-        printed = [row for row in each["rows"] if row["status"] == "printed"]
-        text += table(["name", "unit", "positive", "value", "difference from elastokin"],
-                      [[row["name"], row["unit"] or "–", row["positive"], "`" + row["formula"] + "`", difference(row)]
-                       for row in printed]) + "\n"
+        text += "\n## %s\n\n`--definitions %s`\n\n" % (each["title"], each["definitions"])
+        text += "".join(entry(row) for row in each["rows"] if row["status"] == "printed").rstrip("\n") + "\n"
         others = [row for row in each["rows"] if row["status"] != "printed"]
         if others:
-            text += "Not printed:\n\n" + table(["name", "nearest column", "reason"],
-                                              [[row["name"], "`" + row["column"] + "`", difference(row)] for row in others]) + "\n"
-    text += ending
+            text += "\nNot printed, with the nearest column and the reason:\n\n" + "".join(entry(row) for row in others)
+    text += "\n" + ending
     if "--check" in sys.argv:
         if page.read_text(encoding="utf-8") != text:
             sys.exit("input/NAMES.md differs from the definitions; renew it: tests/support/names_page.py build/release/bin/elastokin")

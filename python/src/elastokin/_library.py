@@ -59,6 +59,7 @@ _PROTOTYPES: dict[str, tuple[Any, list[Any]]] = {
     "ek_case_is_of_deck": (c_int, [c_void_p, c_int]),
     "ek_solve": (c_int, [c_void_p, c_char_p, c_int, _TEXTS]),
     "ek_row_count": (c_int, [c_void_p]),
+    "ek_define": (c_int, [c_void_p, c_char_p]),
     "ek_column_count": (c_int, [c_void_p]),
     "ek_column_name": (c_char_p, [c_void_p, c_int]),
     "ek_column_unit": (c_char_p, [c_void_p, c_int]),

@@ -314,16 +314,22 @@ class Model:
 
     # ---- solving ----
 
-    def solve(self, case: str | None = None, columns: Sequence[str] | None = None, compliance: bool = False) -> Result:
+    def solve(
+        self, case: str | None = None, columns: Sequence[str] | None = None, compliance: bool = False, definitions: str | None = None
+    ) -> Result:
         """Solves a case with the current numbers.
 
         `case`: name of the case; default: the first case. `columns`: names of the columns to compute, in which `*` stands for any letters;
         default: all columns. The result always has `state`, `factor` and the columns on convergence, in the order of the program's tables.
-        `compliance`: whether to compute the compliance matrix of every state for `Result.compliance`.
+        `compliance`: whether to compute the compliance matrix of every state for `Result.compliance`. `definitions`: the columns have the
+        definitions, signs, units and names of another program ("adams", "motionview", "ipg", "optimumk", "lotus", "mathworks", "sae"); not
+        with `columns`.
 
         States that do not converge do not raise an error. Their rows are NaN, `converged` is false, and a ConvergenceWarning is issued.
         Raises UsageError, DeckError, ModelError, FileError.
         """
+        if columns is not None and definitions is not None:
+            raise errors.UsageError("columns are names of elastokin, and cannot be given with definitions")
         if isinstance(columns, str):
             columns = [columns]
         wanted = list(columns) if columns is not None else []
@@ -338,10 +344,12 @@ class Model:
                 message = text_of(lib.ek_message(handle))
             else:
                 self._check(status)
+            if definitions is not None:
+                self._check(lib.ek_define(handle, bytes_for(definitions, "the name of a program")))
             n = lib.ek_column_count(handle)
             values = np.empty((lib.ek_row_count(handle), n))
             self._check(lib.ek_values(handle, values.size, values))
-            names, headings = self._columns_of((case, *wanted), n)
+            names, headings = self._columns_of((case, definitions, *wanted), n)
             remarks = tuple([
                 Remark(text_of(lib.ek_remark_severity(handle, k)), text_of(lib.ek_remark_text(handle, k)))
                 for k in range(lib.ek_remark_count(handle))
