@@ -68,8 +68,8 @@ module ek_chart_choice
 
 contains
 
-   !> The indices of the charts of a test: first the open charts, then the folded charts in their order. Constant charts and charts
-   !> without curves are omitted.
+   !> Finds the charts of a test: first the open charts, then the folded charts in their order. Constant charts and charts without
+   !> curves are omitted.
    pure subroutine open_charts(charts, test, number, places, opened)
       type(chart_t), intent(in) :: charts(:)
       type(test_result_t), intent(in) :: test

@@ -21,7 +21,7 @@ contains
    !> Whether the report has a summary: it has main key numbers.
    pure logical function has_summary(report)
       type(report_t), intent(in) :: report
-      has_summary = size(summary_numbers(report%numbers)) > 0
+      has_summary = size(summary_numbers(report%numbers, report%axle)) > 0
    end function has_summary
 
    !> Adds the summary at the top of the report: the lines of the assessment beside the 3-D picture, four charts, and the main key
@@ -34,7 +34,7 @@ contains
       integer, allocatable :: places(:)
       integer :: k
 
-      allocate (places, source=summary_numbers(report%numbers))
+      allocate (places, source=summary_numbers(report%numbers, report%axle))
       if (size(places) == 0) return
       call begin_section(page, 'summary', 'Summary', has_text=.true.)
       call verdict_lines(report, lines)
@@ -78,7 +78,7 @@ contains
       integer :: k
 
       is_shown = [(kept_number(report%numbers, k) == 0, k=1, size(report%numbers))]
-      is_shown(summary_numbers(report%numbers)) = .false.
+      is_shown(summary_numbers(report%numbers, report%axle)) = .false.
       if (.not. any(is_shown)) return
       call begin_section(page, 'key-numbers', 'Key numbers', is_printed=.false., has_text=.true.)
       call add_numbers(page, 'numbers', report, pack([(k, k=1, size(is_shown))], is_shown))

@@ -25,7 +25,7 @@ module ek_report_pictures
    private
    public :: draw_pictures, find_figures
 
-   integer, parameter :: max_frames = 40        !! largest number of frames of an animation
+   integer, parameter :: max_frames = 36        !! largest number of frames of an animation
 
 contains
 

@@ -1,6 +1,7 @@
 !> The key numbers at the top of a report, and the key numbers that repeat another key number.
 module ek_summary
    use ek_key_number, only: key_number_t, has_value
+   use ek_assessment, only: axle_kind_t, is_judged
    implicit none(type, external)
    private
    public :: summary_numbers, kept_number, relation_to, slope_at_design
@@ -41,9 +42,11 @@ module ek_summary
 
 contains
 
-   !> The indices of the key numbers at the top of the report, at most 16.
-   pure function summary_numbers(numbers) result(places)
+   !> The indices of the key numbers at the top of the report, at most 16. Responses to driving are omitted if the axle is not driven,
+   !> unless they have a target.
+   pure function summary_numbers(numbers, axle) result(places)
       type(key_number_t), intent(in) :: numbers(:)
+      type(axle_kind_t), intent(in) :: axle
       integer, allocatable :: places(:)
       integer :: h, k, ratios
 
@@ -52,6 +55,7 @@ contains
       do h = 1, size(heads)
          do k = 1, size(numbers)
             if (.not. has_value(numbers(k)) .or. size(places) == most) cycle
+            if (.not. (is_judged(numbers(k)%name, axle) .or. numbers(k)%has_target)) cycle
             if (heads(h) == ratio) then
                if (index(numbers(k)%name, ratio(2:)) == 0 .or. ratios == most_ratios) cycle
                ratios = ratios + 1

@@ -7,9 +7,10 @@ module ek_moving_states
    use ek_test_result, only: test_result_t
    implicit none(type, external)
    private
-   public :: moving_test, state_of_path, standing_state, travel_kinds, steer_kinds
+   public :: moving_test, state_of_path, standing_state, travel_kinds, roll_kinds, steer_kinds
 
    character(16), parameter :: travel_kinds(3) = [character(16) :: 'parallel_travel', 'vertical_force', 'single_travel']
+   character(16), parameter :: roll_kinds(2) = [character(16) :: 'roll', 'opposite_travel']
    character(16), parameter :: steer_kinds(1) = [character(16) :: 'steering']
 
 contains

@@ -13,7 +13,7 @@ module ek_picture_names
    use ek_scene, only: scene_t, add_run, add_label, line_axes
    implicit none(type, external)
    private
-   public :: add_names, add_axes
+   public :: add_names, add_axes, part_label
 
 contains
 
@@ -108,9 +108,18 @@ contains
 
       subroutine name_at(name)
          character(*), intent(in) :: name
-         if (index(name, 'right_') /= 1) call add_label(scene, at, spaced(name(merge(6, 1, index(name, 'left_') == 1):)))
+         if (part_label(name) /= '') call add_label(scene, at, part_label(name))
       end subroutine name_at
 
    end subroutine add_names
+
+   !> The label of a part in a picture: 'tie rod' for left_tie_rod; '' for right_tie_rod, since left and right have one label.
+   pure function part_label(name) result(label)
+      character(*), intent(in) :: name
+      character(:), allocatable :: label
+
+      label = ''
+      if (index(name, 'right_') /= 1) label = spaced(name(merge(6, 1, index(name, 'left_') == 1):))
+   end function part_label
 
 end module ek_picture_names

@@ -1,5 +1,5 @@
 !> The suspension on a turntable of the page: its lines, fixed to its bodies, and the poses of the bodies in states of the
-!> travel and of the steering. Every state is a solved state of a test; poses are not interpolated between states.
+!> travel, of the roll and of the steering. Every state is a solved state of a test; poses are not interpolated between states.
 module ek_turntable
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp, pi, millimetre
@@ -14,7 +14,8 @@ module ek_turntable
    use ek_state, only: state_t
    use ek_path, only: path_t
    use ek_test_result, only: test_result_t, wheel_column
-   use ek_moving_states, only: moving_test, state_of_path, travel_kinds, steer_kinds
+   use ek_moving_states, only: moving_test, state_of_path, travel_kinds, roll_kinds, steer_kinds
+   use ek_picture_names, only: part_label
    use ek_base64, only: base64_of_numbers
    use ek_json, only: json_t, json_string, json_number
    implicit none(type, external)
@@ -29,6 +30,7 @@ module ek_turntable
       character(8) :: kind = ''                  !! part to which it belongs: arm, carrier, rod, damper, spring, wheel
       integer, allocatable :: body(:)            !! body of each point; 0: the chassis
       real(wp), allocatable :: arm(:, :)         !! position of each point in its body, body axes (3, points) [m]
+      character(63) :: label = ''                !! label of the part at the middle of the line; '' for lines without a label
    end type fixed_line_t
 
    !> States of one test, as poses of the bodies.
@@ -55,9 +57,10 @@ contains
       type(test_result_t), intent(in) :: tests(:)
       type(path_t), intent(in) :: paths(:)                 !! paths of the tests
       type(turntable_t), allocatable, intent(out) :: table
-      integer :: chosen(2), k, n
+      integer :: chosen(3), k, n
 
-      chosen = [moving_test(tests, paths, travel_kinds), moving_test(tests, paths, steer_kinds)]
+      chosen = [moving_test(tests, paths, travel_kinds), moving_test(tests, paths, roll_kinds), &
+         moving_test(tests, paths, steer_kinds)]
       if (all(chosen == 0)) return
       allocate (table)
       table%bodies = size(suspension%bodies)
@@ -69,7 +72,7 @@ contains
       call add_wheels(suspension, table%lines)
       allocate (table%motions(count(chosen > 0)))
       n = 0
-      do k = 1, 2
+      do k = 1, size(chosen)
          if (chosen(k) == 0) cycle
          n = n + 1
          call take_motion(suspension, tests(chosen(k)), paths(chosen(k)), table%motions(n))
@@ -94,7 +97,8 @@ contains
       type(fixed_line_t), allocatable, intent(inout) :: lines(:)
       type(skeleton_t) :: skeleton
       character(8) :: kind
-      integer :: body, k
+      real(wp) :: bar(3), longest
+      integer :: body, k, named
 
       do body = 1, size(suspension%bodies)
          skeleton = skeleton_of(suspension, body)
@@ -104,10 +108,16 @@ contains
          else if (slides(suspension, body)) then
             kind = 'damper'
          end if
+         longest = 0.0_wp
+         named = 0
          do k = 1, skeleton%count
             call add_line(lines, kind, [body, body], reshape([skeleton%nodes(skeleton%bars(1, k))%arm, &
                skeleton%nodes(skeleton%bars(2, k))%arm], [3, 2]))
+            bar = skeleton%nodes(skeleton%bars(2, k))%arm - skeleton%nodes(skeleton%bars(1, k))%arm
+            if (norm2(bar) > longest) named = size(lines)
+            longest = max(longest, norm2(bar))
          end do
+         if (named > 0) lines(named)%label = part_label(suspension%bodies(body)%name)
       end do
    end subroutine add_bodies
 
@@ -118,23 +128,25 @@ contains
       integer :: k, shape
 
       do k = 1, size(suspension%joints)
-         if (joint_table(suspension%joints(k)%number)%part == rod_part) call add_measure(first_measure(suspension, k), 'rod')
+         if (joint_table(suspension%joints(k)%number)%part == rod_part) call add_measure(first_measure(suspension, k), &
+            'rod', suspension%joints(k)%name)
       end do
       do k = 1, size(suspension%elements)
          shape = element_kinds(suspension%elements(k)%kind)%shape
          if (suspension%elements(k)%measure%kind /= distance) cycle
          if (shape == coil_shape) call add_measure(suspension%elements(k)%measure, &
-            trim(merge('rod   ', 'spring', is_rod(suspension%elements, k))))
-         if (shape == damper_shape) call add_measure(suspension%elements(k)%measure, 'damper')
+            trim(merge('rod   ', 'spring', is_rod(suspension%elements, k))), suspension%elements(k)%name)
+         if (shape == damper_shape) call add_measure(suspension%elements(k)%measure, 'damper', suspension%elements(k)%name)
       end do
 
    contains
 
       !> Adds a line between the two points of a measure.
-      subroutine add_measure(measure, kind)
+      subroutine add_measure(measure, kind, name)
          type(measure_t), intent(in) :: measure
-         character(*), intent(in) :: kind
+         character(*), intent(in) :: kind, name
          call add_line(lines, kind, [measure%body_i, measure%body_j], reshape([measure%arm_i, measure%arm_j], [3, 2]))
+         lines(size(lines))%label = part_label(name)
       end subroutine add_measure
 
    end subroutine add_links
@@ -240,6 +252,7 @@ contains
             end do
             call json%open('{')
             call json%item('kind', json_string(trim(line%kind)))
+            if (line%label /= '') call json%item('label', json_string(trim(line%label)))
             call json%item('at', json_string(base64_of_numbers(reshape(numbers, [size(numbers)]))))
             call json%close('}')
             deallocate (numbers)

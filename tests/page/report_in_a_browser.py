@@ -1,4 +1,4 @@
-"""Opens the page of a report in headless Chromium and uses it: hover, legend, zoom, overlay, filter, print.
+"""Opens the page of a report in headless Chromium and uses it: first screen, hover, reference, value at, legend, zoom, overlay, filter, print.
 
     report_in_a_browser.py FOLDER OTHER_DATA [--shots DIR]
 
@@ -61,6 +61,29 @@ with sync_playwright() as tool:
     expect(top < 600, f"the first number is {top:.0f} pixels from the top")
     expect(lines >= 8, f"{lines} lines of verdict")
 
+    # the first screen: the 3-D picture and four charts with axes, which link to their places in the sections; so do the cards
+    page.set_viewport_size({"width": 1400, "height": 1180})
+    page.evaluate("scrollTo(0, 0)")
+    first = page.locator("#summary .first figure")
+    page.wait_for_function("document.querySelectorAll('#summary .first svg.chart').length === 4")
+    for part in [page.locator("#summary .beside img"), *first.all()]:
+        box = part.bounding_box()
+        expect(box["y"] > 0 and box["y"] + box["height"] < 1180, f"not on the first screen: {box}")
+    ids = [figure.get_attribute("data-chart") for figure in first.all()]
+    expect(ids == [f"parallel_travel_{q}" for q in ("toe_deg", "camber_deg")] + ["lateral_force_steer_deg", "parallel_travel_vertical_force_n"],
+           f"charts of the first screen: {ids}")
+    links = page.locator("#summary .first b a, .cards .name a").evaluate_all("(all) => all.map((a) => a.hash.slice(1))")
+    charts = {c["id"] for t in data["tests"] for c in t["charts"] if not c.get("level")}
+    expect(links[:4] == ids and set(links) <= charts, f"links of the first screen: {sorted(set(links) - charts)}")
+    page.set_viewport_size({"width": 1400, "height": 900})
+    # a test with the force aft of the contact point is a fold of its pair, which a link to one of its charts opens
+    trail = page.locator("#test-lateral_force #test-lateral_force_trail")
+    expect(trail.count() == 1 and not trail.evaluate("(fold) => fold.open"), "the test 30 mm aft is not folded into its pair")
+    page.evaluate("location.hash = 'lateral_force_trail_steer_deg'")
+    page.wait_for_selector('[id="lateral_force_trail_steer_deg"] svg.chart')
+    page.evaluate("location.hash = ''")
+    chart = first_chart(page)
+
     # the curve of each card is that of the columns in the table of the test, without the states in which a stop is in contact
     sparks = 0
     for own in (n for n in data["numbers"] if "curve" in n):
@@ -105,6 +128,31 @@ with sync_playwright() as tool:
     # the cursor is common to the charts of a test
     marked = page.locator(f'#test-{test["name"]} svg.chart .hair[visibility=visible]').count()
     expect(marked > 1, f"the cursor is in {marked} chart")
+
+    # a click sets the reference, from which the differences at the cursor are counted; a second click there removes it
+    place, own_chart = data["tests"][0], f'[id="{chart["id"]}"]'
+    left = chart["curves"][0]
+    states = sorted((x, y) for x, y in zip(place["x"][left["x"]], place["y"][left["y"]]) if x is not None and y is not None)
+    box = page.locator(f"{own_chart} svg.chart").bounding_box()
+    page.mouse.click(box["x"] + 0.5 * box["width"], box["y"] + 80)
+    read = hover(page, chart["id"], 0.8)[0]
+    label = page.locator(f"{own_chart} svg.chart text").last.inner_html()
+    base, there = (dict(states)[min((x for x, _ in states), key=lambda x: abs(x - number(text)))]
+                   for text in (label.split(",")[0].removeprefix("reference "), label.rsplit(": ", 1)[1]))
+    expect(abs(number(read.split("Δref ")[1]) - (there - base)) <= 1e-3 * max(1, abs(there)), f"reference: {read}, {there} and {base} in the data")
+    page.mouse.click(box["x"] + 0.5 * box["width"], box["y"] + 80)
+    expect("Δref" not in hover(page, chart["id"], 0.8)[0], "a second click does not remove the reference")
+    page.mouse.move(5, 5)
+    # a value at a state is that of the state; between two states it is called an interpolation
+    (x0, y0), (x1, y1) = states[len(states) // 2], states[len(states) // 2 + 1]
+    for x, y, words, sign in ((x0, y0, "a state of the test", ""), ((x0 + x1) / 2, (y0 + y1) / 2, "interpolated", "≈ "), (1e6, None, "outside", "")):
+        page.fill(f"#test-{place['name']} .value-at input", repr(x))
+        page.wait_for_timeout(120)
+        read, said = page.locator(f"{own_chart} .keys output").first.inner_text(), page.locator(f"#test-{place['name']} .value-at output").inner_text()
+        expect(words in said, f"value at {x}: {said}")
+        expect(read == "" if y is None else read.startswith(sign) and abs(number(read.removeprefix(sign)) - y) <= 1e-4 * max(1, abs(y)),
+               f"value at {x}: {read}, {y} in the data")
+    page.fill(f"#test-{place['name']} .value-at input", "")
 
     # a click on the legend hides the curve, a second shows it
     curves, button = page.locator(f'[id="{chart["id"]}"] path.curve'), page.locator(f'[id="{chart["id"]}"] .keys button').first
@@ -185,9 +233,21 @@ with sync_playwright() as tool:
             print(f"turntable at {motion['values'][-1]:.3f} mm: wheel centre from design {[round(v, 3) for v in wheel]}, table {wanted}")
             expect(max(abs(a - b) for a, b in zip(wheel, wanted)) < 1e-2, f"wheel centre moved by {wheel} on the turntable, {wanted} in the table")
     expect(len(set(drawn)) == len(drawn), "the turntable does not move")
+    player, seen = page.locator("#turntable button"), set()
+    player.click()
+    for _ in range(4):
+        page.wait_for_timeout(150)
+        seen.add(page.evaluate("(() => { const t = document.getElementById('turntable').table; return `${t.motion} ${t.state}`; })()"))
+    player.click()
+    still = page.evaluate("document.getElementById('turntable').table.timer")
+    expect(len(seen) == 4 and still == 0, f"play shows {seen}, and the timer is {still}")
 
     # filter
+    page.evaluate("scrollTo(0, 0)")
     page.fill("input[type=search]", "ackermann")
+    top = min(box["y"] for box in (hit.bounding_box() for hit in page.locator("figure.live:visible, .cards li:visible, .numbers tbody tr:visible").all()))
+    expect(0 < top < 900, f"the first match of the filter is {top:.0f} pixels from the top")
+    expect(page.locator("#summary .beside:visible, #picture:visible").count() == 0, "the filter shows summary and picture")
     titles = [t.inner_text() for t in page.locator("figure.live:visible figcaption b").all()]
     expect(titles and all("ackermann" in t.lower() for t in titles), f"the filter for ackermann shows {titles}")
     print(f"filter ackermann: {titles}")
@@ -211,6 +271,13 @@ with sync_playwright() as tool:
             page = new_page(browser, page_file, width, scheme, messages, requests)
             needs = page.evaluate("document.documentElement.scrollWidth")
             expect(needs <= width, f"needs {needs} pixels on a screen {width} pixels wide")
+            if width == 390:
+                cut = page.evaluate("""() => { const folds = [...document.querySelectorAll('details:not([open])')];
+                  folds.forEach((fold) => { fold.open = true; });
+                  const cut = [...document.querySelectorAll('.scroll')].filter((box) => box.scrollWidth > box.clientWidth + 1).length;
+                  folds.forEach((fold) => { fold.open = false; });
+                  return cut; }""")
+                expect(cut == 0, f"{cut} tables are cut at {width} pixels")
             page.evaluate("scrollTo(0, 3000)")
             expect(page.locator("input[type=search]").bounding_box()["y"] < 900, f"the contents do not stay at {width} pixels")
             page.evaluate("scrollTo(0, 0)")

@@ -1,4 +1,4 @@
-# push: 40 pictures in sequence
+# push: 36 pictures in sequence
 if (!exists('to')) to = '../'
 set terminal gif animate delay 7 loop 0 size 720, 540 font 'sans,12' noenhanced
 set output to.'animation.gif'
@@ -149,21 +149,21 @@ splot $line3 using 1:2:3 with lines linecolor rgb '#C4CCD4' linewidth 1.30000E+0
       $part10 using 1:2:3 with polygons fillstyle solid noborder fillcolor rgb '#30343B' notitle, \
       1/0 notitle
 $part4 << EOD
-459 points of 133: -154 0 -307, 470 7688 926, 367
+459 points of 133: -132 84 -304, 525 7622 924, 368
 $part5 << EOD
-1504 points of 416: -170 0 322, 932 4964 1467, 276
+1504 points of 416: -170 81 327, 932 4968 1468, 276
 $part6 << EOD
-592 points of 160: -363 0 314, 670 5470 1343, 264
+592 points of 160: -332 209 320, 619 5480 1347, 264
 $part7 << EOD
-1536 points of 384: 50 0 2900, 372 2821 2923, 190
+1536 points of 384: 50 -8 2900, 372 2816 2924, 190
 $part8 << EOD
-302 points of 87: -140 0 2279, 465 2596 2674, 288
+302 points of 87: -140 -7 2279, 465 2592 2674, 287
 $part9 << EOD
 400 points of 120: 125 0 -38, 1670 3914 1196, 270
 $part10 << EOD
-800 points of 240: -373 0 555, 768 5505 1586, 162
+800 points of 240: -355 119 561, 743 5510 1589, 162
 $line3 << EOD
-201 points of 5: -18 -48 -80, 1998 8044 1940, 612
+201 points of 5: -16 -28 -80, 1773 7969 1940, 612
 set label 99 'Steering' at screen 3.00000E-02, screen 5.00000E-02
 set label 101 'front' at screen 4.70500E-01, screen 3.42900E-01 center front font 'sans-serif,11' textcolor rgb '#30343B'
 splot $line3 using 1:2:3 with lines linecolor rgb '#C4CCD4' linewidth 1.30000E+00 notitle, \

@@ -219,10 +219,11 @@ class Chart {
       curve.value = value;
       keys.append(button);
     }
-    const { beyond } = this.description, notes = [];
-    if (beyond) notes.push(`with stops ${shown(beyond[0])} … ${shown(beyond[1])}`);      // how far the curves reach beyond the axis
-    if (this.curves.some((c) => c.measured.length)) notes.push("points: measured");
-    keys.append(...notes.map((text) => Object.assign(document.createElement("small"), { textContent: text })));
+    if (this.curves.some((c) => c.measured.length)) {
+      const note = document.createElement("small");
+      note.textContent = "points: measured";
+      keys.append(note);
+    }
     return keys;
   }
 

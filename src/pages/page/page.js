@@ -1,6 +1,6 @@
 // The page of a report: its tests with their charts, the filter, and another report's data laid over it.
 
-const paper_width = 230;       // of a chart of the first screen, on paper
+const paper_width = 250;       // of a chart of the first screen, on paper
 
 // What the charts of one test share.
 class Test {
@@ -20,8 +20,7 @@ class Test {
     row.className = "value-at not-printed";
     Object.assign(input, { type: "number", step: "any" });
     label.append("Value at ", input, ` ${this.data.label.replace(/ +/g, " ")}`);
-    this.note = document.createElement("small");
-    this.note.setAttribute("role", "status");
+    this.note = document.createElement("output");       // read out when it changes
     row.append(label, this.note, Object.assign(document.createElement("small"), { textContent: "A click in a chart sets the reference of Δref." }));
     input.addEventListener("input", () => this.read_at(input.value === "" ? null : Number(input.value)));
     first.figure.parentNode.before(row);

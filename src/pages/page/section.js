@@ -15,11 +15,14 @@ const look_of = (name) => name ? ` class="${name}"` : "";
 // table, a heading. A cell is a string or an object.
 function table_of({ look, caption, heads, table: rows }) {
   const kinds = heads.map((head) => ({ ">": "n", "~": "s" })[head[0]]);
-  const name = (head, k) => `<th scope="col"${kinds[k] === "n" ? look_of("n") : ""}>${escaped(kinds[k] ? head.slice(1) : head)}</th>`;
-  const cell = (own, k) => own.html || `<td${look_of(own.small === true ? "s" : kinds[k])}>${own.bar === undefined ? words_of(own) : bar_of(own.bar)}</td>`;
+  const heading = (head, k) => kinds[k] ? head.slice(1) : head;
+  const name = (head, k) => `<th scope="col"${kinds[k] === "n" ? look_of("n") : ""}>${escaped(heading(head, k))}</th>`;
+  // on a phone a row is a block, in which each cell has its heading
+  const title = (k) => k === 0 || ["Value", "Unit", ""].includes(heading(heads[k], k)) ? "" : ` data-head="${escaped(heading(heads[k], k))}"`;
+  const cell = (own, k) => own.html || `<td${look_of(own.small === true ? "s" : kinds[k])}${title(k)}>${own.bar === undefined ? words_of(own) : bar_of(own.bar)}</td>`;
   const row = (cells) => Array.isArray(cells) ? `<tr>${cells.map(cell).join("")}</tr>`
     : `<tr class="group"><th colspan="${heads.length}" scope="colgroup">${escaped(cells)}</th></tr>`;
-  return `<div class="scroll" tabindex="0"><table${look_of(look)}>${caption ? `<caption>${escaped(caption)}</caption>` : ""}` +
+  return `<div class="scroll" tabindex="0"><table class="wraps${look ? ` ${look}` : ""}">${caption ? `<caption>${escaped(caption)}</caption>` : ""}` +
     `<thead><tr>${heads.map(name).join("")}</tr></thead><tbody>${rows.map(row).join("")}</tbody></table></div>`;
 }
 
@@ -39,20 +42,22 @@ function facts_of(rows, look) {
 }
 
 // Charts of tests side by side; on paper, charts with notes are only the first three. Charts of the first screen are drawn there once
-// more, and link to their places in the sections of the tests.
+// more, and link to their places in the sections of the tests. The values beyond the axis, with a stop in contact, are in the caption.
 function places(ids, notes, is_first) {
   return `<div class="charts${notes ? " few" : ""}${is_first ? " first" : ""}">${ids.map((id, k) => {
-    const { title, label, test } = chart_of.get(id), name = is_first ? `<a href="#${id}">${escaped(title)}</a>` : escaped(title);
+    const { title, label, test, beyond } = chart_of.get(id), name = is_first ? `<a href="#${id}">${escaped(title)}</a>` : escaped(title);
     return `<figure class="live" id="${is_first ? "first-" : ""}${id}" data-chart="${id}"><figcaption><b>${name}</b>${escaped(label)}` +
       `${is_first ? `, ${escaped(test.title.replace(/^[A-Z]/, (letter) => letter.toLowerCase()))}` : notes ? span("effect", notes[k])
-        : test.held && `, ${escaped(test.held)}`}</figcaption></figure>`;
+        : test.held && `, ${escaped(test.held)}`}${beyond ? `; with stops ${shown(beyond[0])} … ${shown(beyond[1])}` : ""}</figcaption></figure>`;
   }).join("")}</div>`;
 }
 
-// The target of a link to the curve of a key number: its chart, or without a chart the section of its test.
+// The target of a link to the curve of a key number: its chart, in its test or else in another one, or the section of its test. Toe
+// is in the chart of steer where a test has both.
 function place_of({ test: name, y }) {
-  const test = data.tests.find((one) => one.name === name);
-  const chart = test && test.charts.find((one) => !one.level && one.curves.some((curve) => y.includes(curve.y)));
+  const is_shown = (curve) => y.includes(curve.y) || y.includes(curve.y.replace("steer_deg", "toe_deg"));
+  const own = data.tests.filter((test) => test.name === name);
+  const chart = [...own, ...data.tests].flatMap((test) => test.charts).find((one) => !one.level && one.curves.some(is_shown));
   return chart ? chart.id : `test-${name}`;
 }
 
@@ -103,7 +108,7 @@ function card(number) {
   const name = number.curve ? `<a href="#${escaped(place_of(number.curve))}">${name_of(number)}</a>` : name_of(number);
   return `<li data-number="${escaped(number.name)}"><span class="name">${name}</span><span class="value"><b>${printed(number)}</b> ` +
     `${number.unit === "–" ? "" : escaped(number.unit)}${small(number.sides)}</span>${spark(number)}${span("effect", number.effect)}${band(number)}` +
-    `${span("held", number.held)}${span("held", number.parts)}${how(number)}</li>`;
+    `${span("held", number.held)}${span("held not-printed", number.parts)}${how(number)}</li>`;
 }
 
 // The other key numbers: a table for each group.

@@ -1,10 +1,11 @@
-// The suspension in space: a drag, an arrow key or a slider turns it, other sliders choose a state of its travel or of its steering.
+// The suspension in space: a drag, an arrow key or a slider turns it, other sliders choose a state of its travel, roll or steering, and
+// a button shows the states one after the other.
 
 class Turntable {
   constructor(place, own) {
     const numbers = (text) => new Float32Array(Uint8Array.from(atob(text), (c) => c.charCodeAt(0)).buffer);
     Object.assign(this, { own, turn: own.turn, tilt: 20, motion: 0, state: own.motions[0].design, frame: 0 });
-    this.lines = own.lines.map((line) => ({ kind: line.kind, at: numbers(line.at) }));
+    this.lines = own.lines.map(({ kind, label, at }) => ({ kind, label, at: numbers(at) }));
     this.poses = own.motions.map((motion) => numbers(motion.poses));
     this.canvas = document.createElement("canvas");
     this.canvas.setAttribute("role", "img");
@@ -16,9 +17,10 @@ class Turntable {
     this.tilter = this.slider("tilt, °", -90, 90, 1, this.tilt, (value) => { this.tilt = value; });
     this.movers = own.motions.map((motion, m) => this.slider(motion.label, 0, motion.values.length - 1, 1, motion.design, (value) => {
       // a state is that of one test: the other one is back at design
-      this.movers.forEach((mover, k) => { if (k !== m) mover.set(own.motions[k].design); });
-      [this.motion, this.state] = [m, value];
+      this.play(false);
+      this.take(m, value);
     }, (value) => shown(motion.values[value])));
+    this.add_controls();
     place.append(this.sliders);
     this.find_size();
     this.canvas.addEventListener("pointerdown", (event) => {
@@ -37,6 +39,38 @@ class Turntable {
     addEventListener("resize", () => this.draw_soon());
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.draw_soon());
     this.draw();
+  }
+
+  // A state of a motion; the sliders of the other motions are back at design.
+  take(motion, state) {
+    [this.motion, this.state] = [motion, state];
+    this.movers.forEach((mover, k) => mover.set(k === motion ? state : this.own.motions[k].design));
+  }
+
+  add_controls() {
+    const button = document.createElement("button"), label = document.createElement("label"), box = document.createElement("input");
+    Object.assign(button, { type: "button", textContent: "Play" });
+    button.addEventListener("click", () => this.play(!this.timer));
+    Object.assign(box, { type: "checkbox", checked: innerWidth > 700 });
+    box.addEventListener("change", () => { this.has_names = box.checked; this.draw_soon(); });
+    label.append(box, "names");
+    this.has_names = box.checked;
+    this.player = button;
+    this.sliders.append(button, label);
+  }
+
+  // Plays from design to the last state, to the first one and back to design, of one motion after the other.
+  play(is_on) {
+    clearInterval(this.timer);
+    this.timer = 0;
+    this.player.textContent = is_on ? "Stop" : "Play";
+    if (!is_on) return;
+    const way = this.own.motions.flatMap(({ values, design }, m) => {
+      const up = (from, to) => Array.from({ length: Math.abs(to - from) }, (_, k) => [m, from + (k + 1) * Math.sign(to - from)]);
+      return [...up(design, values.length - 1), ...up(values.length - 1, 0), ...up(0, design)];
+    });
+    let k = 0;
+    this.timer = setInterval(() => { this.take(...way[k++ % way.length]); this.draw_soon(); }, 70);
   }
 
   // A named slider; its number is shown by `words_of`.
@@ -115,6 +149,17 @@ class Turntable {
       }
       pen.lineTo(b[0], b[1]);
       pen.stroke();
+    }
+    if (!this.has_names) return;
+    pen.font = "12px system-ui, sans-serif";
+    pen.strokeStyle = look.getPropertyValue("--paper");
+    pen.fillStyle = look.getPropertyValue("--ink");
+    pen.lineWidth = 3;
+    for (const { label, ...line } of this.lines) {
+      if (!label) continue;
+      const [a, b] = this.points_of(line).map(seen), at = [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2 - 6];
+      pen.strokeText(label, ...at);
+      pen.fillText(label, ...at);
     }
   }
 }
