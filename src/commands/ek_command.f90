@@ -91,7 +91,7 @@ module ek_command
       command_t('import', 'import FILE … [options]', 'import FILE', 'convert tables of points or foreign files to a deck', &
       'Converts files of other programs to a deck:'//nl// &
       '  .kin files of IPGKinematics to a complete axle (with the .gum bushings in the same folder);'//nl// &
-      '  hardpoints (CSV, JSON, TOML), a Chrono suspension (.json) or a Lotus Shark model (.shk) to a deck of points and'//nl// &
+      '  hardpoints (CSV, JSON, TOML), a Chrono suspension (.json) or a Lotus model (.shk, .sdf) to a deck of points and'//nl// &
       '  links, if the points are those of a double wishbone, McPherson, five-link or trailing arm axle;'//nl// &
       '  .sub and .asy hardpoints to points;'//nl// &
       '  .bus, .spr, .bum, .reb and .gum property files to curves;'//nl// &

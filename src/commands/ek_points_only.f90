@@ -72,7 +72,7 @@ contains
       if (index(joints(:index(joints, nl)), "'"//this%name//"'") > 0) this%is_kept = .false.
    end subroutine choose
 
-   !> Puts the record of the file of joints that has the name of a record in its place.
+   !> Replaces a record by the record of the file of joints that has the same name.
    pure subroutine replace_record(this, news, is_placed)
       type(piece_t), intent(inout) :: this
       type(piece_t), intent(in) :: news(:)

@@ -303,7 +303,7 @@ contains
       rows = reshape(tree%leaves(first:first + n - 1)%value, [width, n/width])
    end subroutine take_rows
 
-   !> The first of the values of a list, and their number.
+   !> Finds the first value of a list, and the number of its values.
    pure subroutine find_leaves(tree, path, first, n)
       type(json_tree_t), intent(in) :: tree
       character(*), intent(in) :: path

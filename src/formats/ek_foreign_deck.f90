@@ -19,6 +19,8 @@ module ek_foreign_deck
    use ek_chrono, only: is_json, is_chrono, parse_chrono
    use ek_point_list, only: is_toml, as_json, parse_point_list
    use ek_shark, only: is_shark, parse_shark
+   use ek_optimum_sheet, only: is_optimum_sheet, as_point_table
+   use ek_lotus_listing, only: is_lotus_listing, parse_lotus_listing
    use ek_unread_format, only: advice_on
    use ek_teimorbit, only: is_teimorbit
    use ek_kin, only: kin_t
@@ -113,7 +115,7 @@ contains
          return
       end if
       kind = kind_of_text(with_line_ends(content))
-      if (is_toml(path)) kind = table_kind
+      if (is_toml(path) .or. is_lotus_listing(content)) kind = table_kind
       select case (kind)
       case (axle_kind)
          call import_axle(content, path, text, flaws)
@@ -164,7 +166,7 @@ contains
       type(lines_t) :: lines
       type(wish_t) :: given
       type(axle_facts_t) :: facts
-      character(:), allocatable :: json
+      character(:), allocatable :: json                    !! or a table, converted
       real(wp) :: radius(2)
 
       if (present(wish)) given = wish
@@ -172,6 +174,9 @@ contains
       if (flaws%count() > 0) return
       if (is_shark(lines)) then
          call parse_shark(lines, table, radius, flaws)
+         call choose_radius(table, radius, given)
+      else if (is_lotus_listing(content)) then
+         call parse_lotus_listing(lines, table, radius, facts, flaws)
          call choose_radius(table, radius, given)
       else if (is_toml(path)) then
          call as_json(lines, json, flaws)
@@ -185,6 +190,9 @@ contains
          given%length = 'm'
          given%source = 'by the format of Chrono'
          call parse_chrono(lines%text, table, facts, flaws)
+      else if (is_optimum_sheet(lines)) then
+         call as_point_table(lines, json, facts%omitted)
+         call parse_points(json, table, flaws)
       else
          call parse_points(content, table, flaws)
       end if
@@ -201,12 +209,12 @@ contains
 
       if (wish%datum /= '') return
       chosen = maxval(radius)
-      if (any(table%points(:table%used)%axle > 0)) then         ! both axles
+      if (all([any(table%points(:table%used)%axle == 1), any(table%points(:table%used)%axle == 2)])) then
          if (wish%axle /= 'front' .and. wish%axle /= 'rear') return
          chosen = radius(merge(1, 2, wish%axle == 'front'))
       end if
       if (chosen > 0.0_wp) wish%datum = 'radius:'//decimal(chosen)
-      if (chosen > 0.0_wp) wish%datum_source = 'the loaded radius of the file'
+      if (chosen > 0.0_wp) wish%datum_source = 'the radius of the tyre in the file'
    end subroutine choose_radius
 
    !> Writes &point for each hardpoint; for a pair, the left and the right point.

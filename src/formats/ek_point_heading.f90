@@ -6,7 +6,7 @@ module ek_point_heading
    use ek_unit_word, only: unit_of, length_unit
    implicit none(type, external)
    private
-   public :: split_head, split_plain_head, split_place, joined_heads
+   public :: split_head, split_plain_head, split_place, joined_heads, cut_cell, coordinate_of
 
    !> Parts of a heading that say nothing.
    character(*), parameter :: idle(13) = [character(10) :: 'coordinate', 'coord', 'value', 'position', 'pos', 'location', 'loc', &

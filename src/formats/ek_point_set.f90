@@ -1,7 +1,7 @@
 !> The points of one axle, chosen from a table or another file: the axle, the sides, and the points that the names stand for.
 module ek_point_set
    use ek_kinds, only: wp
-   use ek_text, only: str, lower
+   use ek_text, only: str, lower, plural
    use ek_flaws, only: flaws_t, shown
    use ek_hardpoint, only: right_point
    use ek_point_name, only: point_names, wheel_centre, uca_front, uca_rear, lower_ball, upper_front_in, upper_front_out, &
@@ -36,9 +36,7 @@ contains
       call take_other_centre(table, kept, points)
       table%used = kept
       call name_five_links(table%points(:kept))
-      do k = 1, kept
-         if (table%points(k)%point > 0) call take_point(table%points(k), points, flaws)
-      end do
+      call take_points(table%points(:kept), points, flaws)
    end subroutine choose_points
 
    !> Takes the axle of the option or of the table. A table with both axles requires the option.
@@ -94,25 +92,45 @@ contains
       end do
    end subroutine name_five_links
 
-   !> Puts a point on its side. The same point twice is an error.
-   subroutine take_point(point, points, flaws)
-      type(table_point_t), intent(in) :: point
+   !> Puts the points on their sides. The same point twice is an error: the first one, and the number of the others.
+   subroutine take_points(list, points, flaws)
+      type(table_point_t), intent(in) :: list(:)
       type(point_set_t), intent(inout) :: points
       type(flaws_t), intent(inout) :: flaws
-      integer :: half
+      integer :: k, half, first, again
 
-      half = merge(2, 1, point%side == right_point)
-      associate (this => points%half(half))
-         if (this%has(point%point)) then
-            call flaws%add(point%line, 'expected '//trim(point_names(point%point))//' once, found '//shown(trim(point%name))// &
-               ' again (first in line '//str(this%line(point%point))//')')
-            return
-         end if
-         this%has(point%point) = .true.
-         this%at(:, point%point) = point%at
-         this%line(point%point) = point%line
+      first = 0
+      again = 0
+      do k = 1, size(list)
+         if (list(k)%point <= 0) cycle
+         half = merge(2, 1, list(k)%side == right_point)
+         associate (this => points%half(half), point => list(k)%point)
+            if (this%has(point)) then
+               if (again == 0) first = k
+               again = again + 1
+               cycle
+            end if
+            this%has(point) = .true.
+            this%at(:, point) = list(k)%at
+            this%line(point) = list(k)%line
+         end associate
+      end do
+      if (again == 0) return
+      associate (this => list(first))
+         half = merge(2, 1, this%side == right_point)
+         call flaws%add(this%line, 'expected '//trim(point_names(this%point))//' once, found '//shown(trim(this%name))// &
+            ' again (first in line '//str(points%half(half)%line(this%point))//')'//more(again - 1))
       end associate
-   end subroutine take_point
+   end subroutine take_points
+
+   !> A phrase for further points that are given twice.
+   pure function more(count) result(text)
+      integer, intent(in) :: count
+      character(:), allocatable :: text
+
+      text = ''
+      if (count > 0) text = '; and '//plural(count, 'more point', 'more points')//' twice'
+   end function more
 
    subroutine swap(one, other)
       type(table_point_t), intent(inout) :: one, other
